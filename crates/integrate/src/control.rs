@@ -1,0 +1,63 @@
+//! Step-size control.
+
+use serde::{Deserialize, Serialize};
+
+use crate::options::Options;
+
+/// Proportional-integral control: K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit
+/// Runge-Kutta methods*, ACM TOMS 20 (1994), in the form of Hairer & Wanner (1996), section IV.8.
+///
+/// Errors are used as their root `error^(1/(q+1))`, q the order of the embedded solution: a size proportional to
+/// the step.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Controller {
+    /// Last accepted step; zero: none since the last restart.
+    step: f64,
+    /// Its root error.
+    root: f64,
+    /// Rejections since the last accepted step.
+    rejections: u32,
+}
+
+impl Controller {
+    pub fn restart(&mut self) {
+        *self = Self::default();
+    }
+
+    /// After an accepted step: the factor for the next step, and whether it is a genuine prediction (not cut off).
+    #[inline]
+    pub fn accept(&mut self, options: &Options, step: f64, root: f64) -> (f64, bool) {
+        let mut divisor = root / options.safety;
+        if self.step > 0.0 {
+            divisor = divisor.max(root * root / (self.root * options.safety) * (self.step / step));
+        }
+        let wanted = 1.0 / divisor;
+        let mut factor = wanted.max(options.minimum_factor).min(options.maximum_factor);
+        if self.rejections > 0 {
+            factor = factor.min(1.0);
+        }
+        self.rejections = 0;
+        self.step = step;
+        // the root of the smallest error that counts, 0.01, lies near 0.3 for all methods
+        self.root = root.max(0.3);
+        (factor, wanted < options.maximum_factor)
+    }
+
+    /// After a step whose error was too large: the factor for the next attempt.
+    #[inline]
+    pub fn reject(&mut self, options: &Options, root: f64) -> f64 {
+        self.rejections += 1;
+        let factor = (options.safety / root).max(options.minimum_factor);
+        // At a kink the error is of low order in the step: do not creep towards it.
+        if self.rejections > 1 {
+            factor.min(0.5)
+        } else {
+            factor
+        }
+    }
+
+    /// After a step that could not be computed.
+    pub fn fail(&mut self) {
+        self.rejections += 1;
+    }
+}

@@ -1,0 +1,36 @@
+//! Linearly implicit one-step integration of stiff, kinked ordinary differential equations. Knows no physics.
+//!
+//! A [`Problem`] gives its right-hand side and brings its own structured linear algebra (for which [`BlockLu`] is at
+//! hand); an [`Integrator`] makes accepted steps with a stiffly accurate Rosenbrock [`Method`], controls their
+//! error, gives dense output, and times the changes of discrete switches. Nothing is allocated in a step, and the
+//! same input gives the same bits on every system.
+
+#![warn(missing_docs)]
+
+mod block_lu;
+mod control;
+mod dense_block;
+mod error;
+mod events;
+mod options;
+mod ordinary;
+pub mod partitioned;
+mod problem;
+mod rodas;
+mod rosenbrock;
+pub mod scalar;
+mod stages;
+mod state;
+mod statistics;
+mod tableau;
+
+pub use block_lu::BlockLu;
+pub use error::{Reason, SetupError, StepError};
+pub use events::Event;
+pub use options::Options;
+pub use ordinary::Ordinary;
+pub use problem::{Problem, Singular};
+pub use rosenbrock::Integrator;
+pub use state::{STATE_VERSION, State};
+pub use statistics::Statistics;
+pub use tableau::{MAXIMUM_STAGES, Method, Tableau, UnknownMethod};

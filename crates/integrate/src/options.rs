@@ -1,0 +1,141 @@
+//! Settings of an integration.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::SetupError;
+use crate::tableau::Method;
+
+/// Settings of an integration.
+///
+/// ```
+/// use integrate::{Method, Options};
+/// let options = Options { method: Method::Rodas5P, relative_tolerance: 1e-8, ..Options::default() };
+/// assert!(options.check().is_ok());
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Options {
+    /// The method.
+    pub method: Method,
+    /// Admissible local error of each state, relative to its scale.
+    pub relative_tolerance: f64,
+    /// First step; none: estimated.
+    pub initial_step: Option<f64>,
+    /// A fixed step for all steps instead of error control (steps are cut at limits and ends of segments only).
+    pub fixed_step: Option<f64>,
+    /// Largest step; may be infinite. (None stands for infinite in formats that cannot write it.)
+    #[serde(with = "infinite_as_none")]
+    pub maximum_step: f64,
+    /// A step that would have to be shorter than this after a rejection is an error. The resolution of time is a
+    /// bound of its own.
+    pub minimum_step: f64,
+    /// Largest number of attempted steps, rejected ones included, since the very beginning.
+    pub maximum_steps: u64,
+    /// Factor of safety of the step-size control.
+    pub safety: f64,
+    /// Smallest factor by which a step changes because of its error.
+    pub minimum_factor: f64,
+    /// Largest factor by which a step grows.
+    pub maximum_factor: f64,
+    /// Largest number of changes of modes within one step.
+    pub maximum_events: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            relative_tolerance: 1e-6,
+            initial_step: None,
+            fixed_step: None,
+            maximum_step: f64::INFINITY,
+            minimum_step: 0.0,
+            maximum_steps: u64::MAX,
+            safety: 0.9,
+            minimum_factor: 0.2,
+            maximum_factor: 6.0,
+            maximum_events: 64,
+        }
+    }
+}
+
+impl Options {
+    /// Checks all values.
+    ///
+    /// # Errors
+    /// Names the first value that is not admissible.
+    pub fn check(&self) -> Result<(), SetupError> {
+        let rule = |name, value: f64, holds: bool, must: &'static str| {
+            if holds {
+                Ok(())
+            } else {
+                Err(SetupError::Option { name, value, must })
+            }
+        };
+        let tolerance = self.relative_tolerance;
+        rule(
+            "relative_tolerance",
+            tolerance,
+            (1e-14..=0.1).contains(&tolerance),
+            "lie between 1e-14 and 0.1",
+        )?;
+        for (name, step) in [
+            ("initial_step", self.initial_step),
+            ("fixed_step", self.fixed_step),
+        ] {
+            let step = step.unwrap_or(1.0);
+            rule(
+                name,
+                step,
+                step > 0.0 && step.is_finite(),
+                "be positive and finite",
+            )?;
+        }
+        rule(
+            "maximum_step",
+            self.maximum_step,
+            self.maximum_step > 0.0,
+            "be positive",
+        )?;
+        let minimum = self.minimum_step;
+        rule(
+            "minimum_step",
+            minimum,
+            minimum >= 0.0 && minimum < self.maximum_step,
+            "lie below maximum_step",
+        )?;
+        rule(
+            "safety",
+            self.safety,
+            self.safety > 0.0 && self.safety < 1.0,
+            "lie between 0 and 1",
+        )?;
+        let factor = self.minimum_factor;
+        rule(
+            "minimum_factor",
+            factor,
+            factor > 0.0 && factor < 1.0,
+            "lie between 0 and 1",
+        )?;
+        let factor = self.maximum_factor;
+        rule(
+            "maximum_factor",
+            factor,
+            factor > 1.0 && factor.is_finite(),
+            "be finite and larger than 1",
+        )
+    }
+}
+
+/// Formats like JSON have no infinity.
+mod infinite_as_none {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        value.is_finite().then_some(*value).serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::<f64>::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+    }
+}

@@ -1,0 +1,114 @@
+//! What an integrator needs to know about a problem.
+
+/// The matrix of a linear system is singular.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the matrix is singular in its diagonal block {block}")]
+pub struct Singular {
+    /// Number of the diagonal block without a usable pivot, in the caller's numbering.
+    pub block: usize,
+}
+
+/// A smooth-but-kinked, stiff initial value problem `x' = f(t, x)` that brings its own structured linear algebra.
+///
+/// All functions must be pure: called again with the same arguments (in the same segment) they give the same bits.
+/// Functions take `&mut self` so that they may use scratch memory without allocating.
+pub trait Problem {
+    /// Number of states.
+    fn dimension(&self) -> usize;
+
+    /// Fixed error scale of each state, positive; infinite: the state is not error controlled.
+    ///
+    /// The size of an error is the maximum norm `max |error_i| / (relative_tolerance · scale_i)`: the tolerance
+    /// holds for every state, however many other states are at rest, and adding states does not loosen it.
+    /// The integrator reads the scales once, when it starts.
+    fn scales(&self) -> &[f64];
+
+    /// Tells the problem that integration proceeds from `start` on one smooth piece of its explicit time
+    /// dependence; returns the end of this piece, later than `start` (infinite: there is none).
+    ///
+    /// The integrator steps exactly to the end, calls this again when the next step begins, and restarts there:
+    /// the states are continuous, the memory of the step-size control is not. Until the next call the end
+    /// itself belongs to the piece before it.
+    fn segment(&mut self, start: f64) -> f64 {
+        let _ = start;
+        f64::INFINITY
+    }
+
+    /// Writes `f(time, x)` to `dx`.
+    fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]);
+
+    /// Evaluates and keeps the Jacobian matrix `J = ∂f/∂x` at `(time, x)`, where `f` is `dx`; writes `∂f/∂t`.
+    ///
+    /// `df_dt` comes filled with zeros: an autonomous problem need not touch it.
+    fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]);
+
+    /// Factors `shift·I - J`.
+    ///
+    /// # Errors
+    /// Where the matrix is singular; the integrator tries again with a shorter step, that is, a larger shift.
+    fn factor(&mut self, shift: f64) -> Result<(), Singular>;
+
+    /// Solves `(shift·I - J) y = b` in place, with the matrix of the last successful [`Problem::factor`].
+    fn solve(&mut self, b: &mut [f64]);
+
+    /// Number of discrete switches (contact open, sticking, slipping, ...): modes with hysteresis that are recorded
+    /// and timed. They do not change `f`.
+    fn switch_count(&self) -> usize {
+        0
+    }
+
+    /// Writes the modes at the very beginning.
+    fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
+        let _ = (time, x, modes);
+    }
+
+    /// Writes a margin for each switch: positive while the switch stays in `modes[i]`, not positive when it must
+    /// leave. Margins must be continuous in time as long as the modes do not change.
+    fn margins(&mut self, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+        let _ = (time, x, modes, margins);
+    }
+
+    /// The mode to which switch `index` goes from `mode` at `(time, x)`, where its margin has come to zero or below.
+    ///
+    /// Returning `mode` means that there is no event; the switch is then not asked again within this step.
+    fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
+        let _ = (time, x, index);
+        mode
+    }
+}
+
+impl<P: Problem + ?Sized> Problem for &mut P {
+    fn dimension(&self) -> usize {
+        (**self).dimension()
+    }
+    fn scales(&self) -> &[f64] {
+        (**self).scales()
+    }
+    fn segment(&mut self, start: f64) -> f64 {
+        (**self).segment(start)
+    }
+    fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]) {
+        (**self).derivative(time, x, dx);
+    }
+    fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
+        (**self).linearize(time, x, dx, df_dt);
+    }
+    fn factor(&mut self, shift: f64) -> Result<(), Singular> {
+        (**self).factor(shift)
+    }
+    fn solve(&mut self, b: &mut [f64]) {
+        (**self).solve(b);
+    }
+    fn switch_count(&self) -> usize {
+        (**self).switch_count()
+    }
+    fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
+        (**self).initial_modes(time, x, modes);
+    }
+    fn margins(&mut self, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+        (**self).margins(time, x, modes, margins);
+    }
+    fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
+        (**self).next_mode(time, x, index, mode)
+    }
+}

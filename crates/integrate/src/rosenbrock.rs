@@ -1,0 +1,328 @@
+//! The integrator.
+
+use crate::control::Controller;
+use crate::error::SetupError;
+use crate::events::{Event, Switches};
+use crate::options::Options;
+use crate::problem::Problem;
+use crate::stages::{Dense, LANES};
+use crate::state::{STATE_VERSION, State};
+use crate::statistics::Statistics;
+use crate::tableau::Tableau;
+
+mod step;
+
+/// Integrates a [`Problem`] step by step.
+///
+/// ```
+/// use integrate::{Integrator, Options, Ordinary};
+/// // x' = -1000 (x - cos t)
+/// let problem = Ordinary::new(
+///     vec![1.0],
+///     |t, x, dx| dx[0] = -1000.0 * (x[0] - libm::cos(t)),
+///     |_, _, jacobian| jacobian[0] = -1000.0,
+/// )
+/// .time_derivative(|t, _, df_dt| df_dt[0] = -1000.0 * libm::sin(t));
+/// let mut integrator = Integrator::new(problem, Options::default(), 0.0, &[0.0])?;
+/// while integrator.time() < 1.0 {
+///     integrator.step_to(1.0)?;
+/// }
+/// let exact = (1e6 * libm::cos(1.0) + 1e3 * libm::sin(1.0)) / (1e6 + 1.0);
+/// assert!((integrator.x()[0] - exact).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Integrator<P: Problem> {
+    problem: P,
+    options: Options,
+    tableau: &'static Tableau,
+    /// Stages whose argument is that of the stage before plus its `U`.
+    extends: Vec<bool>,
+    dimension: usize,
+    /// Length of a padded vector.
+    stride: usize,
+    /// 1/(relative_tolerance · scale).
+    weights: Vec<f64>,
+
+    time: f64,
+    previous_time: f64,
+    segment_start: f64,
+    segment_end: f64,
+    proposed_step: f64,
+    controller: Controller,
+    statistics: Statistics,
+    switches: Switches,
+
+    x: Vec<f64>,
+    previous_x: Vec<f64>,
+    /// The derivative at `(time, x)`.
+    dx: Vec<f64>,
+    df_dt: Vec<f64>,
+    autonomous: bool,
+    /// Whether the Jacobian matrix is the one at `(time, x)`.
+    linearized: bool,
+    /// Stages of the last accepted step.
+    stages: Vec<f64>,
+
+    // The step being tried.
+    trial_stages: Vec<f64>,
+    trial_x: Vec<f64>,
+    trial_dx: Vec<f64>,
+    argument: Vec<f64>,
+    slope: Vec<f64>,
+}
+
+impl<P: Problem> Integrator<P> {
+    /// Begins an integration.
+    ///
+    /// # Errors
+    /// If the options, the problem's scales, the states or the derivative at the start are not admissible.
+    pub fn new(problem: P, options: Options, time: f64, x: &[f64]) -> Result<Self, SetupError> {
+        let state = State {
+            version: STATE_VERSION,
+            time,
+            x: x.to_vec(),
+            modes: vec![0; problem.switch_count()],
+            segment_start: time,
+            proposed_step: 1.0,
+            controller: Controller::default(),
+            statistics: Statistics::default(),
+        };
+        let mut this = Self::resume(problem, options, state)?;
+        this.problem.initial_modes(time, x, &mut this.switches.modes);
+        this.switches.before.copy_from_slice(&this.switches.modes);
+        this.proposed_step = match (this.options.fixed_step, this.options.initial_step) {
+            (Some(step), _) | (None, Some(step)) => step,
+            (None, None) => this.estimate_step(),
+        };
+        Ok(this)
+    }
+
+    /// Continues an integration from a saved state, with the same bits if the problem and the options are the same.
+    ///
+    /// # Errors
+    /// If the state does not fit to this program or to the problem, and as [`Integrator::new`].
+    pub fn resume(mut problem: P, options: Options, state: State) -> Result<Self, SetupError> {
+        options.check()?;
+        let n = problem.dimension();
+        let stride = n.next_multiple_of(LANES);
+        if !state.time.is_finite() {
+            return Err(SetupError::Time(state.time));
+        }
+        state.check(n, problem.switch_count())?;
+        if let Some((index, &value)) = state.x.iter().enumerate().find(|(_, v)| !v.is_finite()) {
+            return Err(SetupError::NotFiniteState { index, value });
+        }
+        let scales = problem.scales();
+        if scales.len() != n {
+            return Err(SetupError::Dimension {
+                what: "error scales",
+                expected: n,
+                found: scales.len(),
+            });
+        }
+        if let Some((index, &value)) = scales.iter().enumerate().find(|(_, s)| s.is_nan() || **s <= 0.0) {
+            return Err(SetupError::Scale { index, value });
+        }
+        if n > 0 && options.fixed_step.is_none() && scales.iter().all(|scale| scale.is_infinite()) {
+            return Err(SetupError::NothingControlled);
+        }
+        let zero = || vec![0.0; stride];
+        let mut weights = zero();
+        for (weight, scale) in weights.iter_mut().zip(scales) {
+            *weight = 1.0 / (options.relative_tolerance * scale);
+        }
+        let segment_end = problem.segment(state.segment_start);
+        if segment_end.is_nan() || segment_end <= state.segment_start || segment_end < state.time {
+            return Err(SetupError::Segment {
+                start: state.segment_start,
+                end: segment_end,
+            });
+        }
+        let tableau = options.method.tableau();
+        let extends = (0..tableau.stages())
+            .map(|i| i > 1 && tableau.a[i][..i - 1] == *tableau.a[i - 1] && tableau.a[i][i - 1] == 1.0)
+            .collect();
+        let mut x = zero();
+        x[..n].copy_from_slice(&state.x);
+        let all_stages = vec![0.0; stride * tableau.stages()];
+        let mut this = Self {
+            switches: Switches::new(state.modes, n, options.maximum_events),
+            problem,
+            options,
+            tableau,
+            extends,
+            dimension: n,
+            stride,
+            weights,
+            time: state.time,
+            previous_time: state.time,
+            segment_start: state.segment_start,
+            segment_end,
+            proposed_step: state.proposed_step,
+            controller: state.controller,
+            statistics: state.statistics,
+            previous_x: x.clone(),
+            x,
+            dx: zero(),
+            df_dt: zero(),
+            autonomous: true,
+            linearized: false,
+            stages: all_stages.clone(),
+            trial_stages: all_stages,
+            trial_x: zero(),
+            trial_dx: zero(),
+            argument: zero(),
+            slope: zero(),
+        };
+        this.evaluate_derivative();
+        if let Some(index) = this.first_not_finite() {
+            let value = this.dx[index];
+            return Err(SetupError::NotFiniteDerivative {
+                time: this.time,
+                index,
+                value,
+            });
+        }
+        Ok(this)
+    }
+
+    /// All that is needed to continue with the same bits.
+    #[must_use]
+    pub fn state(&self) -> State {
+        State {
+            version: STATE_VERSION,
+            time: self.time,
+            x: self.x().to_vec(),
+            modes: self.switches.modes.clone(),
+            segment_start: self.segment_start,
+            proposed_step: self.proposed_step,
+            controller: self.controller.clone(),
+            statistics: self.statistics.clone(),
+        }
+    }
+
+    /// Time reached.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Time at the start of the last step.
+    #[must_use]
+    pub fn previous_time(&self) -> f64 {
+        self.previous_time
+    }
+
+    /// States reached.
+    #[must_use]
+    pub fn x(&self) -> &[f64] {
+        &self.x[..self.dimension]
+    }
+
+    /// States at the start of the last step.
+    #[must_use]
+    pub fn previous_x(&self) -> &[f64] {
+        &self.previous_x[..self.dimension]
+    }
+
+    /// Derivative of the states reached. (At the end of a segment: the limit from before it.)
+    #[must_use]
+    pub fn derivative(&self) -> &[f64] {
+        &self.dx[..self.dimension]
+    }
+
+    /// Length that the next step is going to try.
+    #[must_use]
+    pub fn proposed_step(&self) -> f64 {
+        self.proposed_step
+    }
+
+    /// The problem.
+    #[must_use]
+    pub fn problem(&self) -> &P {
+        &self.problem
+    }
+
+    /// The problem; a change of its right-hand side must be followed by [`Integrator::refresh`].
+    pub fn problem_mut(&mut self) -> &mut P {
+        &mut self.problem
+    }
+
+    /// The problem, at the end.
+    #[must_use]
+    pub fn into_problem(self) -> P {
+        self.problem
+    }
+
+    /// The options.
+    #[must_use]
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// What was done so far.
+    #[must_use]
+    pub fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
+    /// Changes of modes in the last step, in order of time.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        &self.switches.events
+    }
+
+    /// Modes of the switches at the time reached.
+    #[must_use]
+    pub fn modes(&self) -> &[u8] {
+        &self.switches.modes
+    }
+
+    /// Modes of the switches at the start of the last step.
+    #[must_use]
+    pub fn modes_before_step(&self) -> &[u8] {
+        &self.switches.before
+    }
+
+    /// States at a time inside the last step, to the order of the method's dense output.
+    ///
+    /// # Panics
+    /// If `out` does not have the length of the problem.
+    pub fn interpolate(&self, time: f64, out: &mut [f64]) {
+        assert_eq!(out.len(), self.dimension, "length of the interpolated states");
+        self.interpolate_range(time, 0, out);
+    }
+
+    /// States `first ..` as many as `out` takes, at a time inside the last step.
+    ///
+    /// # Panics
+    /// If there are not as many states.
+    pub fn interpolate_range(&self, time: f64, first: usize, out: &mut [f64]) {
+        assert!(
+            first + out.len() <= self.dimension,
+            "range of the interpolated states"
+        );
+        let dense = self.dense();
+        dense.evaluate(dense.fraction(time), first, out);
+    }
+
+    fn dense(&self) -> Dense<'_> {
+        Dense {
+            tableau: self.tableau,
+            start: self.previous_time,
+            step: self.time - self.previous_time,
+            end: self.time,
+            x0: &self.previous_x,
+            x1: &self.x,
+            stages: &self.stages,
+        }
+    }
+
+    /// Tells the integrator that the right-hand side has changed: it is evaluated anew, and the memory of the
+    /// step-size control is dropped.
+    pub fn refresh(&mut self) {
+        self.evaluate_derivative();
+        self.controller.restart();
+    }
+}

@@ -1,0 +1,332 @@
+//! Steps.
+
+use super::Integrator;
+use crate::error::{Reason, StepError};
+use crate::problem::Problem;
+use crate::stages::{Dense, all_finite, combine, largest};
+
+/// Why an attempt failed, with the state to blame.
+struct Failure {
+    reason: Reason,
+    index: Option<usize>,
+}
+
+impl<P: Problem> Integrator<P> {
+    /// Makes one accepted step that does not pass `limit` (which may be infinite) nor the end of the segment.
+    ///
+    /// # Errors
+    /// If the limit does not lie ahead, or no step can be made; the last accepted step then stays in place.
+    pub fn step_to(&mut self, limit: f64) -> Result<(), StepError> {
+        if limit.is_nan() || limit <= self.time {
+            return Err(self.error(Reason::Limit { limit }, 0.0, None, 0.0));
+        }
+        if self.time >= self.segment_end {
+            self.enter_segment()?;
+        }
+        let end = limit.min(self.segment_end);
+        let proposed = self.proposed_step.min(self.options.maximum_step);
+        let (mut step, mut target) = self.fit(proposed, end);
+        let mut cut = step < proposed;
+        let mut scaled_error = 0.0;
+        loop {
+            let statistics = &self.statistics;
+            if statistics.steps + statistics.rejected() >= self.options.maximum_steps {
+                let reason = Reason::MaximumSteps {
+                    maximum: self.options.maximum_steps,
+                };
+                let index = (scaled_error > 0.0).then(|| self.dominant().0);
+                return Err(self.error(reason, step, index, scaled_error));
+            }
+            let mut failure = match self.attempt(step, target) {
+                Ok(error) if self.options.fixed_step.is_some() || error <= 1.0 => {
+                    self.accept(step, target, error, cut, proposed);
+                    return Ok(());
+                }
+                Ok(error) => {
+                    self.statistics.rejected_error += 1;
+                    scaled_error = error;
+                    let root = self.root(error);
+                    step *= self.controller.reject(&self.options, root);
+                    Failure {
+                        reason: Reason::Error,
+                        index: None,
+                    }
+                }
+                Err(failure) => {
+                    self.controller.fail();
+                    match failure.reason {
+                        Reason::Singular { .. } => {
+                            self.statistics.rejected_singular += 1;
+                            step *= 0.5;
+                        }
+                        _ => {
+                            self.statistics.rejected_not_finite += 1;
+                            step *= 0.25;
+                        }
+                    }
+                    failure
+                }
+            };
+            let minimum = self
+                .options
+                .minimum_step
+                .max(4.0 * f64::EPSILON * self.time.abs())
+                .max(f64::MIN_POSITIVE);
+            if step < minimum || self.options.fixed_step.is_some() {
+                if failure.reason == Reason::Error {
+                    failure.index = Some(self.dominant().0);
+                } else {
+                    scaled_error = f64::NAN;
+                }
+                let tried = target - self.time;
+                return Err(self.error(failure.reason, tried, failure.index, scaled_error));
+            }
+            (step, target) = self.fit(step, end);
+            cut = false;
+        }
+    }
+
+    fn error(&self, reason: Reason, step: f64, index: Option<usize>, scaled_error: f64) -> StepError {
+        StepError {
+            time: self.time,
+            step,
+            reason,
+            index,
+            scaled_error,
+        }
+    }
+
+    /// Length and end of the next attempt, such that no tiny step remains before `end`.
+    #[inline]
+    fn fit(&self, step: f64, end: f64) -> (f64, f64) {
+        let remaining = end - self.time;
+        if step >= 0.99 * remaining {
+            return (remaining, end);
+        }
+        let step = if step > 0.5 * remaining && self.options.fixed_step.is_none() {
+            0.5 * remaining
+        } else {
+            step
+        };
+        let target = self.time + step;
+        (target - self.time, target)
+    }
+
+    fn enter_segment(&mut self) -> Result<(), StepError> {
+        let end = self.problem.segment(self.time);
+        if end.is_nan() || end <= self.time {
+            return Err(self.error(Reason::Segment { end }, 0.0, None, 0.0));
+        }
+        self.segment_start = self.time;
+        self.segment_end = end;
+        self.statistics.restarts += 1;
+        self.refresh();
+        match self.first_not_finite() {
+            Some(index) => Err(self.error(Reason::NotFinite, 0.0, Some(index), f64::NAN)),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn evaluate_derivative(&mut self) {
+        let n = self.dimension;
+        self.problem
+            .derivative(self.time, &self.x[..n], &mut self.dx[..n]);
+        self.statistics.derivatives += 1;
+        self.linearized = false;
+    }
+
+    pub(super) fn first_not_finite(&self) -> Option<usize> {
+        self.derivative().iter().position(|value| !value.is_finite())
+    }
+
+    /// Tries one step; the size of its error.
+    #[inline]
+    fn attempt(&mut self, step: f64, target: f64) -> Result<f64, Failure> {
+        let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
+        if !self.linearized {
+            self.df_dt.fill(0.0);
+            self.problem
+                .linearize(self.time, &self.x[..n], &self.dx[..n], &mut self.df_dt[..n]);
+            self.statistics.jacobians += 1;
+            self.linearized = true;
+            self.autonomous = self.df_dt.iter().all(|value| *value == 0.0);
+        }
+        let inverse = 1.0 / step;
+        self.statistics.factorizations += 1;
+        if let Err(singular) = self.problem.factor(inverse / tableau.gamma) {
+            return Err(Failure {
+                reason: Reason::Singular {
+                    block: singular.block,
+                },
+                index: None,
+            });
+        }
+        let (stages, argument, slope) = (
+            &mut self.trial_stages[..],
+            &mut self.argument[..],
+            &mut self.slope[..],
+        );
+        for i in 0..tableau.stages() {
+            let (done, rest) = stages.split_at_mut(i * stride);
+            let stage = &mut rest[..stride];
+            if i == 0 {
+                stage.copy_from_slice(&self.dx);
+            } else {
+                if self.extends[i] {
+                    add(argument, 1.0, &done[(i - 1) * stride..]);
+                } else {
+                    combine(argument, &self.x, 1.0, tableau.a[i], done, stride, 0);
+                }
+                let alpha = tableau.alpha[i];
+                let time = if alpha == 1.0 {
+                    target
+                } else {
+                    self.time + alpha * step
+                };
+                self.problem.derivative(time, &argument[..n], &mut slope[..n]);
+                combine(stage, slope, inverse, tableau.c[i], done, stride, 0);
+            }
+            let d = tableau.d[i] * step;
+            if !self.autonomous && d != 0.0 {
+                add(stage, d, &self.df_dt);
+            }
+            self.problem.solve(&mut stage[..n]);
+        }
+        self.statistics.derivatives += tableau.stages() as u64 - 1;
+        self.statistics.solves += tableau.stages() as u64;
+
+        let last = &stages[(tableau.stages() - 1) * stride..];
+        for ((new, old), u) in self.trial_x.iter_mut().zip(&*argument).zip(last) {
+            *new = old + u;
+        }
+        if !all_finite(&self.trial_x) {
+            return Err(not_finite(&self.trial_x[..n]));
+        }
+        let error = largest(last, &self.weights);
+        if error > 1.0 && self.options.fixed_step.is_none() {
+            return Ok(error);
+        }
+        // The derivative at the end belongs to the step: a step into a place where there is none is rejected.
+        self.problem
+            .derivative(target, &self.trial_x[..n], &mut self.trial_dx[..n]);
+        self.statistics.derivatives += 1;
+        if !all_finite(&self.trial_dx) {
+            return Err(not_finite(&self.trial_dx[..n]));
+        }
+        Ok(error)
+    }
+
+    #[inline]
+    fn accept(&mut self, step: f64, target: f64, error: f64, cut: bool, proposed: f64) {
+        std::mem::swap(&mut self.previous_x, &mut self.x);
+        std::mem::swap(&mut self.x, &mut self.trial_x);
+        std::mem::swap(&mut self.dx, &mut self.trial_dx);
+        std::mem::swap(&mut self.stages, &mut self.trial_stages);
+        self.previous_time = self.time;
+        self.time = target;
+        self.linearized = false;
+        self.statistics.accept(step);
+        if self.options.fixed_step.is_none() {
+            let root = self.root(error);
+            let (factor, genuine) = self.controller.accept(&self.options, step, root);
+            let next = step * factor;
+            // A step cut short by a limit says little about the step that was planned.
+            self.proposed_step = if cut && !genuine { next.max(proposed) } else { next };
+            self.proposed_step = self.proposed_step.min(self.options.maximum_step).min(f64::MAX);
+        }
+        if !self.switches.modes.is_empty() {
+            let dense = Dense {
+                tableau: self.tableau,
+                start: self.previous_time,
+                step: self.time - self.previous_time,
+                end: self.time,
+                x0: &self.previous_x,
+                x1: &self.x,
+                stages: &self.stages,
+            };
+            let maximum = self.options.maximum_events;
+            self.switches
+                .detect(&mut self.problem, &dense, maximum, &mut self.statistics);
+        }
+    }
+
+    /// The root of an error that is proportional to the step.
+    #[inline]
+    fn root(&self, error: f64) -> f64 {
+        match self.tableau.embedded_order {
+            3 => error.sqrt().sqrt(),
+            q => libm::pow(error, 1.0 / f64::from(q + 1)),
+        }
+    }
+
+    /// The state with the largest error in the last attempt, and the error.
+    fn dominant(&self) -> (usize, f64) {
+        let last = &self.trial_stages[(self.tableau.stages() - 1) * self.stride..];
+        let mut found = (0, 0.0);
+        for (i, (u, weight)) in last.iter().zip(&self.weights).enumerate() {
+            let size = u.abs() * weight;
+            if size > found.1 {
+                found = (i, size);
+            }
+        }
+        found
+    }
+
+    /// A first step: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, section II.4.
+    pub(super) fn estimate_step(&mut self) -> f64 {
+        let n = self.dimension;
+        let tolerance = self.options.relative_tolerance;
+        let size = |a: &[f64], b: &[f64]| {
+            let pairs = a.iter().zip(b).zip(&self.weights);
+            pairs.fold(0.0_f64, |most, ((a, b), weight)| most.max((a - b).abs() * weight))
+        };
+        let zero = vec![0.0; self.stride];
+        let longest = self.options.maximum_step.min(self.segment_end - self.time);
+        let slope = size(&self.dx, &zero);
+        // in units of the scales, not of the tolerance
+        let guess = if slope > 1e-10 {
+            0.01 / (tolerance * slope)
+        } else {
+            1e-6 * self.time.abs().max(1.0)
+        };
+        let guess = guess.min(longest);
+        for ((target, x), dx) in self.argument.iter_mut().zip(&self.x).zip(&self.dx) {
+            *target = x + guess * dx;
+        }
+        self.problem
+            .derivative(self.time + guess, &self.argument[..n], &mut self.trial_dx[..n]);
+        self.statistics.derivatives += 1;
+        let bend = size(&self.trial_dx, &self.dx) / guess;
+        let most = slope.max(bend);
+        let step = if most > 1e-10 {
+            libm::pow(0.01 / most, 1.0 / f64::from(self.tableau.embedded_order + 1))
+        } else {
+            100.0 * guess
+        };
+        let step = if step.is_finite() {
+            step.min(100.0 * guess)
+        } else {
+            guess
+        };
+        step.min(longest)
+            .max(self.options.minimum_step)
+            .max(16.0 * f64::EPSILON * self.time.abs())
+    }
+}
+
+/// `target += factor · term`.
+#[inline(always)]
+fn add(target: &mut [f64], factor: f64, term: &[f64]) {
+    for (value, t) in target.iter_mut().zip(term) {
+        *value += factor * t;
+    }
+}
+
+/// The first value that is not finite is to blame.
+#[cold]
+fn not_finite(values: &[f64]) -> Failure {
+    Failure {
+        reason: Reason::NotFinite,
+        index: values.iter().position(|value| !value.is_finite()),
+    }
+}

@@ -1,0 +1,360 @@
+//! Scalars that carry derivatives.
+//!
+//! Every law of the workspace is written once, generic over [`Real`]. With `f64` it gives values, with
+//! [`Dual`] it gives values and exact partial derivatives from the same lines (forward automatic
+//! differentiation). Elementary functions come from a Rust library, so that results do not depend
+//! on the system's mathematical library.
+
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// A real number, possibly with derivatives.
+pub trait Real:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+    + AddAssign
+    + SubAssign
+    + From<f64>
+{
+    /// The value without derivatives.
+    fn value(self) -> f64;
+    /// A function given by its value and its derivative at [`Real::value`].
+    #[must_use]
+    fn chain(self, value: f64, slope: f64) -> Self;
+
+    /// Zero.
+    #[inline(always)]
+    #[must_use]
+    fn zero() -> Self {
+        Self::from(0.0)
+    }
+    /// The square root; its derivative at zero is infinite.
+    #[inline(always)]
+    #[must_use]
+    fn sqrt(self) -> Self {
+        let root = self.value().sqrt();
+        self.chain(root, 0.5 / root)
+    }
+    /// The reciprocal.
+    #[inline(always)]
+    #[must_use]
+    fn recip(self) -> Self {
+        let r = 1.0 / self.value();
+        self.chain(r, -r * r)
+    }
+    /// Sine and cosine.
+    #[inline(always)]
+    #[must_use]
+    fn sin_cos(self) -> (Self, Self) {
+        let (s, c) = libm::sincos(self.value());
+        (self.chain(s, c), self.chain(c, -s))
+    }
+    /// The hyperbolic tangent.
+    #[inline(always)]
+    #[must_use]
+    fn tanh(self) -> Self {
+        let t = tanh(self.value());
+        self.chain(t, 1.0 - t * t)
+    }
+    /// `tanh(sqrt(s)) / sqrt(s)` for `s ≥ 0`: smooth, also at `s = 0`, where it is 1.
+    #[inline(always)]
+    #[must_use]
+    fn tanh_ratio(self) -> Self {
+        let s = self.value();
+        let (value, slope) = tanh_ratio(s);
+        self.chain(value, slope)
+    }
+    /// The exponential.
+    #[inline(always)]
+    #[must_use]
+    fn exp(self) -> Self {
+        let e = libm::exp(self.value());
+        self.chain(e, e)
+    }
+}
+
+/// tanh; from 20 on it is 1 to the last bit.
+#[inline(always)]
+fn tanh(x: f64) -> f64 {
+    if x.abs() > 20.0 {
+        f64::copysign(1.0, x)
+    } else {
+        libm::tanh(x)
+    }
+}
+
+/// Value and slope by `s` of `tanh(√s)/√s`.
+#[inline(always)]
+fn tanh_ratio(s: f64) -> (f64, f64) {
+    if s < 1e-3 {
+        // tanh(x)/x = 1 - s/3 + 2 s²/15 - 17 s³/315 + 62 s⁴/2835 - ..., s = x²
+        (
+            1.0 + s * (-1.0 / 3.0 + s * (2.0 / 15.0 + s * (-17.0 / 315.0 + s * (62.0 / 2835.0)))),
+            -1.0 / 3.0 + s * (4.0 / 15.0 + s * (-17.0 / 105.0 + s * (248.0 / 2835.0))),
+        )
+    } else {
+        let x = s.sqrt();
+        let t = tanh(x);
+        let ratio = t / x;
+        (ratio, (1.0 - t * t - ratio) / (2.0 * s))
+    }
+}
+
+impl Real for f64 {
+    #[inline(always)]
+    fn value(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn chain(self, value: f64, _slope: f64) -> f64 {
+        value
+    }
+    #[inline(always)]
+    fn tanh_ratio(self) -> f64 {
+        if self < 1e-3 {
+            tanh_ratio(self).0
+        } else {
+            let x = self.sqrt();
+            tanh(x) / x
+        }
+    }
+}
+
+/// A value with its `N` partial derivatives.
+///
+/// ```
+/// use integrate::scalar::{Dual, Real};
+/// let x = Dual::<1>::variable(0.5, 0);
+/// let y = x * x + x.sin_cos().0;
+/// assert_eq!(y.derivative[0], 2.0 * 0.5 + libm::cos(0.5));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual<const N: usize> {
+    /// The value.
+    pub value: f64,
+    /// The partial derivatives.
+    pub derivative: [f64; N],
+}
+
+impl<const N: usize> Dual<N> {
+    /// The independent variable number `index`.
+    #[inline(always)]
+    #[must_use]
+    pub fn variable(value: f64, index: usize) -> Self {
+        let mut derivative = [0.0; N];
+        derivative[index] = 1.0;
+        Self { value, derivative }
+    }
+}
+
+impl<const N: usize> From<f64> for Dual<N> {
+    #[inline(always)]
+    fn from(value: f64) -> Self {
+        Self {
+            value,
+            derivative: [0.0; N],
+        }
+    }
+}
+
+impl<const N: usize> Real for Dual<N> {
+    #[inline(always)]
+    fn value(self) -> f64 {
+        self.value
+    }
+    #[inline(always)]
+    fn chain(self, value: f64, slope: f64) -> Self {
+        Self {
+            value,
+            derivative: self.derivative.map(|d| slope * d),
+        }
+    }
+}
+
+/// Applies a function to the derivatives of two numbers, lane by lane.
+#[inline(always)]
+fn lanes<const N: usize>(a: &[f64; N], b: &[f64; N], f: impl Fn(f64, f64) -> f64) -> [f64; N] {
+    let mut out = [0.0; N];
+    for i in 0..N {
+        out[i] = f(a[i], b[i]);
+    }
+    out
+}
+
+impl<const N: usize> Add for Dual<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self {
+            value: self.value + o.value,
+            derivative: lanes(&self.derivative, &o.derivative, |a, b| a + b),
+        }
+    }
+}
+
+impl<const N: usize> Sub for Dual<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, o: Self) -> Self {
+        Self {
+            value: self.value - o.value,
+            derivative: lanes(&self.derivative, &o.derivative, |a, b| a - b),
+        }
+    }
+}
+
+impl<const N: usize> Mul for Dual<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, o: Self) -> Self {
+        Self {
+            value: self.value * o.value,
+            derivative: lanes(&self.derivative, &o.derivative, |a, b| {
+                a * o.value + self.value * b
+            }),
+        }
+    }
+}
+
+impl<const N: usize> Div for Dual<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, o: Self) -> Self {
+        let r = 1.0 / o.value;
+        let q = self.value * r;
+        Self {
+            value: q,
+            derivative: lanes(&self.derivative, &o.derivative, |a, b| (a - q * b) * r),
+        }
+    }
+}
+
+impl<const N: usize> Neg for Dual<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self {
+            value: -self.value,
+            derivative: self.derivative.map(|d| -d),
+        }
+    }
+}
+
+impl<const N: usize> Add<f64> for Dual<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: f64) -> Self {
+        Self {
+            value: self.value + o,
+            ..self
+        }
+    }
+}
+
+impl<const N: usize> Sub<f64> for Dual<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, o: f64) -> Self {
+        Self {
+            value: self.value - o,
+            ..self
+        }
+    }
+}
+
+impl<const N: usize> Mul<f64> for Dual<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, o: f64) -> Self {
+        Self {
+            value: self.value * o,
+            derivative: self.derivative.map(|d| d * o),
+        }
+    }
+}
+
+impl<const N: usize> Mul<Dual<N>> for f64 {
+    type Output = Dual<N>;
+    #[inline(always)]
+    fn mul(self, o: Dual<N>) -> Dual<N> {
+        o * self
+    }
+}
+
+impl<const N: usize> Add<Dual<N>> for f64 {
+    type Output = Dual<N>;
+    #[inline(always)]
+    fn add(self, o: Dual<N>) -> Dual<N> {
+        o + self
+    }
+}
+
+impl<const N: usize> Sub<Dual<N>> for f64 {
+    type Output = Dual<N>;
+    #[inline(always)]
+    fn sub(self, o: Dual<N>) -> Dual<N> {
+        -o + self
+    }
+}
+
+impl<const N: usize> AddAssign for Dual<N> {
+    #[inline(always)]
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
+
+impl<const N: usize> SubAssign for Dual<N> {
+    #[inline(always)]
+    fn sub_assign(&mut self, o: Self) {
+        *self = *self - o;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A function that uses every operation.
+    fn f<S: Real>(x: S, y: S) -> S {
+        let (s, c) = (x * y).sin_cos();
+        let r = (x * x + y * y + 0.1).sqrt();
+        (s / r - c * 2.0).tanh() + (x * x).tanh_ratio() * y.recip() - (x * 1e-2 * x).tanh_ratio()
+            + (-x).exp() * r
+    }
+
+    #[test]
+    fn derivatives_agree_with_differences() {
+        for (x, y) in [(0.3, 0.7), (-1.2, 0.4), (0.02, 2.0), (3.0, -0.5)] {
+            let d = f(Dual::<2>::variable(x, 0), Dual::<2>::variable(y, 1));
+            let h = 1e-6;
+            let dx = (f(x + h, y) - f(x - h, y)) / (2.0 * h);
+            let dy = (f(x, y + h) - f(x, y - h)) / (2.0 * h);
+            assert_eq!(d.value, f(x, y), "values and duals share their bits");
+            assert!(
+                (d.derivative[0] - dx).abs() < 1e-8 * (1.0 + dx.abs()),
+                "{} {dx}",
+                d.derivative[0]
+            );
+            assert!(
+                (d.derivative[1] - dy).abs() < 1e-8 * (1.0 + dy.abs()),
+                "{} {dy}",
+                d.derivative[1]
+            );
+        }
+    }
+
+    #[test]
+    fn tanh_ratio_is_smooth_across_its_branches() {
+        let (below, above) = (tanh_ratio(1e-3 * (1.0 - 1e-12)), tanh_ratio(1e-3));
+        assert!((below.0 - above.0).abs() < 1e-14 && (below.1 - above.1).abs() < 1e-11);
+        assert_eq!(tanh_ratio(0.0), (1.0, -1.0 / 3.0));
+        assert_eq!(tanh_ratio(1e6).0, 1e-3);
+    }
+}

@@ -1,0 +1,63 @@
+//! Saving and continuing an integration.
+
+use serde::{Deserialize, Serialize};
+
+use crate::control::Controller;
+use crate::error::SetupError;
+use crate::statistics::Statistics;
+
+/// Version of [`State`].
+pub const STATE_VERSION: u32 = 1;
+
+/// All that is needed to continue an integration with the same bits.
+///
+/// The problem and the options are not part of it. Text formats must write floating-point numbers such that they
+/// read back exactly.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Version of the layout, [`STATE_VERSION`].
+    pub version: u32,
+    /// Time.
+    pub time: f64,
+    /// States.
+    pub x: Vec<f64>,
+    /// Modes of the switches.
+    pub modes: Vec<u8>,
+    /// Start of the smooth piece of the problem in which the last step was made.
+    pub segment_start: f64,
+    /// Length that the next step is going to try.
+    pub proposed_step: f64,
+    /// Memory of the step-size control.
+    pub(crate) controller: Controller,
+    /// What was done so far.
+    pub statistics: Statistics,
+}
+
+impl State {
+    pub(crate) fn check(&self, dimension: usize, switches: usize) -> Result<(), SetupError> {
+        if self.version != STATE_VERSION {
+            return Err(SetupError::Version { found: self.version });
+        }
+        let lengths = [
+            ("states", dimension, self.x.len()),
+            ("switches", switches, self.modes.len()),
+        ];
+        for (what, expected, found) in lengths {
+            if expected != found {
+                return Err(SetupError::Dimension {
+                    what,
+                    expected,
+                    found,
+                });
+            }
+        }
+        let damaged = |name, value| Err(SetupError::Damaged { name, value });
+        if !self.segment_start.is_finite() || self.segment_start > self.time {
+            return damaged("segment_start", self.segment_start);
+        }
+        if !(self.proposed_step > 0.0 && self.proposed_step.is_finite()) {
+            return damaged("proposed_step", self.proposed_step);
+        }
+        Ok(())
+    }
+}

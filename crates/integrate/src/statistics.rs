@@ -1,0 +1,52 @@
+//! Counts of what an integration cost.
+
+use serde::{Deserialize, Serialize};
+
+/// What an integration has done so far.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Statistics {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps rejected because of their error.
+    pub rejected_error: u64,
+    /// Steps rejected because a value was not finite.
+    pub rejected_not_finite: u64,
+    /// Steps rejected because the matrix was singular.
+    pub rejected_singular: u64,
+    /// Evaluations of the right-hand side.
+    pub derivatives: u64,
+    /// Evaluations of the Jacobian matrix.
+    pub jacobians: u64,
+    /// Factorizations, failed ones included.
+    pub factorizations: u64,
+    /// Solutions of a linear system.
+    pub solves: u64,
+    /// Changes of a mode.
+    pub events: u64,
+    /// Steps in which there were more changes of modes than the integrator is willing to follow.
+    pub events_unresolved: u64,
+    /// Starts of a new smooth piece of the problem, the first not counted.
+    pub restarts: u64,
+    /// The smallest accepted step; zero before the first one.
+    pub smallest_step: f64,
+    /// The largest accepted step.
+    pub largest_step: f64,
+}
+
+impl Statistics {
+    /// Rejected steps, whatever the reason.
+    #[must_use]
+    pub fn rejected(&self) -> u64 {
+        self.rejected_error + self.rejected_not_finite + self.rejected_singular
+    }
+
+    pub(crate) fn accept(&mut self, step: f64) {
+        self.smallest_step = if self.steps == 0 {
+            step
+        } else {
+            self.smallest_step.min(step)
+        };
+        self.largest_step = self.largest_step.max(step);
+        self.steps += 1;
+    }
+}

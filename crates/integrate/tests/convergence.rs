@@ -1,0 +1,216 @@
+//! The methods converge with their orders, and are L-stable.
+
+use integrate::{Integrator, Method, Options, Ordinary};
+
+/// x' = x y, y' = -y² : x = 1 + t, y = 1/(1 + t); nonlinear and autonomous.
+fn autonomous() -> Ordinary<'static> {
+    Ordinary::new(
+        vec![1.0; 2],
+        |_, x, dx| {
+            dx[0] = x[0] * x[0] * x[1] * x[1] * x[1];
+            dx[1] = -x[0] * x[1] * x[1] * x[1];
+        },
+        |_, x, j| {
+            j[0] = 2.0 * x[0] * x[1] * x[1] * x[1];
+            j[1] = 3.0 * x[0] * x[0] * x[1] * x[1];
+            j[2] = -x[1] * x[1] * x[1];
+            j[3] = -3.0 * x[0] * x[1] * x[1];
+        },
+    )
+}
+
+/// 1 + t solves x' = x² y³ with y = 1/(1 + t), and y' = -x y³ = -y².
+fn autonomous_exact(t: f64) -> [f64; 2] {
+    [1.0 + t, 1.0 / (1.0 + t)]
+}
+
+/// A pendulum-like problem with explicit time: x = (sin t², exp(-t)).
+fn driven() -> Ordinary<'static> {
+    Ordinary::new(
+        vec![1.0; 2],
+        |t, x, dx| {
+            let e = libm::exp(-t);
+            dx[0] = 2.0 * t * libm::cos(t * t) + (x[1] - e) * 3.0 - (x[0] * x[0] - sq(libm::sin(t * t)));
+            dx[1] = -x[1] * x[1] / e + libm::sin(x[0] - libm::sin(t * t));
+        },
+        |t, x, j| {
+            let e = libm::exp(-t);
+            j[0] = -2.0 * x[0];
+            j[1] = 3.0;
+            j[2] = libm::cos(x[0] - libm::sin(t * t));
+            j[3] = -2.0 * x[1] / e;
+        },
+    )
+    .time_derivative(|t, x, f| {
+        let (e, s, c) = (libm::exp(-t), libm::sin(t * t), libm::cos(t * t));
+        f[0] = 2.0 * c - 4.0 * t * t * s + 3.0 * e + 4.0 * t * s * c;
+        f[1] = -x[1] * x[1] / e - 2.0 * t * c * libm::cos(x[0] - s);
+    })
+}
+
+fn sq(x: f64) -> f64 {
+    x * x
+}
+
+fn driven_exact(t: f64) -> [f64; 2] {
+    [libm::sin(t * t), libm::exp(-t)]
+}
+
+fn fixed(method: Method, step: f64) -> Options {
+    Options {
+        method,
+        fixed_step: Some(step),
+        ..Options::default()
+    }
+}
+
+/// Largest error at t = 1, and of the dense output in between.
+fn errors(problem: Ordinary<'static>, exact: fn(f64) -> [f64; 2], method: Method, steps: u32) -> (f64, f64) {
+    let mut integrator =
+        Integrator::new(problem, fixed(method, 1.0 / f64::from(steps)), 0.0, &exact(0.0)).unwrap();
+    let worst = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+    let (mut dense, mut x) = (0.0_f64, [0.0; 2]);
+    while integrator.time() < 1.0 {
+        integrator.step_to(1.0).unwrap();
+        // local error of the dense output: from the values at both ends
+        for theta in [0.2, 0.35, 0.5, 0.65, 0.8] {
+            let time = integrator.previous_time() + theta * (integrator.time() - integrator.previous_time());
+            integrator.interpolate(time, &mut x);
+            dense = dense.max(worst(&x, &exact(time)));
+            let mut second = [0.0];
+            integrator.interpolate_range(time, 1, &mut second);
+            assert_eq!(second[0], x[1]);
+        }
+    }
+    assert_eq!(integrator.statistics().steps, u64::from(steps));
+    (worst(integrator.x(), &exact(1.0)), dense)
+}
+
+fn slope(coarse: f64, fine: f64) -> f64 {
+    libm::log2(coarse / fine)
+}
+
+#[test]
+fn every_method_has_its_order() {
+    for method in Method::ALL {
+        for (name, problem, exact) in [
+            (
+                "autonomous",
+                autonomous as fn() -> Ordinary<'static>,
+                autonomous_exact as fn(f64) -> [f64; 2],
+            ),
+            ("driven", driven, driven_exact),
+        ] {
+            let order = f64::from(method.tableau().order);
+            let dense_order = f64::from(method.tableau().dense_order);
+            let steps = if order > 4.0 { [16, 32, 64] } else { [32, 64, 128] };
+            let found = steps.map(|steps| errors(problem(), exact, method, steps));
+            let observed = slope(found[1].0, found[2].0);
+            let observed_dense = slope(found[1].1, found[2].1);
+            println!(
+                "{method} {name}: order {observed:.2}, dense {observed_dense:.2}, error {:.1e}",
+                found[2].0
+            );
+            assert!(
+                (observed - order).abs() < 0.3,
+                "{method} {name}: order {observed}"
+            );
+            // the error within one step is one order higher
+            assert!(
+                observed_dense > dense_order - 0.3,
+                "{method} {name}: order of dense output {observed_dense}"
+            );
+        }
+    }
+}
+
+/// α_i are the row sums of the untransformed coefficients, d_i those of Γ.
+#[test]
+fn coefficients_are_consistent() {
+    for method in Method::ALL {
+        let tableau = method.tableau();
+        let s = tableau.stages();
+        let full = |rows: &[&[f64]]| -> Vec<Vec<f64>> {
+            rows.iter()
+                .map(|row| (0..s).map(|j| row.get(j).copied().unwrap_or(0.0)).collect())
+                .collect()
+        };
+        let (a, c) = (full(tableau.a), full(tableau.c));
+        for i in 0..s {
+            assert_eq!(tableau.a[i].len(), i);
+            assert_eq!(tableau.c[i].len(), i);
+        }
+        assert!(tableau.dense.iter().all(|row| row.len() == s));
+        // Γ⁻¹ = 1/γ - C; the columns of Γ by forward substitution
+        let mut big_gamma = vec![vec![0.0; s]; s];
+        for j in 0..s {
+            for i in j..s {
+                let mut value = if i == j { 1.0 } else { 0.0 };
+                for k in j..i {
+                    value += c[i][k] * big_gamma[k][j];
+                }
+                big_gamma[i][j] = value * tableau.gamma;
+            }
+        }
+        for i in 0..s {
+            let d: f64 = big_gamma[i].iter().sum();
+            let alpha: f64 = (0..s).map(|k| a[i][k] * big_gamma[k].iter().sum::<f64>()).sum();
+            assert!(
+                (d - tableau.d[i]).abs() < 2e-10,
+                "{method}: d of stage {i} is {d}"
+            );
+            assert!(
+                (alpha - tableau.alpha[i]).abs() < 2e-10,
+                "{method}: α of stage {i} is {alpha}"
+            );
+        }
+        // Σ b = 1 for the solution (b of the last stage is the last row of a, and 1)
+        let sum: f64 = (0..s)
+            .map(|k| (if k + 1 == s { 1.0 } else { a[s - 1][k] }) * big_gamma[k].iter().sum::<f64>())
+            .sum();
+        assert!((sum - 1.0).abs() < 2e-10, "{method}: Σ b is {sum}");
+    }
+}
+
+/// Prothero & Robinson: x' = λ (x - φ(t)) + φ'(t).
+fn prothero_robinson(lambda: f64, method: Method, steps: u32, start: f64) -> f64 {
+    let phi = |t: f64| libm::sin(t + 0.5);
+    let problem = Ordinary::new(
+        vec![1.0],
+        move |t, x, dx| dx[0] = lambda * (x[0] - phi(t)) + libm::cos(t + 0.5),
+        move |_, _, j| j[0] = lambda,
+    )
+    .time_derivative(move |t, _, f| f[0] = -lambda * libm::cos(t + 0.5) - libm::sin(t + 0.5));
+    let mut integrator = Integrator::new(
+        problem,
+        fixed(method, 1.0 / f64::from(steps)),
+        0.0,
+        &[phi(0.0) + start],
+    )
+    .unwrap();
+    while integrator.time() < 1.0 {
+        integrator.step_to(1.0).unwrap();
+    }
+    (integrator.x()[0] - phi(1.0)).abs()
+}
+
+#[test]
+fn every_method_is_l_stable() {
+    for method in Method::ALL {
+        // A transient of size 1 and rate 1e9 is gone after a few steps of 0.1, and the stiff error is small.
+        for lambda in [-1e3, -1e5, -1e9] {
+            let error = prothero_robinson(lambda, method, 10, 1.0);
+            assert!(error < 2e-5, "{method}, λ = {lambda}: {error}");
+        }
+    }
+    // No order reduction for the methods built for this: at least order 4 at λ = -1e5.
+    for method in [Method::Rodas4P, Method::Rodas4P2, Method::Rodas5P] {
+        let (coarse, fine) = (
+            prothero_robinson(-1e5, method, 8, 0.0),
+            prothero_robinson(-1e5, method, 16, 0.0),
+        );
+        let observed = slope(coarse, fine);
+        println!("{method}: order {observed:.2} for the Prothero-Robinson problem");
+        assert!(observed > 2.7, "{method}: {observed}");
+    }
+}

@@ -1,0 +1,243 @@
+//! Rigid bodies in absolute coordinates, each with its own set of freed coordinates.
+//!
+//! A body has six coordinates x, y, z, roll, pitch, yaw, measured from its reference frame along that frame's axes.
+//! Some are free, the others are held. There are no algebraic constraints: a joint is a held coordinate or a
+//! stiff element. So the mass matrix is block diagonal, one block a body.
+//!
+//! Equations of motion (Kane's method, generalized speeds = rates of the free coordinates):
+//! `M q¨ = Q - b`, `M = m J_vᵀJ_v + J_ωᵀ I J_ω`, with J_v the velocity Jacobian of the centre of gravity, J_ω that of the
+//! angular velocity, Q the generalized forces and b the bias
+//! `m J_vᵀ a_b + J_ωᵀ (I α_b + ω × I ω)`, where a_b and α_b are the accelerations at q¨ = 0
+//! (Steets 2007, eq. 3-9, derived anew).
+
+use std::ops::{Add, Mul};
+
+use integrate::scalar::Real;
+use serde::{Deserialize, Serialize};
+
+use crate::frame::{Frame, FrameMotion};
+use crate::turn::Turn;
+use crate::vector::{Matrix, Vector};
+
+/// The names of a body's coordinates, in their order.
+pub const COORDINATES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
+
+/// A rigid body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Body {
+    /// Its name, as in results.
+    pub name: String,
+    /// Mass, kg; of no effect on a body without free coordinates.
+    pub mass: f64,
+    /// Principal moments of inertia about the centre of gravity, body axes, kg·m².
+    pub inertia: [f64; 3],
+    /// Centre of gravity from the body's origin, body axes, m.
+    pub center_of_gravity: [f64; 3],
+    /// Where its coordinates are measured from.
+    pub frame: Frame,
+    /// Which of x, y, z, roll, pitch, yaw are free.
+    pub free: [bool; 6],
+    /// The values of all coordinates at the start; held coordinates keep them. m, rad.
+    pub initial: [f64; 6],
+}
+
+impl Body {
+    /// A body whose motion is prescribed: its origin rides on the frame.
+    #[must_use]
+    pub fn prescribed(name: &str, frame: Frame) -> Self {
+        Self {
+            name: name.to_owned(),
+            mass: 0.0,
+            inertia: [0.0; 3],
+            center_of_gravity: [0.0; 3],
+            frame,
+            free: [false; 6],
+            initial: [0.0; 6],
+        }
+    }
+
+    /// How many coordinates are free.
+    #[must_use]
+    pub fn free_count(&self) -> usize {
+        self.free.iter().filter(|free| **free).count()
+    }
+
+    /// Whether roll can differ from zero.
+    pub(crate) fn rolls(&self) -> bool {
+        self.free[3] || self.initial[3] != 0.0
+    }
+}
+
+/// Position and velocity of a body relative to its reference frame, in that frame's axes (SI).
+#[derive(Clone, Copy, Debug)]
+pub struct Kinematics<S> {
+    /// Position of the body's origin.
+    pub position: Vector<S>,
+    /// Velocity of the body's origin.
+    pub velocity: Vector<S>,
+    /// Rotation and axes of the angles.
+    pub turn: Turn<S>,
+    /// Rates of roll, pitch, yaw.
+    pub rates: [S; 3],
+    /// Angular velocity.
+    pub angular_velocity: Vector<S>,
+}
+
+impl<S: Real> Kinematics<S> {
+    /// From all six coordinates and their rates.
+    #[inline(always)]
+    #[must_use]
+    pub fn new(coordinates: [S; 6], speeds: [S; 6], rolls: bool) -> Self {
+        let [x, y, z, roll, pitch, yaw] = coordinates;
+        let rates = [speeds[3], speeds[4], speeds[5]];
+        let turn = Turn::new([roll, pitch, yaw], rolls);
+        Self {
+            position: Vector([x, y, z]),
+            velocity: Vector([speeds[0], speeds[1], speeds[2]]),
+            turn,
+            rates,
+            angular_velocity: turn.angular_velocity(rates, rolls),
+        }
+    }
+
+    /// The generalized force of coordinate `k` by a force at the body's origin and a moment about it (frame axes).
+    #[inline(always)]
+    #[must_use]
+    pub fn generalized(&self, k: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
+        match k {
+            0..=2 => force.0[k],
+            4 => moment.0[1],
+            5 => {
+                let axis = &self.turn.axes[2];
+                axis.0[0] * moment.0[0] + axis.0[2] * moment.0[2]
+            }
+            _ => self.turn.axes[0].dot(*moment),
+        }
+    }
+
+    /// The force at the body's origin and the moment about it that give the body the accelerations `accelerations` of its
+    /// six coordinates (frame axes): inertia `m a` at the centre of gravity and `I α + ω × I ω`, less gravity.
+    ///
+    /// `frame` is the motion of the reference frame, `gravity` the field in fixed axes (m/s²).
+    #[inline(always)]
+    #[must_use]
+    pub fn inertia<T: Real>(
+        &self,
+        body: &Body,
+        frame: &FrameMotion<T>,
+        frame_moves: bool,
+        gravity: Vector<f64>,
+        accelerations: &[f64; 6],
+    ) -> (Vector<S>, Vector<S>)
+    where
+        S: Add<T, Output = S>,
+        T: Mul<S, Output = S>,
+    {
+        let rolls = body.rolls();
+        let a = accelerations;
+        let arm: Vector<S> = self.turn.rotation.apply(Vector(body.center_of_gravity));
+        let mut omega = self.angular_velocity;
+        let mut alpha = self.turn.angular_acceleration(
+            self.rates,
+            [S::from(a[3]), S::from(a[4]), S::from(a[5])],
+            rolls,
+        );
+        let mut origin = Vector([S::from(a[0]), S::from(a[1]), S::from(a[2])]);
+        let field: Vector<T> = frame.acceleration - Vector::<T>::lift(gravity);
+        let own: Vector<T> = frame.rotation.apply_transposed(field);
+        origin = origin + own;
+        if frame_moves {
+            // Transport, centripetal and Coriolis parts of a turning frame, in its own axes.
+            let spin: Vector<T> = frame.rotation.apply_transposed(frame.angular_velocity);
+            let spin_rate: Vector<T> = frame.rotation.apply_transposed(frame.angular_acceleration);
+            let transport: Vector<S> = spin_rate.cross(self.position);
+            let swing: Vector<S> = spin.cross(self.position);
+            let centripetal: Vector<S> = spin.cross(swing);
+            let coriolis: Vector<S> = spin.cross(self.velocity);
+            origin += transport + centripetal + coriolis + coriolis;
+            let drag: Vector<S> = spin.cross(omega);
+            alpha = alpha + spin_rate + drag;
+            omega = omega + spin;
+        }
+        let swing: Vector<S> = omega.cross(arm);
+        let acceleration: Vector<S> = origin + alpha.cross(arm) + omega.cross(swing);
+        let force = acceleration.scale(body.mass);
+        // Euler's equations in body axes.
+        let to_body = self.turn.rotation.transpose();
+        let (w, e): (Vector<S>, Vector<S>) = (to_body.apply(omega), to_body.apply(alpha));
+        let [i1, i2, i3] = body.inertia;
+        let spin_moment = Vector([
+            e.0[0] * i1 + w.0[1] * w.0[2] * (i3 - i2),
+            e.0[1] * i2 + w.0[2] * w.0[0] * (i1 - i3),
+            e.0[2] * i3 + w.0[0] * w.0[1] * (i2 - i1),
+        ]);
+        let moment: Vector<S> = self.turn.rotation.apply::<S, S>(spin_moment) + arm.cross(force);
+        (force, moment)
+    }
+}
+
+impl Kinematics<f64> {
+    /// The block of the mass matrix for the free coordinates, row-major `n × n`.
+    #[inline(always)]
+    pub fn mass_matrix(&self, body: &Body, free: &[usize], mass: &mut [f64]) {
+        let arm: Vector<f64> = self.turn.rotation.apply(Vector(body.center_of_gravity));
+        let mut velocity = [Vector::zero(); 6];
+        let mut spin = [Vector::zero(); 6];
+        for &k in free {
+            if k < 3 {
+                velocity[k].0[k] = 1.0;
+            } else {
+                let axis = self.turn.axes[k - 3];
+                velocity[k] = axis.cross(arm);
+                spin[k] = self.turn.rotation.apply_transposed(axis);
+            }
+        }
+        let n = free.len();
+        for (row, &i) in free.iter().enumerate() {
+            for (column, &j) in free.iter().enumerate().take(row + 1) {
+                let mut value: f64 = body.mass * velocity[i].dot::<f64, f64>(velocity[j]);
+                if i >= 3 && j >= 3 {
+                    for (axis, inertia) in body.inertia.iter().enumerate() {
+                        value += inertia * spin[i].0[axis] * spin[j].0[axis];
+                    }
+                }
+                mass[row * n + column] = value;
+                mass[column * n + row] = value;
+            }
+        }
+    }
+
+    /// Kinetic energy in the fixed frame, J.
+    #[must_use]
+    pub fn kinetic_energy(&self, body: &Body, frame: &FrameMotion<f64>) -> f64 {
+        let (velocity, omega) = self.absolute(frame, Vector(body.center_of_gravity));
+        let w: Vector<f64> = self.turn.rotation.apply_transposed(omega);
+        let spin: f64 = (0..3).map(|k| body.inertia[k] * w.0[k] * w.0[k]).sum();
+        0.5 * (body.mass * velocity.dot::<f64, f64>(velocity) + spin)
+    }
+
+    /// Velocity of a point of the body and its angular velocity in the fixed frame, along the reference frame's axes.
+    #[must_use]
+    pub fn absolute(&self, frame: &FrameMotion<f64>, point: Vector<f64>) -> (Vector<f64>, Vector<f64>) {
+        let arm: Vector<f64> = self.turn.rotation.apply(point);
+        let place: Vector<f64> = self.position + arm;
+        let spin: Vector<f64> = frame.rotation.apply_transposed(frame.angular_velocity);
+        let origin: Vector<f64> = frame.rotation.apply_transposed(frame.velocity);
+        let own: Vector<f64> = self.angular_velocity.cross(arm);
+        let carried: Vector<f64> = spin.cross(place);
+        (origin + self.velocity + own + carried, self.angular_velocity + spin)
+    }
+
+    /// Position of a point of the body in the fixed frame.
+    #[must_use]
+    pub fn place(&self, frame: &FrameMotion<f64>, point: Vector<f64>) -> Vector<f64> {
+        let arm: Vector<f64> = self.turn.rotation.apply(point);
+        frame.position + frame.rotation.apply::<f64, f64>(self.position + arm)
+    }
+
+    /// The rotation from body axes to fixed axes.
+    #[must_use]
+    pub fn orientation(&self, frame: &FrameMotion<f64>) -> Matrix<f64> {
+        frame.rotation.times(self.turn.rotation)
+    }
+}

@@ -1,0 +1,76 @@
+//! Friction of a contact point: a tangential force that depends on the normal force and the tangential velocity.
+
+pub mod bristle;
+pub mod tanh;
+
+use integrate::scalar::Real;
+use serde::{Deserialize, Serialize};
+
+/// The friction laws. Which one is active is part of every result.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", tag = "law")]
+pub enum FrictionLaw {
+    /// Smoothed Coulomb friction, see [`tanh`]: creeps under a held load.
+    Tanh {
+        /// Reference speed v0, m/s.
+        reference_speed: f64,
+    },
+    /// An elastic element in series with the slider, see [`bristle`]: holds a load.
+    Bristle {
+        /// Tangential stiffness of the face, N/m.
+        stiffness: f64,
+        /// Tangential damping of the face, N·s/m.
+        damping: f64,
+    },
+}
+
+impl FrictionLaw {
+    /// How many internal states a contact point has under this law.
+    #[must_use]
+    pub fn states_per_point(&self) -> usize {
+        match self {
+            Self::Tanh { .. } => 0,
+            Self::Bristle { .. } => 2,
+        }
+    }
+
+    /// The speed at which the point creeps when it holds the fraction `load` (0..1) of the friction limit, m/s.
+    #[must_use]
+    pub fn creep_speed(&self, load: f64) -> f64 {
+        match self {
+            Self::Tanh { reference_speed } => reference_speed * libm::atanh(load),
+            Self::Bristle { .. } => 0.0,
+        }
+    }
+}
+
+/// What friction does at one contact point, in two tangential directions.
+#[derive(Clone, Copy, Debug)]
+pub struct Friction<S> {
+    /// Force on the moving body, N.
+    pub force: [S; 2],
+    /// Rate of the internal states (bristle deflection), m/s; zero for laws that have none.
+    pub rate: [S; 2],
+    /// Power lost, W: never negative.
+    pub loss: S,
+    /// Whether the point sticks, in the law's own sense.
+    pub sticks: bool,
+    /// How far the law is from its own change between stick and slip: |T| / (μN) with the bristle,
+    /// |v| / v0 with tanh.
+    pub load: f64,
+}
+
+impl<S: Real> Friction<S> {
+    /// No friction.
+    #[inline(always)]
+    #[must_use]
+    pub fn none() -> Self {
+        Self { force: [S::zero(); 2], rate: [S::zero(); 2], loss: S::zero(), sticks: false, load: 0.0 }
+    }
+}
+
+/// The scalar product of two plane vectors.
+#[inline(always)]
+pub(crate) fn dot<S: Real>(a: [S; 2], b: [S; 2]) -> S {
+    a[0] * b[0] + a[1] * b[1]
+}

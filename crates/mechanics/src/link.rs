@@ -1,0 +1,104 @@
+//! Links: a body seen from a mount on another body.
+//!
+//! Every element sits on a link from body `a` to a mount (origin and orientation) on body `b`. It sees the
+//! relative position, rotation, velocity and angular velocity in the mount's axes, and answers with a force and a
+//! moment in these axes. A wedge mounted the other way round is a mount turned by 180°, no special case.
+
+use std::ops::{Add, Mul, Sub};
+
+use integrate::scalar::Real;
+
+use crate::body::Kinematics;
+use crate::frame::FrameMotion;
+use crate::vector::{Matrix, Vector};
+
+/// A mount on a body: where an element sits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mount {
+    /// From the body's origin, body axes, m.
+    pub origin: Vector<f64>,
+    /// From mount axes to body axes.
+    pub rotation: Matrix<f64>,
+}
+
+impl Mount {
+    /// A mount at `origin` (m), turned by roll, pitch, yaw (rad).
+    #[must_use]
+    pub fn new(origin: [f64; 3], angles: [f64; 3]) -> Self {
+        Self { origin: Vector(origin), rotation: crate::turn::fixed(angles) }
+    }
+}
+
+/// The reference frame of body `a` seen from the mount on body `b`, in the mount's axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Sight<S> {
+    /// From the mount's origin to the frame's origin.
+    pub position: Vector<S>,
+    /// From the frame's axes to the mount's.
+    pub rotation: Matrix<S>,
+    /// Velocity of the frame's origin, for an observer on body `b`.
+    pub velocity: Vector<S>,
+    /// Angular velocity of the frame relative to body `b`.
+    pub angular_velocity: Vector<S>,
+    /// Velocity of the mount's origin in the fixed frame.
+    pub mount_velocity: Vector<S>,
+    /// Angular velocity of body `b` in the fixed frame.
+    pub mount_angular_velocity: Vector<S>,
+}
+
+impl<S: Real> Sight<S> {
+    /// The frame of `a` seen from the mount on `b`.
+    pub fn new(a: &FrameMotion<S>, b: &FrameMotion<S>, body: &Kinematics<S>, mount: &Mount) -> Self {
+        let turn: Matrix<S> = b.rotation.times(body.turn.rotation);
+        let axes: Matrix<S> = turn.times(mount.rotation);
+        let arm: Vector<S> = turn.apply(mount.origin);
+        let place: Vector<S> = b.rotation.apply(body.position);
+        let swing: Vector<S> = b.angular_velocity.cross(place);
+        let own: Vector<S> = b.rotation.apply(body.velocity);
+        let spin: Vector<S> = b.angular_velocity + b.rotation.apply::<S, S>(body.angular_velocity);
+        let lever: Vector<S> = spin.cross(arm);
+        let velocity = b.velocity + swing + own + lever;
+        let origin = b.position + place + arm;
+        let distance = a.position - origin;
+        let carried: Vector<S> = spin.cross(distance);
+        Self {
+            position: axes.apply_transposed(distance),
+            rotation: axes.transpose().times(a.rotation),
+            velocity: axes.apply_transposed(a.velocity - velocity - carried),
+            angular_velocity: axes.apply_transposed(a.angular_velocity - spin),
+            mount_velocity: axes.apply_transposed(velocity),
+            mount_angular_velocity: axes.apply_transposed(spin),
+        }
+    }
+
+    /// Body `a` seen from the mount.
+    #[inline(always)]
+    pub fn relative<A: Real, O: Real>(&self, a: &Kinematics<A>) -> Relative<O>
+    where
+        S: Mul<A, Output = O> + Mul<O, Output = O> + Add<O, Output = O> + Sub<O, Output = O>,
+    {
+        let place: Vector<O> = self.rotation.apply(a.position);
+        let velocity: Vector<O> = self.rotation.apply(a.velocity);
+        let swing: Vector<O> = self.angular_velocity.cross(place);
+        let spin: Vector<O> = self.rotation.apply(a.angular_velocity);
+        Relative {
+            position: self.position + place,
+            rotation: self.rotation.times(a.turn.rotation),
+            velocity: self.velocity + velocity + swing,
+            angular_velocity: self.angular_velocity + spin,
+        }
+    }
+}
+
+/// Body `a` seen from the mount on body `b`: what an element sees, in the mount's axes (SI).
+#[derive(Clone, Copy, Debug)]
+pub struct Relative<S> {
+    /// From the mount's origin to the body's origin.
+    pub position: Vector<S>,
+    /// From body axes to mount axes.
+    pub rotation: Matrix<S>,
+    /// Velocity of the body's origin, for an observer on body `b`.
+    pub velocity: Vector<S>,
+    /// Angular velocity relative to body `b`.
+    pub angular_velocity: Vector<S>,
+}

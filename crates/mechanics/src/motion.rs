@@ -1,0 +1,182 @@
+//! Prescribed motions of one coordinate: value, rate and second derivative in closed form.
+//!
+//! A motion is a function of time with exact first and second derivatives, generic over the scalar, so that
+//! its derivative by time comes from the same lines. Where a motion is not smooth (corners of a triangle,
+//! ends of a linear ramp) it names the time in [`Motion::next_break`]; between two breaks it is one smooth
+//! piece, chosen by a `reference` time inside the piece, so that the value at a break itself belongs to the
+//! piece that is being integrated.
+
+use integrate::scalar::Real;
+use serde::{Deserialize, Serialize};
+
+use crate::spline::Spline;
+
+/// A prescribed motion. Lengths in m, angles in rad, times in s, angular frequencies in rad/s.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum Motion {
+    /// A held value.
+    Constant(f64),
+    /// `amplitude · sin(angular_frequency · t + phase)`.
+    Sine {
+        /// Amplitude (m or rad).
+        amplitude: f64,
+        /// Angular frequency (rad/s).
+        angular_frequency: f64,
+        /// Phase (rad).
+        phase: f64,
+    },
+    /// A triangle wave: rises from zero to `amplitude` in a quarter period, then between plus and minus it.
+    Triangle {
+        /// Amplitude (m or rad).
+        amplitude: f64,
+        /// Angular frequency (rad/s), `2π / period`.
+        angular_frequency: f64,
+    },
+    /// `amplitude · sin(φ(t))`, φ̇ growing linearly from `start` to `end` over `duration`, and staying at
+    /// `end` thereafter. The phase is the exact integral of the frequency.
+    SweptSine {
+        /// Amplitude (m or rad).
+        amplitude: f64,
+        /// Angular frequency at time zero (rad/s).
+        start: f64,
+        /// Angular frequency from `duration` on (rad/s).
+        end: f64,
+        /// Time of the sweep (s).
+        duration: f64,
+    },
+    /// From zero to `amplitude` within `duration` after `start`, and held there.
+    Ramp {
+        /// The value held at the end (m or rad).
+        amplitude: f64,
+        /// Time at which the ramp begins (s).
+        start: f64,
+        /// Time that it takes (s).
+        duration: f64,
+        /// Its shape.
+        profile: RampProfile,
+    },
+    /// A cubic spline (C²) through tabulated points.
+    Table(Spline),
+    /// The sum of motions.
+    Sum(Vec<Motion>),
+}
+
+/// The shape of a ramp.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RampProfile {
+    /// `10 s³ - 15 s⁴ + 6 s⁵`: rate and acceleration are zero at both ends.
+    Smooth,
+    /// Constant rate; the rate jumps at both ends.
+    Linear,
+}
+
+/// Value, first and second derivative by time.
+pub type Jet<S> = [S; 3];
+
+impl Motion {
+    /// Value, rate and second derivative at `time`, on the smooth piece that holds `reference`.
+    #[must_use]
+    pub fn evaluate<S: Real>(&self, time: S, reference: f64) -> Jet<S> {
+        match self {
+            Self::Constant(value) => [S::from(*value), S::zero(), S::zero()],
+            Self::Sine { amplitude, angular_frequency, phase } => {
+                let w = *angular_frequency;
+                let (s, c) = (time * w + *phase).sin_cos();
+                [s * *amplitude, c * (*amplitude * w), s * (-*amplitude * w * w)]
+            }
+            Self::Triangle { amplitude, angular_frequency } => {
+                // Pieces are numbered by the half period around the corners at (n - 1/2) · half.
+                let half = std::f64::consts::PI / angular_frequency;
+                let n = (reference / half + 0.5).floor();
+                let sign = if n.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 };
+                let rate = sign * amplitude * 2.0 / half;
+                [(time - n * half) * rate, S::from(rate), S::zero()]
+            }
+            Self::SweptSine { amplitude, start, end, duration } => {
+                let (phase, rate, growth) = if reference < *duration {
+                    let a = (end - start) / duration;
+                    (time * *start + time * time * (0.5 * a), time * a + *start, a)
+                } else {
+                    (time * *end + 0.5 * (start - end) * duration, S::from(*end), 0.0)
+                };
+                let (s, c) = phase.sin_cos();
+                [
+                    s * *amplitude,
+                    c * rate * *amplitude,
+                    (c * growth - s * rate * rate) * *amplitude,
+                ]
+            }
+            Self::Ramp { amplitude, start, duration, profile } => {
+                if reference < *start {
+                    return [S::zero(); 3];
+                }
+                if reference >= start + duration {
+                    return [S::from(*amplitude), S::zero(), S::zero()];
+                }
+                let s = (time - *start) * (1.0 / duration);
+                match profile {
+                    RampProfile::Linear => [s * *amplitude, S::from(amplitude / duration), S::zero()],
+                    RampProfile::Smooth => {
+                        let s2 = s * s;
+                        let one = S::from(1.0);
+                        [
+                            s2 * s * (s * (s * 6.0 - 15.0) + 10.0) * *amplitude,
+                            s2 * (one - s) * (one - s) * (30.0 * amplitude / duration),
+                            s * (one - s) * (one - s * 2.0) * (60.0 * amplitude / (duration * duration)),
+                        ]
+                    }
+                }
+            }
+            Self::Table(spline) => spline.evaluate(time),
+            Self::Sum(motions) => {
+                let mut sum = [S::zero(); 3];
+                for motion in motions {
+                    let jet = motion.evaluate(time, reference);
+                    for (total, part) in sum.iter_mut().zip(jet) {
+                        *total += part;
+                    }
+                }
+                sum
+            }
+        }
+    }
+
+    /// The first time after `time` at which the motion is not smooth, if there is one.
+    #[must_use]
+    pub fn next_break(&self, time: f64) -> Option<f64> {
+        match self {
+            Self::Triangle { angular_frequency, .. } => {
+                let half = std::f64::consts::PI / angular_frequency;
+                let mut n = (time / half - 0.5).floor();
+                // The loop runs once or twice: it guards against rounding in the division.
+                loop {
+                    n += 1.0;
+                    let corner = (n + 0.5) * half;
+                    if corner > time {
+                        return Some(corner);
+                    }
+                }
+            }
+            Self::SweptSine { duration, .. } => (*duration > time).then_some(*duration),
+            Self::Ramp { start, duration, .. } => {
+                [*start, start + duration].into_iter().find(|corner| *corner > time)
+            }
+            Self::Sum(motions) => {
+                motions.iter().filter_map(|motion| motion.next_break(time)).min_by(f64::total_cmp)
+            }
+            Self::Constant(_) | Self::Sine { .. } | Self::Table(_) => None,
+        }
+    }
+
+    /// Whether the motion never moves.
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        match self {
+            Self::Constant(_) => true,
+            Self::Sum(motions) => motions.iter().all(Self::is_constant),
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! The output table: one description a column, from which every writer takes its names, units and texts.
+
+use quantity::{Kind, System as Units};
+
+/// What a column of a result holds. Values are kept in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its name without the unit, such as `wedge_x`.
+    pub name: String,
+    /// What kind of quantity it is.
+    pub kind: Kind,
+    /// The axes in which components are given.
+    pub frame: &'static str,
+    /// The point that it refers to (of moments, displacements).
+    pub reference: &'static str,
+    /// What it is, in a few words.
+    pub text: String,
+}
+
+impl Column {
+    /// The column's name with its unit, as in files: `wedge_x_in`.
+    #[must_use]
+    pub fn full_name(&self, units: Units) -> String {
+        let suffix = self.kind.suffix(units);
+        if suffix.is_empty() { self.name.clone() } else { format!("{}_{suffix}", self.name) }
+    }
+}

@@ -1,0 +1,127 @@
+//! The massless wedge in quasi-static sliding, with its jam condition.
+//!
+//! The wedge between a column (toe angle φ, positive toe out) and a slope (angle θ from the vertical) is pushed up by
+//! the coil force F_s. With a = +1 while the bolster moves down and -1 while it moves up, and b = +1 when the
+//! friction of the slope on the wedge acts up the slope, force balance along the slope and across it gives
+//! (Steets 2007, eq. 5-1, derived anew; ψ_c = atan μ_c, ψ_s = atan μ_s):
+//!
+//! ```text
+//! N_c = F_s cos ψ_c cos(θ - b ψ_s) / sin(θ + φ - b ψ_s - a ψ_c)
+//! N_s = F_s cos ψ_s cos(φ - a ψ_c) / sin(θ + φ - b ψ_s - a ψ_c)
+//! ```
+//!
+//! As printed, eq. 5-1 is this normal force for unloading, with sin φ misprinted for sin θ. A steady solution exists
+//! only while the angle in the denominator, the jam margin, is positive (and the numerators are). Units: N, rad.
+//!
+//! Limits: no mass, no moments, the faces flat on each other. Rigid kinematics choose b: toe out b = -a, toe in
+//! b = +a; with no toe the slope does not slip, and the industry's elements take the toe-out branch.
+
+/// A massless wedge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct QuasiStaticWedge {
+    /// Wedge angle θ from the vertical, rad.
+    pub angle: f64,
+    /// Toe angle φ, rad; positive is toe out.
+    pub toe: f64,
+    /// Coefficient of friction of the column.
+    pub column_friction: f64,
+    /// Coefficient of friction of the slope.
+    pub slope_friction: f64,
+}
+
+/// Which way the bolster moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// Down: loading.
+    Down,
+    /// Up: unloading.
+    Up,
+}
+
+/// Which way the friction of the slope acts on the wedge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SlopeFriction {
+    /// Up the slope (b = +1).
+    UpSlope,
+    /// Down the slope (b = -1).
+    DownSlope,
+}
+
+/// Steady sliding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sliding {
+    /// Normal force at the column, N.
+    pub column_normal: f64,
+    /// Friction at the column, `μ_c N_c`, N.
+    pub column_friction: f64,
+    /// Normal force at the slope, N.
+    pub slope_normal: f64,
+}
+
+impl Direction {
+    /// a: +1 down, -1 up.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Down => 1.0,
+            Self::Up => -1.0,
+        }
+    }
+}
+
+impl SlopeFriction {
+    /// b: +1 up the slope, -1 down the slope.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::UpSlope => 1.0,
+            Self::DownSlope => -1.0,
+        }
+    }
+}
+
+impl QuasiStaticWedge {
+    /// The branch that rigid kinematics choose: toe out (and no toe) b = -a, toe in b = +a.
+    #[must_use]
+    pub fn branch(&self, direction: Direction) -> SlopeFriction {
+        let toe_in = self.toe < 0.0;
+        match (direction, toe_in) {
+            (Direction::Down, true) | (Direction::Up, false) => SlopeFriction::UpSlope,
+            (Direction::Down, false) | (Direction::Up, true) => SlopeFriction::DownSlope,
+        }
+    }
+
+    /// The jam margin `θ + φ - b ψ_s - a ψ_c`, rad: the wedge jams where it is not positive.
+    #[must_use]
+    pub fn jam_margin(&self, direction: Direction, slope: SlopeFriction) -> f64 {
+        self.angle + self.toe
+            - slope.sign() * libm::atan(self.slope_friction)
+            - direction.sign() * libm::atan(self.column_friction)
+    }
+
+    /// Steady sliding under a coil force (N), or `None` where the wedge jams.
+    #[must_use]
+    pub fn slide(&self, direction: Direction, slope: SlopeFriction, coil_force: f64) -> Option<Sliding> {
+        let margin = self.jam_margin(direction, slope);
+        let (psi_c, psi_s) = (libm::atan(self.column_friction), libm::atan(self.slope_friction));
+        let sine = libm::sin(margin);
+        let column = libm::cos(self.angle - slope.sign() * psi_s) * libm::cos(psi_c);
+        let across = libm::cos(self.toe - direction.sign() * psi_c) * libm::cos(psi_s);
+        if sine <= 0.0 || margin <= 0.0 || column < 0.0 || across < 0.0 {
+            return None;
+        }
+        let column_normal = coil_force * column / sine;
+        Some(Sliding {
+            column_normal,
+            column_friction: self.column_friction * column_normal,
+            slope_normal: coil_force * across / sine,
+        })
+    }
+
+    /// The friction coefficient (equal at both faces) at which loading with the slope's friction up the slope
+    /// jams: `tan((θ + φ)/2)`.
+    #[must_use]
+    pub fn critical_friction(&self) -> f64 {
+        libm::tan(0.5 * (self.angle + self.toe))
+    }
+}

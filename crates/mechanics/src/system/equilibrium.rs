@@ -1,0 +1,81 @@
+//! Static equilibrium by pseudo-transient continuation.
+
+use integrate::Problem;
+use thiserror::Error;
+
+use super::System;
+use crate::body::COORDINATES;
+
+/// No equilibrium was found.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error(
+    "no static equilibrium found: after {iterations} iterations {body} still accelerates by {acceleration:.3e} \
+     (m/s² or rad/s²) in {coordinate}"
+)]
+pub struct NoEquilibrium {
+    /// Iterations done.
+    pub iterations: usize,
+    /// The body with the largest acceleration.
+    pub body: String,
+    /// Its coordinate.
+    pub coordinate: &'static str,
+    /// The acceleration that is left.
+    pub acceleration: f64,
+}
+
+/// Accelerations below this count as rest, m/s² or rad/s².
+const REST: f64 = 1e-7;
+const ITERATIONS: usize = 2000;
+
+impl System {
+    /// The state of rest near `x` at `time`, with all prescribed bodies where they are then.
+    ///
+    /// Implicit Euler steps from rest, of a length that grows as the accelerations fall: with long steps this is
+    /// Newton's method. The prescribed bodies should not move (their velocity would drag on the friction).
+    ///
+    /// # Errors
+    /// The accelerations do not fall below 1e-7 (m/s², rad/s²).
+    pub fn equilibrium(&mut self, time: f64, x: &[f64]) -> Result<Vec<f64>, NoEquilibrium> {
+        let n = self.layout.speeds;
+        let mut x = x.to_vec();
+        x[n..].fill(0.0);
+        let mut dx = vec![0.0; x.len()];
+        let mut unused = vec![0.0; x.len()];
+        let mut trial = x.clone();
+        self.derivative(time, &x, &mut dx);
+        let size = |dx: &[f64]| dx[n..2 * n].iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+        let mut residual = size(&dx);
+        let mut step = 1e-4;
+        for _ in 0..ITERATIONS {
+            if residual < REST {
+                return Ok(x);
+            }
+            unused.fill(0.0);
+            self.linearize(time, &x, &dx, &mut unused);
+            let mut change = dx.clone();
+            let mut next = f64::NAN;
+            if self.factor(1.0 / step).is_ok() {
+                self.solve(&mut change);
+                for i in 0..n {
+                    trial[i] = x[i] + change[i];
+                }
+                self.derivative(time, &trial, &mut dx);
+                next = size(&dx);
+            }
+            if next < 2.0 * residual {
+                step *= (residual / next).clamp(0.5, 10.0).max(1.2);
+                residual = next;
+                x.copy_from_slice(&trial);
+            } else {
+                step *= 0.25;
+                self.derivative(time, &x, &mut dx);
+            }
+        }
+        let worst = (0..n).fold(0, |w, i| if dx[n + i].abs() > dx[n + w].abs() { i } else { w });
+        let free = self.free.iter().rev().find(|free| free.offset <= worst);
+        let (body, coordinate) = free.map_or((String::new(), ""), |free| {
+            (self.bodies[free.body].name.clone(), COORDINATES[free.free[worst - free.offset]])
+        });
+        Err(NoEquilibrium { iterations: ITERATIONS, body, coordinate, acceleration: dx[n + worst] })
+    }
+}

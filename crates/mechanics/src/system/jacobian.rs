@@ -1,0 +1,414 @@
+//! The Jacobian, element by element, by forward differentiation of the same lines that give the forces.
+//!
+//! One pass a free body: its positions and speeds are seeded, everything else is constant. What enters the speed
+//! rows is the residual `Q(q, u) - M(q) u˙ - b(q, u)` at fixed accelerations, so that the change of M with the
+//! coordinates is included. One more pass, with a single derivative, gives the explicit dependence on time.
+
+use integrate::partitioned::Partitioned;
+use integrate::scalar::{Dual, Real};
+
+use super::forces::{Action, Element};
+use super::{FrameState, FreeBody, Mounted, System};
+use crate::body::{Body, Kinematics};
+use crate::contact::ContactFace;
+use crate::frame::FrameMotion;
+use crate::link::{Relative, Sight};
+use crate::surface::{Plane, Surface};
+use crate::vector::{Matrix, Vector};
+
+/// What a pass needs to see.
+struct Scene<'s> {
+    bodies: &'s [Body],
+    frames: &'s [FrameState],
+    kinematics: &'s [Kinematics<f64>],
+    free: &'s [FreeBody],
+    free_number: &'s [Option<usize>],
+    gravity: Vector<f64>,
+}
+
+impl System {
+    /// The Jacobian and `∂f/∂t` at the state that [`System::place`] was called with, where the rates are `dx`.
+    pub(super) fn differentiate(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
+        let layout = self.layout;
+        let [_, _, internal, _] = layout.split(x);
+        for free in &self.free {
+            for (j, &k) in free.free.iter().enumerate() {
+                self.accelerations[free.body][k] = dx[layout.speeds + free.offset + j];
+            }
+        }
+        let scene = Scene {
+            bodies: &self.bodies,
+            frames: &self.frames,
+            kinematics: &self.kinematics,
+            free: &self.free,
+            free_number: &self.free_number,
+            gravity: self.gravity,
+        };
+        self.jacobian.clear();
+        for (number, free) in self.free.iter().enumerate() {
+            let mass = self.jacobian.mass_mut(number);
+            self.kinematics[free.body].mass_matrix(&self.bodies[free.body], &free.free, mass);
+            let coordinates = self.coordinates(free, x);
+            let pass = Pass {
+                scene: &scene,
+                number,
+                coordinates,
+                accelerations: &self.accelerations[free.body],
+                faces: &self.faces,
+                coils: &self.coils,
+                internal,
+            };
+            let jacobian = &mut self.jacobian;
+            match free.free.len() {
+                1 => pass.run::<2>(jacobian),
+                2 => pass.run::<4>(jacobian),
+                3 => pass.run::<6>(jacobian),
+                4 => pass.run::<8>(jacobian),
+                5 => pass.run::<10>(jacobian),
+                _ => pass.run::<12>(jacobian),
+            }
+        }
+        for face in &self.faces {
+            if face.internal_count > 0 {
+                differentiate_internal(face, &scene, internal, &mut self.jacobian);
+            }
+        }
+        if self.moves {
+            self.differentiate_time(time, x, df_dt);
+        }
+    }
+
+    /// The partial derivative of all rates by time.
+    fn differentiate_time(&mut self, time: f64, x: &[f64], df_dt: &mut [f64]) {
+        let layout = self.layout;
+        let [_, _, internal, _] = layout.split(x);
+        let [_, d_speeds, d_internal, d_quadratures] = layout.split_mut(df_dt);
+        let clock = Dual::<1>::variable(time, 0);
+        let frame = |number: usize| -> FrameMotion<Dual<1>> {
+            if self.frames[number].fixed {
+                lift_frame(&self.frames[number].motion)
+            } else {
+                self.bodies[number].frame.evaluate(clock, self.reference)
+            }
+        };
+        for free in &self.free {
+            let state = &self.frames[free.body];
+            if state.fixed {
+                continue;
+            }
+            let (coordinates, speeds) = self.coordinates(free, x);
+            let body = &self.bodies[free.body];
+            let kinematics = Kinematics::<Dual<1>>::new(
+                coordinates.map(Dual::from),
+                speeds.map(Dual::from),
+                body.rolls(),
+            );
+            let (force, moment) = kinematics.inertia(
+                body,
+                &frame(free.body),
+                true,
+                self.gravity,
+                &self.accelerations[free.body],
+            );
+            for (j, &k) in free.free.iter().enumerate() {
+                d_speeds[free.offset + j] -= kinematics.generalized(k, &force, &moment).derivative[0];
+            }
+        }
+        for face in self.faces.iter().filter(|face| face.moves) {
+            let (a, b) = (frame(face.body), frame(face.on));
+            let internal = &internal[face.first_internal..][..face.internal_count];
+            let rates = &mut d_internal[face.first_internal..][..face.internal_count];
+            time_derivative(face, self, &a, &b, internal, rates, d_speeds, d_quadratures);
+        }
+        for coil in self.coils.iter().filter(|coil| coil.moves) {
+            let (a, b) = (frame(coil.body), frame(coil.on));
+            time_derivative(coil, self, &a, &b, &[], &mut [], d_speeds, d_quadratures);
+        }
+        for (number, free) in self.free.iter().enumerate() {
+            let right = &mut d_speeds[free.offset..free.offset + free.free.len()];
+            // The factors of the mass matrix may belong to another state: factor it anew.
+            let mass = &mut self.mass[number];
+            mass.at_mut(0).copy_from_slice(self.jacobian.mass_mut(number));
+            if mass.factor().is_ok() {
+                mass.solve(right);
+            }
+        }
+    }
+}
+
+/// The derivative by time of what one element does.
+#[inline(always)]
+fn time_derivative<E: Element>(
+    mounted: &Mounted<E>,
+    system: &System,
+    a: &FrameMotion<Dual<1>>,
+    b: &FrameMotion<Dual<1>>,
+    internal: &[f64],
+    d_internal: &mut [f64],
+    d_speeds: &mut [f64],
+    d_quadratures: &mut [f64],
+) {
+    let on = lift_kinematics(&system.kinematics[mounted.on]);
+    let sight = Sight::new(a, b, &on, &mounted.mount);
+    let relative: Relative<Dual<1>> = sight.relative(&system.kinematics[mounted.body]);
+    let action = mounted.element.act(&relative, internal, |point, rate| {
+        d_internal[2 * point] = rate[0].derivative[0];
+        d_internal[2 * point + 1] = rate[1].derivative[0];
+    });
+    let mut add = |body: usize, (force, moment): (Vector<Dual<1>>, Vector<Dual<1>>)| {
+        if let Some(number) = system.free_number[body] {
+            let free = &system.free[number];
+            let kinematics = lift_kinematics(&system.kinematics[body]);
+            for (j, &k) in free.free.iter().enumerate() {
+                d_speeds[free.offset + j] += kinematics.generalized(k, &force, &moment).derivative[0];
+            }
+        }
+    };
+    add(mounted.body, action.on_body(&sight));
+    if mounted.on_free {
+        add(mounted.on, action.reaction(&relative, &on, &mounted.mount));
+    }
+    for (channel, power) in mounted.channels.iter().zip(action.powers) {
+        if let Some(channel) = channel {
+            d_quadratures[*channel] += power.derivative[0];
+        }
+    }
+    if mounted.driven {
+        d_quadratures[0] += action.drive_power(&relative, &sight).derivative[0];
+    }
+}
+
+/// One pass: the derivatives by one body's positions and speeds.
+struct Pass<'s> {
+    scene: &'s Scene<'s>,
+    number: usize,
+    coordinates: ([f64; 6], [f64; 6]),
+    accelerations: &'s [f64; 6],
+    faces: &'s [Mounted<ContactFace<Plane>>],
+    coils: &'s [Mounted<crate::coil::Coil>],
+    internal: &'s [f64],
+}
+
+/// Force and moment on the seeded body.
+struct Load<const N: usize> {
+    force: Vector<Dual<N>>,
+    moment: Vector<Dual<N>>,
+}
+
+impl Pass<'_> {
+    fn run<const N: usize>(&self, jacobian: &mut Partitioned) {
+        let free = &self.scene.free[self.number];
+        let body = &self.scene.bodies[free.body];
+        let n = free.free.len();
+        let mut coordinates = self.coordinates.0.map(Dual::<N>::from);
+        let mut speeds = self.coordinates.1.map(Dual::<N>::from);
+        for (j, &k) in free.free.iter().enumerate() {
+            coordinates[k] = Dual::variable(self.coordinates.0[k], j);
+            speeds[k] = Dual::variable(self.coordinates.1[k], n + j);
+        }
+        let kinematics = Kinematics::new(coordinates, speeds, body.rolls());
+        let mut load = Load { force: Vector::zero(), moment: Vector::zero() };
+        for face in self.faces {
+            let internal = &self.internal[face.first_internal..][..face.internal_count];
+            self.element(face, internal, &kinematics, &mut load, jacobian);
+        }
+        for coil in self.coils {
+            self.element(coil, &[], &kinematics, &mut load, jacobian);
+        }
+        let frame = &self.scene.frames[free.body];
+        let (force, moment) = kinematics.inertia(
+            body,
+            &frame.motion,
+            !frame.fixed,
+            self.scene.gravity,
+            self.accelerations,
+        );
+        let (force, moment) = (load.force - force, load.moment - moment);
+        let blocks = jacobian.blocks_mut(free.pair);
+        add_rows(&kinematics, &free.free, n, &force, &moment, blocks);
+    }
+
+    /// Adds the derivatives of one element, if it touches the seeded body.
+    #[inline(always)]
+    fn element<E: Element, const N: usize>(
+        &self,
+        mounted: &Mounted<E>,
+        internal: &[f64],
+        seeded: &Kinematics<Dual<N>>,
+        load: &mut Load<N>,
+        jacobian: &mut Partitioned,
+    ) {
+        let scene = self.scene;
+        let free = &scene.free[self.number];
+        let n = free.free.len();
+        let carries = mounted.body == free.body;
+        if !carries && mounted.on != free.body {
+            return;
+        }
+        let side = usize::from(!carries);
+        let mut keep_rates = |point: usize, rate: [Dual<N>; 2]| {
+            let [g_q, g_u, _] = jacobian.side_mut(mounted.first_internal / 2 + point, side);
+            for (row, rate) in rate.iter().enumerate() {
+                g_q[row * n..][..n].copy_from_slice(&rate.derivative[..n]);
+                g_u[row * n..][..n].copy_from_slice(&rate.derivative[n..2 * n]);
+            }
+        };
+        let relative: Relative<Dual<N>>;
+        let action: Action<Dual<N>>;
+        let drive;
+        if carries {
+            relative = mounted.sight.relative(seeded);
+            action = mounted.element.act(&relative, internal, &mut keep_rates);
+            let (force, moment) = action.on_body(&mounted.sight);
+            load.force += force;
+            load.moment += moment;
+            if let (true, Some(on)) = (mounted.on_free, scene.free_number[mounted.on]) {
+                let kinematics = &scene.kinematics[mounted.on];
+                let (force, moment) = action.reaction(&relative, kinematics, &mounted.mount);
+                let blocks = jacobian.blocks_mut(mounted.pairs[1]);
+                add_rows(kinematics, &scene.free[on].free, n, &force, &moment, blocks);
+            }
+            drive = mounted.driven.then(|| action.drive_power(&relative, &mounted.sight));
+        } else {
+            let (a, b) = (&scene.frames[mounted.body].motion, &scene.frames[mounted.on].motion);
+            let sight = Sight::new(&lift_frame(a), &lift_frame(b), seeded, &mounted.mount);
+            let kinematics = &scene.kinematics[mounted.body];
+            relative = sight.relative(kinematics);
+            action = mounted.element.act(&relative, internal, &mut keep_rates);
+            let (force, moment) = action.on_body(&sight);
+            if let Some(number) = scene.free_number[mounted.body] {
+                let blocks = jacobian.blocks_mut(mounted.pairs[0]);
+                add_rows(kinematics, &scene.free[number].free, n, &force, &moment, blocks);
+            }
+            let (force, moment) = action.reaction(&relative, seeded, &mounted.mount);
+            load.force += force;
+            load.moment += moment;
+            drive = None;
+        }
+        let powers = [Some(action.powers[0]), Some(action.powers[1]), drive];
+        for (row, power) in mounted.rows[side].iter().zip(powers) {
+            if let (Some(row), Some(power)) = (row, power) {
+                let (p_q, p_u) = jacobian.row_mut(*row);
+                p_q.copy_from_slice(&power.derivative[..n]);
+                p_u.copy_from_slice(&power.derivative[n..2 * n]);
+            }
+        }
+    }
+}
+
+/// Adds the derivatives of the generalized forces by the seeded body's `n` positions and speeds to a block pair.
+#[inline(always)]
+fn add_rows<K: Real, const N: usize>(
+    kinematics: &Kinematics<K>,
+    free: &[usize],
+    n: usize,
+    force: &Vector<Dual<N>>,
+    moment: &Vector<Dual<N>>,
+    (stiffness, damping): (&mut [f64], &mut [f64]),
+) where
+    Kinematics<K>: Generalize<Dual<N>>,
+{
+    for (row, &k) in free.iter().enumerate() {
+        let component = kinematics.component(k, force, moment);
+        let (k_row, d_row) = (&mut stiffness[row * n..][..n], &mut damping[row * n..][..n]);
+        for j in 0..n {
+            k_row[j] += component.derivative[j];
+            d_row[j] += component.derivative[n + j];
+        }
+    }
+}
+
+/// Generalized forces of a force and a moment that carry derivatives.
+trait Generalize<S> {
+    fn component(&self, k: usize, force: &Vector<S>, moment: &Vector<S>) -> S;
+}
+
+impl<const N: usize> Generalize<Dual<N>> for Kinematics<Dual<N>> {
+    #[inline(always)]
+    fn component(&self, k: usize, force: &Vector<Dual<N>>, moment: &Vector<Dual<N>>) -> Dual<N> {
+        self.generalized(k, force, moment)
+    }
+}
+
+impl<const N: usize> Generalize<Dual<N>> for Kinematics<f64> {
+    #[inline(always)]
+    fn component(&self, k: usize, force: &Vector<Dual<N>>, moment: &Vector<Dual<N>>) -> Dual<N> {
+        if k < 3 { force.0[k] } else { self.turn.axes[k - 3].dot(*moment) }
+    }
+}
+
+/// The derivatives by the internal states of a face: of their own rates, of the forces, of the powers.
+fn differentiate_internal(
+    face: &Mounted<ContactFace<Plane>>,
+    scene: &Scene<'_>,
+    internal: &[f64],
+    jacobian: &mut Partitioned,
+) {
+    let relative: Relative<f64> = face.sight.relative(&scene.kinematics[face.body]);
+    let deflections = &internal[face.first_internal..][..face.internal_count];
+    face.element.evaluate(&relative, deflections, |point, contact| {
+        let group = face.first_internal / 2 + point;
+        let deflection = [
+            Dual::<2>::variable(deflections[2 * point], 0),
+            Dual::<2>::variable(deflections[2 * point + 1], 1),
+        ];
+        let share = face.element.points[point].share;
+        let slip = contact.slip.map(Dual::from);
+        let friction = face.element.friction(share, Dual::from(contact.normal), slip, deflection);
+        *jacobian.internal_mut(group) = [
+            friction.rate[0].derivative[0],
+            friction.rate[0].derivative[1],
+            friction.rate[1].derivative[0],
+            friction.rate[1].derivative[1],
+        ];
+        let row = face.first_internal_row + 2 * point;
+        *jacobian.internal_row_mut(row) = friction.loss.derivative;
+        for e in 0..2 {
+            let components = [0.0, friction.force[0].derivative[e], friction.force[1].derivative[e]];
+            let force = face.element.surface.compose(contact.place, components);
+            let action = Action { force, moment: contact.arm.cross(force), powers: [0.0; 2] };
+            let mut keep = |side: usize, number: usize, (force, moment): (Vector<f64>, Vector<f64>)| {
+                let free = &scene.free[number];
+                let kinematics = &scene.kinematics[free.body];
+                let n = free.free.len();
+                let [_, _, f_t] = jacobian.side_mut(group, side);
+                for (target, &k) in f_t[e * n..][..n].iter_mut().zip(&free.free) {
+                    *target = kinematics.generalized(k, &force, &moment);
+                }
+            };
+            if let Some(number) = scene.free_number[face.body] {
+                keep(0, number, action.on_body(&face.sight));
+            }
+            if let Some(number) = scene.free_number[face.on] {
+                keep(1, number, action.reaction(&relative, &scene.kinematics[face.on], &face.mount));
+            }
+            if face.driven {
+                jacobian.internal_row_mut(row + 1)[e] = action.drive_power(&relative, &face.sight);
+            }
+        }
+    });
+}
+
+fn lift_frame<const N: usize>(motion: &FrameMotion<f64>) -> FrameMotion<Dual<N>> {
+    FrameMotion {
+        position: Vector::lift(motion.position),
+        rotation: Matrix::lift(motion.rotation),
+        velocity: Vector::lift(motion.velocity),
+        angular_velocity: Vector::lift(motion.angular_velocity),
+        acceleration: Vector::lift(motion.acceleration),
+        angular_acceleration: Vector::lift(motion.angular_acceleration),
+    }
+}
+
+fn lift_kinematics(kinematics: &Kinematics<f64>) -> Kinematics<Dual<1>> {
+    Kinematics {
+        position: Vector::lift(kinematics.position),
+        velocity: Vector::lift(kinematics.velocity),
+        turn: crate::turn::Turn {
+            rotation: Matrix::lift(kinematics.turn.rotation),
+            axes: kinematics.turn.axes.map(Vector::lift),
+        },
+        rates: kinematics.rates.map(Dual::from),
+        angular_velocity: Vector::lift(kinematics.angular_velocity),
+    }
+}

@@ -1,0 +1,296 @@
+//! Bodies and elements put together: the equations of motion as a problem for the integrator.
+//!
+//! State vector `(q, u, s, w)`: free coordinates of all free bodies, their rates, internal states of the elements
+//! (bristle deflections), and quadratures (work of the prescribed motions, every dissipation). SI units.
+
+mod equilibrium;
+mod forces;
+mod jacobian;
+mod model;
+mod modes;
+mod observe;
+
+use integrate::BlockLu;
+use integrate::partitioned::{Layout, Partitioned, Structure};
+use integrate::{Problem, Singular};
+
+use crate::body::{Body, Kinematics};
+use crate::coil::Coil;
+use crate::contact::ContactFace;
+use crate::frame::FrameMotion;
+use crate::friction::FrictionLaw;
+use crate::link::{Mount, Sight};
+use crate::surface::Plane;
+use crate::vector::{Matrix, Vector};
+
+pub use equilibrium::NoEquilibrium;
+pub use model::{Channel, ChannelKind, Model, ModelError, Mounted};
+pub use modes::{CLOSING_GAP, Mode, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
+pub use observe::{BodyPlace, CoilState, Energies, FaceState, Observation};
+
+/// Fixed error scales, by kind of state: an error is measured against `relative tolerance × scale`.
+///
+/// They are fixed, not the size of the state, because the contacts turn a relative error of an absolute position into
+/// a force: 1e-6 of 10 mm at 1e6 lbf/in is 0.4 lbf.
+pub mod scales {
+    /// Displacements, m.
+    pub const DISPLACEMENT: f64 = 0.01;
+    /// Angles, rad.
+    pub const ANGLE: f64 = 0.1;
+    /// Velocities, m/s.
+    pub const VELOCITY: f64 = 1.0;
+    /// Angular velocities, rad/s.
+    pub const ANGULAR_VELOCITY: f64 = 10.0;
+    /// Bristle deflections, m.
+    pub const DEFLECTION: f64 = 0.01;
+}
+
+/// A free body's place in the state vector.
+#[derive(Clone, Debug)]
+struct FreeBody {
+    /// Its number among all bodies.
+    body: usize,
+    /// Its free coordinates.
+    free: Vec<usize>,
+    /// Its first position among q, and its first speed among u.
+    offset: usize,
+    /// Its diagonal block in the Jacobian.
+    pair: usize,
+}
+
+/// A body's reference frame.
+#[derive(Clone, Debug)]
+struct FrameState {
+    fixed: bool,
+    keeps_orientation: bool,
+    base: Matrix<f64>,
+    motion: FrameMotion<f64>,
+}
+
+/// A system of bodies and elements, ready to be integrated.
+#[derive(Clone, Debug)]
+pub struct System {
+    bodies: Vec<Body>,
+    gravity: Vector<f64>,
+    faces: Vec<Mounted<ContactFace<Plane>>>,
+    coils: Vec<Mounted<Coil>>,
+    channels: Vec<Channel>,
+    layout: Layout,
+    scales: Vec<f64>,
+    free: Vec<FreeBody>,
+    /// For each body its number among the free ones.
+    free_number: Vec<Option<usize>>,
+    frames: Vec<FrameState>,
+    /// The time at which `frames` and the sights that depend on time alone were evaluated.
+    frames_at: f64,
+    /// Start of the smooth piece of the motions, and a time inside it.
+    reference: f64,
+    kinematics: Vec<Kinematics<f64>>,
+    accelerations: Vec<[f64; 6]>,
+    force: Vec<Vector<f64>>,
+    moment: Vec<Vector<f64>>,
+    mass: Vec<BlockLu>,
+    jacobian: Partitioned,
+    /// Whether anything depends on time explicitly.
+    moves: bool,
+}
+
+impl System {
+    /// The system of a model.
+    ///
+    /// # Errors
+    /// The model refers to bodies that do not exist, has no free body, or something else that
+    /// [`ModelError`] names.
+    pub fn new(model: Model) -> Result<Self, ModelError> {
+        model::build(model)
+    }
+
+    /// The bodies.
+    #[must_use]
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+    /// The contact faces.
+    #[must_use]
+    pub fn faces(&self) -> &[Mounted<ContactFace<Plane>>] {
+        &self.faces
+    }
+    /// The coils.
+    #[must_use]
+    pub fn coils(&self) -> &[Mounted<Coil>] {
+        &self.coils
+    }
+    /// The quadratures: what each of them integrates.
+    #[must_use]
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+    /// The parts of the state vector.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        self.layout
+    }
+    /// Number of contact points, each a switch with the modes of [`Mode`].
+    #[must_use]
+    pub fn point_count(&self) -> usize {
+        self.faces.iter().map(|face| face.element.points.len()).sum()
+    }
+    /// The state at the start: initial coordinates, at rest, bristles relaxed.
+    #[must_use]
+    pub fn initial_state(&self) -> Vec<f64> {
+        let mut x = vec![0.0; self.layout.len()];
+        for free in &self.free {
+            for (j, &k) in free.free.iter().enumerate() {
+                x[free.offset + j] = self.bodies[free.body].initial[k];
+            }
+        }
+        x
+    }
+
+    /// The place of a body's coordinate (0..6) among the positions, if it is free.
+    #[must_use]
+    pub fn position_of(&self, body: usize, coordinate: usize) -> Option<usize> {
+        let free = &self.free[self.free_number[body]?];
+        free.free.iter().position(|k| *k == coordinate).map(|j| free.offset + j)
+    }
+
+    /// Coordinates and rates of a body from the state vector.
+    #[inline(always)]
+    fn coordinates(&self, free: &FreeBody, x: &[f64]) -> ([f64; 6], [f64; 6]) {
+        let mut coordinates = self.bodies[free.body].initial;
+        let mut speeds = [0.0; 6];
+        for (j, &k) in free.free.iter().enumerate() {
+            coordinates[k] = x[free.offset + j];
+            speeds[k] = x[self.layout.speeds + free.offset + j];
+        }
+        (coordinates, speeds)
+    }
+
+    /// Brings frames, sights and the kinematics of all free bodies to `time` and state `x`.
+    #[inline]
+    fn place(&mut self, time: f64, x: &[f64]) {
+        if self.moves && time != self.frames_at {
+            for (body, state) in self.bodies.iter().zip(&mut self.frames) {
+                if state.keeps_orientation && !state.fixed {
+                    state.motion = body.frame.translate(&state.base, &state.motion, time, self.reference);
+                } else if !state.fixed {
+                    state.motion = body.frame.evaluate(time, self.reference);
+                }
+            }
+        }
+        let again = time != self.frames_at;
+        self.frames_at = time;
+        for number in 0..self.free.len() {
+            let free = &self.free[number];
+            let (coordinates, speeds) = self.coordinates(free, x);
+            let body = free.body;
+            self.kinematics[body] = Kinematics::new(coordinates, speeds, self.bodies[body].rolls());
+        }
+        for mounted in &mut self.faces {
+            sight(mounted, &self.frames, &self.kinematics, again);
+        }
+        for mounted in &mut self.coils {
+            sight(mounted, &self.frames, &self.kinematics, again);
+        }
+    }
+}
+
+/// Brings an element's sight up to date, where it can have changed.
+#[inline(always)]
+fn sight<E>(mounted: &mut Mounted<E>, frames: &[FrameState], kinematics: &[Kinematics<f64>], again: bool) {
+    if mounted.on_free || (again && mounted.moves) {
+        let (a, b) = (&frames[mounted.body].motion, &frames[mounted.on].motion);
+        mounted.sight = Sight::new(a, b, &kinematics[mounted.on], &mounted.mount);
+    }
+}
+
+impl Problem for System {
+    fn dimension(&self) -> usize {
+        self.layout.len()
+    }
+
+    fn scales(&self) -> &[f64] {
+        &self.scales
+    }
+
+    fn segment(&mut self, start: f64) -> f64 {
+        let end = self
+            .bodies
+            .iter()
+            .filter_map(|body| body.frame.next_break(start))
+            .min_by(f64::total_cmp)
+            .unwrap_or(f64::INFINITY);
+        self.reference = if end.is_finite() { 0.5 * (start + end) } else { start + 1.0 };
+        self.frames_at = f64::NAN;
+        end
+    }
+
+    fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]) {
+        self.place(time, x);
+        self.forces(x, dx);
+    }
+
+    fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
+        self.place(time, x);
+        self.differentiate(time, x, dx, df_dt);
+    }
+
+    fn factor(&mut self, shift: f64) -> Result<(), Singular> {
+        self.jacobian.factor(shift)
+    }
+
+    fn solve(&mut self, b: &mut [f64]) {
+        self.jacobian.solve(b);
+    }
+
+    fn switch_count(&self) -> usize {
+        self.point_count()
+    }
+
+    fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
+        self.place(time, x);
+        self.find_modes(x, modes);
+    }
+
+    fn margins(&mut self, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+        self.place(time, x);
+        self.mode_margins(x, modes, margins);
+    }
+
+    fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
+        self.place(time, x);
+        self.follow_mode(x, index, mode)
+    }
+}
+
+/// The parts of the state vector and the structure of the Jacobian.
+fn structure(free: &[FreeBody], couplings: Vec<(usize, usize)>, model: &model::Parts) -> Structure {
+    Structure {
+        bodies: free.iter().map(|free| free.free.len()).collect(),
+        couplings,
+        internal_pairs: model.internal_pairs.clone(),
+        quadratures: model.channels.len(),
+        quadrature_bodies: model.quadrature_bodies.clone(),
+        quadrature_pairs: model.quadrature_pairs.clone(),
+    }
+}
+
+/// The error scale of one coordinate (0..6).
+fn scale_of(coordinate: usize) -> (f64, f64) {
+    if coordinate < 3 {
+        (scales::DISPLACEMENT, scales::VELOCITY)
+    } else {
+        (scales::ANGLE, scales::ANGULAR_VELOCITY)
+    }
+}
+
+/// Whether a law has internal states, two a point.
+fn is_bristle(law: &FrictionLaw) -> bool {
+    law.states_per_point() == 2
+}
+
+/// The identity mount, for tests and simple models.
+#[must_use]
+pub fn mount_at(origin: [f64; 3]) -> Mount {
+    Mount::new(origin, [0.0; 3])
+}

@@ -1,0 +1,327 @@
+//! The description of a system, and how it becomes a [`System`].
+
+use integrate::BlockLu;
+use integrate::partitioned::Partitioned;
+use thiserror::Error;
+
+use super::{FrameState, FreeBody, System, is_bristle, scale_of, scales, structure};
+use crate::body::{Body, Kinematics};
+use crate::coil::Coil;
+use crate::contact::ContactFace;
+use crate::link::{Mount, Sight};
+use crate::surface::Plane;
+use crate::vector::Vector;
+
+/// Bodies and the elements between them.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// All bodies, free and prescribed.
+    pub bodies: Vec<Body>,
+    /// Gravity in the fixed frame, m/s².
+    pub gravity: [f64; 3],
+    /// Contact faces: number of the body that carries the points (free), number of the body that carries the
+    /// surface, mount of the surface.
+    pub faces: Vec<(usize, usize, Mount, ContactFace<Plane>)>,
+    /// Coils: number of the carried body (free), number of the body with the seat, mount of the seat.
+    pub coils: Vec<(usize, usize, Mount, Coil)>,
+}
+
+/// Why a model makes no system.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ModelError {
+    /// An element names a body that does not exist.
+    #[error("an element refers to body {number}, but there are only {count} (counted from 0)")]
+    NoSuchBody {
+        /// The number that it names.
+        number: usize,
+        /// How many bodies there are.
+        count: usize,
+    },
+    /// An element carries a body without free coordinates.
+    #[error("{body} carries an element, but none of its coordinates is free")]
+    NotFree {
+        /// The body's name.
+        body: String,
+    },
+    /// An element joins a body to itself.
+    #[error("an element joins {body} to itself")]
+    Itself {
+        /// The body's name.
+        body: String,
+    },
+    /// No coordinate at all is free.
+    #[error("no body has a free coordinate: nothing can move")]
+    NothingFree,
+    /// A free body has held coordinates in a moving frame.
+    #[error(
+        "{body} has held coordinates in a reference frame that moves: the work of what holds them would be missing \
+         in the energy ledger; free all six coordinates, and hold the body by stiff elements"
+    )]
+    HeldInMovingFrame {
+        /// The body's name.
+        body: String,
+    },
+}
+
+/// An element in its place.
+#[derive(Clone, Debug)]
+pub struct Mounted<E> {
+    /// The element.
+    pub element: E,
+    /// The body that it carries (free).
+    pub body: usize,
+    /// The body that it stands on.
+    pub on: usize,
+    /// Where it is mounted there.
+    pub mount: Mount,
+    /// Its first internal state (relative to the internal states), and its first pair of them.
+    pub first_internal: usize,
+    /// Number of its internal states.
+    pub internal_count: usize,
+    /// Its losses' quadratures.
+    pub channels: [Option<usize>; 2],
+    /// Whether the body that it stands on has free coordinates.
+    pub(super) on_free: bool,
+    /// Whether its sight changes with time alone.
+    pub(super) moves: bool,
+    /// Whether the body that it stands on is prescribed and moves.
+    pub(super) driven: bool,
+    pub(super) sight: Sight<f64>,
+    /// Coupling blocks (body, on) and (on, body).
+    pub(super) pairs: [usize; 2],
+    /// Rows of the quadratures (channels, work) by `body` and by `on`.
+    pub(super) rows: [[Option<usize>; 3]; 2],
+    /// First row of the quadratures by pairs of internal states.
+    pub(super) first_internal_row: usize,
+}
+
+/// What a quadrature integrates.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Channel {
+    /// Its kind.
+    pub kind: ChannelKind,
+    /// The element's name; empty for the work of the motions.
+    pub element: String,
+}
+
+/// Kinds of quadratures; all in J.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChannelKind {
+    /// Work done by all prescribed motions.
+    MotionWork,
+    /// Energy lost in friction.
+    FrictionLoss,
+    /// Energy lost in contact damping.
+    ContactDampingLoss,
+    /// Energy lost in a coil's damping.
+    CoilDampingLoss,
+    /// Work done by a coil's guiding couple.
+    CoilGuideWork,
+}
+
+/// What is gathered while elements are put in place.
+pub(super) struct Parts {
+    pub channels: Vec<Channel>,
+    pub internal_pairs: Vec<Vec<usize>>,
+    pub quadrature_bodies: Vec<(usize, usize)>,
+    pub quadrature_pairs: Vec<(usize, usize)>,
+}
+
+pub(super) fn build(model: Model) -> Result<System, ModelError> {
+    let Model { bodies, gravity, faces, coils } = model;
+    let mut free = Vec::new();
+    let mut free_number = vec![None; bodies.len()];
+    let mut offset = 0;
+    for (number, body) in bodies.iter().enumerate() {
+        let coordinates: Vec<usize> = (0..6).filter(|k| body.free[*k]).collect();
+        if coordinates.is_empty() {
+            continue;
+        }
+        if !body.frame.is_fixed() && coordinates.len() < 6 {
+            return Err(ModelError::HeldInMovingFrame { body: body.name.clone() });
+        }
+        free_number[number] = Some(free.len());
+        let count = coordinates.len();
+        free.push(FreeBody { body: number, free: coordinates, offset, pair: 0 });
+        offset += count;
+    }
+    if free.is_empty() {
+        return Err(ModelError::NothingFree);
+    }
+    let frames: Vec<FrameState> = bodies
+        .iter()
+        .map(|body| FrameState {
+            fixed: body.frame.is_fixed(),
+            keeps_orientation: body.frame.keeps_orientation(),
+            base: crate::turn::fixed(body.frame.orientation),
+            motion: body.frame.evaluate(0.0, 0.0),
+        })
+        .collect();
+    let kinematics: Vec<Kinematics<f64>> =
+        bodies.iter().map(|body| Kinematics::new(body.initial, [0.0; 6], body.rolls())).collect();
+
+    let mut parts = Parts {
+        channels: vec![Channel { kind: ChannelKind::MotionWork, element: String::new() }],
+        internal_pairs: Vec::new(),
+        quadrature_bodies: Vec::new(),
+        quadrature_pairs: Vec::new(),
+    };
+    let mut placer =
+        Placer { bodies: &bodies, frames: &frames, kinematics: &kinematics, free_number: &free_number, parts: &mut parts };
+    let mut mounted_faces = Vec::new();
+    for (body, on, mount, face) in faces {
+        let damped = face.points.iter().any(|point| point.damping > 0.0);
+        let kinds = [
+            Some(ChannelKind::FrictionLoss),
+            damped.then_some(ChannelKind::ContactDampingLoss),
+        ];
+        let pairs = if is_bristle(&face.law) { face.points.len() } else { 0 };
+        let name = face.name.clone();
+        mounted_faces.push(placer.place(face, &name, body, on, mount, kinds, pairs)?);
+    }
+    let mut mounted_coils = Vec::new();
+    for (body, on, mount, coil) in coils {
+        let damped = coil.damping > 0.0 || coil.rotational_damping > 0.0;
+        let kinds = [
+            damped.then_some(ChannelKind::CoilDampingLoss),
+            (coil.acts_at != coil.end).then_some(ChannelKind::CoilGuideWork),
+        ];
+        let name = if mounted_coils.is_empty() { "coil".to_owned() } else { format!("coil_{}", mounted_coils.len() + 1) };
+        mounted_coils.push(placer.place(coil, &name, body, on, mount, kinds, 0)?);
+    }
+
+    let ends = |body: usize, on: usize| Some((free_number[body]?, free_number[on]?));
+    let faces_at = mounted_faces.iter().map(|m| (m.body, m.on));
+    let coils_at = mounted_coils.iter().map(|m| (m.body, m.on));
+    let couplings = faces_at.chain(coils_at).filter_map(|(body, on)| ends(body, on)).collect();
+    let jacobian = Partitioned::new(&structure(&free, couplings, &parts));
+    let layout = jacobian.layout();
+    let mut mass = Vec::new();
+    for (number, free) in free.iter_mut().enumerate() {
+        free.pair = jacobian.pair(number, number);
+        mass.push(BlockLu::new(&[free.free.len()], &[]));
+    }
+    for mounted in &mut mounted_faces {
+        mounted.find_pairs(&jacobian, &free_number);
+    }
+    for mounted in &mut mounted_coils {
+        mounted.find_pairs(&jacobian, &free_number);
+    }
+
+    let mut error_scales = vec![f64::INFINITY; layout.len()];
+    {
+        let [q, u, s, _] = layout.split_mut(&mut error_scales);
+        for free in &free {
+            for (j, &k) in free.free.iter().enumerate() {
+                (q[free.offset + j], u[free.offset + j]) = scale_of(k);
+            }
+        }
+        s.fill(scales::DEFLECTION);
+    }
+    let moves = frames.iter().any(|frame| !frame.fixed);
+    Ok(System {
+        accelerations: vec![[0.0; 6]; bodies.len()],
+        force: vec![Vector::zero(); bodies.len()],
+        moment: vec![Vector::zero(); bodies.len()],
+        bodies,
+        gravity: Vector(gravity),
+        faces: mounted_faces,
+        coils: mounted_coils,
+        channels: parts.channels,
+        layout,
+        scales: error_scales,
+        free,
+        free_number,
+        frames,
+        frames_at: f64::NAN,
+        reference: 0.0,
+        kinematics,
+        mass,
+        jacobian,
+        moves,
+    })
+}
+
+/// Puts elements in their places.
+struct Placer<'m> {
+    bodies: &'m [Body],
+    frames: &'m [FrameState],
+    kinematics: &'m [Kinematics<f64>],
+    free_number: &'m [Option<usize>],
+    parts: &'m mut Parts,
+}
+
+impl Placer<'_> {
+    fn place<E>(
+        &mut self,
+        element: E,
+        name: &str,
+        body: usize,
+        on: usize,
+        mount: Mount,
+        kinds: [Option<ChannelKind>; 2],
+        pairs: usize,
+    ) -> Result<Mounted<E>, ModelError> {
+        let count = self.bodies.len();
+        for number in [body, on] {
+            if number >= count {
+                return Err(ModelError::NoSuchBody { number, count });
+            }
+        }
+        if body == on {
+            return Err(ModelError::Itself { body: self.bodies[body].name.clone() });
+        }
+        let Some(number) = self.free_number[body] else {
+            return Err(ModelError::NotFree { body: self.bodies[body].name.clone() });
+        };
+        let on_number = self.free_number[on];
+        let parts = &mut *self.parts;
+        let driven = on_number.is_none() && !self.frames[on].fixed;
+        let channels = kinds.map(|kind| {
+            kind.map(|kind| {
+                parts.channels.push(Channel { kind, element: name.to_owned() });
+                parts.channels.len() - 1
+            })
+        });
+        let quadratures = [channels[0], channels[1], driven.then_some(0)];
+        let rows = [Some(number), on_number].map(|end| {
+            quadratures.map(|quadrature| {
+                parts.quadrature_bodies.push((quadrature?, end?));
+                Some(parts.quadrature_bodies.len() - 1)
+            })
+        });
+        let first_pair = parts.internal_pairs.len();
+        let first_internal_row = parts.quadrature_pairs.len();
+        for pair in first_pair..first_pair + pairs {
+            parts.internal_pairs.push([Some(number), on_number].into_iter().flatten().collect());
+            // Friction loss and the work of the motion depend on the bristle.
+            for quadrature in [channels[0].unwrap_or(0), 0] {
+                parts.quadrature_pairs.push((quadrature, pair));
+            }
+        }
+        Ok(Mounted {
+            element,
+            body,
+            on,
+            first_internal: 2 * first_pair,
+            internal_count: 2 * pairs,
+            channels,
+            on_free: on_number.is_some(),
+            moves: !self.frames[on].fixed || !self.frames[body].fixed,
+            driven,
+            sight: Sight::new(&self.frames[body].motion, &self.frames[on].motion, &self.kinematics[on], &mount),
+            mount,
+            pairs: [0; 2],
+            rows,
+            first_internal_row,
+        })
+    }
+}
+
+impl<E> Mounted<E> {
+    fn find_pairs(&mut self, jacobian: &Partitioned, free_number: &[Option<usize>]) {
+        if let (Some(body), Some(on)) = (free_number[self.body], free_number[self.on]) {
+            self.pairs = [jacobian.pair(body, on), jacobian.pair(on, body)];
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! Contact and friction modes of every point: open, stick, slip; when they change.
+//!
+//! Modes are recorded, they do not change the forces. Thresholds with hysteresis keep rounding from counting as
+//! events:
+//! - a point closes where its gap falls to [`CLOSING_GAP`], and opens where it grows to [`OPENING_GAP`];
+//! - it starts to slip where the load of its friction law rises to [`SLIP_LOAD`], and sticks again where it falls to
+//!   [`STICK_LOAD`]. The load is |v|/v0 with tanh and |T|/(μN) with the bristle.
+
+use super::System;
+use crate::friction::FrictionLaw;
+use crate::link::Relative;
+
+/// A point closes at this gap, m.
+pub const CLOSING_GAP: f64 = 0.0;
+/// A point opens at this gap, m: a millionth of an inch.
+pub const OPENING_GAP: f64 = 2.54e-8;
+/// Load at which slip begins: tanh (|v|/v0; the force is 0.96 of its limit), bristle (|T|/(μN)).
+pub const SLIP_LOAD: [f64; 2] = [2.0, 1.0];
+/// Load at which stick begins: tanh (|v|/v0; the force is 0.76 of its limit), bristle (|T|/(μN)).
+pub const STICK_LOAD: [f64; 2] = [1.0, 0.999];
+
+/// What a contact point does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Mode {
+    /// No contact.
+    Open = 0,
+    /// In contact, not slipping.
+    Stick = 1,
+    /// In contact, slipping.
+    Slip = 2,
+}
+
+impl Mode {
+    /// The mode with this number; other numbers mean slip.
+    #[must_use]
+    pub fn from_number(number: u8) -> Self {
+        match number {
+            0 => Self::Open,
+            1 => Self::Stick,
+            _ => Self::Slip,
+        }
+    }
+
+    /// Its name, as in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Open => "open",
+            Self::Stick => "stick",
+            Self::Slip => "slip",
+        }
+    }
+}
+
+/// Gap and friction load of a point.
+#[derive(Clone, Copy, Debug)]
+struct Signs {
+    gap: f64,
+    load: f64,
+    law: usize,
+}
+
+impl Signs {
+    /// Positive while the mode lasts.
+    fn margin(self, mode: Mode) -> f64 {
+        let stays_closed = (OPENING_GAP - self.gap) / OPENING_GAP;
+        // A closed point in the band of hysteresis carries no force: its friction says nothing.
+        let load = if self.gap < 0.0 { self.load } else { f64::NAN };
+        let friction = match mode {
+            Mode::Open => return self.gap - CLOSING_GAP,
+            Mode::Stick => SLIP_LOAD[self.law] - load,
+            Mode::Slip => load - STICK_LOAD[self.law],
+        };
+        // `min` passes over NaN.
+        friction.min(stays_closed)
+    }
+
+    /// The mode that follows one that must be left.
+    fn next(self, mode: Mode) -> Mode {
+        match mode {
+            Mode::Open => self.closed(),
+            _ if self.gap >= OPENING_GAP => Mode::Open,
+            Mode::Stick if self.load >= SLIP_LOAD[self.law] => Mode::Slip,
+            Mode::Slip if self.load <= STICK_LOAD[self.law] => Mode::Stick,
+            same => same,
+        }
+    }
+
+    fn closed(self) -> Mode {
+        if self.load < SLIP_LOAD[self.law] { Mode::Stick } else { Mode::Slip }
+    }
+}
+
+impl System {
+    /// Gap and load of every point, in the order of faces and points.
+    #[inline(always)]
+    fn signs(&self, x: &[f64], mut each: impl FnMut(usize, Signs)) {
+        let [_, _, internal, _] = self.layout.split(x);
+        let mut index = 0;
+        for face in &self.faces {
+            let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
+            let deflections = &internal[face.first_internal..][..face.internal_count];
+            let law = usize::from(matches!(face.element.law, FrictionLaw::Bristle { .. }));
+            for (i, point) in face.element.points.iter().enumerate() {
+                let contact = face.element.geometry(point, &relative);
+                let load = if law == 0 {
+                    face.element.friction(1.0, 0.0, contact.slip, [0.0; 2]).load
+                } else if contact.gap < 0.0 {
+                    let elastic = -contact.gap * point.stiffness;
+                    let normal = (elastic - contact.gap_rate * point.damping).max(0.0);
+                    let deflection = [deflections[2 * i], deflections[2 * i + 1]];
+                    face.element.friction(point.share, normal, contact.slip, deflection).load
+                } else {
+                    0.0
+                };
+                each(index, Signs { gap: contact.gap, load, law });
+                index += 1;
+            }
+        }
+    }
+
+    pub(super) fn find_modes(&self, x: &[f64], modes: &mut [u8]) {
+        self.signs(x, |i, signs| {
+            modes[i] = if signs.gap < CLOSING_GAP { signs.closed() } else { Mode::Open } as u8;
+        });
+    }
+
+    pub(super) fn mode_margins(&self, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+        self.signs(x, |i, signs| margins[i] = signs.margin(Mode::from_number(modes[i])));
+    }
+
+    pub(super) fn follow_mode(&self, x: &[f64], index: usize, mode: u8) -> u8 {
+        let mut next = mode;
+        self.signs(x, |i, signs| {
+            if i == index {
+                next = signs.next(Mode::from_number(mode)) as u8;
+            }
+        });
+        next
+    }
+}

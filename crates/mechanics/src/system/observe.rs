@@ -1,0 +1,229 @@
+//! Derived quantities: everything that a state says, for outputs.
+
+use integrate::Problem;
+
+use super::System;
+use crate::coil::CoilForce;
+use crate::contact::PointContact;
+use crate::link::Relative;
+use crate::system::forces::Action;
+use crate::vector::{Matrix, Vector};
+
+/// Where a body is and how it moves, in the fixed frame (SI).
+#[derive(Clone, Copy, Debug)]
+pub struct BodyPlace {
+    /// All six coordinates, relative to the body's reference frame.
+    pub coordinates: [f64; 6],
+    /// Their rates.
+    pub speeds: [f64; 6],
+    /// Position of the body's origin.
+    pub origin: Vector<f64>,
+    /// Displacement of the body's origin from its place at zero motion and zero coordinates.
+    pub travel: Vector<f64>,
+    /// From body axes to fixed axes.
+    pub rotation: Matrix<f64>,
+    /// Velocity of the body's origin.
+    pub velocity: Vector<f64>,
+    /// Angular velocity.
+    pub angular_velocity: Vector<f64>,
+    /// Position of the centre of gravity.
+    pub center_of_gravity: Vector<f64>,
+}
+
+/// A contact face in the fixed frame's axes (SI).
+#[derive(Clone, Debug)]
+pub struct FaceState {
+    /// Its points, in mount axes.
+    pub points: Vec<PointContact<f64>>,
+    /// From mount axes to fixed axes.
+    pub axes: Matrix<f64>,
+    /// Position of the mount's origin.
+    pub origin: Vector<f64>,
+    /// Position of each point.
+    pub places: Vec<Vector<f64>>,
+    /// Normal force on the carried body at each point.
+    pub normal_forces: Vec<Vector<f64>>,
+    /// Friction force on the carried body at each point.
+    pub friction_forces: Vec<Vector<f64>>,
+    /// Σ F_t·v of the friction forces, W; positive when bristles give back.
+    pub friction_power: f64,
+    /// Power lost in friction, W; never negative.
+    pub friction_loss: f64,
+    /// Energy in the contact springs, J.
+    pub normal_energy: f64,
+    /// Energy in the bristles, J.
+    pub bristle_energy: f64,
+}
+
+/// A coil.
+#[derive(Clone, Copy, Debug)]
+pub struct CoilState {
+    /// What it does, mount axes.
+    pub coil: CoilForce<f64>,
+    /// Force on the carried body, fixed axes, N.
+    pub force: Vector<f64>,
+    /// The spring's part of it.
+    pub spring_force: Vector<f64>,
+    /// The moment about the carried body's origin, fixed axes, N·m.
+    pub moment: Vector<f64>,
+    /// Stored energy, J.
+    pub energy: f64,
+}
+
+/// Energies of the whole system, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energies {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Potential energy in the gravity field.
+    pub gravity: f64,
+    /// Energy of the coils.
+    pub coil: f64,
+    /// Energy of the contact springs.
+    pub contact: f64,
+    /// Energy of the bristles.
+    pub bristle: f64,
+}
+
+impl Energies {
+    /// All of it.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.gravity + self.coil + self.contact + self.bristle
+    }
+}
+
+/// Everything that a state says.
+#[derive(Clone, Debug)]
+pub struct Observation {
+    /// Time, s.
+    pub time: f64,
+    /// All bodies.
+    pub bodies: Vec<BodyPlace>,
+    /// All faces.
+    pub faces: Vec<FaceState>,
+    /// All coils.
+    pub coils: Vec<CoilState>,
+    /// Energies.
+    pub energies: Energies,
+    /// Values of the quadratures, J, in the order of [`System::channels`].
+    pub quadratures: Vec<f64>,
+}
+
+impl System {
+    /// Everything that the state `x` at `time` says.
+    #[must_use]
+    pub fn observe(&mut self, time: f64, x: &[f64]) -> Observation {
+        let mut dx = vec![0.0; x.len()];
+        self.derivative(time, x, &mut dx);
+        let mut energies = Energies::default();
+        let mut bodies = Vec::with_capacity(self.bodies.len());
+        for (number, body) in self.bodies.iter().enumerate() {
+            let (frame, kinematics) = (&self.frames[number].motion, &self.kinematics[number]);
+            let (coordinates, speeds) = match self.free_number[number] {
+                Some(free) => self.coordinates(&self.free[free], x),
+                None => (body.initial, [0.0; 6]),
+            };
+            let cg = kinematics.place(frame, Vector(body.center_of_gravity));
+            let (velocity, omega) = kinematics.absolute(frame, Vector::zero());
+            bodies.push(BodyPlace {
+                coordinates,
+                speeds,
+                origin: kinematics.place(frame, Vector::zero()),
+                travel: kinematics.place(frame, Vector::zero()) - Vector(body.frame.origin),
+                rotation: kinematics.orientation(frame),
+                velocity: frame.rotation.apply(velocity),
+                angular_velocity: frame.rotation.apply(omega),
+                center_of_gravity: cg,
+            });
+            energies.kinetic += kinematics.kinetic_energy(body, frame);
+            energies.gravity -= body.mass * self.gravity.dot::<f64, f64>(cg);
+        }
+        let [_, _, internal, quadratures] = self.layout.split(x);
+        let faces: Vec<FaceState> = (0..self.faces.len()).map(|i| self.face_state(i, internal)).collect();
+        for face in &faces {
+            energies.contact += face.normal_energy;
+            energies.bristle += face.bristle_energy;
+        }
+        let mut coils = Vec::with_capacity(self.coils.len());
+        for mounted in &self.coils {
+            let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
+            let coil = mounted.element.evaluate(&relative);
+            let (axes, _) = self.mount_pose(mounted.on, &mounted.mount);
+            let energy = mounted.element.energy(coil.length);
+            energies.coil += energy;
+            coils.push(CoilState { coil, force: axes.apply(coil.force), spring_force: axes.apply(coil.spring_force), moment: axes.apply(coil.moment), energy });
+        }
+        Observation { time, bodies, faces, coils, energies, quadratures: quadratures.to_vec() }
+    }
+
+    fn face_state(&self, index: usize, internal: &[f64]) -> FaceState {
+        let mounted = &self.faces[index];
+        let face = &mounted.element;
+        let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
+        let deflections = &internal[mounted.first_internal..][..mounted.internal_count];
+        let mut points: Vec<PointContact<f64>> =
+            face.points.iter().map(|point| face.geometry(point, &relative)).collect();
+        let sum = face.evaluate(&relative, deflections, |i, contact| points[i] = *contact);
+        let (axes, origin) = self.mount_pose(mounted.on, &mounted.mount);
+        let mut state = FaceState {
+            axes,
+            origin,
+            places: points.iter().map(|point| origin + axes.apply::<f64, f64>(point.place)).collect(),
+            normal_forces: Vec::new(),
+            friction_forces: Vec::new(),
+            friction_power: 0.0,
+            friction_loss: sum.friction_loss,
+            normal_energy: 0.0,
+            bristle_energy: 0.0,
+            points,
+        };
+        for (i, (contact, point)) in state.points.iter().zip(&face.points).enumerate() {
+            let [t1, t2] = contact.friction.force;
+            // For every surface the normal is the first component of `compose`.
+            let normal = compose(face, contact, [contact.normal, 0.0, 0.0]);
+            let friction = compose(face, contact, [0.0, t1, t2]);
+            state.normal_forces.push(axes.apply(normal));
+            state.friction_forces.push(axes.apply(friction));
+            state.friction_power += t1 * contact.slip[0] + t2 * contact.slip[1];
+            if contact.gap < 0.0 {
+                state.normal_energy += 0.5 * point.stiffness * contact.gap * contact.gap;
+            }
+            if let (crate::friction::FrictionLaw::Bristle { stiffness, .. }, Some(e)) =
+                (face.law, deflections.get(2 * i..2 * i + 2))
+            {
+                state.bristle_energy += 0.5 * stiffness * point.share * (e[0] * e[0] + e[1] * e[1]);
+            }
+        }
+        state
+    }
+
+    /// Axes and origin of a mount in the fixed frame.
+    fn mount_pose(&self, on: usize, mount: &crate::link::Mount) -> (Matrix<f64>, Vector<f64>) {
+        let (frame, kinematics) = (&self.frames[on].motion, &self.kinematics[on]);
+        let turn: Matrix<f64> = kinematics.orientation(frame);
+        (turn.times(mount.rotation), kinematics.place(frame, mount.origin))
+    }
+
+    /// The reaction of an element on the body that it stands on: force and moment about `point` (fixed frame).
+    #[must_use]
+    pub fn reaction_about(
+        &self,
+        force: Vector<f64>,
+        moment: Vector<f64>,
+        from: Vector<f64>,
+        point: Vector<f64>,
+    ) -> (Vector<f64>, Vector<f64>) {
+        let lever: Vector<f64> = from - point;
+        let action = Action { force, moment, powers: [0.0; 2] };
+        (-action.force, -(action.moment + lever.cross::<f64, f64>(action.force)))
+    }
+}
+
+fn compose<F: crate::surface::Surface>(
+    face: &crate::contact::ContactFace<F>,
+    contact: &PointContact<f64>,
+    components: [f64; 3],
+) -> Vector<f64> {
+    face.surface.compose(contact.place, components)
+}

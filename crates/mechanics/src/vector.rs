@@ -1,0 +1,193 @@
+//! Vectors and matrices of three, generic over the scalar.
+//!
+//! Products may mix a plain matrix with a vector that carries derivatives: what is constant in a pass of
+//! differentiation costs no derivative arithmetic.
+
+use std::ops::{Add, AddAssign, Mul, Neg, Sub};
+
+use integrate::scalar::Real;
+
+/// A vector of three components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vector<S>(pub [S; 3]);
+
+/// A 3 × 3 matrix by rows; mostly a rotation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Matrix<S>(pub [[S; 3]; 3]);
+
+impl<S: Real> Vector<S> {
+    /// The zero vector.
+    #[inline(always)]
+    #[must_use]
+    pub fn zero() -> Self {
+        Self([S::zero(); 3])
+    }
+    /// A plain vector as one with derivatives that are zero.
+    #[inline(always)]
+    #[must_use]
+    pub fn lift(v: Vector<f64>) -> Self {
+        Self(v.0.map(S::from))
+    }
+    /// The values without derivatives.
+    #[inline(always)]
+    #[must_use]
+    pub fn value(self) -> Vector<f64> {
+        Vector(self.0.map(Real::value))
+    }
+    /// The scalar product.
+    #[inline(always)]
+    #[must_use]
+    pub fn dot<R: Copy, O>(self, o: Vector<R>) -> O
+    where
+        S: Mul<R, Output = O>,
+        O: Add<Output = O>,
+    {
+        self.0[0] * o.0[0] + self.0[1] * o.0[1] + self.0[2] * o.0[2]
+    }
+    /// The vector product.
+    #[inline(always)]
+    #[must_use]
+    pub fn cross<R: Copy, O>(self, o: Vector<R>) -> Vector<O>
+    where
+        S: Mul<R, Output = O>,
+        O: Sub<Output = O>,
+    {
+        let (a, b) = (self.0, o.0);
+        Vector([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+    }
+    /// This vector times a number.
+    #[inline(always)]
+    #[must_use]
+    pub fn scale<R: Copy, O>(self, factor: R) -> Vector<O>
+    where
+        S: Mul<R, Output = O>,
+    {
+        Vector([self.0[0] * factor, self.0[1] * factor, self.0[2] * factor])
+    }
+}
+
+impl<S: Real> Matrix<S> {
+    /// The unit matrix.
+    #[inline(always)]
+    #[must_use]
+    pub fn identity() -> Self {
+        let (o, i) = (S::zero(), S::from(1.0));
+        Self([[i, o, o], [o, i, o], [o, o, i]])
+    }
+    /// A plain matrix as one with derivatives that are zero.
+    #[inline(always)]
+    #[must_use]
+    pub fn lift(m: Matrix<f64>) -> Self {
+        Self(m.0.map(|row| row.map(S::from)))
+    }
+    /// The values without derivatives.
+    #[inline(always)]
+    #[must_use]
+    pub fn value(self) -> Matrix<f64> {
+        Matrix(self.0.map(|row| row.map(Real::value)))
+    }
+    /// The transposed matrix.
+    #[inline(always)]
+    #[must_use]
+    pub fn transpose(self) -> Self {
+        let m = self.0;
+        Self([
+            [m[0][0], m[1][0], m[2][0]],
+            [m[0][1], m[1][1], m[2][1]],
+            [m[0][2], m[1][2], m[2][2]],
+        ])
+    }
+    /// One column.
+    #[inline(always)]
+    #[must_use]
+    pub fn column(self, j: usize) -> Vector<S> {
+        Vector([self.0[0][j], self.0[1][j], self.0[2][j]])
+    }
+    /// This matrix times a vector.
+    #[inline(always)]
+    #[must_use]
+    pub fn apply<R: Copy, O>(self, v: Vector<R>) -> Vector<O>
+    where
+        S: Mul<R, Output = O>,
+        O: Add<Output = O>,
+    {
+        Vector(self.0.map(|row| row[0] * v.0[0] + row[1] * v.0[1] + row[2] * v.0[2]))
+    }
+    /// The transposed matrix times a vector.
+    #[inline(always)]
+    #[must_use]
+    pub fn apply_transposed<R: Copy, O>(self, v: Vector<R>) -> Vector<O>
+    where
+        S: Mul<R, Output = O>,
+        O: Add<Output = O>,
+    {
+        self.transpose().apply(v)
+    }
+    /// This matrix times another.
+    #[inline(always)]
+    #[must_use]
+    pub fn times<R: Copy, O: Copy>(self, o: Matrix<R>) -> Matrix<O>
+    where
+        S: Mul<R, Output = O>,
+        O: Add<Output = O>,
+    {
+        Matrix(self.0.map(|row| {
+            std::array::from_fn(|j| row[0] * o.0[0][j] + row[1] * o.0[1][j] + row[2] * o.0[2][j])
+        }))
+    }
+}
+
+/// Rotation about +x by the angle with this sine and cosine.
+#[inline(always)]
+#[must_use]
+pub fn rotation_x<S: Real>((s, c): (S, S)) -> Matrix<S> {
+    let (o, i) = (S::zero(), S::from(1.0));
+    Matrix([[i, o, o], [o, c, -s], [o, s, c]])
+}
+
+/// Rotation about +y by the angle with this sine and cosine.
+#[inline(always)]
+#[must_use]
+pub fn rotation_y<S: Real>((s, c): (S, S)) -> Matrix<S> {
+    let (o, i) = (S::zero(), S::from(1.0));
+    Matrix([[c, o, s], [o, i, o], [-s, o, c]])
+}
+
+/// Rotation about +z by the angle with this sine and cosine.
+#[inline(always)]
+#[must_use]
+pub fn rotation_z<S: Real>((s, c): (S, S)) -> Matrix<S> {
+    let (o, i) = (S::zero(), S::from(1.0));
+    Matrix([[c, -s, o], [s, c, o], [o, o, i]])
+}
+
+impl<S: Copy + Add<R, Output = O>, R: Copy, O> Add<Vector<R>> for Vector<S> {
+    type Output = Vector<O>;
+    #[inline(always)]
+    fn add(self, o: Vector<R>) -> Vector<O> {
+        Vector([self.0[0] + o.0[0], self.0[1] + o.0[1], self.0[2] + o.0[2]])
+    }
+}
+
+impl<S: Copy + Sub<R, Output = O>, R: Copy, O> Sub<Vector<R>> for Vector<S> {
+    type Output = Vector<O>;
+    #[inline(always)]
+    fn sub(self, o: Vector<R>) -> Vector<O> {
+        Vector([self.0[0] - o.0[0], self.0[1] - o.0[1], self.0[2] - o.0[2]])
+    }
+}
+
+impl<S: Real> AddAssign for Vector<S> {
+    #[inline(always)]
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
+
+impl<S: Real> Neg for Vector<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(self.0.map(Neg::neg))
+    }
+}

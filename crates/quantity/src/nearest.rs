@@ -1,0 +1,59 @@
+//! "Did you mean ...?"
+
+/// The candidate nearest to what was typed, if one is near enough to be worth naming.
+///
+/// Nearness counts inserted, left-out, changed and swapped letters, whatever their case; up to
+/// two in five may differ.
+pub fn nearest<'a>(typed: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let typed: Vec<char> = typed.to_lowercase().chars().collect();
+    candidates
+        .into_iter()
+        .filter_map(|candidate| {
+            let letters: Vec<char> = candidate.to_lowercase().chars().collect();
+            let distance = distance(&typed, &letters);
+            let longer = typed.len().max(letters.len());
+            let limit = if longer == 1 { 0 } else { (longer * 2 / 5).max(1) };
+            (distance <= limit).then_some((distance, candidate))
+        })
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, candidate)| candidate)
+}
+
+/// Optimal string alignment distance.
+fn distance(a: &[char], b: &[char]) -> usize {
+    let width = b.len() + 1;
+    let mut table = vec![0; (a.len() + 1) * width];
+    for i in 0..=a.len() {
+        for j in 0..=b.len() {
+            table[i * width + j] = if i == 0 || j == 0 {
+                i + j
+            } else {
+                let changed = usize::from(a[i - 1] != b[j - 1]);
+                let mut best = (table[(i - 1) * width + j] + 1)
+                    .min(table[i * width + j - 1] + 1)
+                    .min(table[(i - 1) * width + j - 1] + changed);
+                if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                    best = best.min(table[(i - 2) * width + j - 2] + 1);
+                }
+                best
+            };
+        }
+    }
+    table[a.len() * width + b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn finds_the_near_and_leaves_the_far() {
+        let keys = ["stiffness", "damping", "free_length"];
+        assert_eq!(nearest("stifness", keys), Some("stiffness"));
+        assert_eq!(nearest("dampnig", keys), Some("damping"));
+        assert_eq!(nearest("free_lenght", keys), Some("free_length"));
+        assert_eq!(nearest("colour", keys), None);
+        assert_eq!(nearest("LBF", ["in", "lbf"]), Some("lbf"));
+        assert_eq!(nearest("q", ["m", "s"]), None);
+    }
+}

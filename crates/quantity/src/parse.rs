@@ -1,0 +1,252 @@
+//! Quantities as typed.
+
+use crate::{Dimension, Kind, Unit, UnitError};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+use std::str::FromStr;
+
+/// A number with a unit, as it was typed: `"3000 lbf/in"`.
+///
+/// It keeps its text, so that what is printed is what was written; two quantities are equal if
+/// their texts are. Texts that read back are all it ever holds.
+#[derive(Clone, Debug)]
+pub struct Quantity {
+    text: Box<str>,
+    value: f64,
+    unit: Unit,
+    unit_start: usize,
+}
+
+impl Quantity {
+    /// Reads a number and a unit of any dimension.
+    ///
+    /// The number may have a sign, a decimal point and an exponent; the space before the unit
+    /// may be left out.
+    ///
+    /// # Errors
+    /// Every [`UnitError`] but [`UnitError::WrongDimension`].
+    pub fn parse(text: &str) -> Result<Self, UnitError> {
+        Self::read(text, None)
+    }
+
+    /// Reads a number and a unit that measures `kind`.
+    ///
+    /// # Errors
+    /// Every [`UnitError`].
+    pub fn parse_as(text: &str, kind: Kind) -> Result<Self, UnitError> {
+        let quantity = Self::read(text, Some(kind))?;
+        quantity.check(kind)?;
+        Ok(quantity)
+    }
+
+    /// A quantity from a number and the text of its unit.
+    ///
+    /// # Errors
+    /// As [`Quantity::parse`]; places count from the start of the text this prints.
+    pub fn new(value: f64, unit: &str) -> Result<Self, UnitError> {
+        Self::parse(&format!("{} {}", Number(value), unit.trim()))
+    }
+
+    /// Whether it measures `kind`.
+    ///
+    /// # Errors
+    /// [`UnitError::WrongDimension`] if it does not.
+    pub fn check(&self, kind: Kind) -> Result<(), UnitError> {
+        if kind.accepts(self.dimension()) {
+            return Ok(());
+        }
+        Err(UnitError::WrongDimension {
+            number: self.text[..self.unit_start].trim().into(),
+            unit: self.unit_text().into(),
+            found: self.dimension(),
+            expected: kind,
+            span: self.unit_start..self.unit_start + self.unit_text().len(),
+        })
+    }
+
+    /// The number as typed, in its own unit.
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// The unit.
+    pub fn unit(&self) -> Unit {
+        self.unit
+    }
+
+    /// The unit's text as typed.
+    pub fn unit_text(&self) -> &str {
+        self.text[self.unit_start..].trim()
+    }
+
+    /// What was typed.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// What it measures.
+    pub fn dimension(&self) -> Dimension {
+        self.unit.dimension()
+    }
+
+    /// The value in SI: one multiplication by the unit's factor.
+    pub fn to_si(&self) -> f64 {
+        self.value * self.unit.factor()
+    }
+
+    fn read(text: &str, expected: Option<Kind>) -> Result<Self, UnitError> {
+        let start = text.len() - text.trim_start().len();
+        let trimmed = text.trim();
+        if trimmed.is_empty() {
+            return Err(UnitError::Empty { expected });
+        }
+        let end = start + number_length(trimmed);
+        let number = &text[start..end];
+        let rest = &text[end..];
+        if let Some(error) = bad_number(text, start, end, expected) {
+            return Err(error);
+        }
+        let not_finite = || UnitError::NotFinite {
+            text: number.into(),
+            span: start..end,
+        };
+        let value: f64 = number.parse().map_err(|_| not_finite())?;
+        if rest.trim().is_empty() {
+            let number = number.into();
+            return Err(UnitError::MissingUnit {
+                number,
+                expected,
+                span: start..end,
+            });
+        }
+        let unit_start = end + (rest.len() - rest.trim_start().len());
+        let unit = Unit::parse_at(text[unit_start..].trim_end(), unit_start)?;
+        if !value.is_finite() || !(value * unit.factor()).is_finite() {
+            return Err(not_finite());
+        }
+        Ok(Quantity {
+            text: text.into(),
+            value,
+            unit,
+            unit_start,
+        })
+    }
+}
+
+/// The length in bytes of the number a text begins with: `[+-] digits [. digits] [e [+-] digits]`.
+fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits = |mut at: usize| {
+        while bytes.get(at).is_some_and(u8::is_ascii_digit) {
+            at += 1;
+        }
+        at
+    };
+    let sign = |at: usize| at + usize::from(matches!(bytes.get(at), Some(b'+' | b'-')));
+    let start = sign(0);
+    let mut end = digits(start);
+    let mut any = end > start;
+    if bytes.get(end) == Some(&b'.') {
+        let fraction = digits(end + 1);
+        any |= fraction > end + 1;
+        end = fraction;
+    }
+    if !any {
+        return 0;
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let exponent = sign(end + 1);
+        let after = digits(exponent);
+        if after > exponent {
+            end = after;
+        }
+    }
+    end
+}
+
+/// What is wrong with the number in `text[start..end]`, judged also by what follows it.
+fn bad_number(text: &str, start: usize, end: usize, expected: Option<Kind>) -> Option<UnitError> {
+    let rest = &text[end..];
+    let word = rest.split(char::is_whitespace).next().unwrap_or("");
+    let span = start..end + word.len();
+    let bad = |reason: &str| {
+        let text = text[span.clone()].into();
+        Some(UnitError::BadNumber {
+            text,
+            reason: reason.into(),
+            expected,
+            span: span.clone(),
+        })
+    };
+    let digit_after = |mark: char| {
+        rest.strip_prefix(mark)
+            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    if end == start {
+        let name = word.trim_start_matches(['+', '-']).to_lowercase();
+        if ["nan", "inf", "infinity"].contains(&name.as_str()) {
+            return Some(UnitError::NotFinite {
+                text: word.into(),
+                span,
+            });
+        }
+        return bad("a quantity begins with a number");
+    }
+    if digit_after(',') {
+        return bad("write a decimal point, and no separators of thousands");
+    }
+    if digit_after('_') {
+        return bad("write the digits without underscores");
+    }
+    if digit_after('.') || rest.starts_with('.') {
+        return bad("it has two decimal points");
+    }
+    None
+}
+
+/// A number in the shortest form that reads back to the same bits.
+struct Number(f64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        if size == 0.0 || (1e-5..1e16).contains(&size) {
+            write!(out, "{}", self.0)
+        } else {
+            write!(out, "{:e}", self.0)
+        }
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.pad(&self.text)
+    }
+}
+
+impl PartialEq for Quantity {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text
+    }
+}
+
+impl FromStr for Quantity {
+    type Err = UnitError;
+
+    fn from_str(text: &str) -> Result<Self, UnitError> {
+        Self::parse(text)
+    }
+}
+
+impl Serialize for Quantity {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.text)
+    }
+}
+
+impl<'de> Deserialize<'de> for Quantity {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        Self::parse(&text).map_err(serde::de::Error::custom)
+    }
+}

@@ -1,0 +1,143 @@
+//! Cases: what a user writes, read, completed, checked and turned into SI.
+//!
+//! A case file is TOML in which every dimensional value is text with a unit. Three layers make a
+//! case: the thesis's values of its damping, the file over them, and `--set` over both. They are
+//! merged as trees that know where each value was written, so that every mistake
+//! is shown in the text it was made in. The merged tree is read into a [`CaseDocument`], which
+//! keeps what was typed, and that is turned into [`wedge::parameters::Parameters`] and
+//! [`Simulation`].
+
+pub mod builtin;
+mod defaults;
+mod document;
+mod motion;
+mod name;
+mod overrides;
+mod problem;
+mod read;
+mod resolve;
+mod section;
+mod table;
+mod tree;
+mod write;
+
+pub use document::{
+    ActsAt, CaseDocument, CoilForce, CoilSection, ContactSection, Coordinate, Damping, EnvironmentSection,
+    FrictionLaw, FrictionSection, NeighbourSection, SimulationSection, Start, Toe, ToeDirection,
+    WedgeSection,
+};
+pub use motion::{Motion, Profile};
+pub use problem::{CaseError, Problem};
+pub use table::QuantityTable;
+
+use integrate::Method;
+use problem::Source;
+use quantity::System;
+use std::path::Path;
+use wedge::parameters::Parameters;
+
+/// A case that is ready to run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case {
+    /// A name that can be the name of a folder.
+    pub name: String,
+    /// One line for people; may be empty.
+    pub title: String,
+    /// What was typed, completed.
+    pub document: CaseDocument,
+    /// The physical parameters, SI, valid.
+    pub parameters: Parameters,
+    /// How to run it.
+    pub simulation: Simulation,
+}
+
+/// How to run a case. The start is one of the [`Parameters`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Simulation {
+    /// Time the run ends, s; it begins at zero.
+    pub duration: f64,
+    /// Time between two rows of the result, s; not longer than the duration.
+    pub output_interval: f64,
+    /// Relative tolerance of the integrator, between 0 and 1.
+    pub relative_tolerance: f64,
+    /// Units of the result.
+    pub output_units: System,
+    /// Integration method.
+    pub method: Method,
+}
+
+impl Case {
+    /// Reads a case file and lays `--set` overrides (`path.key=value`) over it. A case without a
+    /// name takes that of its file.
+    ///
+    /// # Errors
+    /// The file cannot be read, or something in it, in a table it names, or in an override is
+    /// wrong; all mistakes are reported together.
+    pub fn read(path: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        let text = std::fs::read_to_string(path).map_err(|error| {
+            let shown = path.display();
+            match error.kind() {
+                std::io::ErrorKind::NotFound => Problem::new(format!("there is no case file {shown}"))
+                    .help("check the path; `wedgelab case NAME` prints a built-in case to start from"),
+                std::io::ErrorKind::InvalidData => Problem::new(format!("the case file {shown} is not text"))
+                    .help("a case file is TOML, saved as UTF-8"),
+                _ => Problem::new(format!("the case file {shown} cannot be read: {error}"))
+                    .help("name a file that you may read"),
+            }
+        })?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&path.display().to_string(), &text, folder, overrides)
+    }
+
+    /// As [`Case::read`], from a text. `source` names it in messages; tables are looked for in
+    /// `folder`.
+    ///
+    /// # Errors
+    /// As [`Case::read`].
+    pub fn parse(source: &str, text: &str, folder: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut tree = tree::parse(&Source::new(source, text)).map_err(CaseError::new)?;
+        let mut problems = overrides::apply(&mut tree, overrides);
+        let stem = Path::new(source)
+            .file_stem()
+            .and_then(|stem| stem.to_str())
+            .unwrap_or("");
+        let default_name = if name::problem(stem).is_none() {
+            stem
+        } else {
+            "case"
+        };
+        let document = read::document(&mut tree, default_name, folder, &mut problems);
+        let Some(document) = document.filter(|_| problems.is_empty()) else {
+            return Err(CaseError::new(problems));
+        };
+        let parameters = resolve::parameters(&document).map_err(|error| {
+            let problem = Problem::new(format!("`{}`: {}", error.path, error.reason))
+                .help("see `wedgelab case` for a case that is valid");
+            CaseError::from(match tree.place_of(&error.path) {
+                Some(place) => problem.at(place),
+                None => problem,
+            })
+        })?;
+        let simulation = resolve::simulation(&document.simulation);
+        Ok(Case {
+            name: document.name.clone(),
+            title: document.title.clone(),
+            document,
+            parameters,
+            simulation,
+        })
+    }
+
+    /// Makes a case of a document, checking it as if it were read; tables in files are taken
+    /// from the document. Messages show the text of [`CaseDocument::to_toml`].
+    ///
+    /// # Errors
+    /// As [`Case::read`].
+    pub fn from_document(document: &CaseDocument) -> Result<Self, CaseError> {
+        let text = document.clone().with_tables_embedded().to_toml();
+        let mut case = Self::parse("case.toml", &text, Path::new(""), &[])?;
+        case.document = document.clone();
+        Ok(case)
+    }
+}

@@ -1,0 +1,289 @@
+//! Motions as typed, and their reading.
+
+use super::document::PROFILES;
+use super::problem::Problem;
+use super::section::{self, Range, Section, name_of};
+use super::table::{self, QuantityTable};
+use super::tree::{Node, Value};
+use quantity::{Kind, Quantity, nearest};
+use std::fmt::Write;
+use std::path::Path;
+
+/// How one coordinate of a neighbour moves, as typed. Lengths or angles, by the coordinate.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// It is held.
+    Constant(Quantity),
+    /// `amplitude sin(frequency t + phase)`
+    Sine {
+        /// Amplitude.
+        amplitude: Quantity,
+        /// Frequency; `Hz` and `rpm` count cycles.
+        frequency: Quantity,
+        /// Phase at time zero.
+        phase: Quantity,
+    },
+    /// A triangle wave that rises from zero.
+    Triangle {
+        /// Amplitude.
+        amplitude: Quantity,
+        /// Frequency.
+        frequency: Quantity,
+    },
+    /// A sine whose frequency changes linearly with time and then stays.
+    SweptSine {
+        /// Amplitude.
+        amplitude: Quantity,
+        /// Frequency at time zero.
+        start_frequency: Quantity,
+        /// Frequency from `duration` on.
+        end_frequency: Quantity,
+        /// Time of the sweep.
+        duration: Quantity,
+    },
+    /// From zero to the amplitude, which it then holds.
+    Ramp {
+        /// The value held at the end.
+        amplitude: Quantity,
+        /// Time it begins.
+        start: Quantity,
+        /// Time it takes.
+        duration: Quantity,
+        /// Its shape.
+        profile: Profile,
+    },
+    /// A cubic spline through time and value.
+    Table(QuantityTable),
+    /// A sum of motions.
+    Sum(Vec<Motion>),
+}
+
+/// The shape of a ramp.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Profile {
+    /// Rate and acceleration are zero at both ends.
+    Smooth,
+    /// Constant rate.
+    Linear,
+}
+
+const SHAPES: [&str; 6] = ["constant", "sine", "triangle", "swept_sine", "ramp", "table"];
+const EXAMPLE: &str = "write for example { shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\" }, or one held value";
+
+/// Reads a motion whose values measure `kind`. Tables in files lie in `folder`.
+pub(super) fn read(
+    node: &Node,
+    path: &str,
+    kind: Kind,
+    folder: &Path,
+    problems: &mut Vec<Problem>,
+) -> Option<Motion> {
+    match &node.value {
+        Value::List(items) if items.is_empty() => {
+            let problem = Problem::new(format!("`{path}` is an empty sum of motions"));
+            problems.push(problem.at(&node.place).label("nothing to add up").help(EXAMPLE));
+            None
+        }
+        Value::List(items) => {
+            let mut parts = Vec::new();
+            for (at, item) in items.iter().enumerate() {
+                let path = format!("{path}[{at}]");
+                if matches!(item.value, Value::List(_)) {
+                    let problem = Problem::new(format!("`{path}` is a list; a motion is expected"));
+                    problems.push(problem.at(&item.place).label("a sum within a sum").help(EXAMPLE));
+                } else {
+                    parts.push(read(item, &path, kind, folder, problems));
+                }
+            }
+            Some(Motion::Sum(parts.into_iter().collect::<Option<_>>()?))
+        }
+        Value::Table(table) => {
+            let place = Some(node.place.clone());
+            let section = Section {
+                path: path.into(),
+                table,
+                place,
+            };
+            read_shape(&section, kind, folder, problems)
+        }
+        _ => section::quantity(node, path, kind, Range::Any, problems).map(Motion::Constant),
+    }
+}
+
+fn read_shape(
+    section: &Section<'_>,
+    kind: Kind,
+    folder: &Path,
+    problems: &mut Vec<Problem>,
+) -> Option<Motion> {
+    section.require("shape", EXAMPLE, problems)?;
+    let (shape, node) = section.text("shape", problems)?;
+    let (keys, optional): (&[&str], &[&str]) = match shape {
+        "constant" => (&["value"], &[]),
+        "sine" => (&["amplitude", "frequency"], &["phase"]),
+        "triangle" => (&["amplitude", "frequency"], &[]),
+        "swept_sine" => (
+            &["amplitude", "start_frequency", "end_frequency", "duration"],
+            &[],
+        ),
+        "ramp" => (&["amplitude", "duration"], &["start", "profile"]),
+        "table" => (&[], &["file", "points"]),
+        _ => {
+            let all = format!("write one of \"{}\"", SHAPES.join("\", \""));
+            let help = match nearest(shape, SHAPES) {
+                Some(near) => format!("did you mean \"{near}\"? {all}"),
+                None => all,
+            };
+            let problem = Problem::new(format!("there is no motion of shape \"{shape}\""));
+            problems.push(problem.at(&node.place).label("not one of the shapes").help(help));
+            return None;
+        }
+    };
+    let known: Vec<&str> = ["shape"].iter().chain(keys).chain(optional).copied().collect();
+    section.allow(&known, &[], problems);
+    let mut quantity = |key: &str, kind, range| section.quantity(key, kind, range, problems);
+    match shape {
+        "constant" => Some(Motion::Constant(quantity("value", kind, Range::Any)?)),
+        "sine" | "triangle" => {
+            let amplitude = quantity("amplitude", kind, Range::Any);
+            let frequency = quantity("frequency", Kind::Frequency, Range::Positive);
+            if shape == "triangle" {
+                return Some(Motion::Triangle {
+                    amplitude: amplitude?,
+                    frequency: frequency?,
+                });
+            }
+            let phase = match section.table.get("phase") {
+                Some(_) => quantity("phase", Kind::Angle, Range::Any),
+                None => Quantity::new(0.0, "deg").ok(),
+            };
+            Some(Motion::Sine {
+                amplitude: amplitude?,
+                frequency: frequency?,
+                phase: phase?,
+            })
+        }
+        "swept_sine" => {
+            let amplitude = quantity("amplitude", kind, Range::Any);
+            let start_frequency = quantity("start_frequency", Kind::Frequency, Range::NotNegative);
+            let end_frequency = quantity("end_frequency", Kind::Frequency, Range::NotNegative);
+            let duration = quantity("duration", Kind::Time, Range::Positive);
+            Some(Motion::SweptSine {
+                amplitude: amplitude?,
+                start_frequency: start_frequency?,
+                end_frequency: end_frequency?,
+                duration: duration?,
+            })
+        }
+        "ramp" => {
+            let amplitude = quantity("amplitude", kind, Range::Any);
+            let duration = quantity("duration", Kind::Time, Range::Positive);
+            let start = match section.table.get("start") {
+                Some(_) => quantity("start", Kind::Time, Range::Any),
+                None => Quantity::new(0.0, "s").ok(),
+            };
+            let profile = match section.table.get("profile") {
+                Some(_) => section.choice("profile", PROFILES, problems),
+                None => Some(Profile::Smooth),
+            };
+            Some(Motion::Ramp {
+                amplitude: amplitude?,
+                start: start?,
+                duration: duration?,
+                profile: profile?,
+            })
+        }
+        _ => {
+            let form = table::Form::motion(kind);
+            table::read_either(section, "file", "points", &form, folder, problems).map(Motion::Table)
+        }
+    }
+}
+
+impl Motion {
+    /// As written in a case file, without the key.
+    pub(super) fn to_toml(&self) -> String {
+        let text = |quantity: &Quantity| toml::Value::from(quantity.text()).to_string();
+        let shape = |shape: &str, values: &[(&str, String)]| {
+            let mut line = format!("{{ shape = \"{shape}\"");
+            for (key, value) in values {
+                // Writing to a String cannot fail.
+                let _ = write!(line, ", {key} = {value}");
+            }
+            line + " }"
+        };
+        match self {
+            Motion::Constant(value) => text(value),
+            Motion::Sine {
+                amplitude,
+                frequency,
+                phase,
+            } => shape(
+                "sine",
+                &[
+                    ("amplitude", text(amplitude)),
+                    ("frequency", text(frequency)),
+                    ("phase", text(phase)),
+                ],
+            ),
+            Motion::Triangle { amplitude, frequency } => shape(
+                "triangle",
+                &[("amplitude", text(amplitude)), ("frequency", text(frequency))],
+            ),
+            Motion::SweptSine {
+                amplitude,
+                start_frequency,
+                end_frequency,
+                duration,
+            } => shape(
+                "swept_sine",
+                &[
+                    ("amplitude", text(amplitude)),
+                    ("start_frequency", text(start_frequency)),
+                    ("end_frequency", text(end_frequency)),
+                    ("duration", text(duration)),
+                ],
+            ),
+            Motion::Ramp {
+                amplitude,
+                start,
+                duration,
+                profile,
+            } => shape(
+                "ramp",
+                &[
+                    ("amplitude", text(amplitude)),
+                    ("start", text(start)),
+                    ("duration", text(duration)),
+                    ("profile", format!("\"{}\"", name_of(PROFILES, profile))),
+                ],
+            ),
+            Motion::Table(table) => match &table.file {
+                Some(file) => shape("table", &[("file", toml::Value::from(file.as_str()).to_string())]),
+                None => shape("table", &[("points", table.points_to_toml())]),
+            },
+            Motion::Sum(parts) => {
+                let parts: Vec<String> = parts.iter().map(Motion::to_toml).collect();
+                format!("[\n    {},\n]", parts.join(",\n    "))
+            }
+        }
+    }
+
+    /// The tables in it, to be changed.
+    pub(super) fn tables_mut(&mut self) -> Vec<&mut QuantityTable> {
+        match self {
+            Motion::Table(table) => vec![table],
+            Motion::Sum(parts) => parts.iter_mut().flat_map(Motion::tables_mut).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The tables in it.
+    pub(super) fn tables(&self) -> Vec<&QuantityTable> {
+        match self {
+            Motion::Table(table) => vec![table],
+            Motion::Sum(parts) => parts.iter().flat_map(Motion::tables).collect(),
+            _ => Vec::new(),
+        }
+    }
+}

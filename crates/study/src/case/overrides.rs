@@ -1,0 +1,119 @@
+//! `--set path.key=value`: single values laid over a case.
+
+use super::problem::{Place, Problem, Source};
+use super::tree::{self, Entry, Table, Value};
+use std::sync::Arc;
+
+/// Lays every override over the tree; the problems are those of the overrides themselves.
+pub(super) fn apply(tree: &mut Table, overrides: &[String]) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    for text in overrides {
+        match parse(text).and_then(|(path, entry)| set(tree, &path, entry)) {
+            Ok(()) => {}
+            Err(mut found) => problems.append(&mut found),
+        }
+    }
+    problems
+}
+
+/// The tables on the way, and the last key with its value.
+fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Vec<Problem>> {
+    let source = Source::new("--set", text);
+    let whole = Place {
+        source: Arc::clone(&source),
+        span: 0..text.len(),
+    };
+    let malformed = |message: &str| {
+        vec![
+            Problem::new(message)
+                .at(&whole)
+                .label("path.key=value is expected")
+                .help("write for example --set friction.column=0.3 or --set 'wedge.angle=\"30 deg\"'"),
+        ]
+    };
+    let Some(equals) = equals_sign(text) else {
+        return Err(malformed("this sets nothing: there is no = in it"));
+    };
+    let (key, value) = (text[..equals].trim(), text[equals + 1..].trim());
+    if key.is_empty() || value.is_empty() {
+        return Err(malformed(if key.is_empty() {
+            "the key is missing"
+        } else {
+            "the value is missing"
+        }));
+    }
+    let (table, equals) = match tree::parse(&source) {
+        Ok(table) => (table, equals),
+        // Shells take quotes away: `wedge.angle=30 deg` is meant as text.
+        Err(_) if !value.starts_with(['"', '\'', '[', '{']) => {
+            let quoted = Source::new("--set", format!("{key}={}", toml::Value::from(value)));
+            (tree::parse(&quoted)?, key.len())
+        }
+        Err(problems) => return Err(problems),
+    };
+    let mut path = Vec::new();
+    let mut table = table;
+    loop {
+        let [_] = table.entries.as_slice() else {
+            return Err(malformed("one --set sets one value"));
+        };
+        let Some(entry) = table.entries.pop() else {
+            return Err(malformed("the key is missing"));
+        };
+        match entry.node.value {
+            Value::Table(ref inner)
+                if inner
+                    .entries
+                    .first()
+                    .is_some_and(|inner| inner.key_place.span.start < equals) =>
+            {
+                table = inner.clone();
+                path.push(entry);
+            }
+            _ => return Ok((path, entry)),
+        }
+    }
+}
+
+/// The place of the first `=` that is not inside quotes.
+fn equals_sign(text: &str) -> Option<usize> {
+    let mut quote = None;
+    for (at, c) in text.char_indices() {
+        match (quote, c) {
+            (None, '=') => return Some(at),
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), c) if open == c => quote = None,
+            _ => {}
+        }
+    }
+    None
+}
+
+fn set(tree: &mut Table, path: &[Entry], entry: Entry) -> Result<(), Vec<Problem>> {
+    let Some((first, rest)) = path.split_first() else {
+        tree.set(entry);
+        return Ok(());
+    };
+    if tree.entry(&first.key).is_none() {
+        let mut empty = first.clone();
+        empty.node.value = Value::Table(Table::default());
+        tree.entries.push(empty);
+    }
+    let Some(own) = tree.entries.iter_mut().find(|own| own.key == first.key) else {
+        return Ok(());
+    };
+    match &mut own.node.value {
+        Value::Table(table) => set(table, rest, entry),
+        other => Err(vec![
+            Problem::new(format!(
+                "`{}` is {} in this case, it has no `{}`",
+                first.key,
+                other.describe(),
+                entry.key
+            ))
+            .at(&first.key_place)
+            .label("this is no table")
+            .help(format!("set all of it at once: `{}=...`", first.key)),
+        ]),
+    }
+}

@@ -1,0 +1,219 @@
+//! What is wrong with an input, where, and what to write instead.
+
+use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A text that was read: a case file, a table, or what was given to `--set`.
+#[derive(Debug)]
+pub(super) struct Source {
+    /// The file as the user named it, or `--set`.
+    pub name: String,
+    pub named: NamedSource<String>,
+}
+
+impl Source {
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
+        let name = name.into();
+        Arc::new(Source {
+            named: NamedSource::new(&name, text.into()),
+            name,
+        })
+    }
+
+    pub fn text(&self) -> &str {
+        self.named.inner()
+    }
+}
+
+/// A piece of a source.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    pub source: Arc<Source>,
+    /// In bytes.
+    pub span: Range<usize>,
+}
+
+impl Place {
+    pub fn text(&self) -> &str {
+        self.source.text().get(self.span.clone()).unwrap_or("")
+    }
+}
+
+/// One mistake: what was found, where, and what to write instead.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    message: String,
+    label: String,
+    help: Option<String>,
+    place: Option<Place>,
+}
+
+impl Problem {
+    /// A mistake at no particular place.
+    pub(super) fn new(message: impl Into<String>) -> Self {
+        Problem {
+            message: message.into(),
+            label: String::new(),
+            help: None,
+            place: None,
+        }
+    }
+
+    pub(super) fn at(mut self, place: &Place) -> Self {
+        self.place = Some(place.clone());
+        self
+    }
+
+    pub(super) fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
+    pub(super) fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// What was found and what was expected.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
+    /// What to write instead.
+    pub fn advice(&self) -> Option<&str> {
+        self.help.as_deref()
+    }
+
+    /// The file, or `--set`.
+    pub fn source_name(&self) -> Option<&str> {
+        self.place.as_ref().map(|place| place.source.name.as_str())
+    }
+
+    /// The text the mistake is marked at.
+    pub fn marked_text(&self) -> Option<&str> {
+        self.place.as_ref().map(Place::text)
+    }
+
+    /// Line and column of the mistake, from 1; columns count characters.
+    pub fn line_and_column(&self) -> Option<(usize, usize)> {
+        let place = self.place.as_ref()?;
+        let before = place.source.text().get(..place.span.start)?;
+        let line_start = before.rfind('\n').map_or(0, |end| end + 1);
+        Some((
+            before.matches('\n').count() + 1,
+            before[line_start..].chars().count() + 1,
+        ))
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Problem {}
+
+impl Diagnostic for Problem {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help
+            .as_ref()
+            .map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.place
+            .as_ref()
+            .map(|place| &place.source.named as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let place = self.place.as_ref()?;
+        let label = if self.label.is_empty() {
+            "here".into()
+        } else {
+            self.label.clone()
+        };
+        let span = LabeledSpan::new(Some(label), place.span.start, place.span.len());
+        Some(Box::new(std::iter::once(span)))
+    }
+}
+
+/// Everything that is wrong with an input, in the order of the text.
+///
+/// As a [`Diagnostic`] it shows each mistake in its text; [`CaseError::problems`] gives them one
+/// by one.
+#[derive(Clone, Debug)]
+pub struct CaseError {
+    problems: Vec<Problem>,
+}
+
+impl CaseError {
+    /// `problems` must not be empty.
+    pub(super) fn new(mut problems: Vec<Problem>) -> Self {
+        problems.sort_by_key(|problem| {
+            problem
+                .place
+                .as_ref()
+                .map(|place| (place.source.name.clone(), place.span.start))
+        });
+        CaseError { problems }
+    }
+
+    /// The mistakes; at least one.
+    pub fn problems(&self) -> &[Problem] {
+        &self.problems
+    }
+
+    fn only(&self) -> Option<&Problem> {
+        match self.problems.as_slice() {
+            [problem] => Some(problem),
+            _ => None,
+        }
+    }
+}
+
+impl From<Problem> for CaseError {
+    fn from(problem: Problem) -> Self {
+        CaseError {
+            problems: vec![problem],
+        }
+    }
+}
+
+impl fmt::Display for CaseError {
+    /// The message of the only mistake, or how many there are.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.only() {
+            Some(problem) => problem.fmt(out),
+            None => write!(out, "the case has {} mistakes", self.problems.len()),
+        }
+    }
+}
+
+impl std::error::Error for CaseError {}
+
+impl Diagnostic for CaseError {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Diagnostic::help(self.only()?)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.only()?.source_code()
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        self.only()?.labels()
+    }
+
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        if self.only().is_some() {
+            return None;
+        }
+        Some(Box::new(
+            self.problems.iter().map(|problem| problem as &dyn Diagnostic),
+        ))
+    }
+}

@@ -1,0 +1,491 @@
+//! From the tree of a case to the document: every section, key by key.
+
+use super::document::*;
+use super::motion;
+use super::problem::{Place, Problem};
+use super::section::{self, Range, Section, inner_place, unit_problem};
+use super::table::{self, Form};
+use super::tree::{Node, Table, Value};
+use super::{defaults, name};
+use quantity::{Kind, Quantity, System};
+use std::path::Path;
+
+/// The keys of every table.
+const KEYS: &[(&str, &[&str])] = &[
+    (
+        "wedge",
+        &[
+            "damping",
+            "angle",
+            "height",
+            "width",
+            "weight",
+            "inertia",
+            "center_of_gravity",
+            "free_coordinates",
+        ],
+    ),
+    (
+        "control_coil",
+        &[
+            "stiffness",
+            "table",
+            "free_length",
+            "nominal_length",
+            "damping",
+            "rotational_damping",
+            "acts_at",
+            "pulls",
+        ],
+    ),
+    ("contact", &["stiffness", "damping"]),
+    (
+        "friction",
+        &[
+            "law",
+            "column",
+            "slope",
+            "reference_speed",
+            "bristle_stiffness",
+            "bristle_damping",
+        ],
+    ),
+    (
+        "side_frame",
+        &[
+            "toe",
+            "center",
+            "longitudinal",
+            "lateral",
+            "vertical",
+            "roll",
+            "pitch",
+            "yaw",
+        ],
+    ),
+    (
+        "bolster",
+        &[
+            "center",
+            "longitudinal",
+            "lateral",
+            "vertical",
+            "roll",
+            "pitch",
+            "yaw",
+        ],
+    ),
+    ("environment", &["gravity"]),
+    (
+        "simulation",
+        &[
+            "duration",
+            "output_interval",
+            "relative_tolerance",
+            "start",
+            "output_units",
+            "method",
+        ],
+    ),
+];
+
+/// Wedge angles and toes that make sense, rad.
+const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
+const ANGLE: Range = Range::Between(0.0, RIGHT_ANGLE, "between 0 deg and 90 deg, both excluded");
+const TOE: Range = Range::Between(-RIGHT_ANGLE / 4.0, RIGHT_ANGLE / 4.0, "below 22.5 deg");
+const TOLERANCE: Range = Range::Between(0.0, 1.0, "between 0 and 1, both excluded");
+
+/// More rows than this are a slip of the pen.
+const MOST_OUTPUTS: f64 = 1e7;
+
+/// Completes the tree and reads it; notes what is wrong.
+pub(super) fn document(
+    tree: &mut Table,
+    default_name: &str,
+    folder: &Path,
+    problems: &mut Vec<Problem>,
+) -> Option<CaseDocument> {
+    complete(tree, problems);
+    let top = Section {
+        path: String::new(),
+        table: tree,
+        place: None,
+    };
+    let sections: Vec<&str> = KEYS.iter().map(|(section, _)| *section).collect();
+    let known: Vec<&str> = ["name", "title"]
+        .into_iter()
+        .chain(sections.iter().copied())
+        .collect();
+    top.allow(&known, KEYS, problems);
+    for (section, keys) in KEYS {
+        if let Some(section) = tree.table(section).map(|table| Section {
+            path: (*section).into(),
+            table,
+            place: None,
+        }) {
+            section.allow(keys, KEYS, problems);
+        }
+    }
+    let name = match tree.get("name") {
+        Some(_) => top.text("name", problems).and_then(|(text, node)| {
+            let bad = name::problem(text);
+            let valid = bad.is_none();
+            problems.extend(bad.map(|problem| problem.at(&node.place)));
+            valid.then(|| text.to_string())
+        }),
+        None => Some(default_name.to_string()),
+    };
+    let title = top.text("title", problems).map(|(text, _)| text.to_string());
+    let mut section = |key: &str| top.section(key, problems);
+    let (wedge, coil, contact) = (section("wedge"), section("control_coil"), section("contact"));
+    let (friction, side_frame) = (section("friction"), section("side_frame"));
+    let (bolster, environment) = (section("bolster"), section("environment"));
+    let simulation = section("simulation");
+
+    let wedge = wedge.and_then(|s| read_wedge(&s, problems));
+    let control_coil = coil.and_then(|s| read_coil(&s, folder, problems));
+    let contact = contact.and_then(|s| {
+        let stiffness = s.quantity("stiffness", Kind::Stiffness, Range::Positive, problems);
+        let damping = s.quantity("damping", Kind::Damping, Range::NotNegative, problems);
+        Some(ContactSection {
+            stiffness: stiffness?,
+            damping: damping?,
+        })
+    });
+    let friction = friction.and_then(|s| read_friction(&s, problems));
+    let toe = side_frame.as_ref().and_then(|s| read_toe(s, problems));
+    let side_frame = side_frame.and_then(|s| read_neighbour(&s, folder, problems));
+    let bolster = bolster.and_then(|s| read_neighbour(&s, folder, problems));
+    let environment = environment.and_then(|s| {
+        Some(EnvironmentSection {
+            gravity: s.quantity("gravity", Kind::Acceleration, Range::NotNegative, problems)?,
+        })
+    });
+    let simulation = simulation.and_then(|s| read_simulation(&s, problems));
+    if let Some(simulation) = &simulation {
+        for (key, neighbour) in [("side_frame", &side_frame), ("bolster", &bolster)] {
+            if let Some(neighbour) = neighbour {
+                check_cover(key, neighbour, &simulation.duration, tree, problems);
+            }
+        }
+    }
+    Some(CaseDocument {
+        name: name?,
+        title: title?,
+        wedge: wedge?,
+        control_coil: control_coil?,
+        contact: contact?,
+        friction: friction?,
+        toe: toe?,
+        side_frame: side_frame?,
+        bolster: bolster?,
+        environment: environment?,
+        simulation: simulation?,
+    })
+}
+
+/// Takes over what is left out from the thesis's values of the damping.
+fn complete(tree: &mut Table, problems: &mut Vec<Problem>) {
+    let damping = tree.table("wedge").and_then(|wedge| wedge.text("damping"));
+    let damping = Damping::NAMES.iter().find(|(name, _)| Some(*name) == damping);
+    // A damping that is wrong is noted when it is read.
+    let damping = damping.map_or(Damping::Variable, |(_, damping)| *damping);
+    match defaults::tree(damping) {
+        Ok(defaults) => tree.complete_from(&defaults),
+        Err(mut broken) => problems.append(&mut broken),
+    }
+}
+
+fn read_wedge(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<WedgeSection> {
+    let damping = s.choice("damping", Damping::NAMES, problems);
+    let angle = s.quantity("angle", Kind::Angle, ANGLE, problems);
+    let height = s.quantity("height", Kind::Length, Range::Positive, problems);
+    let width = s.quantity("width", Kind::Length, Range::Positive, problems);
+    let weight = s.quantity("weight", Kind::Force, Range::Positive, problems);
+    let inertia = s.triple("inertia", Kind::Inertia, Range::Positive, problems);
+    let center_of_gravity = s.triple("center_of_gravity", Kind::Length, Range::Any, problems);
+    let free_coordinates = read_free_coordinates(s, problems);
+    Some(WedgeSection {
+        damping: damping?,
+        angle: angle?,
+        height: height?,
+        width: width?,
+        weight: weight?,
+        inertia: inertia?,
+        center_of_gravity: center_of_gravity?,
+        free_coordinates: free_coordinates?,
+    })
+}
+
+fn read_free_coordinates(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<Vec<Coordinate>> {
+    let help = "list the free ones of \"x\", \"y\", \"z\", \"roll\", \"pitch\", \"yaw\", for example \
+                free_coordinates = [\"x\", \"z\", \"pitch\", \"yaw\"]";
+    let node = s.require("free_coordinates", help, problems)?;
+    let path = s.path_of("free_coordinates");
+    let mut bad = |message: String, place: &Place, label: &str| {
+        problems.push(Problem::new(message).at(place).label(label).help(help));
+        None
+    };
+    let Value::List(items) = &node.value else {
+        return bad(
+            format!("`{path}` is {}; a list is expected", node.value.describe()),
+            &node.place,
+            "not a list",
+        );
+    };
+    if items.is_empty() {
+        return bad(
+            format!("`{path}` is empty: the wedge could not move"),
+            &node.place,
+            "nothing is free",
+        );
+    }
+    let mut coordinates = Vec::new();
+    for item in items {
+        let coordinate = section::choice(item, &path, Coordinate::NAMES, problems)?;
+        if coordinates.contains(&coordinate) {
+            let message = format!("`{path}` names \"{}\" twice", coordinate.name());
+            problems.push(
+                Problem::new(message)
+                    .at(&item.place)
+                    .label("named before")
+                    .help("name it once"),
+            );
+            return None;
+        }
+        coordinates.push(coordinate);
+    }
+    Some(coordinates)
+}
+
+fn read_coil(s: &Section<'_>, folder: &Path, problems: &mut Vec<Problem>) -> Option<CoilSection> {
+    let force = match (s.table.entry("stiffness"), s.table.entry("table")) {
+        (Some(_), Some(table)) => {
+            let problem =
+                Problem::new("`control_coil` has both `stiffness` and `table`").at(&table.key_place);
+            problems.push(
+                problem
+                    .label("one of them is expected")
+                    .help("leave one of them out"),
+            );
+            None
+        }
+        (_, Some(table)) => table::read(&table.node, &s.path_of("table"), &Form::coil(), folder, problems)
+            .map(CoilForce::Table),
+        _ => s
+            .quantity("stiffness", Kind::Stiffness, Range::Positive, problems)
+            .map(CoilForce::Stiffness),
+    };
+    let free_length = s.quantity("free_length", Kind::Length, Range::Positive, problems);
+    let nominal_length = s.quantity("nominal_length", Kind::Length, Range::Positive, problems);
+    let damping = s.quantity("damping", Kind::Damping, Range::NotNegative, problems);
+    let rotational_damping = match s.table.get("rotational_damping") {
+        Some(_) => s.quantity(
+            "rotational_damping",
+            Kind::RotationalDamping,
+            Range::NotNegative,
+            problems,
+        ),
+        None => damping.as_ref().and_then(rotational_damping),
+    };
+    let acts_at = s.choice("acts_at", ActsAt::NAMES, problems);
+    let pulls = s.truth("pulls", problems);
+    Some(CoilSection {
+        force: force?,
+        free_length: free_length?,
+        nominal_length: nominal_length?,
+        damping: damping?,
+        rotational_damping: rotational_damping?,
+        acts_at: acts_at?,
+        pulls: pulls?,
+    })
+}
+
+/// The thesis writes the same C in its moment equations (3-13, 3-18): numerically the damping in
+/// lbf s/in, as lbf s in.
+fn rotational_damping(damping: &Quantity) -> Option<Quantity> {
+    let number = if damping.unit_text() == Kind::Damping.unit(System::Us) {
+        damping.value()
+    } else {
+        damping.to_si() * Kind::Damping.from_si(System::Us)
+    };
+    Quantity::new(number, Kind::RotationalDamping.unit(System::Us)).ok()
+}
+
+fn read_friction(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<FrictionSection> {
+    let laws = match &s.table.get("law")?.value {
+        Value::Table(table) => {
+            let place = s.table.entry("law").map(|entry| entry.key_place.clone());
+            let faces = Section {
+                path: s.path_of("law"),
+                table,
+                place,
+            };
+            faces.allow(&["column", "slope"], &[], problems);
+            let column = faces.choice("column", FrictionLaw::NAMES, problems);
+            let slope = faces.choice("slope", FrictionLaw::NAMES, problems);
+            column.zip(slope)
+        }
+        _ => s
+            .choice("law", FrictionLaw::NAMES, problems)
+            .map(|law| (law, law)),
+    };
+    let column = s.number("column", Range::NotNegative, "0.4", problems);
+    let slope = s.number("slope", Range::NotNegative, "0.4", problems);
+    let reference_speed = s.quantity("reference_speed", Kind::Speed, Range::Positive, problems);
+    let bristle_stiffness = s.quantity("bristle_stiffness", Kind::Stiffness, Range::Positive, problems);
+    let bristle_damping = s.quantity("bristle_damping", Kind::Damping, Range::Positive, problems);
+    let (column_law, slope_law) = laws?;
+    Some(FrictionSection {
+        column_law,
+        slope_law,
+        column: column?,
+        slope: slope?,
+        reference_speed: reference_speed?,
+        bristle_stiffness: bristle_stiffness?,
+        bristle_damping: bristle_damping?,
+    })
+}
+
+fn read_toe(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<Toe> {
+    const HELP: &str = "write for example \"0.2 deg out\" (the gap between column and bolster opens downwards), \
+                        \"0.2 deg in\", or \"0 deg\"";
+    let node = s.require("toe", HELP, problems)?;
+    let path = s.path_of("toe");
+    let Value::Text(text) = &node.value else {
+        let message = format!(
+            "`{path}` is {}; an angle with its direction is expected",
+            node.value.describe()
+        );
+        problems.push(
+            Problem::new(message)
+                .at(&node.place)
+                .label("an angle in quotes")
+                .help(HELP),
+        );
+        return None;
+    };
+    let trimmed = text.trim_end();
+    let (angle, direction) = match trimmed.rsplit_once(char::is_whitespace) {
+        Some((angle, "out")) => (angle, Some(ToeDirection::Out)),
+        Some((angle, "in")) => (angle, Some(ToeDirection::In)),
+        _ => (trimmed, None),
+    };
+    let mut bad = |problem: Problem, place: &Place, label: &str| {
+        problems.push(problem.at(place).label(label).help(HELP));
+        None
+    };
+    let angle = match Quantity::parse_as(angle.trim(), Kind::Angle) {
+        Ok(angle) => angle,
+        Err(error) => {
+            let place = inner_place(node, &error);
+            return bad(
+                unit_problem(&error, &path, Kind::Angle, &place),
+                &place,
+                "an angle with its direction",
+            );
+        }
+    };
+    if angle.to_si() < 0.0 {
+        let message = format!("`{path}` is negative; its direction is said in words");
+        return bad(Problem::new(message), &node.place, "no sign is expected");
+    }
+    if direction.is_none() && angle.to_si() != 0.0 {
+        return bad(
+            Problem::new(format!("`{path}` does not say in or out")),
+            &node.place,
+            "the direction is missing",
+        );
+    }
+    if let Some(problem) = section::out_of_range(&angle, &path, Kind::Angle, TOE) {
+        return bad(problem, &node.place, "too large");
+    }
+    Some(Toe { angle, direction })
+}
+
+fn read_neighbour(s: &Section<'_>, folder: &Path, problems: &mut Vec<Problem>) -> Option<NeighbourSection> {
+    let center = match s.table.get("center") {
+        Some(_) => Some(s.triple("center", Kind::Length, Range::Any, problems)?),
+        None => None,
+    };
+    let mut motions = Vec::with_capacity(6);
+    for (at, key) in NeighbourSection::COORDINATES.into_iter().enumerate() {
+        let kind = if at < 3 { Kind::Length } else { Kind::Angle };
+        let node: Option<&Node> = s.require(key, "write a motion", problems);
+        motions.push(node.and_then(|node| motion::read(node, &s.path_of(key), kind, folder, problems)));
+    }
+    let motions: Vec<_> = motions.into_iter().collect::<Option<_>>()?;
+    Some(NeighbourSection {
+        center,
+        coordinates: motions.try_into().ok()?,
+    })
+}
+
+fn read_simulation(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<SimulationSection> {
+    let duration = s.quantity("duration", Kind::Time, Range::Positive, problems);
+    let output_interval = s.quantity("output_interval", Kind::Time, Range::Positive, problems);
+    let relative_tolerance = s.number("relative_tolerance", TOLERANCE, "1e-6", problems);
+    let start = s.choice("start", Start::NAMES, problems);
+    let output_units = s.choice("output_units", SYSTEMS, problems);
+    let method = s.choice("method", METHODS, problems);
+    if let (Some(duration), Some(interval)) = (&duration, &output_interval) {
+        let problem = if interval.to_si() > duration.to_si() {
+            let message =
+                format!("`simulation.output_interval` ({interval}) is longer than the duration ({duration})");
+            let help = "write an interval that is shorter, for example \"0.01 s\", or a longer duration";
+            Some(Problem::new(message).label("longer than the run").help(help))
+        } else if duration.to_si() / interval.to_si() > MOST_OUTPUTS {
+            let message = format!("{duration} in steps of {interval} are more than ten million output times");
+            let help = "write a longer interval, for example \"0.01 s\"";
+            Some(Problem::new(message).label("too short").help(help))
+        } else {
+            None
+        };
+        // Shown where the user wrote one of the two, not in the thesis's values.
+        let mut places = ["output_interval", "duration"]
+            .into_iter()
+            .filter_map(|key| s.table.place_of(key));
+        let place = places.find(|place| place.source.name != defaults::SOURCE);
+        problems.extend(problem.map(|problem| match place {
+            Some(place) => problem.at(place),
+            None => problem,
+        }));
+    }
+    Some(SimulationSection {
+        duration: duration?,
+        output_interval: output_interval?,
+        relative_tolerance: relative_tolerance?,
+        start: start?,
+        output_units: output_units?,
+        method: method?,
+    })
+}
+
+/// Notes tables of motions that do not last as long as the run.
+fn check_cover(
+    section: &str,
+    neighbour: &NeighbourSection,
+    duration: &Quantity,
+    tree: &Table,
+    problems: &mut Vec<Problem>,
+) {
+    for (key, motion) in NeighbourSection::COORDINATES.iter().zip(&neighbour.coordinates) {
+        for table in motion.tables() {
+            let (Some([first, _]), Some([last, _])) = (table.rows.first(), table.rows.last()) else {
+                continue;
+            };
+            if first.to_si() <= 0.0 && last.to_si() >= duration.to_si() {
+                continue;
+            }
+            let path = format!("{section}.{key}");
+            let message =
+                format!("`{path}` is given from {first} to {last}, but the run lasts from 0 to {duration}");
+            let help = "add rows to the table, or shorten simulation.duration";
+            let problem = Problem::new(message).label("does not cover the run").help(help);
+            problems.push(match tree.place_of(&path) {
+                Some(place) => problem.at(place),
+                None => problem,
+            });
+        }
+    }
+}

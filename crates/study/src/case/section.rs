@@ -1,0 +1,415 @@
+//! Reading one table of a case: typed values, ranges, unknown keys.
+
+use super::problem::{Place, Problem};
+use super::tree::{Node, Table, Value};
+use quantity::{Kind, Quantity, System, UnitError, nearest};
+
+/// The range a value must lie in.
+#[derive(Clone, Copy)]
+pub(super) enum Range {
+    /// Any finite value.
+    Any,
+    /// Greater than zero.
+    Positive,
+    /// Zero or greater.
+    NotNegative,
+    /// Between two values, both excluded, SI; with the words for it.
+    Between(f64, f64, &'static str),
+}
+
+impl Range {
+    fn holds(self, value: f64) -> bool {
+        match self {
+            Range::Any => value.is_finite(),
+            Range::Positive => value > 0.0 && value.is_finite(),
+            Range::NotNegative => value >= 0.0 && value.is_finite(),
+            Range::Between(low, high, _) => value > low && value < high,
+        }
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Range::Any => "a finite number",
+            Range::Positive => "greater than zero",
+            Range::NotNegative => "zero or greater",
+            Range::Between(.., words) => words,
+        }
+    }
+}
+
+/// Names of choices in the file, and what they mean.
+pub(super) type Names<T> = &'static [(&'static str, T)];
+
+/// The name of a choice.
+pub(super) fn name_of<T: PartialEq>(names: Names<T>, choice: &T) -> &'static str {
+    names
+        .iter()
+        .find(|(_, other)| other == choice)
+        .map_or("", |(name, _)| name)
+}
+
+/// One table of the case, by its path. Its readers note what is wrong and return nothing then.
+pub(super) struct Section<'a> {
+    /// `wedge`, `bolster.vertical`; empty at the top.
+    pub path: String,
+    pub table: &'a Table,
+    /// Where the table is named.
+    pub place: Option<Place>,
+}
+
+impl<'a> Section<'a> {
+    pub fn path_of(&self, key: &str) -> String {
+        if self.path.is_empty() {
+            key.into()
+        } else {
+            format!("{}.{key}", self.path)
+        }
+    }
+
+    /// The table under a key.
+    pub fn section(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Section<'a>> {
+        let entry = self.table.entry(key)?;
+        let Value::Table(table) = &entry.node.value else {
+            let found = entry.node.value.describe();
+            problems.push(
+                Problem::new(format!("`{}` is {found}; a table is expected", self.path_of(key)))
+                    .at(&entry.node.place)
+                    .label("not a table")
+                    .help(format!(
+                        "write [{}] on a line of its own and the keys below it",
+                        self.path_of(key)
+                    )),
+            );
+            return None;
+        };
+        Some(Section {
+            path: self.path_of(key),
+            table,
+            place: Some(entry.key_place.clone()),
+        })
+    }
+
+    /// The value of a key that must be there.
+    pub fn require(&self, key: &str, help: &str, problems: &mut Vec<Problem>) -> Option<&'a Node> {
+        let node = self.table.get(key);
+        if node.is_none() {
+            let mut problem = Problem::new(format!("`{}` is missing", self.path_of(key)))
+                .label(format!("`{key}` is missing here"))
+                .help(help);
+            if let Some(place) = &self.place {
+                problem = problem.at(place);
+            }
+            problems.push(problem);
+        }
+        node
+    }
+
+    /// Notes every key that is not among `keys`.
+    pub fn allow(&self, keys: &[&str], elsewhere: &[(&str, &[&str])], problems: &mut Vec<Problem>) {
+        for entry in self
+            .table
+            .entries
+            .iter()
+            .filter(|entry| !keys.contains(&entry.key.as_str()))
+        {
+            let owner = elsewhere
+                .iter()
+                .find(|(_, keys)| keys.contains(&entry.key.as_str()));
+            let help = match (nearest(&entry.key, keys.iter().copied()), owner) {
+                (Some(near), _) => format!("did you mean `{near}`?"),
+                (None, Some((owner, _))) => format!("`{}` belongs below [{owner}]", entry.key),
+                (None, None) => format!("known here: {}", keys.join(", ")),
+            };
+            let place = if self.path.is_empty() {
+                "in a case".into()
+            } else {
+                format!("in `{}`", self.path)
+            };
+            problems.push(
+                Problem::new(format!("there is no key `{}` {place}", entry.key))
+                    .at(&entry.key_place)
+                    .label("unknown key")
+                    .help(help),
+            );
+        }
+    }
+
+    pub fn quantity(
+        &self,
+        key: &str,
+        kind: Kind,
+        range: Range,
+        problems: &mut Vec<Problem>,
+    ) -> Option<Quantity> {
+        let node = self.require(
+            key,
+            &format!("write for example {key} = \"{}\"", example(kind)),
+            problems,
+        )?;
+        quantity(node, &self.path_of(key), kind, range, problems)
+    }
+
+    /// Three quantities in a list.
+    pub fn triple(
+        &self,
+        key: &str,
+        kind: Kind,
+        range: Range,
+        problems: &mut Vec<Problem>,
+    ) -> Option<[Quantity; 3]> {
+        let one = example(kind);
+        let help = format!("write for example {key} = [\"{one}\", \"{one}\", \"{one}\"]");
+        let node = self.require(key, &help, problems)?;
+        let path = self.path_of(key);
+        match &node.value {
+            Value::List(items) if items.len() == 3 => {
+                let mut read =
+                    |at: usize| quantity(&items[at], &format!("{path}[{at}]"), kind, range, problems);
+                let triple = [read(0), read(1), read(2)];
+                let [Some(a), Some(b), Some(c)] = triple else {
+                    return None;
+                };
+                Some([a, b, c])
+            }
+            Value::List(items) => {
+                let message = format!("`{path}` has {} entries; three are expected", items.len());
+                problems.push(
+                    Problem::new(message)
+                        .at(&node.place)
+                        .label("three quantities")
+                        .help(help),
+                );
+                None
+            }
+            other => {
+                let message = format!(
+                    "`{path}` is {}; a list of three quantities is expected",
+                    other.describe()
+                );
+                problems.push(
+                    Problem::new(message)
+                        .at(&node.place)
+                        .label("not a list")
+                        .help(help),
+                );
+                None
+            }
+        }
+    }
+
+    /// A pure number.
+    pub fn number(&self, key: &str, range: Range, example: &str, problems: &mut Vec<Problem>) -> Option<f64> {
+        let help = format!("write for example {key} = {example}");
+        let node = self.require(key, &help, problems)?;
+        let path = self.path_of(key);
+        match node.value {
+            Value::Number(value) if range.holds(value) => Some(value),
+            Value::Number(_) => {
+                let message = format!("`{path}` is {}; it must be {}", node.place.text(), range.words());
+                problems.push(
+                    Problem::new(message)
+                        .at(&node.place)
+                        .label(range.words())
+                        .help(help),
+                );
+                None
+            }
+            ref other => {
+                let message = format!(
+                    "`{path}` is {}; a number without quotes and unit is expected",
+                    other.describe()
+                );
+                problems.push(
+                    Problem::new(message)
+                        .at(&node.place)
+                        .label("a number is expected")
+                        .help(help),
+                );
+                None
+            }
+        }
+    }
+
+    pub fn truth(&self, key: &str, problems: &mut Vec<Problem>) -> Option<bool> {
+        let help = format!("write {key} = true or {key} = false, without quotes");
+        let node = self.require(key, &help, problems)?;
+        if let Value::Truth(truth) = node.value {
+            return Some(truth);
+        }
+        let message = format!(
+            "`{}` is {}; true or false is expected",
+            self.path_of(key),
+            node.value.describe()
+        );
+        problems.push(
+            Problem::new(message)
+                .at(&node.place)
+                .label("true or false")
+                .help(help),
+        );
+        None
+    }
+
+    pub fn text(&self, key: &str, problems: &mut Vec<Problem>) -> Option<(&'a str, &'a Node)> {
+        let help = format!("write {key} = \"...\"");
+        let node = self.require(key, &help, problems)?;
+        if let Value::Text(text) = &node.value {
+            return Some((text, node));
+        }
+        let message = format!(
+            "`{}` is {}; text is expected",
+            self.path_of(key),
+            node.value.describe()
+        );
+        problems.push(
+            Problem::new(message)
+                .at(&node.place)
+                .label("text in quotes is expected")
+                .help(help),
+        );
+        None
+    }
+
+    pub fn choice<T: Copy>(&self, key: &str, names: Names<T>, problems: &mut Vec<Problem>) -> Option<T> {
+        let node = self.require(key, &one_of(names), problems)?;
+        choice(node, &self.path_of(key), names, problems)
+    }
+}
+
+/// One of several names.
+pub(super) fn choice<T: Copy>(
+    node: &Node,
+    path: &str,
+    names: Names<T>,
+    problems: &mut Vec<Problem>,
+) -> Option<T> {
+    let message = match &node.value {
+        Value::Text(text) => match names.iter().find(|(name, _)| name == text) {
+            Some((_, choice)) => return Some(*choice),
+            None => format!("`{path}` cannot be \"{text}\""),
+        },
+        other => format!("`{path}` is {}; a name in quotes is expected", other.describe()),
+    };
+    let near = match &node.value {
+        Value::Text(text) => nearest(text, names.iter().map(|(name, _)| *name)),
+        _ => None,
+    };
+    let help = match near {
+        Some(near) => format!("did you mean \"{near}\"? {}", one_of(names)),
+        None => one_of(names),
+    };
+    problems.push(
+        Problem::new(message)
+            .at(&node.place)
+            .label("not one of the choices")
+            .help(help),
+    );
+    None
+}
+
+fn one_of<T>(names: Names<T>) -> String {
+    let names: Vec<String> = names.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+    format!("write one of {}", names.join(", "))
+}
+
+/// A quantity written in a node.
+pub(super) fn quantity(
+    node: &Node,
+    path: &str,
+    kind: Kind,
+    range: Range,
+    problems: &mut Vec<Problem>,
+) -> Option<Quantity> {
+    let error = match &node.value {
+        Value::Text(text) => match Quantity::parse_as(text, kind) {
+            Ok(quantity) => {
+                let problem = out_of_range(&quantity, path, kind, range);
+                let inside = problem.is_none();
+                problems.extend(problem.map(|problem| problem.at(&node.place).label(range.words())));
+                return inside.then_some(quantity);
+            }
+            Err(error) => error,
+        },
+        Value::Number(value) => {
+            let (text, span) = (node.place.text().to_string(), 0..node.place.span.len());
+            if value.is_finite() {
+                UnitError::MissingUnit {
+                    number: text,
+                    expected: Some(kind),
+                    span,
+                }
+            } else {
+                UnitError::NotFinite { text, span }
+            }
+        }
+        other => {
+            let message = format!(
+                "`{path}` is {}; {} is expected, a number and a unit in quotes",
+                other.describe(),
+                kind.name()
+            );
+            let help = format!("write for example \"{}\"", example(kind));
+            problems.push(
+                Problem::new(message)
+                    .at(&node.place)
+                    .label(kind.name())
+                    .help(help),
+            );
+            return None;
+        }
+    };
+    problems.push(unit_problem(&error, path, kind, &inner_place(node, &error)));
+    None
+}
+
+/// The mistake of a quantity, at its place.
+pub(super) fn unit_problem(error: &UnitError, path: &str, kind: Kind, place: &Place) -> Problem {
+    let label = match error {
+        UnitError::UnknownUnit { .. } => "unknown unit".to_string(),
+        UnitError::MissingUnit { .. } => "a unit is missing".to_string(),
+        UnitError::WrongDimension { .. } => format!("not {}", kind.name()),
+        UnitError::NotFinite { .. } => "not finite".to_string(),
+        _ => format!("{} is expected", kind.name()),
+    };
+    Problem::new(format!("`{path}`: {error}"))
+        .at(place)
+        .label(label)
+        .help(error.help())
+}
+
+/// The part of a text in quotes that an error speaks of.
+pub(super) fn inner_place(node: &Node, error: &UnitError) -> Place {
+    let raw = node.place.text();
+    let mut place = node.place.clone();
+    if let Value::Text(text) = &node.value
+        && !text.trim().is_empty()
+        && raw.len() == text.len() + 2
+        && raw.get(1..raw.len() - 1) == Some(text)
+    {
+        let span = error.span();
+        let start = place.span.start + 1;
+        place.span = start + span.start..start + span.end;
+    }
+    place
+}
+
+/// The problem of a quantity outside its range, still without a place.
+pub(super) fn out_of_range(quantity: &Quantity, path: &str, kind: Kind, range: Range) -> Option<Problem> {
+    if range.holds(quantity.to_si()) {
+        return None;
+    }
+    let message = format!("`{path}` is {quantity}; it must be {}", range.words());
+    Some(Problem::new(message).help(format!("write for example \"{}\"", example(kind))))
+}
+
+/// An example of a quantity of this kind.
+pub(super) fn example(kind: Kind) -> String {
+    let number = match kind {
+        Kind::Angle => "30",
+        Kind::Stiffness => "3000",
+        Kind::Force => "50",
+        Kind::Inertia => "100",
+        _ => "1",
+    };
+    format!("{number} {}", kind.unit(System::Us))
+}

@@ -1,0 +1,362 @@
+//! Tables of two columns: in the case file, or in a CSV file beside it.
+//!
+//! A CSV file has a line of names with units, `time [s], value [in]`, then one line of numbers a
+//! point. Empty lines and lines that begin with `#` do not count.
+
+use super::problem::{Place, Problem, Source};
+use super::section::{self, Range, Section};
+use super::tree::{Node, Value};
+use quantity::{Kind, Quantity, System};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Two columns of quantities, the first one increasing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QuantityTable {
+    /// The CSV file it comes from, as written in the case; `None` if its points stand there.
+    pub file: Option<String>,
+    /// The points.
+    pub rows: Vec<[Quantity; 2]>,
+}
+
+impl QuantityTable {
+    /// The points as a list, as written in a case file.
+    pub(super) fn points_to_toml(&self) -> String {
+        let text = |quantity: &Quantity| toml::Value::from(quantity.text()).to_string();
+        let rows: Vec<String> = self
+            .rows
+            .iter()
+            .map(|[a, b]| format!("[{}, {}]", text(a), text(b)))
+            .collect();
+        format!("[\n    {},\n]", rows.join(",\n    "))
+    }
+}
+
+/// What a table must look like.
+pub(super) struct Form {
+    names: [&'static str; 2],
+    kinds: [Kind; 2],
+    least: usize,
+    /// Whether the second column may fall.
+    may_fall: bool,
+}
+
+impl Form {
+    /// Time against a value of this kind, for a cubic spline.
+    pub fn motion(kind: Kind) -> Self {
+        Form {
+            names: ["time", "value"],
+            kinds: [Kind::Time, kind],
+            least: 4,
+            may_fall: true,
+        }
+    }
+
+    /// Compression against force.
+    pub fn coil() -> Self {
+        let names = ["compression", "force"];
+        Form {
+            names,
+            kinds: [Kind::Length, Kind::Force],
+            least: 2,
+            may_fall: false,
+        }
+    }
+
+    fn units(&self) -> [&'static str; 2] {
+        self.kinds.map(|kind| kind.unit(System::Us))
+    }
+
+    fn example_rows(&self) -> String {
+        let [a, b] = self.units();
+        format!("[[\"0 {a}\", \"0 {b}\"], [\"1 {a}\", \"2 {b}\"], ...]")
+    }
+
+    fn example_header(&self) -> String {
+        let ([a, b], [u, v]) = (self.names, self.units());
+        format!("{a} [{u}], {b} [{v}]")
+    }
+}
+
+struct Row {
+    values: [Quantity; 2],
+    place: Place,
+}
+
+/// Reads the table under one of two keys: the name of a file, or the points.
+pub(super) fn read_either(
+    section: &Section<'_>,
+    file: &str,
+    points: &str,
+    form: &Form,
+    folder: &Path,
+    problems: &mut Vec<Problem>,
+) -> Option<QuantityTable> {
+    match (section.table.get(file), section.table.entry(points)) {
+        (Some(_), Some(second)) => {
+            let message = format!("`{}` has both `{file}` and `{points}`", section.path);
+            let problem = Problem::new(message)
+                .at(&second.key_place)
+                .label("one of them is expected");
+            problems.push(problem.help("leave one of them out"));
+            None
+        }
+        (None, None) => {
+            let help = format!(
+                "write {file} = \"table.csv\", or {points} = {}",
+                form.example_rows()
+            );
+            section.require(file, &help, problems);
+            None
+        }
+        (Some(node), None) => read(node, &section.path_of(file), form, folder, problems),
+        (None, Some(entry)) => read(&entry.node, &section.path_of(points), form, folder, problems),
+    }
+}
+
+/// Reads a table from the name of a file or from points.
+pub(super) fn read(
+    node: &Node,
+    path: &str,
+    form: &Form,
+    folder: &Path,
+    problems: &mut Vec<Problem>,
+) -> Option<QuantityTable> {
+    let (file, rows) = match &node.value {
+        Value::Text(file) => (
+            Some(file.clone()),
+            read_file(node, file, path, form, folder, problems)?,
+        ),
+        Value::List(items) => (None, read_points(items, path, form, problems)?),
+        other => {
+            let message = format!("`{path}` is {}; a table is expected", other.describe());
+            let help = format!("write the name of a CSV file, or {}", form.example_rows());
+            problems.push(
+                Problem::new(message)
+                    .at(&node.place)
+                    .label("not a table")
+                    .help(help),
+            );
+            return None;
+        }
+    };
+    check(&rows, &node.place, path, form, problems)?;
+    Some(QuantityTable {
+        file,
+        rows: rows.into_iter().map(|row| row.values).collect(),
+    })
+}
+
+fn read_points(items: &[Node], path: &str, form: &Form, problems: &mut Vec<Problem>) -> Option<Vec<Row>> {
+    let mut rows = Vec::with_capacity(items.len());
+    let before = problems.len();
+    for (at, item) in items.iter().enumerate() {
+        let path = format!("{path}[{at}]");
+        match &item.value {
+            Value::List(pair) if pair.len() == 2 => {
+                let mut read =
+                    |i: usize| section::quantity(&pair[i], &path, form.kinds[i], Range::Any, problems);
+                if let (Some(a), Some(b)) = (read(0), read(1)) {
+                    rows.push(Row {
+                        values: [a, b],
+                        place: item.place.clone(),
+                    });
+                }
+            }
+            _ => {
+                let message = format!(
+                    "`{path}` is not a pair of {} and {}",
+                    form.names[0], form.names[1]
+                );
+                let help = format!("write the points as {}", form.example_rows());
+                problems.push(
+                    Problem::new(message)
+                        .at(&item.place)
+                        .label("two quantities")
+                        .help(help),
+                );
+            }
+        }
+    }
+    (problems.len() == before).then_some(rows)
+}
+
+fn read_file(
+    node: &Node,
+    file: &str,
+    path: &str,
+    form: &Form,
+    folder: &Path,
+    problems: &mut Vec<Problem>,
+) -> Option<Vec<Row>> {
+    let full = folder.join(file);
+    let text = match std::fs::read_to_string(&full) {
+        Ok(text) => text,
+        Err(error) => {
+            let (message, help) = if error.kind() == std::io::ErrorKind::NotFound {
+                let help = "files are looked for from the folder of the case file; check the name";
+                (format!("`{path}`: there is no file {}", full.display()), help)
+            } else {
+                (
+                    format!("`{path}`: {} cannot be read: {error}", full.display()),
+                    "name a CSV text file",
+                )
+            };
+            problems.push(
+                Problem::new(message)
+                    .at(&node.place)
+                    .label("this file")
+                    .help(help),
+            );
+            return None;
+        }
+    };
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_string();
+    read_csv(&Source::new(full.display().to_string(), text), form, problems)
+}
+
+fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Vec<Problem>) -> Option<Vec<Row>> {
+    let mut start = 0;
+    let mut lines = source.text().split_inclusive('\n').filter_map(|line| {
+        let at = start;
+        start += line.len();
+        let line = line.trim_end();
+        (!line.trim_start().is_empty() && !line.trim_start().starts_with('#')).then_some((at, line))
+    });
+    let help = format!(
+        "the first line names the columns with their units: {}",
+        form.example_header()
+    );
+    let Some((at, header)) = lines.next() else {
+        let place = Place {
+            source: Arc::clone(source),
+            span: 0..0,
+        };
+        problems.push(Problem::new("the table is empty").at(&place).help(help));
+        return None;
+    };
+    let place = |at: usize, cell: &str| {
+        let lead = cell.len() - cell.trim_start().len();
+        Place {
+            source: Arc::clone(source),
+            span: at + lead..at + lead + cell.trim().len(),
+        }
+    };
+    let mut units = Vec::new();
+    for (column, (at, cell)) in cells(header, at).enumerate() {
+        let unit = cell
+            .split_once('[')
+            .and_then(|(_, rest)| rest.trim_end().strip_suffix(']'));
+        let (Some(unit), Some(&kind)) = (unit, form.kinds.get(column)) else {
+            let found = if unit.is_none() {
+                "has no unit"
+            } else {
+                "is one column too many"
+            };
+            let problem = Problem::new(format!("`{}` {found}", cell.trim())).at(&place(at, cell));
+            problems.push(problem.label("name [unit] is expected").help(help));
+            return None;
+        };
+        if let Err(error) = Quantity::parse_as(&format!("1 {unit}"), kind) {
+            problems.push(section::unit_problem(&error, cell.trim(), kind, &place(at, cell)));
+            return None;
+        }
+        units.push(unit);
+    }
+    let &[first, second] = units.as_slice() else {
+        let problem = Problem::new("two columns are expected").at(&place(at, header));
+        problems.push(problem.label("one column only").help(help));
+        return None;
+    };
+    let mut rows = Vec::new();
+    for (at, line) in lines {
+        let cells: Vec<(usize, &str)> = cells(line, at).collect();
+        let &[a, b] = cells.as_slice() else {
+            let message = format!("{} values in this line; two are expected", cells.len());
+            let problem = Problem::new(message).at(&place(at, line)).label("two numbers");
+            problems.push(problem.help("separate the numbers with a comma, write decimals with a point"));
+            return None;
+        };
+        let mut read = |(at, cell): (usize, &str), unit: &str, kind: Kind| {
+            let number = cell.trim();
+            let quantity = match number.parse::<f64>() {
+                Ok(_) => Quantity::parse_as(&format!("{number} {unit}"), kind).map_err(|e| e.to_string()),
+                Err(_) => Err(format!("\"{number}\" is not a number")),
+            };
+            quantity
+                .map_err(|message| {
+                    let problem = Problem::new(message)
+                        .at(&place(at, cell))
+                        .label("a number is expected");
+                    problems.push(problem.help("write a finite number; the units stand in the first line"));
+                })
+                .ok()
+        };
+        let values = [read(a, first, form.kinds[0])?, read(b, second, form.kinds[1])?];
+        rows.push(Row {
+            values,
+            place: place(at, line),
+        });
+    }
+    Some(rows)
+}
+
+/// The cells of a line and where they begin.
+fn cells(line: &str, at: usize) -> impl Iterator<Item = (usize, &str)> {
+    let mut start = at;
+    line.split(',').map(move |cell| {
+        let here = start;
+        start += cell.len() + 1;
+        (here, cell)
+    })
+}
+
+/// Checks that there are enough rows and that they are in order.
+fn check(rows: &[Row], place: &Place, path: &str, form: &Form, problems: &mut Vec<Problem>) -> Option<()> {
+    let [first, second] = form.names;
+    if rows.len() < form.least {
+        let message = format!(
+            "`{path}` has {} rows; at least {} are expected",
+            rows.len(),
+            form.least
+        );
+        let place = rows.first().map_or(place, |row| &row.place);
+        problems.push(
+            Problem::new(message)
+                .at(place)
+                .label("too short")
+                .help("add rows to the table"),
+        );
+        return None;
+    }
+    let text = |row: &Row, column: usize| row.values[column].to_string();
+    for pair in rows.windows(2) {
+        let [a, b] = pair else { continue };
+        if b.values[0].to_si() <= a.values[0].to_si() {
+            let (before, after) = (text(a, 0), text(b, 0));
+            let message = format!("`{path}`: the {first} {after} does not come after {before}");
+            let problem = Problem::new(message).at(&b.place).label("out of order");
+            problems.push(problem.help(format!("sort the rows so that the {first} always increases")));
+            return None;
+        }
+        if !form.may_fall && b.values[1].to_si() < a.values[1].to_si() {
+            let (before, after) = (text(a, 1), text(b, 1));
+            let message = format!("`{path}`: the {second} falls from {before} to {after}");
+            let problem = Problem::new(message).at(&b.place).label("a negative stiffness");
+            problems.push(problem.help(format!("the {second} must not fall while the {first} grows")));
+            return None;
+        }
+    }
+    if let (false, Some(a), Some(b)) = (form.may_fall, rows.first(), rows.last())
+        && b.values[1].to_si() <= a.values[1].to_si()
+    {
+        let problem = Problem::new(format!("`{path}`: the {second} never rises")).at(&b.place);
+        problems.push(
+            problem
+                .label("zero stiffness")
+                .help(format!("the {second} must grow with the {first}")),
+        );
+        return None;
+    }
+    Some(())
+}

@@ -1,0 +1,183 @@
+//! The case file as a tree in which every key and value knows its place.
+//!
+//! Three trees are laid over each other: the thesis's values, the file, and what `--set` gives.
+//! Whatever turns out to be wrong can still be shown where it was written.
+
+use super::problem::{Place, Problem, Source};
+use std::sync::Arc;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// A value and its place.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub place: Place,
+    pub value: Value,
+}
+
+/// What TOML can hold.
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    Text(String),
+    Number(f64),
+    Truth(bool),
+    Date,
+    List(Vec<Node>),
+    Table(Table),
+}
+
+/// A table, in the order of the text.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Table {
+    pub entries: Vec<Entry>,
+}
+
+/// A key and what it holds.
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    pub key: String,
+    pub key_place: Place,
+    pub node: Node,
+}
+
+/// Reads TOML; every mistake of syntax becomes a problem.
+pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Vec<Problem>> {
+    let (table, errors) = DeTable::parse_recoverable(source.text());
+    if errors.is_empty() {
+        return Ok(table_of(table.get_ref(), source));
+    }
+    let problems = errors.iter().map(|error| {
+        let span = error.span().unwrap_or(0..0);
+        let message = error.message().lines().collect::<Vec<_>>().join(", ");
+        Problem::new(format!("this is not TOML: {message}"))
+            .at(&Place { source: Arc::clone(source), span })
+            .help("a line is `key = value`; text and quantities stand in quotes, for example angle = \"32 deg\"")
+    });
+    Err(problems.collect())
+}
+
+fn table_of(table: &DeTable<'_>, source: &Arc<Source>) -> Table {
+    let mut entries: Vec<Entry> = table
+        .iter()
+        .map(|(key, value)| Entry {
+            key: key.get_ref().to_string(),
+            key_place: Place {
+                source: Arc::clone(source),
+                span: key.span(),
+            },
+            node: node_of(value, source),
+        })
+        .collect();
+    entries.sort_by_key(|entry| entry.key_place.span.start);
+    Table { entries }
+}
+
+fn node_of(value: &Spanned<DeValue<'_>>, source: &Arc<Source>) -> Node {
+    let place = Place {
+        source: Arc::clone(source),
+        span: value.span(),
+    };
+    let value = match value.get_ref() {
+        DeValue::String(text) => Value::Text(text.to_string()),
+        DeValue::Integer(number) => {
+            let digits = i128::from_str_radix(number.as_str(), number.radix());
+            Value::Number(digits.map_or(f64::INFINITY, |number| number as f64))
+        }
+        DeValue::Float(number) => Value::Number(number.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::Boolean(truth) => Value::Truth(*truth),
+        DeValue::Datetime(_) => Value::Date,
+        DeValue::Array(items) => Value::List(items.iter().map(|item| node_of(item, source)).collect()),
+        DeValue::Table(table) => Value::Table(table_of(table, source)),
+    };
+    Node { place, value }
+}
+
+impl Value {
+    /// What it is, in words.
+    pub fn describe(&self) -> &'static str {
+        match self {
+            Value::Text(_) => "text",
+            Value::Number(_) => "a number",
+            Value::Truth(_) => "true or false",
+            Value::Date => "a date",
+            Value::List(_) => "a list",
+            Value::Table(_) => "a table",
+        }
+    }
+}
+
+impl Table {
+    pub fn entry(&self, key: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.key == key)
+    }
+
+    pub fn get(&self, key: &str) -> Option<&Node> {
+        self.entry(key).map(|entry| &entry.node)
+    }
+
+    /// The table under a key, if it is one.
+    pub fn table(&self, key: &str) -> Option<&Table> {
+        match &self.get(key)?.value {
+            Value::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// The text under a key, if it is text.
+    pub fn text(&self, key: &str) -> Option<&str> {
+        match &self.get(key)?.value {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The place of the value at a dotted path, or of the nearest table around it.
+    pub fn place_of(&self, path: &str) -> Option<&Place> {
+        let (key, rest) = path
+            .split_once('.')
+            .map_or((path, None), |(key, rest)| (key, Some(rest)));
+        let entry = self.entry(key)?;
+        let inner = match (&entry.node.value, rest) {
+            (Value::Table(table), Some(rest)) => table.place_of(rest),
+            _ => None,
+        };
+        match entry.node.value {
+            Value::Table(_) => inner.or(Some(&entry.key_place)),
+            _ => Some(&entry.node.place),
+        }
+    }
+
+    /// Sets one key, replacing what was there.
+    pub fn set(&mut self, entry: Entry) {
+        match self.entries.iter_mut().find(|old| old.key == entry.key) {
+            Some(old) => *old = entry,
+            None => self.entries.push(entry),
+        }
+    }
+
+    /// Takes over from `defaults` what is left out here.
+    ///
+    /// Tables are completed key by key, but for motions of another `shape` and for keys that
+    /// exclude each other.
+    pub fn complete_from(&mut self, defaults: &Table) {
+        let has_table = self.entry("table").is_some();
+        for default in &defaults.entries {
+            match self.entries.iter_mut().find(|entry| entry.key == default.key) {
+                None if default.key == "stiffness" && has_table => {}
+                None => self.entries.push(default.clone()),
+                Some(own) => {
+                    if let (Value::Table(own), Value::Table(default)) =
+                        (&mut own.node.value, &default.node.value)
+                    {
+                        let shapes = (own.get("shape"), own.text("shape"), default.text("shape"));
+                        match shapes {
+                            (None, ..) => own.complete_from(default),
+                            (_, Some(shape), Some(same)) if shape == same => own.complete_from(default),
+                            _ => {}
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

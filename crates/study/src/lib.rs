@@ -1,0 +1,5 @@
+//! Cases, runs and metrics.
+
+#![warn(missing_docs)]
+
+pub mod case;

@@ -1,0 +1,200 @@
+//! The wedge, its neighbours, faces and coil as a system.
+//!
+//! Nominal position: the wedge frame's origin B at (0, 0, L) with L the nominal coil length; with no toe and no yaw
+//! both faces just touch.
+//! - Column: plane through (x_A, 0, L + h2/2), normal (cos φ, 0, -sin φ) for toe-out φ.
+//! - Slope: plane through the pocket's centre (x_A + h1/2, 0, L + h2/2), normal (-cos θ, 0, -sin θ) in the bolster's axes.
+//!   The bolster turns about that centre unless another is named.
+//! - Coil: its seat is the origin, on the side frame (variable damping) or on the bolster (constant damping).
+
+use std::f64::consts::PI;
+
+use mechanics::body::Body;
+use mechanics::coil::{Coil, CoilLine};
+use mechanics::contact::{ContactFace, ContactPoint};
+use mechanics::frame::Frame;
+use mechanics::friction::FrictionLaw;
+use mechanics::link::Mount;
+use mechanics::motion::Motion;
+use mechanics::surface::Plane;
+use mechanics::system::{Model, ModelError, NoEquilibrium, System};
+use mechanics::vector::Vector;
+use thiserror::Error;
+
+use crate::parameters::{Damping, FaceFriction, NeighbourMotion, ParameterError, Parameters, Start};
+
+/// The side frame's number among the bodies.
+pub const SIDE_FRAME: usize = 0;
+/// The bolster's number among the bodies.
+pub const BOLSTER: usize = 1;
+/// The wedge's number among the bodies.
+pub const WEDGE: usize = 2;
+/// The column's number among the faces.
+pub const COLUMN: usize = 0;
+/// The slope's number among the faces.
+pub const SLOPE: usize = 1;
+
+/// Why parameters make no wedge.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum BuildError {
+    /// A parameter is outside its range.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// The bodies and elements make no system.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// There is no equilibrium to start from.
+    #[error("cannot start from equilibrium: {0}; start = \"rest\" or \"touching\" needs none")]
+    Equilibrium(#[from] NoEquilibrium),
+}
+
+/// A stand-alone wedge, ready to run.
+#[derive(Clone, Debug)]
+pub struct Wedge {
+    /// What it is made of.
+    pub parameters: Parameters,
+    /// Its equations of motion.
+    pub system: System,
+    /// How far the column was moved away along -x for a touching start, m.
+    pub column_shift: f64,
+    /// How far the pocket was moved away along x for a touching start, m.
+    pub pocket_shift: f64,
+    /// The state at time zero.
+    pub initial_state: Vec<f64>,
+}
+
+impl Wedge {
+    /// Builds the wedge and finds its start.
+    ///
+    /// # Errors
+    /// A parameter is outside its range, or there is no equilibrium to start from.
+    pub fn new(parameters: Parameters) -> Result<Self, BuildError> {
+        parameters.validate()?;
+        let mut shifts = [0.0; 2];
+        if parameters.start == Start::Touching {
+            shifts = touching_shifts(&parameters)?;
+        }
+        let system = System::new(model(&parameters, shifts))?;
+        let mut initial_state = system.initial_state();
+        if parameters.start == Start::Equilibrium {
+            let mut still = System::new(model(&held(&parameters), shifts))?;
+            let rest = still.equilibrium(0.0, &still.initial_state())?;
+            let positions = system.layout().speeds;
+            initial_state[..positions].copy_from_slice(&rest[..positions]);
+        }
+        Ok(Self { parameters, system, column_shift: shifts[0], pocket_shift: shifts[1], initial_state })
+    }
+}
+
+/// How far column and pocket must move apart along x until no corner penetrates at time zero, m.
+fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
+    let mut system = System::new(model(parameters, [0.0; 2]))?;
+    let start = system.initial_state();
+    let seen = system.observe(0.0, &start);
+    Ok([COLUMN, SLOPE].map(|face| {
+        let depth = seen.faces[face].points.iter().fold(0.0, |depth: f64, point| depth.max(-point.gap));
+        depth / system.faces()[face].mount.rotation.0[0][0].abs()
+    }))
+}
+
+/// The same wedge without friction, its neighbours held where they are at time zero.
+fn held(parameters: &Parameters) -> Parameters {
+    let mut held = parameters.clone();
+    for neighbour in [&mut held.side_frame, &mut held.bolster] {
+        for motion in &mut neighbour.coordinates {
+            *motion = Motion::Constant(motion.evaluate(0.0, 0.0)[0]);
+        }
+    }
+    for face in [&mut held.column_friction, &mut held.slope_friction] {
+        *face = FaceFriction { coefficient: 0.0, law: FrictionLaw::Tanh { reference_speed: 1.0 } };
+    }
+    held
+}
+
+/// Bodies and elements; `shifts` move column and pocket apart.
+fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
+    let Parameters { wedge, coil, .. } = parameters;
+    let (bottom, face_x, length) = (parameters.bottom_length(), parameters.column_face(), coil.nominal_length);
+    let middle = length + 0.5 * wedge.height;
+    let column_center = [face_x, 0.0, middle];
+    let pocket_center = [face_x + 0.5 * bottom, 0.0, middle];
+
+    let (side_frame, side_frame_origin) = neighbour("side_frame", &parameters.side_frame, column_center);
+    let (bolster, bolster_origin) = neighbour("bolster", &parameters.bolster, pocket_center);
+    let body = Body {
+        name: "wedge".to_owned(),
+        mass: wedge.mass,
+        inertia: wedge.inertia,
+        center_of_gravity: wedge.center_of_gravity,
+        frame: Frame::fixed([0.0, 0.0, length], [0.0; 3]),
+        free: wedge.free,
+        initial: [0.0; 6],
+    };
+
+    let half = 0.5 * wedge.width;
+    let corners = |lower_x: f64, upper_x: f64| {
+        [
+            [lower_x, -half, 0.0],
+            [lower_x, half, 0.0],
+            [upper_x, -half, wedge.height],
+            [upper_x, half, wedge.height],
+        ]
+        .map(|position| ContactPoint {
+            position: Vector(position),
+            stiffness: parameters.contact.stiffness,
+            damping: parameters.contact.damping,
+            share: 0.25,
+        })
+        .to_vec()
+    };
+    let face = |name: &str, points: Vec<ContactPoint>, friction: &FaceFriction| ContactFace {
+        name: name.to_owned(),
+        points,
+        surface: Plane,
+        coefficient: friction.coefficient,
+        law: friction.law,
+    };
+    let column = face("column", corners(face_x, face_x), &parameters.column_friction);
+    let slope = face("slope", corners(face_x + bottom, face_x), &parameters.slope_friction);
+    let column_mount =
+        Mount::new(sub([face_x - shifts[0], 0.0, middle], side_frame_origin), [0.0, parameters.toe, 0.0]);
+    let slope_mount = Mount::new(
+        sub([pocket_center[0] + shifts[1], 0.0, middle], bolster_origin),
+        [0.0, PI - wedge.angle, 0.0],
+    );
+
+    let (seat_body, seat_origin) = match parameters.damping {
+        Damping::Variable => (SIDE_FRAME, side_frame_origin),
+        Damping::Constant => (BOLSTER, bolster_origin),
+    };
+    let end = Vector::zero();
+    let control_coil = Coil {
+        end,
+        acts_at: match coil.acts_at {
+            CoilLine::CenterOfGravity => Vector(wedge.center_of_gravity),
+            CoilLine::Seat => end,
+        },
+        law: coil.law.clone(),
+        free_length: coil.free_length,
+        damping: coil.damping,
+        rotational_damping: coil.rotational_damping,
+        pulls: coil.pulls,
+    };
+    Model {
+        bodies: vec![side_frame, bolster, body],
+        gravity: [0.0, 0.0, -parameters.gravity],
+        faces: vec![(WEDGE, SIDE_FRAME, column_mount, column), (WEDGE, BOLSTER, slope_mount, slope)],
+        coils: vec![(WEDGE, seat_body, Mount::new(sub([0.0; 3], seat_origin), [0.0; 3]), control_coil)],
+    }
+}
+
+/// A prescribed neighbour and its origin: the point that it turns about.
+fn neighbour(name: &str, motion: &NeighbourMotion, center: [f64; 3]) -> (Body, [f64; 3]) {
+    let origin = motion.center.unwrap_or(center);
+    let frame = Frame { origin, orientation: [0.0; 3], motions: motion.coordinates.clone() };
+    (Body::prescribed(name, frame), origin)
+}
+
+fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] - b[k])
+}

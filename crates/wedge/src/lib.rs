@@ -1,0 +1,13 @@
+//! The stand-alone friction wedge between side frame and bolster.
+//!
+//! One wedge body, two contact faces of four corners each, a control coil, two prescribed neighbours: put
+//! together from [`mechanics`] by [`Wedge::new`]. [`outputs`] says what comes out.
+
+pub mod outputs;
+pub mod parameters;
+pub mod thesis;
+
+mod assemble;
+
+pub use assemble::{BOLSTER, BuildError, COLUMN, SIDE_FRAME, SLOPE, WEDGE, Wedge};
+pub use parameters::{ParameterError, Parameters, Start};

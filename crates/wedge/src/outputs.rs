@@ -1,0 +1,390 @@
+//! What comes out of a wedge run: the output table, and the values at one instant.
+//!
+//! Signs: the *longitudinal wedge force* is Σ N n_c·x over the column corners (Steets 2007, eq. 5-2); the *vertical wedge
+//! force* is the column friction as it acts on the side frame, positive up; the *vertical force on the side frame* is the
+//! same less the coil's spring force where the coil stands on the side frame (eq. 5-3). Moments act on the wedge,
+//! about its centre of gravity. Friction powers are Σ F_t·v (eqs. 5-4, 5-5), never positive with tanh.
+
+use mechanics::output::Column;
+use mechanics::system::{ChannelKind, Observation, System};
+use mechanics::vector::Vector;
+use quantity::Kind;
+
+use crate::assemble::{BOLSTER, COLUMN, SIDE_FRAME, SLOPE, WEDGE};
+use crate::parameters::{Damping, Parameters};
+
+/// The names of the corners of a face, in the order of its contact points; left is +y.
+pub const CORNERS: [&str; 4] = ["lower_right", "lower_left", "upper_right", "upper_left"];
+/// The names of the faces in results.
+pub const FACES: [&str; 2] = ["column", "slope"];
+
+/// Everything that a column may need.
+struct Scene<'s> {
+    seen: &'s Observation,
+    modes: &'s [u8],
+    start_energy: f64,
+    derived: Derived,
+}
+
+/// Resultants.
+struct Derived {
+    vertical: f64,
+    vertical_on_side_frame: f64,
+    moments: [Vector<f64>; 2],
+    on_side_frame: (Vector<f64>, Vector<f64>),
+    on_bolster: (Vector<f64>, Vector<f64>),
+    ledger: Ledger,
+}
+
+/// The energy ledger at one instant, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Ledger {
+    /// Work done by the prescribed motions.
+    pub motion_work: f64,
+    /// Work done by the coil's guiding couple (only when its force acts at the centre of gravity).
+    pub coil_guide_work: f64,
+    /// Stored energy, less that at the start.
+    pub stored: f64,
+    /// Lost in friction at the side frame.
+    pub side_frame_friction_loss: f64,
+    /// Lost in friction at the bolster.
+    pub bolster_friction_loss: f64,
+    /// Lost in contact damping.
+    pub contact_damping_loss: f64,
+    /// Lost in the coil's damping.
+    pub coil_damping_loss: f64,
+    /// Work less stored energy and losses: what does not add up.
+    pub residual: f64,
+}
+
+type Value = Box<dyn Fn(&Scene<'_>) -> f64 + Send + Sync>;
+
+/// The output table of wedge runs.
+pub struct Outputs {
+    columns: Vec<Column>,
+    values: Vec<Value>,
+    damping: Damping,
+    faces: [Vec<String>; 2],
+}
+
+impl Outputs {
+    /// The table for a wedge of these parameters.
+    #[must_use]
+    pub fn new(parameters: &Parameters) -> Self {
+        let mut table = Self {
+            columns: Vec::new(),
+            values: Vec::new(),
+            damping: parameters.damping,
+            faces: [COLUMN, SLOPE].map(|_| CORNERS.map(str::to_owned).to_vec()),
+        };
+        table.fixed_columns();
+        table.motion_columns();
+        table.corner_columns();
+        table.neighbour_columns();
+        table.energy_columns();
+        table
+    }
+
+    /// The columns.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// The values of all columns (SI) at one instant; `modes` are those of the contact points, `start_energy` the
+    /// stored energy at the start (J).
+    pub fn values(
+        &self,
+        system: &System,
+        seen: &Observation,
+        modes: &[u8],
+        start_energy: f64,
+        out: &mut Vec<f64>,
+    ) {
+        let derived = self.derive(system, seen, start_energy);
+        let scene = Scene { seen, modes, start_energy, derived };
+        out.extend(self.values.iter().map(|value| value(&scene)));
+    }
+
+    /// The energy ledger at one instant.
+    #[must_use]
+    pub fn ledger(system: &System, seen: &Observation, start_energy: f64) -> Ledger {
+        let mut ledger = Ledger { stored: seen.energies.total() - start_energy, ..Ledger::default() };
+        for (channel, value) in system.channels().iter().zip(&seen.quadratures) {
+            let entry = match (channel.kind, channel.element.as_str()) {
+                (ChannelKind::MotionWork, _) => &mut ledger.motion_work,
+                (ChannelKind::FrictionLoss, "column") => &mut ledger.side_frame_friction_loss,
+                (ChannelKind::FrictionLoss, _) => &mut ledger.bolster_friction_loss,
+                (ChannelKind::ContactDampingLoss, _) => &mut ledger.contact_damping_loss,
+                (ChannelKind::CoilDampingLoss, _) => &mut ledger.coil_damping_loss,
+                (ChannelKind::CoilGuideWork, _) => &mut ledger.coil_guide_work,
+            };
+            *entry += value;
+        }
+        ledger.residual = ledger.motion_work + ledger.coil_guide_work
+            - ledger.stored
+            - ledger.side_frame_friction_loss
+            - ledger.bolster_friction_loss
+            - ledger.contact_damping_loss
+            - ledger.coil_damping_loss;
+        ledger
+    }
+
+    fn derive(&self, system: &System, seen: &Observation, start_energy: f64) -> Derived {
+        let wedge = &seen.bodies[WEDGE];
+        let cg = wedge.center_of_gravity;
+        let mut forces = [Vector::zero(); 2];
+        let mut moments = [Vector::zero(); 2];
+        let mut vertical = 0.0;
+        for (index, face) in seen.faces.iter().enumerate() {
+            for ((place, normal), friction) in
+                face.places.iter().zip(&face.normal_forces).zip(&face.friction_forces)
+            {
+                let force: Vector<f64> = *normal + *friction;
+                let arm: Vector<f64> = *place - cg;
+                forces[index] += force;
+                moments[index] += arm.cross(force);
+                if index == COLUMN {
+                    vertical -= friction.0[2];
+                }
+            }
+        }
+        let coil = &seen.coils[0];
+        let on_frame = match self.damping {
+            Damping::Variable => coil.spring_force.0[2],
+            Damping::Constant => 0.0,
+        };
+        let reference = [seen.faces[COLUMN].origin, seen.faces[SLOPE].origin];
+        let zero = (Vector::zero(), Vector::zero());
+        let seat = match self.damping {
+            Damping::Variable => 0,
+            Damping::Constant => 1,
+        };
+        let mut reactions = [zero; 2];
+        for (index, reaction) in reactions.iter_mut().enumerate() {
+            *reaction = system.reaction_about(forces[index], moments[index], cg, reference[index]);
+            if index == seat {
+                let (force, moment) =
+                    system.reaction_about(coil.force, coil.moment, wedge.origin, reference[index]);
+                *reaction = (reaction.0 + force, reaction.1 + moment);
+            }
+        }
+        Derived {
+            vertical,
+            vertical_on_side_frame: vertical - on_frame,
+            moments,
+            on_side_frame: reactions[0],
+            on_bolster: reactions[1],
+            ledger: Self::ledger(system, seen, start_energy),
+        }
+    }
+
+    fn add(
+        &mut self,
+        name: impl Into<String>,
+        kind: Kind,
+        place: (&'static str, &'static str),
+        text: impl Into<String>,
+        value: impl Fn(&Scene<'_>) -> f64 + Send + Sync + 'static,
+    ) {
+        let (frame, reference) = place;
+        self.columns.push(Column { name: name.into(), kind, frame, reference, text: text.into() });
+        self.values.push(Box::new(value));
+    }
+
+    /// The columns whose names are fixed for all time, in their order.
+    fn fixed_columns(&mut self) {
+        let nominal = ("fixed", "nominal position");
+        let none = ("fixed", "");
+        let cg = ("fixed", "wedge centre of gravity");
+        self.add("time", Kind::Time, ("", ""), "time", |s| s.seen.time);
+        self.add("bolster_vertical", Kind::Length, nominal, "vertical displacement of the bolster", |s| {
+            displacement(s, BOLSTER).0[2]
+        });
+        for (name, kind, k) in [
+            ("wedge_x", Kind::Length, 0),
+            ("wedge_z", Kind::Length, 2),
+            ("wedge_pitch", Kind::Angle, 4),
+            ("wedge_yaw", Kind::Angle, 5),
+        ] {
+            self.add(name, kind, nominal, "displacement of the wedge frame's origin, or angle", move |s| {
+                s.seen.bodies[WEDGE].coordinates[k]
+            });
+        }
+        self.add(
+            "longitudinal_wedge_force",
+            Kind::Force,
+            none,
+            "sum of the column's normal forces on the wedge along x (eq. 5-2)",
+            |s| s.seen.faces[COLUMN].normal_forces.iter().map(|f| f.0[0]).sum(),
+        );
+        self.add(
+            "vertical_wedge_force",
+            Kind::Force,
+            none,
+            "column friction as it acts on the side frame, positive up (eq. 5-1)",
+            |s| s.derived.vertical,
+        );
+        self.add(
+            "vertical_force_on_side_frame",
+            Kind::Force,
+            none,
+            "the same, less the coil's spring force where the coil stands on the side frame (eq. 5-3, reversed)",
+            |s| s.derived.vertical_on_side_frame,
+        );
+        for (name, face, text) in [
+            ("side_frame_friction_power", COLUMN, "power of the column's friction, Σ F_t·v (eq. 5-4)"),
+            ("bolster_friction_power", SLOPE, "power of the slope's friction, Σ F_t·v (eq. 5-5)"),
+        ] {
+            self.add(name, Kind::Power, none, text, move |s| s.seen.faces[face].friction_power);
+        }
+        for (name, face) in [("side_frame_dissipation", COLUMN), ("bolster_dissipation", SLOPE)] {
+            let text = "the part of the friction power that is lost; never positive";
+            self.add(name, Kind::Power, none, text, move |s| -s.seen.faces[face].friction_loss);
+        }
+        self.moment_columns("side_frame", COLUMN, cg);
+        self.add("coil_force", Kind::Force, ("along the coil", ""), "spring force, positive when it pushes", |s| {
+            s.seen.coils[0].coil.spring
+        });
+        self.add("coil_length", Kind::Length, ("along the coil", ""), "length of the coil", |s| {
+            s.seen.coils[0].coil.length
+        });
+    }
+
+    fn moment_columns(&mut self, neighbour: &str, face: usize, place: (&'static str, &'static str)) {
+        for (k, axis) in ["roll", "pitch", "yaw"].into_iter().enumerate() {
+            let text = format!("{axis} moment of the {neighbour}'s contact forces on the wedge");
+            self.add(format!("{neighbour}_{axis}_moment"), Kind::Moment, place, text, move |s| {
+                s.derived.moments[face].0[k]
+            });
+        }
+    }
+
+    fn motion_columns(&mut self) {
+        let nominal = ("fixed", "nominal position");
+        self.moment_columns("bolster", SLOPE, ("fixed", "wedge centre of gravity"));
+        for (name, kind, k) in [("wedge_y", Kind::Length, 1), ("wedge_roll", Kind::Angle, 3)] {
+            self.add(name, kind, nominal, "displacement of the wedge frame's origin, or angle", move |s| {
+                s.seen.bodies[WEDGE].coordinates[k]
+            });
+        }
+        for (k, axis) in ["x", "y", "z", "roll", "pitch", "yaw"].into_iter().enumerate() {
+            let kind = if k < 3 { Kind::Speed } else { Kind::AngularSpeed };
+            self.add(format!("wedge_{axis}_rate"), kind, nominal, "rate of the coordinate", move |s| {
+                s.seen.bodies[WEDGE].speeds[k]
+            });
+        }
+        for (body, name) in [(BOLSTER, "bolster"), (SIDE_FRAME, "side_frame")] {
+            for (k, axis) in ["longitudinal", "lateral", "vertical"].into_iter().enumerate() {
+                if (body, k) != (BOLSTER, 2) {
+                    let text = format!("{axis} displacement of the {name}'s turning centre");
+                    self.add(format!("{name}_{axis}"), Kind::Length, nominal, text, move |s| {
+                        displacement(s, body).0[k]
+                    });
+                }
+                let text = format!("{axis} velocity of the {name}'s turning centre");
+                self.add(format!("{name}_{axis}_rate"), Kind::Speed, ("fixed", ""), text, move |s| {
+                    s.seen.bodies[body].velocity.0[k]
+                });
+            }
+            for (k, axis) in ["roll", "pitch", "yaw"].into_iter().enumerate() {
+                let text = format!("{axis} angle of the {name}");
+                self.add(format!("{name}_{axis}"), Kind::Angle, nominal, text, move |s| angles(s, body)[k]);
+                let text = format!("angular velocity of the {name} about the {axis} axis");
+                self.add(format!("{name}_{axis}_rate"), Kind::AngularSpeed, ("fixed", ""), text, move |s| {
+                    s.seen.bodies[body].angular_velocity.0[k]
+                });
+            }
+        }
+    }
+
+    fn corner_columns(&mut self) {
+        for (face, face_name) in FACES.into_iter().enumerate() {
+            for point in 0..self.faces[face].len() {
+                let corner = format!("{face_name}_{}", self.faces[face][point]);
+                let place = ("fixed", "the corner");
+                self.add(format!("{corner}_gap"), Kind::Length, place, "signed distance, negative inside", move |s| {
+                    s.seen.faces[face].points[point].gap
+                });
+                let text = "normal force on the wedge";
+                self.add(format!("{corner}_normal_force"), Kind::Force, place, text, move |s| {
+                    s.seen.faces[face].points[point].normal
+                });
+                for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+                    let text = format!("{axis} part of the friction force on the wedge");
+                    self.add(format!("{corner}_friction_force_{axis}"), Kind::Force, place, text, move |s| {
+                        s.seen.faces[face].friction_forces[point].0[k]
+                    });
+                }
+                let text = "speed along the surface";
+                self.add(format!("{corner}_slip_speed"), Kind::Speed, place, text, move |s| {
+                    let [a, b] = s.seen.faces[face].points[point].slip;
+                    (a * a + b * b).sqrt()
+                });
+                let text = "contact state: 0 open, 1 stick, 2 slip";
+                self.add(format!("{corner}_state"), Kind::Count, ("", ""), text, move |s| {
+                    f64::from(s.modes[face * CORNERS.len() + point])
+                });
+            }
+        }
+    }
+
+    fn neighbour_columns(&mut self) {
+        for (name, reference) in [("side_frame", "centre of the column face"), ("bolster", "centre of the pocket's slope")] {
+            let bolster = name == "bolster";
+            for (moment, kind) in [(false, Kind::Force), (true, Kind::Moment)] {
+                for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+                    let what = if moment { "moment" } else { "force" };
+                    let text = format!("net {what} on the {name} from wedge and coil");
+                    self.add(format!("net_{what}_on_{name}_{axis}"), kind, ("fixed", reference), text, move |s| {
+                        let (f, m) = if bolster { &s.derived.on_bolster } else { &s.derived.on_side_frame };
+                        if moment { m.0[k] } else { f.0[k] }
+                    });
+                }
+            }
+        }
+    }
+
+    fn energy_columns(&mut self) {
+        let none = ("", "");
+        let stored: [(&str, fn(&Scene<'_>) -> f64, &str); 6] = [
+            ("kinetic_energy", |s| s.seen.energies.kinetic, "kinetic energy"),
+            ("coil_energy", |s| s.seen.energies.coil, "energy stored in the coil"),
+            ("contact_energy", |s| s.seen.energies.contact, "energy stored in the contact springs"),
+            ("bristle_energy", |s| s.seen.energies.bristle, "energy stored in the friction bristles"),
+            ("gravity_energy", |s| s.seen.energies.gravity, "potential energy of the weight"),
+            (
+                "stored_energy_change",
+                |s| s.seen.energies.total() - s.start_energy,
+                "all stored energy, less that at the start",
+            ),
+        ];
+        let spent: [(&str, fn(&Ledger) -> f64, &str); 7] = [
+            ("motion_work", |l| l.motion_work, "work done by the prescribed motions"),
+            ("side_frame_friction_loss", |l| l.side_frame_friction_loss, "energy lost in friction at the column"),
+            ("bolster_friction_loss", |l| l.bolster_friction_loss, "energy lost in friction at the slope"),
+            ("contact_damping_loss", |l| l.contact_damping_loss, "energy lost in contact damping"),
+            ("coil_damping_loss", |l| l.coil_damping_loss, "energy lost in the coil's damping"),
+            ("coil_guide_work", |l| l.coil_guide_work, "work of the couple that guides the coil's force"),
+            ("ledger_residual", |l| l.residual, "work less stored energy and losses"),
+        ];
+        for (name, value, text) in stored {
+            self.add(name, Kind::Energy, none, text, value);
+        }
+        for (name, value, text) in spent {
+            self.add(name, Kind::Energy, none, text, move |s| value(&s.derived.ledger));
+        }
+    }
+}
+
+/// Displacement of a neighbour's turning centre from its place at zero motion.
+fn displacement(scene: &Scene<'_>, body: usize) -> Vector<f64> {
+    scene.seen.bodies[body].travel
+}
+
+/// Roll, pitch and yaw of a neighbour.
+fn angles(scene: &Scene<'_>, body: usize) -> [f64; 3] {
+    // R = Ry(pitch) Rz(yaw) Rx(roll)
+    let r = scene.seen.bodies[body].rotation.0;
+    [libm::atan2(-r[1][2], r[1][1]), libm::atan2(-r[2][0], r[0][0]), libm::asin(r[1][0].clamp(-1.0, 1.0))]
+}

@@ -1,0 +1,220 @@
+//! What a stand-alone wedge is made of: validated, immutable, in SI units.
+//!
+//! Frames and signs: x longitudinal (positive from the column towards the bolster), y lateral, z up; the origin
+//! lies at the coil's seat level below the nominal position of the wedge frame's origin. Toe out is positive.
+
+use mechanics::coil::{CoilLaw, CoilLine};
+use mechanics::friction::FrictionLaw;
+use mechanics::motion::Motion;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Standard gravity, m/s².
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// Where the control coil stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Damping {
+    /// On the side frame: its force follows the bolster's travel, the bolster can lift off.
+    Variable,
+    /// In the bolster pocket: its force is nearly constant.
+    Constant,
+}
+
+/// The wedge body: a right triangular prism with mass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WedgeBody {
+    /// Wedge angle θ between the vertical and the slope, rad.
+    pub angle: f64,
+    /// Height h2 of the vertical face, m.
+    pub height: f64,
+    /// Lateral width h3, m.
+    pub width: f64,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Moments of inertia about the centre of gravity (roll, pitch, yaw), kg·m².
+    pub inertia: [f64; 3],
+    /// Centre of gravity from the wedge frame's origin, m.
+    pub center_of_gravity: [f64; 3],
+    /// Which of x, y, z, roll, pitch, yaw are free.
+    pub free: [bool; 6],
+}
+
+/// The control coil.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ControlCoil {
+    /// Force by compression.
+    pub law: CoilLaw,
+    /// Free length, m.
+    pub free_length: f64,
+    /// Length in the nominal position, m.
+    pub nominal_length: f64,
+    /// Damping, N·s/m.
+    pub damping: f64,
+    /// Damping of rotations, N·m·s.
+    pub rotational_damping: f64,
+    /// Its line of action.
+    pub acts_at: CoilLine,
+    /// Whether it can pull.
+    pub pulls: bool,
+}
+
+/// The normal contact law, per corner.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Contact {
+    /// Stiffness per corner, N/m.
+    pub stiffness: f64,
+    /// Damping per corner, N·s/m; it never pulls.
+    pub damping: f64,
+}
+
+/// Friction of one face.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FaceFriction {
+    /// Coefficient of friction.
+    pub coefficient: f64,
+    /// The law; bristle stiffness and damping are per face.
+    pub law: FrictionLaw,
+}
+
+/// The prescribed motion of a neighbour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NeighbourMotion {
+    /// The point that it turns about, m; `None`: the centre of its face (pocket or column).
+    pub center: Option<[f64; 3]>,
+    /// Motions of x, y, z (m), roll, pitch, yaw (rad).
+    pub coordinates: [Motion; 6],
+}
+
+impl NeighbourMotion {
+    /// A neighbour that stands still.
+    #[must_use]
+    pub fn fixed() -> Self {
+        Self { center: None, coordinates: std::array::from_fn(|_| Motion::Constant(0.0)) }
+    }
+}
+
+/// Where a run starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Start {
+    /// The nominal position, at rest, whatever penetrates.
+    Rest,
+    /// The same, with column and pocket moved apart (along x) until nothing penetrates.
+    Touching,
+    /// Frictionless static equilibrium at the neighbours' position at time zero.
+    Equilibrium,
+}
+
+/// A stand-alone wedge between side frame and bolster.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Parameters {
+    /// Where the coil stands.
+    pub damping: Damping,
+    /// The wedge.
+    pub wedge: WedgeBody,
+    /// The control coil.
+    pub coil: ControlCoil,
+    /// Normal contact.
+    pub contact: Contact,
+    /// Friction at the column.
+    pub column_friction: FaceFriction,
+    /// Friction at the slope.
+    pub slope_friction: FaceFriction,
+    /// Toe angle of the column, rad; positive is toe out.
+    pub toe: f64,
+    /// Motion of the side frame.
+    pub side_frame: NeighbourMotion,
+    /// Motion of the bolster.
+    pub bolster: NeighbourMotion,
+    /// Gravity, m/s².
+    pub gravity: f64,
+    /// Where the run starts.
+    pub start: Start,
+}
+
+/// A parameter outside its range.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{path} is {got}; it must be {expected}")]
+pub struct ParameterError {
+    /// The parameter's place in a case file, such as `wedge.angle`.
+    pub path: &'static str,
+    /// What it is, SI.
+    pub got: f64,
+    /// What it must be.
+    pub expected: &'static str,
+}
+
+impl Parameters {
+    /// Checks every range.
+    ///
+    /// # Errors
+    /// The first parameter that is outside its range.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        let angle = (0.0, std::f64::consts::FRAC_PI_2);
+        let w = &self.wedge;
+        check("wedge.angle", w.angle, w.angle > angle.0 && w.angle < angle.1, "between 0° and 90°")?;
+        positive("wedge.height", w.height)?;
+        positive("wedge.width", w.width)?;
+        positive("wedge.weight", w.mass)?;
+        for inertia in w.inertia {
+            positive("wedge.inertia", inertia)?;
+        }
+        for p in w.center_of_gravity {
+            check("wedge.center_of_gravity", p, p.is_finite(), "finite")?;
+        }
+        check("wedge.free_coordinates", 0.0, w.free.contains(&true), "at least one coordinate")?;
+        let c = &self.coil;
+        match &c.law {
+            CoilLaw::Linear { stiffness } => positive("control_coil.stiffness", *stiffness)?,
+            CoilLaw::Table(_) => {}
+        }
+        positive("control_coil.free_length", c.free_length)?;
+        positive("control_coil.nominal_length", c.nominal_length)?;
+        not_negative("control_coil.damping", c.damping)?;
+        not_negative("control_coil.rotational_damping", c.rotational_damping)?;
+        positive("contact.stiffness", self.contact.stiffness)?;
+        not_negative("contact.damping", self.contact.damping)?;
+        friction("friction.column", &self.column_friction)?;
+        friction("friction.slope", &self.slope_friction)?;
+        check("side_frame.toe", self.toe, self.toe.abs() < 0.25 * angle.1, "below 22.5°")?;
+        not_negative("environment.gravity", self.gravity)
+    }
+
+    /// Length h1 of the wedge's bottom, m: `h2 tan θ`.
+    #[must_use]
+    pub fn bottom_length(&self) -> f64 {
+        self.wedge.height * libm::tan(self.wedge.angle)
+    }
+
+    /// Longitudinal position of the vertical face in the wedge frame, m: `p1 - h1/3`, so that the centre of
+    /// gravity is the prism's centroid.
+    #[must_use]
+    pub fn column_face(&self) -> f64 {
+        self.wedge.center_of_gravity[0] - self.bottom_length() / 3.0
+    }
+}
+
+fn friction(path: &'static str, face: &FaceFriction) -> Result<(), ParameterError> {
+    not_negative(path, face.coefficient)?;
+    match face.law {
+        FrictionLaw::Tanh { reference_speed } => positive("friction.reference_speed", reference_speed),
+        FrictionLaw::Bristle { stiffness, damping } => {
+            positive("friction.bristle_stiffness", stiffness)?;
+            positive("friction.bristle_damping", damping)
+        }
+    }
+}
+
+fn positive(path: &'static str, value: f64) -> Result<(), ParameterError> {
+    check(path, value, value > 0.0 && value.is_finite(), "positive and finite")
+}
+
+fn not_negative(path: &'static str, value: f64) -> Result<(), ParameterError> {
+    check(path, value, value >= 0.0 && value.is_finite(), "zero or positive, and finite")
+}
+
+fn check(path: &'static str, got: f64, holds: bool, expected: &'static str) -> Result<(), ParameterError> {
+    if holds { Ok(()) } else { Err(ParameterError { path, got, expected }) }
+}

@@ -1,0 +1,273 @@
+//! The house has floors: a crate depends on crates of lower floors only, never on its own or a higher one.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use toml::{Table, Value};
+
+use super::Outcome;
+use crate::shell::Workspace;
+
+/// The floors from the ground up, and the crates on each.
+const FLOORS: &[(&str, &[&str])] = &[
+    ("ground", &["integrate", "quantity"]),
+    ("mechanics", &["mechanics"]),
+    ("systems", &["wedge", "nucars"]),
+    ("asking", &["study"]),
+    ("telling", &["report"]),
+    (
+        "front doors",
+        &["wedgelab", "wedgelab-py", "wedgelab-fmu", "xtask"],
+    ),
+];
+
+/// Checks the manifests of all members.
+pub fn check(workspace: &Workspace) -> Outcome {
+    let crates = read(&workspace.root)?;
+    let broken: Vec<String> = crates.iter().flat_map(violations).collect();
+    if broken.is_empty() {
+        Ok(Some(format!(
+            "{} crates on {} floors",
+            crates.len(),
+            FLOORS.len()
+        )))
+    } else {
+        Err(broken.join("\n"))
+    }
+}
+
+/// A member of the workspace and the packages it depends on.
+#[derive(Debug)]
+struct Member {
+    name: String,
+    depends_on: BTreeSet<String>,
+}
+
+fn floor(name: &str) -> Option<usize> {
+    FLOORS.iter().position(|(_, crates)| crates.contains(&name))
+}
+
+/// What is wrong with this crate, a sentence each.
+fn violations(member: &Member) -> Vec<String> {
+    let name = &member.name;
+    let Some(own) = floor(name) else {
+        return vec![format!(
+            "`{name}` stands on no floor: name it in FLOORS of xtask/src/test/floors.rs."
+        )];
+    };
+    let too_high = |dependency: &String| {
+        let other = floor(dependency).filter(|other| *other >= own)?;
+        let relation = if other == own { "the same" } else { "a higher" };
+        Some(format!(
+            "`{name}` (floor {own}, {}) depends on `{dependency}` (floor {other}, {}), on {relation} floor.",
+            FLOORS[own].0, FLOORS[other].0,
+        ))
+    };
+    member.depends_on.iter().filter_map(too_high).collect()
+}
+
+fn read(root: &Path) -> Result<Vec<Member>, String> {
+    let workspace = manifest(&root.join("Cargo.toml"))?;
+    let workspace = workspace
+        .get("workspace")
+        .and_then(Value::as_table)
+        .ok_or("Cargo.toml has no [workspace]")?;
+    let none = Table::new();
+    let shared = workspace
+        .get("dependencies")
+        .and_then(Value::as_table)
+        .unwrap_or(&none);
+    let patterns = workspace
+        .get("members")
+        .and_then(Value::as_array)
+        .ok_or("[workspace] has no members")?;
+    let mut members = Vec::new();
+    for pattern in patterns.iter().filter_map(Value::as_str) {
+        for folder in folders(root, pattern)? {
+            let file = folder.join("Cargo.toml");
+            let member = member(&manifest(&file)?, shared);
+            members.push(member.ok_or_else(|| format!("{} has no [package] name", file.display()))?);
+        }
+    }
+    Ok(members)
+}
+
+/// The folders a pattern of `workspace.members` stands for: itself, or with `/*` at its end all packages in it.
+fn folders(root: &Path, pattern: &str) -> Result<Vec<PathBuf>, String> {
+    let Some(parent) = pattern.strip_suffix("/*") else {
+        return Ok(vec![root.join(pattern)]);
+    };
+    let parent = root.join(parent);
+    let entries = fs::read_dir(&parent).map_err(|error| format!("{}: {error}", parent.display()))?;
+    let mut folders: Vec<_> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    folders.retain(|folder| folder.join("Cargo.toml").is_file());
+    folders.sort();
+    Ok(folders)
+}
+
+fn manifest(file: &Path) -> Result<Table, String> {
+    let text = fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
+    text.parse()
+        .map_err(|error| format!("{}: {error}", file.display()))
+}
+
+/// Reads one manifest: dependencies and build dependencies, also those of some platforms only, under
+/// their true names. Development dependencies do not count.
+fn member(manifest: &Table, shared: &Table) -> Option<Member> {
+    let name = manifest.get("package")?.get("name")?.as_str()?.to_owned();
+    let platforms = manifest
+        .get("target")
+        .and_then(Value::as_table)
+        .into_iter()
+        .flat_map(Table::values);
+    let parts = platforms.filter_map(Value::as_table).chain([manifest]);
+    let mut depends_on = BTreeSet::new();
+    for part in parts {
+        for kind in ["dependencies", "build-dependencies"] {
+            let Some(table) = part.get(kind).and_then(Value::as_table) else {
+                continue;
+            };
+            depends_on.extend(
+                table
+                    .iter()
+                    .map(|(key, value)| package(key, value, shared).to_owned()),
+            );
+        }
+    }
+    Some(Member { name, depends_on })
+}
+
+/// The package behind a dependency's key, which `package = "..."` may rename, here or in the workspace.
+fn package<'a>(key: &'a str, value: &'a Value, shared: &'a Table) -> &'a str {
+    let inherited = value.get("workspace").and_then(Value::as_bool) == Some(true);
+    let value = if inherited {
+        shared.get(key).unwrap_or(value)
+    } else {
+        value
+    };
+    value.get("package").and_then(Value::as_str).unwrap_or(key)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is wrong with the crate of this manifest, in a workspace with these shared dependencies.
+    fn wrong(manifest: &str, shared: &str) -> Vec<String> {
+        let manifest: Table = manifest.parse().expect("a manifest");
+        let shared: Table = shared.parse().expect("dependencies");
+        violations(&member(&manifest, &shared).expect("a package"))
+    }
+
+    fn wrong_with(name: &str, dependencies: &str) -> Vec<String> {
+        wrong(&format!("[package]\nname = '{name}'\n{dependencies}"), "")
+    }
+
+    #[test]
+    fn lower_floors_and_strangers_are_allowed() {
+        let dependencies =
+            "[dependencies]\nintegrate.workspace = true\nmechanics = { path = 'm' }\nlibm = '1'";
+        assert_eq!(wrong_with("wedge", dependencies), [""; 0]);
+        assert_eq!(
+            wrong_with("xtask", "[dependencies]\nreport = { path = 'r' }"),
+            [""; 0]
+        );
+    }
+
+    #[test]
+    fn the_same_floor_is_refused() {
+        let found = wrong_with("integrate", "[dependencies]\nquantity.workspace = true");
+        assert_eq!(
+            found,
+            ["`integrate` (floor 0, ground) depends on `quantity` (floor 0, ground), on the same floor."]
+        );
+        assert_eq!(
+            wrong_with("wedgelab-py", "[dependencies]\nwedgelab = { path = 'w' }").len(),
+            1
+        );
+    }
+
+    #[test]
+    fn a_higher_floor_is_refused() {
+        let found = wrong_with(
+            "mechanics",
+            "[dependencies]\nwedge = '1'\nstudy = '1'\nquantity = '1'",
+        );
+        assert_eq!(found.len(), 2);
+        assert!(
+            found[0].contains("`study` (floor 3, asking), on a higher floor"),
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn neither_names_nor_platforms_nor_build_scripts_hide_a_dependency() {
+        for dependency in [
+            "[dependencies]\nother = { package = 'study', path = 's' }",
+            "[dependencies]\nalias.workspace = true",
+            "[dependencies.alias]\nworkspace = true\noptional = true",
+            "[build-dependencies]\nstudy = '1'",
+            "[target.'cfg(unix)'.dependencies]\nstudy = '1'",
+        ] {
+            let manifest = format!("[package]\nname = 'wedge'\n{dependency}");
+            assert_eq!(
+                wrong(&manifest, "alias = { package = 'study', path = 's' }").len(),
+                1,
+                "{dependency}"
+            );
+        }
+    }
+
+    #[test]
+    fn development_dependencies_do_not_count() {
+        assert_eq!(
+            wrong_with("mechanics", "[dev-dependencies]\nstudy = '1'"),
+            [""; 0]
+        );
+    }
+
+    #[test]
+    fn a_crate_without_a_floor_is_refused() {
+        assert!(wrong_with("attic", "")[0].contains("`attic` stands on no floor"));
+    }
+
+    #[test]
+    fn no_crate_stands_on_two_floors() {
+        let all: Vec<_> = FLOORS.iter().flat_map(|(_, crates)| *crates).collect();
+        assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), all.len());
+    }
+
+    #[test]
+    fn members_are_found_through_the_workspace() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let write = |file: &str, text: &str| {
+            let file = folder.path().join(file);
+            fs::create_dir_all(file.parent().expect("a parent")).expect("a folder");
+            fs::write(file, text).expect("a file");
+        };
+        write("Cargo.toml", "[workspace]\nmembers = ['crates/*', 'xtask']");
+        write("xtask/Cargo.toml", "[package]\nname = 'xtask'");
+        write(
+            "crates/wedge/Cargo.toml",
+            "[package]\nname = 'wedge'\n[dependencies]\nstudy = '1'",
+        );
+        write("crates/notes.md", "no crate");
+        let members = read(folder.path()).expect("members");
+        assert_eq!(
+            members
+                .iter()
+                .map(|member| member.name.as_str())
+                .collect::<Vec<_>>(),
+            ["wedge", "xtask"]
+        );
+        assert_eq!(members.iter().flat_map(violations).count(), 1);
+
+        write("crates/broken/Cargo.toml", "[package");
+        assert!(
+            read(folder.path())
+                .expect_err("a broken manifest")
+                .contains("broken")
+        );
+    }
+}
