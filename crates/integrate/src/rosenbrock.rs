@@ -31,7 +31,6 @@ mod step;
 /// assert!((integrator.x()[0] - exact).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug)]
 pub struct Integrator<P: Problem> {
     problem: P,
     options: Options,
@@ -70,6 +69,17 @@ pub struct Integrator<P: Problem> {
     trial_dx: Vec<f64>,
     argument: Vec<f64>,
     slope: Vec<f64>,
+}
+
+impl<P: Problem> std::fmt::Debug for Integrator<P> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Integrator")
+            .field("method", &self.options.method)
+            .field("time", &self.time)
+            .field("x", &self.x())
+            .field("statistics", &self.statistics)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<P: Problem> Integrator<P> {

@@ -137,11 +137,9 @@ impl<S: Real> Kinematics<S> {
         let a = accelerations;
         let arm: Vector<S> = self.turn.rotation.apply(Vector(body.center_of_gravity));
         let mut omega = self.angular_velocity;
-        let mut alpha = self.turn.angular_acceleration(
-            self.rates,
-            [S::from(a[3]), S::from(a[4]), S::from(a[5])],
-            rolls,
-        );
+        let mut alpha =
+            self.turn
+                .angular_acceleration(self.rates, [S::from(a[3]), S::from(a[4]), S::from(a[5])], rolls);
         let mut origin = Vector([S::from(a[0]), S::from(a[1]), S::from(a[2])]);
         let field: Vector<T> = frame.acceleration - Vector::<T>::lift(gravity);
         let own: Vector<T> = frame.rotation.apply_transposed(field);
@@ -225,7 +223,10 @@ impl Kinematics<f64> {
         let origin: Vector<f64> = frame.rotation.apply_transposed(frame.velocity);
         let own: Vector<f64> = self.angular_velocity.cross(arm);
         let carried: Vector<f64> = spin.cross(place);
-        (origin + self.velocity + own + carried, self.angular_velocity + spin)
+        (
+            origin + self.velocity + own + carried,
+            self.angular_velocity + spin,
+        )
     }
 
     /// Position of a point of the body in the fixed frame.

@@ -31,7 +31,9 @@ pub enum CharacteristicError {
         index: usize,
     },
     /// The compressions do not increase strictly.
-    #[error("point {index} (counted from 1): {value} does not come after {previous}; compressions must increase")]
+    #[error(
+        "point {index} (counted from 1): {value} does not come after {previous}; compressions must increase"
+    )]
     NotIncreasing {
         /// Number of the point, counted from 1.
         index: usize,
@@ -61,16 +63,27 @@ impl Characteristic {
         if points.len() < 2 {
             return Err(CharacteristicError::TooFew { got: points.len() });
         }
-        if let Some(i) = points.iter().position(|p| !(p[0].is_finite() && p[1].is_finite())) {
+        if let Some(i) = points
+            .iter()
+            .position(|p| !(p[0].is_finite() && p[1].is_finite()))
+        {
             return Err(CharacteristicError::NotFinite { index: i + 1 });
         }
         for (i, pair) in points.windows(2).enumerate() {
             let [a, b] = [pair[0], pair[1]];
             if b[0] <= a[0] {
-                return Err(CharacteristicError::NotIncreasing { index: i + 2, value: b[0], previous: a[0] });
+                return Err(CharacteristicError::NotIncreasing {
+                    index: i + 2,
+                    value: b[0],
+                    previous: a[0],
+                });
             }
             if b[1] < a[1] {
-                return Err(CharacteristicError::Falling { index: i + 2, value: b[1], previous: a[1] });
+                return Err(CharacteristicError::Falling {
+                    index: i + 2,
+                    value: b[1],
+                    previous: a[1],
+                });
             }
         }
         let mut energies = vec![0.0];
@@ -78,7 +91,11 @@ impl Characteristic {
             let area = 0.5 * (pair[0][1] + pair[1][1]) * (pair[1][0] - pair[0][0]);
             energies.push(energies[energies.len() - 1] + area);
         }
-        let mut table = Self { points, energies, zero: 0.0 };
+        let mut table = Self {
+            points,
+            energies,
+            zero: 0.0,
+        };
         table.zero = table.energy(0.0);
         Ok(table)
     }
@@ -92,7 +109,11 @@ impl Characteristic {
     /// The piece that holds an abscissa, and its slope.
     #[inline(always)]
     fn piece(&self, x: f64) -> (usize, f64) {
-        let i = self.points.partition_point(|p| p[0] <= x).saturating_sub(1).min(self.points.len() - 2);
+        let i = self
+            .points
+            .partition_point(|p| p[0] <= x)
+            .saturating_sub(1)
+            .min(self.points.len() - 2);
         let [a, b] = [self.points[i], self.points[i + 1]];
         (i, (b[1] - a[1]) / (b[0] - a[0]))
     }
@@ -115,10 +136,18 @@ impl Characteristic {
     /// The energy stored where the force falls to zero, J: the least energy of all.
     #[must_use]
     pub fn energy_at_zero_force(&self) -> f64 {
-        let i = self.points.iter().position(|p| p[1] > 0.0).map_or(self.points.len() - 2, |i| i.saturating_sub(1));
+        let i = self
+            .points
+            .iter()
+            .position(|p| p[1] > 0.0)
+            .map_or(self.points.len() - 2, |i| i.saturating_sub(1));
         let (x, force) = (self.points[i][0], self.points[i][1]);
         let slope = self.piece(x).1;
-        if slope > 0.0 { self.energy(x - force / slope) } else { self.energy(x) }
+        if slope > 0.0 {
+            self.energy(x - force / slope)
+        } else {
+            self.energy(x)
+        }
     }
 }
 

@@ -100,7 +100,15 @@ impl Coil {
             let couple = (at - arm).cross(force);
             (at.cross(force) + brake, couple.dot(turn))
         };
-        CoilForce { force, spring_force: along, moment, length, spring, loss, guide_power }
+        CoilForce {
+            force,
+            spring_force: along,
+            moment,
+            length,
+            spring,
+            loss,
+            guide_power,
+        }
     }
 
     /// Spring force at a length, N.
@@ -111,7 +119,11 @@ impl Coil {
             CoilLaw::Linear { stiffness } => compression * *stiffness,
             CoilLaw::Table(table) => table.evaluate(compression),
         };
-        if self.pulls || force.value() > 0.0 { force } else { S::zero() }
+        if self.pulls || force.value() > 0.0 {
+            force
+        } else {
+            S::zero()
+        }
     }
 
     /// Stored energy at a length, J; zero at the free length.

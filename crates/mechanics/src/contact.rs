@@ -139,7 +139,11 @@ impl<F: Surface> ContactFace<F> {
             let relaxation = -stiffness / damping;
             let rate = [deflection[0] * relaxation, deflection[1] * relaxation];
             let loss = (rate[0] * rate[0] + rate[1] * rate[1]) * (damping * point.share);
-            contact.friction = Friction { rate, loss, ..Friction::none() };
+            contact.friction = Friction {
+                rate,
+                loss,
+                ..Friction::none()
+            };
             sum.friction_loss += loss;
         }
         contact

@@ -41,7 +41,11 @@ impl Frame {
     /// A frame at rest.
     #[must_use]
     pub fn fixed(origin: [f64; 3], orientation: [f64; 3]) -> Self {
-        Self { origin, orientation, motions: std::array::from_fn(|_| Motion::Constant(0.0)) }
+        Self {
+            origin,
+            orientation,
+            motions: std::array::from_fn(|_| Motion::Constant(0.0)),
+        }
     }
 
     /// Whether the frame never moves.
@@ -59,7 +63,10 @@ impl Frame {
     /// The first time after `time` at which a motion is not smooth.
     #[must_use]
     pub fn next_break(&self, time: f64) -> Option<f64> {
-        self.motions.iter().filter_map(|motion| motion.next_break(time)).min_by(f64::total_cmp)
+        self.motions
+            .iter()
+            .filter_map(|motion| motion.next_break(time))
+            .min_by(f64::total_cmp)
     }
 
     /// The frame's motion at `time`, on the smooth piece that holds `reference`.

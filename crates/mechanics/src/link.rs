@@ -25,7 +25,10 @@ impl Mount {
     /// A mount at `origin` (m), turned by roll, pitch, yaw (rad).
     #[must_use]
     pub fn new(origin: [f64; 3], angles: [f64; 3]) -> Self {
-        Self { origin: Vector(origin), rotation: crate::turn::fixed(angles) }
+        Self {
+            origin: Vector(origin),
+            rotation: crate::turn::fixed(angles),
+        }
     }
 }
 

@@ -81,12 +81,19 @@ impl Motion {
     pub fn evaluate<S: Real>(&self, time: S, reference: f64) -> Jet<S> {
         match self {
             Self::Constant(value) => [S::from(*value), S::zero(), S::zero()],
-            Self::Sine { amplitude, angular_frequency, phase } => {
+            Self::Sine {
+                amplitude,
+                angular_frequency,
+                phase,
+            } => {
                 let w = *angular_frequency;
                 let (s, c) = (time * w + *phase).sin_cos();
                 [s * *amplitude, c * (*amplitude * w), s * (-*amplitude * w * w)]
             }
-            Self::Triangle { amplitude, angular_frequency } => {
+            Self::Triangle {
+                amplitude,
+                angular_frequency,
+            } => {
                 // Pieces are numbered by the half period around the corners at (n - 1/2) · half.
                 let half = std::f64::consts::PI / angular_frequency;
                 let n = (reference / half + 0.5).floor();
@@ -94,7 +101,12 @@ impl Motion {
                 let rate = sign * amplitude * 2.0 / half;
                 [(time - n * half) * rate, S::from(rate), S::zero()]
             }
-            Self::SweptSine { amplitude, start, end, duration } => {
+            Self::SweptSine {
+                amplitude,
+                start,
+                end,
+                duration,
+            } => {
                 let (phase, rate, growth) = if reference < *duration {
                     let a = (end - start) / duration;
                     (time * *start + time * time * (0.5 * a), time * a + *start, a)
@@ -108,7 +120,12 @@ impl Motion {
                     (c * growth - s * rate * rate) * *amplitude,
                 ]
             }
-            Self::Ramp { amplitude, start, duration, profile } => {
+            Self::Ramp {
+                amplitude,
+                start,
+                duration,
+                profile,
+            } => {
                 if reference < *start {
                     return [S::zero(); 3];
                 }
@@ -147,7 +164,9 @@ impl Motion {
     #[must_use]
     pub fn next_break(&self, time: f64) -> Option<f64> {
         match self {
-            Self::Triangle { angular_frequency, .. } => {
+            Self::Triangle {
+                angular_frequency, ..
+            } => {
                 let half = std::f64::consts::PI / angular_frequency;
                 let mut n = (time / half - 0.5).floor();
                 // The loop runs once or twice: it guards against rounding in the division.
@@ -160,12 +179,13 @@ impl Motion {
                 }
             }
             Self::SweptSine { duration, .. } => (*duration > time).then_some(*duration),
-            Self::Ramp { start, duration, .. } => {
-                [*start, start + duration].into_iter().find(|corner| *corner > time)
-            }
-            Self::Sum(motions) => {
-                motions.iter().filter_map(|motion| motion.next_break(time)).min_by(f64::total_cmp)
-            }
+            Self::Ramp { start, duration, .. } => [*start, start + duration]
+                .into_iter()
+                .find(|corner| *corner > time),
+            Self::Sum(motions) => motions
+                .iter()
+                .filter_map(|motion| motion.next_break(time))
+                .min_by(f64::total_cmp),
             Self::Constant(_) | Self::Sine { .. } | Self::Table(_) => None,
         }
     }

@@ -22,6 +22,10 @@ impl Column {
     #[must_use]
     pub fn full_name(&self, units: Units) -> String {
         let suffix = self.kind.suffix(units);
-        if suffix.is_empty() { self.name.clone() } else { format!("{}_{suffix}", self.name) }
+        if suffix.is_empty() {
+            self.name.clone()
+        } else {
+            format!("{}_{suffix}", self.name)
+        }
     }
 }

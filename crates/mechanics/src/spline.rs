@@ -39,7 +39,9 @@ pub enum SplineError {
         ordinates: usize,
     },
     /// The abscissae do not increase strictly.
-    #[error("point {index} (counted from 1): {value} does not come after {previous}; abscissae must increase")]
+    #[error(
+        "point {index} (counted from 1): {value} does not come after {previous}; abscissae must increase"
+    )]
     NotIncreasing {
         /// Number of the point, counted from 1.
         index: usize,
@@ -64,7 +66,10 @@ impl Spline {
     pub fn new(abscissae: Vec<f64>, ordinates: Vec<f64>) -> Result<Self, SplineError> {
         let n = abscissae.len();
         if n != ordinates.len() {
-            return Err(SplineError::Unequal { abscissae: n, ordinates: ordinates.len() });
+            return Err(SplineError::Unequal {
+                abscissae: n,
+                ordinates: ordinates.len(),
+            });
         }
         if n < 4 {
             return Err(SplineError::TooFew { got: n });
@@ -82,7 +87,11 @@ impl Spline {
             }
         }
         let curvatures = curvatures(&abscissae, &ordinates);
-        Ok(Self { abscissae, ordinates, curvatures })
+        Ok(Self {
+            abscissae,
+            ordinates,
+            curvatures,
+        })
     }
 
     /// The first and last abscissa.
@@ -100,7 +109,11 @@ impl Spline {
     #[must_use]
     pub fn evaluate<S: Real>(&self, x: S) -> [S; 3] {
         let last = self.abscissae.len() - 2;
-        let i = self.abscissae.partition_point(|a| *a <= x.value()).saturating_sub(1).min(last);
+        let i = self
+            .abscissae
+            .partition_point(|a| *a <= x.value())
+            .saturating_sub(1)
+            .min(last);
         let h = self.abscissae[i + 1] - self.abscissae[i];
         let (ca, cb) = (self.curvatures[i], self.curvatures[i + 1]);
         let slope = (self.ordinates[i + 1] - self.ordinates[i]) / h - h * (2.0 * ca + cb) / 6.0;
@@ -164,6 +177,9 @@ impl TryFrom<Points> for Spline {
 
 impl From<Spline> for Points {
     fn from(spline: Spline) -> Self {
-        Self { abscissae: spline.abscissae, ordinates: spline.ordinates }
+        Self {
+            abscissae: spline.abscissae,
+            ordinates: spline.ordinates,
+        }
     }
 }

@@ -27,8 +27,11 @@ impl<S: Real> Turn<S> {
         let (sp, cp) = pitch.sin_cos();
         let (sy, cy) = yaw.sin_cos();
         let zero = S::zero();
-        let mut rotation =
-            Matrix([[cp * cy, -(cp * sy), sp], [sy, cy, zero], [-(sp * cy), sp * sy, cp]]);
+        let mut rotation = Matrix([
+            [cp * cy, -(cp * sy), sp],
+            [sy, cy, zero],
+            [-(sp * cy), sp * sy, cp],
+        ]);
         let axes = [
             rotation.column(0),
             Vector([zero, S::from(1.0), zero]),

@@ -53,7 +53,11 @@ impl<S: Real> Vector<S> {
         O: Sub<Output = O>,
     {
         let (a, b) = (self.0, o.0);
-        Vector([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+        Vector([
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ])
     }
     /// This vector times a number.
     #[inline(always)]
@@ -111,7 +115,10 @@ impl<S: Real> Matrix<S> {
         S: Mul<R, Output = O>,
         O: Add<Output = O>,
     {
-        Vector(self.0.map(|row| row[0] * v.0[0] + row[1] * v.0[1] + row[2] * v.0[2]))
+        Vector(
+            self.0
+                .map(|row| row[0] * v.0[0] + row[1] * v.0[1] + row[2] * v.0[2]),
+        )
     }
     /// The transposed matrix times a vector.
     #[inline(always)]
@@ -131,9 +138,11 @@ impl<S: Real> Matrix<S> {
         S: Mul<R, Output = O>,
         O: Add<Output = O>,
     {
-        Matrix(self.0.map(|row| {
-            std::array::from_fn(|j| row[0] * o.0[0][j] + row[1] * o.0[1][j] + row[2] * o.0[2][j])
-        }))
+        Matrix(
+            self.0.map(|row| {
+                std::array::from_fn(|j| row[0] * o.0[0][j] + row[1] * o.0[1][j] + row[2] * o.0[2][j])
+            }),
+        )
     }
 }
 

@@ -1,5 +1,11 @@
 //! Cases, runs and metrics.
+//!
+//! A [`case::Case`] says what to run, a [`run::Run`] runs it, a [`result::RunResult`] holds what came out, and
+//! [`summary::Summary`] says it in numbers.
 
-#![warn(missing_docs)]
-
+pub mod assumptions;
 pub mod case;
+pub mod metrics;
+pub mod result;
+pub mod run;
+pub mod summary;

@@ -9,7 +9,7 @@ use quantity::System;
 use std::f64::consts::PI;
 use std::path::Path;
 use study::case::{Case, Damping, builtin};
-use wedge::parameters::Start;
+use wedge::parameters::{Parameters, Start};
 
 const LBF: f64 = 4.4482216152605;
 const INCH: f64 = 0.0254;
@@ -107,6 +107,31 @@ fn built_in_cases_are_the_defaults_with_toe_and_yaw() {
         let yaw = if name.ends_with("0.012") { 0.012 } else { 0.0 };
         parameters.bolster.coordinates[5] = Motion::Constant(yaw);
         assert_eq!(case.parameters, parameters, "{name}");
+    }
+}
+
+/// Every number in the parameters, in the order of their fields.
+fn numbers(parameters: &Parameters) -> Vec<f64> {
+    let text = format!("{parameters:?}");
+    text.split(|c: char| !(c.is_ascii_digit() || "+-.e".contains(c)))
+        .filter_map(|n| n.parse().ok())
+        .collect()
+}
+
+#[test]
+fn the_wedge_crate_knows_the_same_thesis() {
+    for (name, damping) in [
+        ("vdrun_toe_-0.2_psi_0.012", wedge::parameters::Damping::Variable),
+        ("cdrun_toe_-0.2_psi_0.012", wedge::parameters::Damping::Constant),
+    ] {
+        let ours = builtin::case(name).unwrap().parameters;
+        let theirs = wedge::thesis::parameters(damping, 0.2 * PI / 180.0, 0.012);
+        let (ours, theirs) = (numbers(&ours), numbers(&theirs));
+        assert!(ours.len() > 25, "{}", ours.len());
+        assert_eq!(ours.len(), theirs.len());
+        for (a, b) in ours.into_iter().zip(theirs) {
+            close(a, b);
+        }
     }
 }
 

@@ -82,7 +82,13 @@ impl Wedge {
             let positions = system.layout().speeds;
             initial_state[..positions].copy_from_slice(&rest[..positions]);
         }
-        Ok(Self { parameters, system, column_shift: shifts[0], pocket_shift: shifts[1], initial_state })
+        Ok(Self {
+            parameters,
+            system,
+            column_shift: shifts[0],
+            pocket_shift: shifts[1],
+            initial_state,
+        })
     }
 }
 
@@ -92,7 +98,10 @@ fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
     let start = system.initial_state();
     let seen = system.observe(0.0, &start);
     Ok([COLUMN, SLOPE].map(|face| {
-        let depth = seen.faces[face].points.iter().fold(0.0, |depth: f64, point| depth.max(-point.gap));
+        let depth = seen.faces[face]
+            .points
+            .iter()
+            .fold(0.0, |depth: f64, point| depth.max(-point.gap));
         depth / system.faces()[face].mount.rotation.0[0][0].abs()
     }))
 }
@@ -106,7 +115,10 @@ fn held(parameters: &Parameters) -> Parameters {
         }
     }
     for face in [&mut held.column_friction, &mut held.slope_friction] {
-        *face = FaceFriction { coefficient: 0.0, law: FrictionLaw::Tanh { reference_speed: 1.0 } };
+        *face = FaceFriction {
+            coefficient: 0.0,
+            law: FrictionLaw::Tanh { reference_speed: 1.0 },
+        };
     }
     held
 }
@@ -114,7 +126,11 @@ fn held(parameters: &Parameters) -> Parameters {
 /// Bodies and elements; `shifts` move column and pocket apart.
 fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
     let Parameters { wedge, coil, .. } = parameters;
-    let (bottom, face_x, length) = (parameters.bottom_length(), parameters.column_face(), coil.nominal_length);
+    let (bottom, face_x, length) = (
+        parameters.bottom_length(),
+        parameters.column_face(),
+        coil.nominal_length,
+    );
     let middle = length + 0.5 * wedge.height;
     let column_center = [face_x, 0.0, middle];
     let pocket_center = [face_x + 0.5 * bottom, 0.0, middle];
@@ -155,9 +171,15 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
         law: friction.law,
     };
     let column = face("column", corners(face_x, face_x), &parameters.column_friction);
-    let slope = face("slope", corners(face_x + bottom, face_x), &parameters.slope_friction);
-    let column_mount =
-        Mount::new(sub([face_x - shifts[0], 0.0, middle], side_frame_origin), [0.0, parameters.toe, 0.0]);
+    let slope = face(
+        "slope",
+        corners(face_x + bottom, face_x),
+        &parameters.slope_friction,
+    );
+    let column_mount = Mount::new(
+        sub([face_x - shifts[0], 0.0, middle], side_frame_origin),
+        [0.0, parameters.toe, 0.0],
+    );
     let slope_mount = Mount::new(
         sub([pocket_center[0] + shifts[1], 0.0, middle], bolster_origin),
         [0.0, PI - wedge.angle, 0.0],
@@ -183,15 +205,27 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
     Model {
         bodies: vec![side_frame, bolster, body],
         gravity: [0.0, 0.0, -parameters.gravity],
-        faces: vec![(WEDGE, SIDE_FRAME, column_mount, column), (WEDGE, BOLSTER, slope_mount, slope)],
-        coils: vec![(WEDGE, seat_body, Mount::new(sub([0.0; 3], seat_origin), [0.0; 3]), control_coil)],
+        faces: vec![
+            (WEDGE, SIDE_FRAME, column_mount, column),
+            (WEDGE, BOLSTER, slope_mount, slope),
+        ],
+        coils: vec![(
+            WEDGE,
+            seat_body,
+            Mount::new(sub([0.0; 3], seat_origin), [0.0; 3]),
+            control_coil,
+        )],
     }
 }
 
 /// A prescribed neighbour and its origin: the point that it turns about.
 fn neighbour(name: &str, motion: &NeighbourMotion, center: [f64; 3]) -> (Body, [f64; 3]) {
     let origin = motion.center.unwrap_or(center);
-    let frame = Frame { origin, orientation: [0.0; 3], motions: motion.coordinates.clone() };
+    let frame = Frame {
+        origin,
+        orientation: [0.0; 3],
+        motions: motion.coordinates.clone(),
+    };
     (Body::prescribed(name, frame), origin)
 }
 

@@ -102,14 +102,22 @@ impl Outputs {
         out: &mut Vec<f64>,
     ) {
         let derived = self.derive(system, seen, start_energy);
-        let scene = Scene { seen, modes, start_energy, derived };
+        let scene = Scene {
+            seen,
+            modes,
+            start_energy,
+            derived,
+        };
         out.extend(self.values.iter().map(|value| value(&scene)));
     }
 
     /// The energy ledger at one instant.
     #[must_use]
     pub fn ledger(system: &System, seen: &Observation, start_energy: f64) -> Ledger {
-        let mut ledger = Ledger { stored: seen.energies.total() - start_energy, ..Ledger::default() };
+        let mut ledger = Ledger {
+            stored: seen.energies.total() - start_energy,
+            ..Ledger::default()
+        };
         for (channel, value) in system.channels().iter().zip(&seen.quadratures) {
             let entry = match (channel.kind, channel.element.as_str()) {
                 (ChannelKind::MotionWork, _) => &mut ledger.motion_work,
@@ -137,8 +145,11 @@ impl Outputs {
         let mut moments = [Vector::zero(); 2];
         let mut vertical = 0.0;
         for (index, face) in seen.faces.iter().enumerate() {
-            for ((place, normal), friction) in
-                face.places.iter().zip(&face.normal_forces).zip(&face.friction_forces)
+            for ((place, normal), friction) in face
+                .places
+                .iter()
+                .zip(&face.normal_forces)
+                .zip(&face.friction_forces)
             {
                 let force: Vector<f64> = *normal + *friction;
                 let arm: Vector<f64> = *place - cg;
@@ -188,7 +199,13 @@ impl Outputs {
         value: impl Fn(&Scene<'_>) -> f64 + Send + Sync + 'static,
     ) {
         let (frame, reference) = place;
-        self.columns.push(Column { name: name.into(), kind, frame, reference, text: text.into() });
+        self.columns.push(Column {
+            name: name.into(),
+            kind,
+            frame,
+            reference,
+            text: text.into(),
+        });
         self.values.push(Box::new(value));
     }
 
@@ -198,18 +215,26 @@ impl Outputs {
         let none = ("fixed", "");
         let cg = ("fixed", "wedge centre of gravity");
         self.add("time", Kind::Time, ("", ""), "time", |s| s.seen.time);
-        self.add("bolster_vertical", Kind::Length, nominal, "vertical displacement of the bolster", |s| {
-            displacement(s, BOLSTER).0[2]
-        });
+        self.add(
+            "bolster_vertical",
+            Kind::Length,
+            nominal,
+            "vertical displacement of the bolster",
+            |s| displacement(s, BOLSTER).0[2],
+        );
         for (name, kind, k) in [
             ("wedge_x", Kind::Length, 0),
             ("wedge_z", Kind::Length, 2),
             ("wedge_pitch", Kind::Angle, 4),
             ("wedge_yaw", Kind::Angle, 5),
         ] {
-            self.add(name, kind, nominal, "displacement of the wedge frame's origin, or angle", move |s| {
-                s.seen.bodies[WEDGE].coordinates[k]
-            });
+            self.add(
+                name,
+                kind,
+                nominal,
+                "displacement of the wedge frame's origin, or angle",
+                move |s| s.seen.bodies[WEDGE].coordinates[k],
+            );
         }
         self.add(
             "longitudinal_wedge_force",
@@ -233,30 +258,54 @@ impl Outputs {
             |s| s.derived.vertical_on_side_frame,
         );
         for (name, face, text) in [
-            ("side_frame_friction_power", COLUMN, "power of the column's friction, Σ F_t·v (eq. 5-4)"),
-            ("bolster_friction_power", SLOPE, "power of the slope's friction, Σ F_t·v (eq. 5-5)"),
+            (
+                "side_frame_friction_power",
+                COLUMN,
+                "power of the column's friction, Σ F_t·v (eq. 5-4)",
+            ),
+            (
+                "bolster_friction_power",
+                SLOPE,
+                "power of the slope's friction, Σ F_t·v (eq. 5-5)",
+            ),
         ] {
-            self.add(name, Kind::Power, none, text, move |s| s.seen.faces[face].friction_power);
+            self.add(name, Kind::Power, none, text, move |s| {
+                s.seen.faces[face].friction_power
+            });
         }
         for (name, face) in [("side_frame_dissipation", COLUMN), ("bolster_dissipation", SLOPE)] {
             let text = "the part of the friction power that is lost; never positive";
-            self.add(name, Kind::Power, none, text, move |s| -s.seen.faces[face].friction_loss);
+            self.add(name, Kind::Power, none, text, move |s| {
+                -s.seen.faces[face].friction_loss
+            });
         }
         self.moment_columns("side_frame", COLUMN, cg);
-        self.add("coil_force", Kind::Force, ("along the coil", ""), "spring force, positive when it pushes", |s| {
-            s.seen.coils[0].coil.spring
-        });
-        self.add("coil_length", Kind::Length, ("along the coil", ""), "length of the coil", |s| {
-            s.seen.coils[0].coil.length
-        });
+        self.add(
+            "coil_force",
+            Kind::Force,
+            ("along the coil", ""),
+            "spring force, positive when it pushes",
+            |s| s.seen.coils[0].coil.spring,
+        );
+        self.add(
+            "coil_length",
+            Kind::Length,
+            ("along the coil", ""),
+            "length of the coil",
+            |s| s.seen.coils[0].coil.length,
+        );
     }
 
     fn moment_columns(&mut self, neighbour: &str, face: usize, place: (&'static str, &'static str)) {
         for (k, axis) in ["roll", "pitch", "yaw"].into_iter().enumerate() {
             let text = format!("{axis} moment of the {neighbour}'s contact forces on the wedge");
-            self.add(format!("{neighbour}_{axis}_moment"), Kind::Moment, place, text, move |s| {
-                s.derived.moments[face].0[k]
-            });
+            self.add(
+                format!("{neighbour}_{axis}_moment"),
+                Kind::Moment,
+                place,
+                text,
+                move |s| s.derived.moments[face].0[k],
+            );
         }
     }
 
@@ -264,15 +313,23 @@ impl Outputs {
         let nominal = ("fixed", "nominal position");
         self.moment_columns("bolster", SLOPE, ("fixed", "wedge centre of gravity"));
         for (name, kind, k) in [("wedge_y", Kind::Length, 1), ("wedge_roll", Kind::Angle, 3)] {
-            self.add(name, kind, nominal, "displacement of the wedge frame's origin, or angle", move |s| {
-                s.seen.bodies[WEDGE].coordinates[k]
-            });
+            self.add(
+                name,
+                kind,
+                nominal,
+                "displacement of the wedge frame's origin, or angle",
+                move |s| s.seen.bodies[WEDGE].coordinates[k],
+            );
         }
         for (k, axis) in ["x", "y", "z", "roll", "pitch", "yaw"].into_iter().enumerate() {
             let kind = if k < 3 { Kind::Speed } else { Kind::AngularSpeed };
-            self.add(format!("wedge_{axis}_rate"), kind, nominal, "rate of the coordinate", move |s| {
-                s.seen.bodies[WEDGE].speeds[k]
-            });
+            self.add(
+                format!("wedge_{axis}_rate"),
+                kind,
+                nominal,
+                "rate of the coordinate",
+                move |s| s.seen.bodies[WEDGE].speeds[k],
+            );
         }
         for (body, name) in [(BOLSTER, "bolster"), (SIDE_FRAME, "side_frame")] {
             for (k, axis) in ["longitudinal", "lateral", "vertical"].into_iter().enumerate() {
@@ -283,17 +340,27 @@ impl Outputs {
                     });
                 }
                 let text = format!("{axis} velocity of the {name}'s turning centre");
-                self.add(format!("{name}_{axis}_rate"), Kind::Speed, ("fixed", ""), text, move |s| {
-                    s.seen.bodies[body].velocity.0[k]
-                });
+                self.add(
+                    format!("{name}_{axis}_rate"),
+                    Kind::Speed,
+                    ("fixed", ""),
+                    text,
+                    move |s| s.seen.bodies[body].velocity.0[k],
+                );
             }
             for (k, axis) in ["roll", "pitch", "yaw"].into_iter().enumerate() {
                 let text = format!("{axis} angle of the {name}");
-                self.add(format!("{name}_{axis}"), Kind::Angle, nominal, text, move |s| angles(s, body)[k]);
-                let text = format!("angular velocity of the {name} about the {axis} axis");
-                self.add(format!("{name}_{axis}_rate"), Kind::AngularSpeed, ("fixed", ""), text, move |s| {
-                    s.seen.bodies[body].angular_velocity.0[k]
+                self.add(format!("{name}_{axis}"), Kind::Angle, nominal, text, move |s| {
+                    angles(s, body)[k]
                 });
+                let text = format!("angular velocity of the {name} about the {axis} axis");
+                self.add(
+                    format!("{name}_{axis}_rate"),
+                    Kind::AngularSpeed,
+                    ("fixed", ""),
+                    text,
+                    move |s| s.seen.bodies[body].angular_velocity.0[k],
+                );
             }
         }
     }
@@ -303,24 +370,42 @@ impl Outputs {
             for point in 0..self.faces[face].len() {
                 let corner = format!("{face_name}_{}", self.faces[face][point]);
                 let place = ("fixed", "the corner");
-                self.add(format!("{corner}_gap"), Kind::Length, place, "signed distance, negative inside", move |s| {
-                    s.seen.faces[face].points[point].gap
-                });
+                self.add(
+                    format!("{corner}_gap"),
+                    Kind::Length,
+                    place,
+                    "signed distance, negative inside",
+                    move |s| s.seen.faces[face].points[point].gap,
+                );
                 let text = "normal force on the wedge";
-                self.add(format!("{corner}_normal_force"), Kind::Force, place, text, move |s| {
-                    s.seen.faces[face].points[point].normal
-                });
+                self.add(
+                    format!("{corner}_normal_force"),
+                    Kind::Force,
+                    place,
+                    text,
+                    move |s| s.seen.faces[face].points[point].normal,
+                );
                 for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
                     let text = format!("{axis} part of the friction force on the wedge");
-                    self.add(format!("{corner}_friction_force_{axis}"), Kind::Force, place, text, move |s| {
-                        s.seen.faces[face].friction_forces[point].0[k]
-                    });
+                    self.add(
+                        format!("{corner}_friction_force_{axis}"),
+                        Kind::Force,
+                        place,
+                        text,
+                        move |s| s.seen.faces[face].friction_forces[point].0[k],
+                    );
                 }
                 let text = "speed along the surface";
-                self.add(format!("{corner}_slip_speed"), Kind::Speed, place, text, move |s| {
-                    let [a, b] = s.seen.faces[face].points[point].slip;
-                    (a * a + b * b).sqrt()
-                });
+                self.add(
+                    format!("{corner}_slip_speed"),
+                    Kind::Speed,
+                    place,
+                    text,
+                    move |s| {
+                        let [a, b] = s.seen.faces[face].points[point].slip;
+                        (a * a + b * b).sqrt()
+                    },
+                );
                 let text = "contact state: 0 open, 1 stick, 2 slip";
                 self.add(format!("{corner}_state"), Kind::Count, ("", ""), text, move |s| {
                     f64::from(s.modes[face * CORNERS.len() + point])
@@ -330,16 +415,29 @@ impl Outputs {
     }
 
     fn neighbour_columns(&mut self) {
-        for (name, reference) in [("side_frame", "centre of the column face"), ("bolster", "centre of the pocket's slope")] {
+        for (name, reference) in [
+            ("side_frame", "centre of the column face"),
+            ("bolster", "centre of the pocket's slope"),
+        ] {
             let bolster = name == "bolster";
             for (moment, kind) in [(false, Kind::Force), (true, Kind::Moment)] {
                 for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
                     let what = if moment { "moment" } else { "force" };
                     let text = format!("net {what} on the {name} from wedge and coil");
-                    self.add(format!("net_{what}_on_{name}_{axis}"), kind, ("fixed", reference), text, move |s| {
-                        let (f, m) = if bolster { &s.derived.on_bolster } else { &s.derived.on_side_frame };
-                        if moment { m.0[k] } else { f.0[k] }
-                    });
+                    self.add(
+                        format!("net_{what}_on_{name}_{axis}"),
+                        kind,
+                        ("fixed", reference),
+                        text,
+                        move |s| {
+                            let (f, m) = if bolster {
+                                &s.derived.on_bolster
+                            } else {
+                                &s.derived.on_side_frame
+                            };
+                            if moment { m.0[k] } else { f.0[k] }
+                        },
+                    );
                 }
             }
         }
@@ -349,10 +447,26 @@ impl Outputs {
         let none = ("", "");
         let stored: [(&str, fn(&Scene<'_>) -> f64, &str); 6] = [
             ("kinetic_energy", |s| s.seen.energies.kinetic, "kinetic energy"),
-            ("coil_energy", |s| s.seen.energies.coil, "energy stored in the coil"),
-            ("contact_energy", |s| s.seen.energies.contact, "energy stored in the contact springs"),
-            ("bristle_energy", |s| s.seen.energies.bristle, "energy stored in the friction bristles"),
-            ("gravity_energy", |s| s.seen.energies.gravity, "potential energy of the weight"),
+            (
+                "coil_energy",
+                |s| s.seen.energies.coil,
+                "energy stored in the coil",
+            ),
+            (
+                "contact_energy",
+                |s| s.seen.energies.contact,
+                "energy stored in the contact springs",
+            ),
+            (
+                "bristle_energy",
+                |s| s.seen.energies.bristle,
+                "energy stored in the friction bristles",
+            ),
+            (
+                "gravity_energy",
+                |s| s.seen.energies.gravity,
+                "potential energy of the weight",
+            ),
             (
                 "stored_energy_change",
                 |s| s.seen.energies.total() - s.start_energy,
@@ -360,13 +474,41 @@ impl Outputs {
             ),
         ];
         let spent: [(&str, fn(&Ledger) -> f64, &str); 7] = [
-            ("motion_work", |l| l.motion_work, "work done by the prescribed motions"),
-            ("side_frame_friction_loss", |l| l.side_frame_friction_loss, "energy lost in friction at the column"),
-            ("bolster_friction_loss", |l| l.bolster_friction_loss, "energy lost in friction at the slope"),
-            ("contact_damping_loss", |l| l.contact_damping_loss, "energy lost in contact damping"),
-            ("coil_damping_loss", |l| l.coil_damping_loss, "energy lost in the coil's damping"),
-            ("coil_guide_work", |l| l.coil_guide_work, "work of the couple that guides the coil's force"),
-            ("ledger_residual", |l| l.residual, "work less stored energy and losses"),
+            (
+                "motion_work",
+                |l| l.motion_work,
+                "work done by the prescribed motions",
+            ),
+            (
+                "side_frame_friction_loss",
+                |l| l.side_frame_friction_loss,
+                "energy lost in friction at the column",
+            ),
+            (
+                "bolster_friction_loss",
+                |l| l.bolster_friction_loss,
+                "energy lost in friction at the slope",
+            ),
+            (
+                "contact_damping_loss",
+                |l| l.contact_damping_loss,
+                "energy lost in contact damping",
+            ),
+            (
+                "coil_damping_loss",
+                |l| l.coil_damping_loss,
+                "energy lost in the coil's damping",
+            ),
+            (
+                "coil_guide_work",
+                |l| l.coil_guide_work,
+                "work of the couple that guides the coil's force",
+            ),
+            (
+                "ledger_residual",
+                |l| l.residual,
+                "work less stored energy and losses",
+            ),
         ];
         for (name, value, text) in stored {
             self.add(name, Kind::Energy, none, text, value);
@@ -386,5 +528,9 @@ fn displacement(scene: &Scene<'_>, body: usize) -> Vector<f64> {
 fn angles(scene: &Scene<'_>, body: usize) -> [f64; 3] {
     // R = Ry(pitch) Rz(yaw) Rx(roll)
     let r = scene.seen.bodies[body].rotation.0;
-    [libm::atan2(-r[1][2], r[1][1]), libm::atan2(-r[2][0], r[0][0]), libm::asin(r[1][0].clamp(-1.0, 1.0))]
+    [
+        libm::atan2(-r[1][2], r[1][1]),
+        libm::atan2(-r[2][0], r[0][0]),
+        libm::asin(r[1][0].clamp(-1.0, 1.0)),
+    ]
 }

@@ -91,7 +91,10 @@ impl NeighbourMotion {
     /// A neighbour that stands still.
     #[must_use]
     pub fn fixed() -> Self {
-        Self { center: None, coordinates: std::array::from_fn(|_| Motion::Constant(0.0)) }
+        Self {
+            center: None,
+            coordinates: std::array::from_fn(|_| Motion::Constant(0.0)),
+        }
     }
 }
 
@@ -154,7 +157,12 @@ impl Parameters {
     pub fn validate(&self) -> Result<(), ParameterError> {
         let angle = (0.0, std::f64::consts::FRAC_PI_2);
         let w = &self.wedge;
-        check("wedge.angle", w.angle, w.angle > angle.0 && w.angle < angle.1, "between 0° and 90°")?;
+        check(
+            "wedge.angle",
+            w.angle,
+            w.angle > angle.0 && w.angle < angle.1,
+            "between 0° and 90°",
+        )?;
         positive("wedge.height", w.height)?;
         positive("wedge.width", w.width)?;
         positive("wedge.weight", w.mass)?;
@@ -164,7 +172,12 @@ impl Parameters {
         for p in w.center_of_gravity {
             check("wedge.center_of_gravity", p, p.is_finite(), "finite")?;
         }
-        check("wedge.free_coordinates", 0.0, w.free.contains(&true), "at least one coordinate")?;
+        check(
+            "wedge.free_coordinates",
+            0.0,
+            w.free.contains(&true),
+            "at least one coordinate",
+        )?;
         let c = &self.coil;
         match &c.law {
             CoilLaw::Linear { stiffness } => positive("control_coil.stiffness", *stiffness)?,
@@ -178,7 +191,12 @@ impl Parameters {
         not_negative("contact.damping", self.contact.damping)?;
         friction("friction.column", &self.column_friction)?;
         friction("friction.slope", &self.slope_friction)?;
-        check("side_frame.toe", self.toe, self.toe.abs() < 0.25 * angle.1, "below 22.5°")?;
+        check(
+            "side_frame.toe",
+            self.toe,
+            self.toe.abs() < 0.25 * angle.1,
+            "below 22.5°",
+        )?;
         not_negative("environment.gravity", self.gravity)
     }
 
@@ -208,13 +226,27 @@ fn friction(path: &'static str, face: &FaceFriction) -> Result<(), ParameterErro
 }
 
 fn positive(path: &'static str, value: f64) -> Result<(), ParameterError> {
-    check(path, value, value > 0.0 && value.is_finite(), "positive and finite")
+    check(
+        path,
+        value,
+        value > 0.0 && value.is_finite(),
+        "positive and finite",
+    )
 }
 
 fn not_negative(path: &'static str, value: f64) -> Result<(), ParameterError> {
-    check(path, value, value >= 0.0 && value.is_finite(), "zero or positive, and finite")
+    check(
+        path,
+        value,
+        value >= 0.0 && value.is_finite(),
+        "zero or positive, and finite",
+    )
 }
 
 fn check(path: &'static str, got: f64, holds: bool, expected: &'static str) -> Result<(), ParameterError> {
-    if holds { Ok(()) } else { Err(ParameterError { path, got, expected }) }
+    if holds {
+        Ok(())
+    } else {
+        Err(ParameterError { path, got, expected })
+    }
 }

@@ -5,7 +5,8 @@ use mechanics::friction::FrictionLaw;
 use mechanics::motion::Motion;
 
 use crate::parameters::{
-    Contact, ControlCoil, Damping, FaceFriction, NeighbourMotion, Parameters, STANDARD_GRAVITY, Start, WedgeBody,
+    Contact, ControlCoil, Damping, FaceFriction, NeighbourMotion, Parameters, STANDARD_GRAVITY, Start,
+    WedgeBody,
 };
 
 const INCH: f64 = 0.0254;
@@ -21,10 +22,18 @@ pub fn parameters(damping: Damping, toe: f64, yaw: f64) -> Parameters {
         // Preloaded by 3702.2 lbf.
         Damping::Constant => (37.5, 1979.0, 7.25, 7.25 - 3702.2 / 1979.0),
     };
-    let friction =
-        FaceFriction { coefficient: 0.4, law: FrictionLaw::Tanh { reference_speed: 0.001 * INCH } };
+    let friction = FaceFriction {
+        coefficient: 0.4,
+        law: FrictionLaw::Tanh {
+            reference_speed: 0.001 * INCH,
+        },
+    };
     let mut bolster = NeighbourMotion::fixed();
-    bolster.coordinates[2] = Motion::Sine { amplitude: INCH, angular_frequency: 2.0, phase: 0.0 };
+    bolster.coordinates[2] = Motion::Sine {
+        amplitude: INCH,
+        angular_frequency: 2.0,
+        phase: 0.0,
+    };
     bolster.coordinates[5] = Motion::Constant(yaw);
     Parameters {
         damping,
@@ -38,7 +47,9 @@ pub fn parameters(damping: Damping, toe: f64, yaw: f64) -> Parameters {
             free: [true, false, true, false, true, true],
         },
         coil: ControlCoil {
-            law: CoilLaw::Linear { stiffness: stiffness * POUND_FORCE / INCH },
+            law: CoilLaw::Linear {
+                stiffness: stiffness * POUND_FORCE / INCH,
+            },
             free_length: free_length * INCH,
             nominal_length: nominal_length * INCH,
             damping: POUND_FORCE / INCH,
@@ -46,7 +57,10 @@ pub fn parameters(damping: Damping, toe: f64, yaw: f64) -> Parameters {
             acts_at: CoilLine::CenterOfGravity,
             pulls: true,
         },
-        contact: Contact { stiffness: 2.5e5 * POUND_FORCE / INCH, damping: 0.0 },
+        contact: Contact {
+            stiffness: 2.5e5 * POUND_FORCE / INCH,
+            damping: 0.0,
+        },
         column_friction: friction,
         slope_friction: friction,
         toe,

@@ -184,6 +184,11 @@ impl<P: Problem> Integrator<P> {
                     self.time + alpha * step
                 };
                 self.problem.derivative(time, &argument[..n], &mut slope[..n]);
+                if !all_finite(slope) {
+                    self.statistics.derivatives += i as u64;
+                    self.statistics.solves += i as u64;
+                    return Err(not_finite(&slope[..n]));
+                }
                 combine(stage, slope, inverse, tableau.c[i], done, stride, 0);
             }
             let d = tableau.d[i] * step;

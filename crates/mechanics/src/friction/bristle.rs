@@ -28,7 +28,10 @@ pub fn friction<S: Real>(
     deflection: [S; 2],
 ) -> Friction<S> {
     let elastic = [deflection[0] * stiffness, deflection[1] * stiffness];
-    let trial = [elastic[0] + velocity[0] * damping, elastic[1] + velocity[1] * damping];
+    let trial = [
+        elastic[0] + velocity[0] * damping,
+        elastic[1] + velocity[1] * damping,
+    ];
     let square = dot(trial, trial);
     let size = square.value().sqrt();
     if size <= limit.value() {
@@ -50,6 +53,10 @@ pub fn friction<S: Real>(
         rate,
         loss: limit * (length - limit) * flow + dot(rate, rate) * damping,
         sticks: false,
-        load: if limit.value() > 0.0 { size / limit.value() } else { f64::INFINITY },
+        load: if limit.value() > 0.0 {
+            size / limit.value()
+        } else {
+            f64::INFINITY
+        },
     }
 }

@@ -65,7 +65,13 @@ impl<S: Real> Friction<S> {
     #[inline(always)]
     #[must_use]
     pub fn none() -> Self {
-        Self { force: [S::zero(); 2], rate: [S::zero(); 2], loss: S::zero(), sticks: false, load: 0.0 }
+        Self {
+            force: [S::zero(); 2],
+            rate: [S::zero(); 2],
+            loss: S::zero(),
+            sticks: false,
+            load: 0.0,
+        }
     }
 }
 

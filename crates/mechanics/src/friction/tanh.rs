@@ -22,5 +22,11 @@ pub fn friction<S: Real>(limit: S, reference_speed: f64, velocity: [S; 2]) -> Fr
     let force = [w[0] * factor, w[1] * factor];
     let loss = -dot(force, velocity);
     let load = s.value().sqrt();
-    Friction { force, rate: [S::zero(); 2], loss, sticks: load < 1.0, load }
+    Friction {
+        force,
+        rate: [S::zero(); 2],
+        loss,
+        sticks: load < 1.0,
+        load,
+    }
 }

@@ -74,8 +74,16 @@ impl System {
         let worst = (0..n).fold(0, |w, i| if dx[n + i].abs() > dx[n + w].abs() { i } else { w });
         let free = self.free.iter().rev().find(|free| free.offset <= worst);
         let (body, coordinate) = free.map_or((String::new(), ""), |free| {
-            (self.bodies[free.body].name.clone(), COORDINATES[free.free[worst - free.offset]])
+            (
+                self.bodies[free.body].name.clone(),
+                COORDINATES[free.free[worst - free.offset]],
+            )
         });
-        Err(NoEquilibrium { iterations: ITERATIONS, body, coordinate, acceleration: dx[n + worst] })
+        Err(NoEquilibrium {
+            iterations: ITERATIONS,
+            body,
+            coordinate,
+            acceleration: dx[n + worst],
+        })
     }
 }

@@ -46,7 +46,11 @@ impl<F: Surface> Element for ContactFace<F> {
                 rates(point, contact.friction.rate);
             }
         });
-        Action { force: sum.force, moment: sum.moment, powers: [sum.friction_loss, sum.damping_loss] }
+        Action {
+            force: sum.force,
+            moment: sum.moment,
+            powers: [sum.friction_loss, sum.damping_loss],
+        }
     }
 }
 
@@ -54,7 +58,11 @@ impl Element for Coil {
     #[inline(always)]
     fn act<S: Real>(&self, relative: &Relative<S>, _: &[f64], _: impl FnMut(usize, [S; 2])) -> Action<S> {
         let coil = self.evaluate(relative);
-        Action { force: coil.force, moment: coil.moment, powers: [coil.loss, coil.guide_power] }
+        Action {
+            force: coil.force,
+            moment: coil.moment,
+            powers: [coil.loss, coil.guide_power],
+        }
     }
 }
 
@@ -62,7 +70,10 @@ impl<S: Real> Action<S> {
     /// Force on the carried body and moment about its origin, in its reference frame's axes.
     #[inline(always)]
     pub fn on_body<T: Real + Mul<S, Output = S>>(&self, sight: &Sight<T>) -> (Vector<S>, Vector<S>) {
-        (sight.rotation.apply_transposed(self.force), sight.rotation.apply_transposed(self.moment))
+        (
+            sight.rotation.apply_transposed(self.force),
+            sight.rotation.apply_transposed(self.moment),
+        )
     }
 
     /// The moment about the mount's origin, mount axes.

@@ -98,11 +98,8 @@ impl System {
             }
             let (coordinates, speeds) = self.coordinates(free, x);
             let body = &self.bodies[free.body];
-            let kinematics = Kinematics::<Dual<1>>::new(
-                coordinates.map(Dual::from),
-                speeds.map(Dual::from),
-                body.rolls(),
-            );
+            let kinematics =
+                Kinematics::<Dual<1>>::new(coordinates.map(Dual::from), speeds.map(Dual::from), body.rolls());
             let (force, moment) = kinematics.inertia(
                 body,
                 &frame(free.body),
@@ -207,7 +204,10 @@ impl Pass<'_> {
             speeds[k] = Dual::variable(self.coordinates.1[k], n + j);
         }
         let kinematics = Kinematics::new(coordinates, speeds, body.rolls());
-        let mut load = Load { force: Vector::zero(), moment: Vector::zero() };
+        let mut load = Load {
+            force: Vector::zero(),
+            moment: Vector::zero(),
+        };
         for face in self.faces {
             let internal = &self.internal[face.first_internal..][..face.internal_count];
             self.element(face, internal, &kinematics, &mut load, jacobian);
@@ -268,9 +268,14 @@ impl Pass<'_> {
                 let blocks = jacobian.blocks_mut(mounted.pairs[1]);
                 add_rows(kinematics, &scene.free[on].free, n, &force, &moment, blocks);
             }
-            drive = mounted.driven.then(|| action.drive_power(&relative, &mounted.sight));
+            drive = mounted
+                .driven
+                .then(|| action.drive_power(&relative, &mounted.sight));
         } else {
-            let (a, b) = (&scene.frames[mounted.body].motion, &scene.frames[mounted.on].motion);
+            let (a, b) = (
+                &scene.frames[mounted.body].motion,
+                &scene.frames[mounted.on].motion,
+            );
             let sight = Sight::new(&lift_frame(a), &lift_frame(b), seeded, &mounted.mount);
             let kinematics = &scene.kinematics[mounted.body];
             relative = sight.relative(kinematics);
@@ -333,7 +338,11 @@ impl<const N: usize> Generalize<Dual<N>> for Kinematics<Dual<N>> {
 impl<const N: usize> Generalize<Dual<N>> for Kinematics<f64> {
     #[inline(always)]
     fn component(&self, k: usize, force: &Vector<Dual<N>>, moment: &Vector<Dual<N>>) -> Dual<N> {
-        if k < 3 { force.0[k] } else { self.turn.axes[k - 3].dot(*moment) }
+        if k < 3 {
+            force.0[k]
+        } else {
+            self.turn.axes[k - 3].dot(*moment)
+        }
     }
 }
 
@@ -354,7 +363,9 @@ fn differentiate_internal(
         ];
         let share = face.element.points[point].share;
         let slip = contact.slip.map(Dual::from);
-        let friction = face.element.friction(share, Dual::from(contact.normal), slip, deflection);
+        let friction = face
+            .element
+            .friction(share, Dual::from(contact.normal), slip, deflection);
         *jacobian.internal_mut(group) = [
             friction.rate[0].derivative[0],
             friction.rate[0].derivative[1],
@@ -364,9 +375,17 @@ fn differentiate_internal(
         let row = face.first_internal_row + 2 * point;
         *jacobian.internal_row_mut(row) = friction.loss.derivative;
         for e in 0..2 {
-            let components = [0.0, friction.force[0].derivative[e], friction.force[1].derivative[e]];
+            let components = [
+                0.0,
+                friction.force[0].derivative[e],
+                friction.force[1].derivative[e],
+            ];
             let force = face.element.surface.compose(contact.place, components);
-            let action = Action { force, moment: contact.arm.cross(force), powers: [0.0; 2] };
+            let action = Action {
+                force,
+                moment: contact.arm.cross(force),
+                powers: [0.0; 2],
+            };
             let mut keep = |side: usize, number: usize, (force, moment): (Vector<f64>, Vector<f64>)| {
                 let free = &scene.free[number];
                 let kinematics = &scene.kinematics[free.body];
@@ -380,7 +399,11 @@ fn differentiate_internal(
                 keep(0, number, action.on_body(&face.sight));
             }
             if let Some(number) = scene.free_number[face.on] {
-                keep(1, number, action.reaction(&relative, &scene.kinematics[face.on], &face.mount));
+                keep(
+                    1,
+                    number,
+                    action.reaction(&relative, &scene.kinematics[face.on], &face.mount),
+                );
             }
             if face.driven {
                 jacobian.internal_row_mut(row + 1)[e] = action.drive_power(&relative, &face.sight);

@@ -147,11 +147,23 @@ impl System {
         x
     }
 
+    /// Takes the smooth piece of the motions from another copy of the same system, so that a copy kept for
+    /// observation sees the same side of a break as the one that is being integrated.
+    pub fn segment_like(&mut self, other: &Self) {
+        if self.reference != other.reference {
+            self.reference = other.reference;
+            self.frames_at = f64::NAN;
+        }
+    }
+
     /// The place of a body's coordinate (0..6) among the positions, if it is free.
     #[must_use]
     pub fn position_of(&self, body: usize, coordinate: usize) -> Option<usize> {
         let free = &self.free[self.free_number[body]?];
-        free.free.iter().position(|k| *k == coordinate).map(|j| free.offset + j)
+        free.free
+            .iter()
+            .position(|k| *k == coordinate)
+            .map(|j| free.offset + j)
     }
 
     /// Coordinates and rates of a body from the state vector.
@@ -172,7 +184,9 @@ impl System {
         if self.moves && time != self.frames_at {
             for (body, state) in self.bodies.iter().zip(&mut self.frames) {
                 if state.keeps_orientation && !state.fixed {
-                    state.motion = body.frame.translate(&state.base, &state.motion, time, self.reference);
+                    state.motion = body
+                        .frame
+                        .translate(&state.base, &state.motion, time, self.reference);
                 } else if !state.fixed {
                     state.motion = body.frame.evaluate(time, self.reference);
                 }
@@ -220,7 +234,11 @@ impl Problem for System {
             .filter_map(|body| body.frame.next_break(start))
             .min_by(f64::total_cmp)
             .unwrap_or(f64::INFINITY);
-        self.reference = if end.is_finite() { 0.5 * (start + end) } else { start + 1.0 };
+        self.reference = if end.is_finite() {
+            0.5 * (start + end)
+        } else {
+            start + 1.0
+        };
         self.frames_at = f64::NAN;
         end
     }

@@ -128,7 +128,12 @@ pub(super) struct Parts {
 }
 
 pub(super) fn build(model: Model) -> Result<System, ModelError> {
-    let Model { bodies, gravity, faces, coils } = model;
+    let Model {
+        bodies,
+        gravity,
+        faces,
+        coils,
+    } = model;
     let mut free = Vec::new();
     let mut free_number = vec![None; bodies.len()];
     let mut offset = 0;
@@ -138,11 +143,18 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             continue;
         }
         if !body.frame.is_fixed() && coordinates.len() < 6 {
-            return Err(ModelError::HeldInMovingFrame { body: body.name.clone() });
+            return Err(ModelError::HeldInMovingFrame {
+                body: body.name.clone(),
+            });
         }
         free_number[number] = Some(free.len());
         let count = coordinates.len();
-        free.push(FreeBody { body: number, free: coordinates, offset, pair: 0 });
+        free.push(FreeBody {
+            body: number,
+            free: coordinates,
+            offset,
+            pair: 0,
+        });
         offset += count;
     }
     if free.is_empty() {
@@ -157,17 +169,27 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             motion: body.frame.evaluate(0.0, 0.0),
         })
         .collect();
-    let kinematics: Vec<Kinematics<f64>> =
-        bodies.iter().map(|body| Kinematics::new(body.initial, [0.0; 6], body.rolls())).collect();
+    let kinematics: Vec<Kinematics<f64>> = bodies
+        .iter()
+        .map(|body| Kinematics::new(body.initial, [0.0; 6], body.rolls()))
+        .collect();
 
     let mut parts = Parts {
-        channels: vec![Channel { kind: ChannelKind::MotionWork, element: String::new() }],
+        channels: vec![Channel {
+            kind: ChannelKind::MotionWork,
+            element: String::new(),
+        }],
         internal_pairs: Vec::new(),
         quadrature_bodies: Vec::new(),
         quadrature_pairs: Vec::new(),
     };
-    let mut placer =
-        Placer { bodies: &bodies, frames: &frames, kinematics: &kinematics, free_number: &free_number, parts: &mut parts };
+    let mut placer = Placer {
+        bodies: &bodies,
+        frames: &frames,
+        kinematics: &kinematics,
+        free_number: &free_number,
+        parts: &mut parts,
+    };
     let mut mounted_faces = Vec::new();
     for (body, on, mount, face) in faces {
         let damped = face.points.iter().any(|point| point.damping > 0.0);
@@ -175,7 +197,11 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             Some(ChannelKind::FrictionLoss),
             damped.then_some(ChannelKind::ContactDampingLoss),
         ];
-        let pairs = if is_bristle(&face.law) { face.points.len() } else { 0 };
+        let pairs = if is_bristle(&face.law) {
+            face.points.len()
+        } else {
+            0
+        };
         let name = face.name.clone();
         mounted_faces.push(placer.place(face, &name, body, on, mount, kinds, pairs)?);
     }
@@ -186,14 +212,21 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             damped.then_some(ChannelKind::CoilDampingLoss),
             (coil.acts_at != coil.end).then_some(ChannelKind::CoilGuideWork),
         ];
-        let name = if mounted_coils.is_empty() { "coil".to_owned() } else { format!("coil_{}", mounted_coils.len() + 1) };
+        let name = if mounted_coils.is_empty() {
+            "coil".to_owned()
+        } else {
+            format!("coil_{}", mounted_coils.len() + 1)
+        };
         mounted_coils.push(placer.place(coil, &name, body, on, mount, kinds, 0)?);
     }
 
     let ends = |body: usize, on: usize| Some((free_number[body]?, free_number[on]?));
     let faces_at = mounted_faces.iter().map(|m| (m.body, m.on));
     let coils_at = mounted_coils.iter().map(|m| (m.body, m.on));
-    let couplings = faces_at.chain(coils_at).filter_map(|(body, on)| ends(body, on)).collect();
+    let couplings = faces_at
+        .chain(coils_at)
+        .filter_map(|(body, on)| ends(body, on))
+        .collect();
     let jacobian = Partitioned::new(&structure(&free, couplings, &parts));
     let layout = jacobian.layout();
     let mut mass = Vec::new();
@@ -269,17 +302,24 @@ impl Placer<'_> {
             }
         }
         if body == on {
-            return Err(ModelError::Itself { body: self.bodies[body].name.clone() });
+            return Err(ModelError::Itself {
+                body: self.bodies[body].name.clone(),
+            });
         }
         let Some(number) = self.free_number[body] else {
-            return Err(ModelError::NotFree { body: self.bodies[body].name.clone() });
+            return Err(ModelError::NotFree {
+                body: self.bodies[body].name.clone(),
+            });
         };
         let on_number = self.free_number[on];
         let parts = &mut *self.parts;
         let driven = on_number.is_none() && !self.frames[on].fixed;
         let channels = kinds.map(|kind| {
             kind.map(|kind| {
-                parts.channels.push(Channel { kind, element: name.to_owned() });
+                parts.channels.push(Channel {
+                    kind,
+                    element: name.to_owned(),
+                });
                 parts.channels.len() - 1
             })
         });
@@ -293,7 +333,9 @@ impl Placer<'_> {
         let first_pair = parts.internal_pairs.len();
         let first_internal_row = parts.quadrature_pairs.len();
         for pair in first_pair..first_pair + pairs {
-            parts.internal_pairs.push([Some(number), on_number].into_iter().flatten().collect());
+            parts
+                .internal_pairs
+                .push([Some(number), on_number].into_iter().flatten().collect());
             // Friction loss and the work of the motion depend on the bristle.
             for quadrature in [channels[0].unwrap_or(0), 0] {
                 parts.quadrature_pairs.push((quadrature, pair));
@@ -309,7 +351,12 @@ impl Placer<'_> {
             on_free: on_number.is_some(),
             moves: !self.frames[on].fixed || !self.frames[body].fixed,
             driven,
-            sight: Sight::new(&self.frames[body].motion, &self.frames[on].motion, &self.kinematics[on], &mount),
+            sight: Sight::new(
+                &self.frames[body].motion,
+                &self.frames[on].motion,
+                &self.kinematics[on],
+                &mount,
+            ),
             mount,
             pairs: [0; 2],
             rows,

@@ -88,7 +88,11 @@ impl Signs {
     }
 
     fn closed(self) -> Mode {
-        if self.load < SLIP_LOAD[self.law] { Mode::Stick } else { Mode::Slip }
+        if self.load < SLIP_LOAD[self.law] {
+            Mode::Stick
+        } else {
+            Mode::Slip
+        }
     }
 }
 
@@ -110,11 +114,20 @@ impl System {
                     let elastic = -contact.gap * point.stiffness;
                     let normal = (elastic - contact.gap_rate * point.damping).max(0.0);
                     let deflection = [deflections[2 * i], deflections[2 * i + 1]];
-                    face.element.friction(point.share, normal, contact.slip, deflection).load
+                    face.element
+                        .friction(point.share, normal, contact.slip, deflection)
+                        .load
                 } else {
                     0.0
                 };
-                each(index, Signs { gap: contact.gap, load, law });
+                each(
+                    index,
+                    Signs {
+                        gap: contact.gap,
+                        load,
+                        law,
+                    },
+                );
                 index += 1;
             }
         }
@@ -122,12 +135,18 @@ impl System {
 
     pub(super) fn find_modes(&self, x: &[f64], modes: &mut [u8]) {
         self.signs(x, |i, signs| {
-            modes[i] = if signs.gap < CLOSING_GAP { signs.closed() } else { Mode::Open } as u8;
+            modes[i] = if signs.gap < CLOSING_GAP {
+                signs.closed()
+            } else {
+                Mode::Open
+            } as u8;
         });
     }
 
     pub(super) fn mode_margins(&self, x: &[f64], modes: &[u8], margins: &mut [f64]) {
-        self.signs(x, |i, signs| margins[i] = signs.margin(Mode::from_number(modes[i])));
+        self.signs(x, |i, signs| {
+            margins[i] = signs.margin(Mode::from_number(modes[i]))
+        });
     }
 
     pub(super) fn follow_mode(&self, x: &[f64], index: usize, mode: u8) -> u8 {
@@ -138,5 +157,32 @@ impl System {
             }
         });
         next
+    }
+}
+
+impl System {
+    /// How fast each contact point creeps at a state, m/s: the speed of irrecoverable sliding, whatever the mode.
+    ///
+    /// With tanh this is the slip speed, with the bristle the slip speed less the rate of the bristle.
+    pub fn creep_speeds(&mut self, time: f64, x: &[f64], speeds: &mut [f64]) {
+        self.place(time, x);
+        let [_, _, internal, _] = self.layout.split(x);
+        let mut index = 0;
+        for face in &self.faces {
+            let count = face.element.points.len();
+            let target = &mut speeds[index..index + count];
+            target.fill(0.0);
+            let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
+            let deflections = &internal[face.first_internal..][..face.internal_count];
+            face.element.evaluate(&relative, deflections, |point, contact| {
+                let [a, b] = [0, 1].map(|k| contact.slip[k] - contact.friction.rate[k]);
+                target[point] = if contact.normal > 0.0 {
+                    (a * a + b * b).sqrt()
+                } else {
+                    0.0
+                };
+            });
+            index += count;
+        }
     }
 }

@@ -140,7 +140,9 @@ impl System {
             energies.gravity -= body.mass * self.gravity.dot::<f64, f64>(cg);
         }
         let [_, _, internal, quadratures] = self.layout.split(x);
-        let faces: Vec<FaceState> = (0..self.faces.len()).map(|i| self.face_state(i, internal)).collect();
+        let faces: Vec<FaceState> = (0..self.faces.len())
+            .map(|i| self.face_state(i, internal))
+            .collect();
         for face in &faces {
             energies.contact += face.normal_energy;
             energies.bristle += face.bristle_energy;
@@ -152,9 +154,22 @@ impl System {
             let (axes, _) = self.mount_pose(mounted.on, &mounted.mount);
             let energy = mounted.element.energy(coil.length);
             energies.coil += energy;
-            coils.push(CoilState { coil, force: axes.apply(coil.force), spring_force: axes.apply(coil.spring_force), moment: axes.apply(coil.moment), energy });
+            coils.push(CoilState {
+                coil,
+                force: axes.apply(coil.force),
+                spring_force: axes.apply(coil.spring_force),
+                moment: axes.apply(coil.moment),
+                energy,
+            });
         }
-        Observation { time, bodies, faces, coils, energies, quadratures: quadratures.to_vec() }
+        Observation {
+            time,
+            bodies,
+            faces,
+            coils,
+            energies,
+            quadratures: quadratures.to_vec(),
+        }
     }
 
     fn face_state(&self, index: usize, internal: &[f64]) -> FaceState {
@@ -162,14 +177,20 @@ impl System {
         let face = &mounted.element;
         let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
         let deflections = &internal[mounted.first_internal..][..mounted.internal_count];
-        let mut points: Vec<PointContact<f64>> =
-            face.points.iter().map(|point| face.geometry(point, &relative)).collect();
+        let mut points: Vec<PointContact<f64>> = face
+            .points
+            .iter()
+            .map(|point| face.geometry(point, &relative))
+            .collect();
         let sum = face.evaluate(&relative, deflections, |i, contact| points[i] = *contact);
         let (axes, origin) = self.mount_pose(mounted.on, &mounted.mount);
         let mut state = FaceState {
             axes,
             origin,
-            places: points.iter().map(|point| origin + axes.apply::<f64, f64>(point.place)).collect(),
+            places: points
+                .iter()
+                .map(|point| origin + axes.apply::<f64, f64>(point.place))
+                .collect(),
             normal_forces: Vec::new(),
             friction_forces: Vec::new(),
             friction_power: 0.0,
@@ -215,8 +236,15 @@ impl System {
         point: Vector<f64>,
     ) -> (Vector<f64>, Vector<f64>) {
         let lever: Vector<f64> = from - point;
-        let action = Action { force, moment, powers: [0.0; 2] };
-        (-action.force, -(action.moment + lever.cross::<f64, f64>(action.force)))
+        let action = Action {
+            force,
+            moment,
+            powers: [0.0; 2],
+        };
+        (
+            -action.force,
+            -(action.moment + lever.cross::<f64, f64>(action.force)),
+        )
     }
 }
 

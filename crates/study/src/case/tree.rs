@@ -50,8 +50,11 @@ pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Vec<Problem>> {
         let span = error.span().unwrap_or(0..0);
         let message = error.message().lines().collect::<Vec<_>>().join(", ");
         Problem::new(format!("this is not TOML: {message}"))
-            .at(&Place { source: Arc::clone(source), span })
-            .help("a line is `key = value`; text and quantities stand in quotes, for example angle = \"32 deg\"")
+            .at(&Place {
+                source: Arc::clone(source),
+                span,
+            })
+            .help("a line is `key = value`; text and quantities stand in quotes: angle = \"32 deg\"")
     });
     Err(problems.collect())
 }

@@ -40,7 +40,11 @@ impl CaseDocument {
 
     fn write_wedge(&self, page: &mut Page) {
         let wedge = &self.wedge;
-        page.section("wedge", "The wedge: a right triangular prism. x is longitudinal (from the column towards the bolster), y lateral, z up.");
+        page.section(
+            "wedge",
+            "The wedge: a right triangular prism. x is longitudinal (from the column towards the \
+             bolster), y lateral, z up.",
+        );
         page.line(
             "damping",
             text(wedge.damping.name()),
@@ -66,7 +70,8 @@ impl CaseDocument {
         page.line(
             "center_of_gravity",
             triple(&wedge.center_of_gravity),
-            "from the point above the coil. It is taken as the prism's centroid, which places the faces",
+            "from the point above the coil. It is taken as the prism's centroid, which places \
+             the faces",
         );
         let free: Vec<String> = wedge.free_coordinates.iter().map(|c| text(c.name())).collect();
         page.line(
@@ -103,7 +108,8 @@ impl CaseDocument {
         let preload = match self.wedge.damping {
             super::Damping::Variable => "in the nominal position; the thesis: just free",
             super::Damping::Constant => {
-                "in the nominal position; the thesis: 7.25 in - 3702.2/1979 in, a preload of 3702.2 lbf"
+                "in the nominal position; the thesis: 7.25 in - 3702.2/1979 in, \
+                 a preload of 3702.2 lbf"
             }
         };
         page.line("nominal_length", quantity(&coil.nominal_length), preload);
@@ -113,7 +119,12 @@ impl CaseDocument {
             quantity(&coil.rotational_damping),
             "of the wedge's rotations; the thesis uses the same number as along the coil",
         );
-        page.line("acts_at", text(coil.acts_at.name()), "\"center_of_gravity\": the thesis's moment equations hold no moment of the coil; or \"seat\", with its moment");
+        page.line(
+            "acts_at",
+            text(coil.acts_at.name()),
+            "\"center_of_gravity\": the thesis's moment equations hold no moment of the coil; or \
+             \"seat\", with its moment",
+        );
         page.line(
             "pulls",
             coil.pulls.to_string(),
@@ -127,7 +138,8 @@ impl CaseDocument {
         page.line(
             "stiffness",
             quantity(&contact.stiffness),
-            "per corner. The thesis gives none; four of 2.5e5 lbf/in give its limits and orderings",
+            "per corner. The thesis gives none; four of 2.5e5 lbf/in give its limits and \
+             orderings",
         );
         page.line(
             "damping",
@@ -144,10 +156,20 @@ impl CaseDocument {
             let (column, slope) = (friction.column_law.name(), friction.slope_law.name());
             format!("{{ column = \"{column}\", slope = \"{slope}\" }}")
         };
-        page.line("law", law, "\"tanh\" (the thesis's; creeps under load) or \"bristle\" (holds); or { column = ..., slope = ... }");
+        page.line(
+            "law",
+            law,
+            "\"tanh\" (the thesis's; creeps under load) or \"bristle\" (holds); or { column = \
+             ..., slope = ... }",
+        );
         page.line("column", number(friction.column), "coefficient of friction");
         page.line("slope", number(friction.slope), "coefficient of friction");
-        page.line("reference_speed", quantity(&friction.reference_speed), "tanh: below it friction fades. It is part of the result: ten times it moves the forces by 20 to 30 %");
+        page.line(
+            "reference_speed",
+            quantity(&friction.reference_speed),
+            "tanh: below it friction fades. It is part of the result: ten times it moves the \
+             forces by 20 to 30 %",
+        );
         page.line(
             "bristle_stiffness",
             quantity(&friction.bristle_stiffness),
@@ -178,7 +200,8 @@ impl CaseDocument {
              # { shape = \"triangle\", amplitude, frequency }\n\
              # { shape = \"swept_sine\", amplitude, start_frequency, end_frequency, duration }   then end_frequency\n\
              # { shape = \"ramp\", amplitude, start, duration, profile }            profile \"smooth\" or \"linear\"; then held\n\
-             # { shape = \"table\", file = \"motion.csv\" }                            or points = [[time, value], ...]: a cubic spline",
+             # { shape = \"table\", file = \"motion.csv\" }                            a cubic spline; \
+             or points = [[time, value], ...]",
         );
         write_neighbour(
             page,
@@ -206,7 +229,8 @@ impl CaseDocument {
         page.line(
             "start",
             text(simulation.start.name()),
-            "\"rest\": nominal position, corners may start inside; \"touching\"; or \"equilibrium\"",
+            "\"rest\": nominal position, corners may start inside; \"touching\"; or \
+             \"equilibrium\"",
         );
         page.line(
             "output_units",

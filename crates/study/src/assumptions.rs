@@ -1,0 +1,97 @@
+//! What the numbers of a run rest on, in words.
+
+use mechanics::coil::{CoilLaw, CoilLine};
+use mechanics::friction::FrictionLaw;
+use wedge::Wedge;
+use wedge::parameters::{Damping, FaceFriction, STANDARD_GRAVITY, Start};
+
+const INCH: f64 = 0.0254;
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
+
+/// The assumptions behind a run.
+#[must_use]
+pub fn of(wedge: &Wedge) -> Vec<String> {
+    let p = &wedge.parameters;
+    let mut list = Vec::new();
+    let stiffness = p.contact.stiffness * INCH / POUND_FORCE;
+    list.push(format!(
+        "Contact stiffness is {stiffness:.4e} lbf/in per corner ({:.4e} per face): the thesis gives none; 2.5e5 is the \
+         value that reproduces its force levels.",
+        4.0 * stiffness
+    ));
+    if p.contact.damping == 0.0 {
+        list.push(
+            "Contacts have no damping: they ring, and runs without yaw are chaotic in detail.".to_owned(),
+        );
+    }
+    list.push(match p.damping {
+        Damping::Variable => "The coil stands on the side frame (variable damping).".to_owned(),
+        Damping::Constant => "The coil stands in the bolster pocket (constant damping).".to_owned(),
+    });
+    list.push(match p.coil.acts_at {
+        CoilLine::CenterOfGravity => "The coil's force acts through the centre of gravity although its length is \
+             measured at the wedge's bottom, as in the thesis's moment equations; the work of the guiding couple \
+             that this takes is in the ledger as coil_guide_work."
+            .to_owned(),
+        CoilLine::Seat => "The coil's force acts where the coil ends, at the wedge's bottom, with its moment.".to_owned(),
+    });
+    if p.coil.pulls && matches!(p.coil.law, CoilLaw::Linear { .. }) {
+        list.push("The coil pushes and pulls, as in the thesis.".to_owned());
+    }
+    for (face, friction) in [("column", &p.column_friction), ("slope", &p.slope_friction)] {
+        list.push(friction_assumption(face, friction));
+    }
+    list.push(match p.start {
+        Start::Rest => "The run starts at rest in the nominal position, whatever penetrates: with toe or yaw the first \
+             moments are a release of stored energy."
+            .to_owned(),
+        Start::Touching => format!(
+            "The run starts at rest; column and pocket were moved apart by {:.6} and {:.6} in until nothing penetrates.",
+            wedge.column_shift / INCH,
+            wedge.pocket_shift / INCH
+        ),
+        Start::Equilibrium => "The run starts in frictionless static equilibrium.".to_owned(),
+    });
+    list.push("Friction holds a wedge where it came to rest, so the start matters for seconds.".to_owned());
+    list.push(
+        "The bolster turns about the centre of its pocket's slope unless a centre is named; the side frame about the \
+         centre of its column face."
+            .to_owned(),
+    );
+    list.push(
+        "Face A lies at p1 - h1/3 in the wedge frame, so that the centre of gravity is the prism's centroid; moments of \
+         inertia are principal, about the centre of gravity."
+            .to_owned(),
+    );
+    let held: Vec<&str> = mechanics::body::COORDINATES
+        .into_iter()
+        .zip(p.wedge.free)
+        .filter_map(|(name, free)| (!free).then_some(name))
+        .collect();
+    if !held.is_empty() {
+        list.push(format!("Held coordinates of the wedge: {}.", held.join(", ")));
+    }
+    if p.gravity != STANDARD_GRAVITY {
+        list.push(format!("Gravity is {} m/s².", p.gravity));
+    }
+    list
+}
+
+fn friction_assumption(face: &str, friction: &FaceFriction) -> String {
+    match friction.law {
+        FrictionLaw::Tanh { reference_speed } => format!(
+            "Friction at the {face}: tanh law, μ = {}, v0 = {:.3e} in/s: it never sticks truly, a corner that holds half its \
+             limit creeps by {:.2e} in/s; v0 is part of the model (ten times v0 moves the branches by a fifth and more).",
+            friction.coefficient,
+            reference_speed / INCH,
+            friction.law.creep_speed(0.5) / INCH
+        ),
+        FrictionLaw::Bristle { stiffness, damping } => format!(
+            "Friction at the {face}: bristle law, μ = {}, {:.3e} lbf/in and {:.3e} lbf s/in per face: it holds a load \
+             without creep.",
+            friction.coefficient,
+            stiffness * INCH / POUND_FORCE,
+            damping * INCH / POUND_FORCE
+        ),
+    }
+}

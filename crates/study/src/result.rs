@@ -1,0 +1,47 @@
+//! What came out of a run.
+
+use mechanics::output::Column;
+use serde::{Deserialize, Serialize};
+
+use crate::summary::Summary;
+
+/// A run's result: the table of outputs and the summary. Values in SI units.
+#[derive(Clone, Debug)]
+pub struct RunResult {
+    /// The columns of the table.
+    pub columns: Vec<Column>,
+    /// The values, one vector a column.
+    pub values: Vec<Vec<f64>>,
+    /// The summary, in the case's output units.
+    pub summary: Summary,
+}
+
+impl RunResult {
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.values.first().map_or(0, Vec::len)
+    }
+
+    /// The values (SI) of the column with this name (without unit).
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let index = self.columns.iter().position(|column| column.name == name)?;
+        Some(&self.values[index])
+    }
+}
+
+/// A change of a contact point's mode.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ContactEvent {
+    /// Time, s.
+    pub time: f64,
+    /// The face: `column` or `slope`.
+    pub face: String,
+    /// The corner, such as `lower_left`.
+    pub corner: String,
+    /// The mode before: `open`, `stick` or `slip`.
+    pub from: String,
+    /// The mode after.
+    pub to: String,
+}

@@ -1,0 +1,409 @@
+//! A run: a case being integrated, row by row, with a state that can be saved and continued.
+
+use std::collections::BTreeMap;
+
+use integrate::{Integrator, Options, SetupError, State, StepError};
+use mechanics::output::Column;
+use mechanics::system::{ChannelKind, Mode, System};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+use wedge::outputs::{CORNERS, FACES, Outputs};
+use wedge::{BuildError, Wedge};
+
+use crate::case::Case;
+use crate::metrics::Cycle;
+use crate::result::{ContactEvent, RunResult};
+use crate::summary::Stopped;
+
+mod summarize;
+
+/// Version of [`RunState`].
+pub const RUN_STATE_VERSION: u32 = 1;
+/// How many events are listed at most.
+pub const EVENT_CAP: usize = 500;
+
+/// Why a run cannot begin or go on.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// The parameters make no wedge.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// The integrator cannot be set up.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The integrator cannot go on.
+    #[error("{error}; contacts: {contacts}")]
+    Step {
+        /// What the integrator says.
+        error: StepError,
+        /// Contact states at that time, in words.
+        contacts: String,
+    },
+    /// A saved state that this version cannot read.
+    #[error("the saved run state has version {found}; this program reads version {RUN_STATE_VERSION}")]
+    Version {
+        /// The version found.
+        found: u32,
+    },
+}
+
+/// Everything needed to continue a run with the same bits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunState {
+    /// [`RUN_STATE_VERSION`].
+    pub version: u32,
+    /// States, quadratures, modes and controller memory.
+    pub integrator: State,
+    /// The next row to be written.
+    pub next_row: u64,
+    /// What has been counted so far.
+    pub counts: Counts,
+}
+
+/// What is counted along a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Counts {
+    /// Stored energy at the start, J.
+    pub start_energy: f64,
+    /// Distance that each contact point has crept while stuck, m.
+    pub crept: Vec<f64>,
+    /// Creep speeds at the last step's end, m/s.
+    pub creep_speeds: Vec<f64>,
+    /// Counts by face: opens, closes, sticks, slips.
+    pub events: Vec<[u64; 4]>,
+    /// All events.
+    pub event_total: u64,
+    /// The first events.
+    pub listed: Vec<ContactEvent>,
+    /// Friction losses at the probes passed so far, J: for each probe (side frame, bolster).
+    pub probes: Vec<[f64; 2]>,
+    /// Largest residual of the ledger at any output time, J.
+    pub largest_residual: f64,
+}
+
+/// A run under way.
+pub struct Run {
+    case: Case,
+    wedge: Wedge,
+    outputs: Outputs,
+    integrator: Integrator<System>,
+    next_row: u64,
+    counts: Counts,
+    probe_times: Vec<f64>,
+    values: Vec<Vec<f64>>,
+    buffer: Vec<f64>,
+    row: Vec<f64>,
+    modes: Vec<u8>,
+    speeds: Vec<f64>,
+}
+
+impl Run {
+    /// A run at its start.
+    ///
+    /// # Errors
+    /// The parameters make no wedge, or the integrator refuses the start.
+    pub fn new(case: &Case) -> Result<Self, RunError> {
+        let mut wedge = Wedge::new(case.parameters.clone())?;
+        let start = wedge.initial_state.clone();
+        let start_energy = wedge.system.observe(0.0, &start).energies.total();
+        let integrator = Integrator::new(wedge.system.clone(), options(case), 0.0, &start)?;
+        let points = wedge.system.point_count();
+        let counts = Counts {
+            start_energy,
+            crept: vec![0.0; points],
+            creep_speeds: vec![0.0; points],
+            events: vec![[0; 4]; FACES.len()],
+            ..Counts::default()
+        };
+        let mut run = Self::assemble(case, wedge, integrator, counts, 0);
+        run.emit_rows(true);
+        Ok(run)
+    }
+
+    /// A run that goes on from a saved state of the same case. Rows written before are not repeated.
+    ///
+    /// # Errors
+    /// The state belongs to another version or another case.
+    pub fn resume(case: &Case, state: RunState) -> Result<Self, RunError> {
+        if state.version != RUN_STATE_VERSION {
+            return Err(RunError::Version { found: state.version });
+        }
+        let wedge = Wedge::new(case.parameters.clone())?;
+        let integrator = Integrator::resume(wedge.system.clone(), options(case), state.integrator)?;
+        Ok(Self::assemble(
+            case,
+            wedge,
+            integrator,
+            state.counts,
+            state.next_row,
+        ))
+    }
+
+    fn assemble(
+        case: &Case,
+        wedge: Wedge,
+        integrator: Integrator<System>,
+        counts: Counts,
+        next_row: u64,
+    ) -> Self {
+        let outputs = Outputs::new(&wedge.parameters);
+        let window = Cycle::of(&case.parameters).and_then(|cycle| cycle.window(case.simulation.duration));
+        let points = wedge.system.point_count();
+        Self {
+            probe_times: window.map_or(Vec::new(), |(start, end, _)| vec![start, end]),
+            values: vec![Vec::new(); outputs.columns().len()],
+            buffer: vec![0.0; wedge.initial_state.len()],
+            row: Vec::with_capacity(outputs.columns().len()),
+            modes: integrator.modes().to_vec(),
+            speeds: vec![0.0; points],
+            case: case.clone(),
+            wedge,
+            outputs,
+            integrator,
+            next_row,
+            counts,
+        }
+    }
+
+    /// The case that is run.
+    #[must_use]
+    pub fn case(&self) -> &Case {
+        &self.case
+    }
+
+    /// Time reached, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.integrator.time()
+    }
+
+    /// Whether the end is reached.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        self.time() >= self.case.simulation.duration
+    }
+
+    /// The state, to be continued by [`Run::resume`].
+    #[must_use]
+    pub fn state(&self) -> RunState {
+        RunState {
+            version: RUN_STATE_VERSION,
+            integrator: self.integrator.state(),
+            next_row: self.next_row,
+            counts: self.counts.clone(),
+        }
+    }
+
+    /// The columns of the result.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        self.outputs.columns()
+    }
+
+    /// One step of the integrator, with all rows and events that fall into it.
+    ///
+    /// # Errors
+    /// The integrator cannot go on; what was computed is kept.
+    pub fn advance(&mut self) -> Result<(), RunError> {
+        let end = self.case.simulation.duration;
+        if let Err(error) = self.integrator.step_to(end) {
+            let contacts = self.contact_words();
+            return Err(RunError::Step { error, contacts });
+        }
+        self.count_events();
+        self.count_creep();
+        self.probe();
+        self.emit_rows(false);
+        Ok(())
+    }
+
+    /// Runs to the end and gives the result; a run that cannot go on gives an incomplete result with the reason.
+    #[must_use]
+    pub fn finish(mut self, mut progress: impl FnMut(f64)) -> RunResult {
+        let mut stopped = None;
+        while !self.is_finished() {
+            if let Err(error) = self.advance() {
+                stopped = Some(Stopped {
+                    time: self.time(),
+                    reason: error.to_string(),
+                    contacts: self.contact_states(),
+                });
+                break;
+            }
+            progress(self.time());
+        }
+        self.result(stopped)
+    }
+
+    /// The result so far.
+    #[must_use]
+    pub fn result(mut self, stopped: Option<Stopped>) -> RunResult {
+        let summary = summarize::summary(&mut self, stopped);
+        RunResult {
+            columns: self.outputs.columns().to_vec(),
+            values: self.values,
+            summary,
+        }
+    }
+
+    /// Contact states by face and corner.
+    fn contact_states(&self) -> BTreeMap<String, String> {
+        self.integrator
+            .modes()
+            .iter()
+            .enumerate()
+            .map(|(point, mode)| {
+                let (face, corner) = place(point);
+                (
+                    format!("{face}_{corner}"),
+                    Mode::from_number(*mode).name().to_owned(),
+                )
+            })
+            .collect()
+    }
+
+    fn contact_words(&self) -> String {
+        let words: Vec<String> = self
+            .contact_states()
+            .into_iter()
+            .map(|(place, mode)| format!("{place} {mode}"))
+            .collect();
+        words.join(", ")
+    }
+
+    fn count_events(&mut self) {
+        for event in self.integrator.events() {
+            let (face, corner) = place(event.index);
+            let kind = match (Mode::from_number(event.from), Mode::from_number(event.to)) {
+                (_, Mode::Open) => 0,
+                (Mode::Open, _) => 1,
+                (_, Mode::Stick) => 2,
+                (_, Mode::Slip) => 3,
+            };
+            self.counts.events[event.index / CORNERS.len()][kind] += 1;
+            self.counts.event_total += 1;
+            if self.counts.listed.len() < EVENT_CAP {
+                self.counts.listed.push(ContactEvent {
+                    time: event.time,
+                    face: face.to_owned(),
+                    corner: corner.to_owned(),
+                    from: Mode::from_number(event.from).name().to_owned(),
+                    to: Mode::from_number(event.to).name().to_owned(),
+                });
+            }
+        }
+    }
+
+    /// Adds the creep of corners that were stuck at both ends of the step (trapezoidal rule).
+    fn count_creep(&mut self) {
+        let stuck = Mode::Stick as u8;
+        let (before, after) = (self.integrator.modes_before_step(), self.integrator.modes());
+        let step = self.integrator.time() - self.integrator.previous_time();
+        let any = before.iter().zip(after).any(|(a, b)| *a == stuck && *b == stuck);
+        if !any {
+            self.counts.creep_speeds.fill(0.0);
+            return;
+        }
+        self.wedge.system.segment_like(self.integrator.problem());
+        self.wedge
+            .system
+            .creep_speeds(self.integrator.time(), self.integrator.x(), &mut self.speeds);
+        for point in 0..self.speeds.len() {
+            if before[point] == stuck && after[point] == stuck {
+                let mean = 0.5 * (self.counts.creep_speeds[point] + self.speeds[point]);
+                self.counts.crept[point] += mean * step;
+            }
+        }
+        self.counts.creep_speeds.copy_from_slice(&self.speeds);
+    }
+
+    /// Notes the friction losses at the ends of the averaging window.
+    fn probe(&mut self) {
+        while let Some(time) = self.probe_times.get(self.counts.probes.len()) {
+            if *time > self.integrator.time() {
+                return;
+            }
+            self.integrator.interpolate(*time, &mut self.buffer);
+            let layout = self.wedge.system.layout();
+            let [_, _, _, quadratures] = layout.split(&self.buffer);
+            let mut losses = [0.0; 2];
+            for (channel, value) in self.wedge.system.channels().iter().zip(quadratures) {
+                if channel.kind == ChannelKind::FrictionLoss {
+                    losses[usize::from(channel.element != FACES[0])] += value;
+                }
+            }
+            self.counts.probes.push(losses);
+        }
+    }
+
+    /// Writes the rows whose time has been reached, with the contact modes of that time.
+    fn emit_rows(&mut self, first: bool) {
+        let simulation = &self.case.simulation;
+        let count = row_count(simulation.duration, simulation.output_interval);
+        self.modes.copy_from_slice(self.integrator.modes_before_step());
+        if first {
+            self.modes.copy_from_slice(self.integrator.modes());
+        }
+        let mut events = self.integrator.events().iter().peekable();
+        while self.next_row < count {
+            let time = row_time(
+                self.next_row,
+                count,
+                simulation.duration,
+                simulation.output_interval,
+            );
+            if time > self.integrator.time() {
+                break;
+            }
+            while let Some(event) = events.next_if(|event| event.time <= time && !first) {
+                self.modes[event.index] = event.to;
+            }
+            if first {
+                self.buffer.copy_from_slice(self.integrator.x());
+            } else {
+                self.integrator.interpolate(time, &mut self.buffer);
+            }
+            self.wedge.system.segment_like(self.integrator.problem());
+            let seen = self.wedge.system.observe(time, &self.buffer);
+            self.row.clear();
+            let start = self.counts.start_energy;
+            self.outputs
+                .values(&self.wedge.system, &seen, &self.modes, start, &mut self.row);
+            for (column, value) in self.values.iter_mut().zip(&self.row) {
+                column.push(*value);
+            }
+            let residual = Outputs::ledger(&self.wedge.system, &seen, start).residual.abs();
+            self.counts.largest_residual = self.counts.largest_residual.max(residual);
+            self.next_row += 1;
+        }
+    }
+}
+
+/// Face and corner of a contact point.
+fn place(point: usize) -> (&'static str, &'static str) {
+    (FACES[point / CORNERS.len()], CORNERS[point % CORNERS.len()])
+}
+
+/// Number of rows: multiples of the interval, and the end.
+fn row_count(duration: f64, interval: f64) -> u64 {
+    let whole = (duration / interval * (1.0 + 1e-12)).floor();
+    let rest = duration - whole * interval > 1e-9 * interval;
+    whole as u64 + 1 + u64::from(rest)
+}
+
+/// The time of a row; the last one is the end.
+fn row_time(row: u64, count: u64, duration: f64, interval: f64) -> f64 {
+    if row + 1 == count {
+        duration
+    } else {
+        (row as f64 * interval).min(duration)
+    }
+}
+
+fn options(case: &Case) -> Options {
+    Options {
+        method: case.simulation.method,
+        relative_tolerance: case.simulation.relative_tolerance,
+        ..Options::default()
+    }
+}

@@ -1,0 +1,227 @@
+//! The summary of a run, from its table and counts.
+
+use std::collections::BTreeMap;
+
+use mechanics::friction::FrictionLaw;
+use mechanics::system::scales;
+use quantity::Kind;
+use wedge::outputs::{CORNERS, FACES, Outputs};
+
+use super::{EVENT_CAP, Run};
+use crate::assumptions;
+use crate::metrics::{Cycle, Extremes, mean};
+use crate::summary::{
+    Averages, Events, FrictionSummary, LedgerSummary, Measure, SCHEMA, Solver, Stopped, Summary,
+};
+
+/// How many columns at the beginning of the table have fixed names; their extremes are reported.
+const FIXED_COLUMNS: usize = 18;
+const EVENT_KINDS: [&str; 4] = ["opens", "closes", "sticks", "slips"];
+const BRANCH_COLUMNS: [&str; 5] = [
+    "vertical_wedge_force",
+    "vertical_force_on_side_frame",
+    "longitudinal_wedge_force",
+    "side_frame_dissipation",
+    "bolster_dissipation",
+];
+
+pub(super) fn summary(run: &mut Run, stopped: Option<Stopped>) -> Summary {
+    let units = run.case.simulation.output_units;
+    let columns = run.outputs.columns().to_vec();
+    let time = run.values[0].clone();
+    let mut extremes = BTreeMap::new();
+    for (column, values) in columns.iter().zip(&run.values).take(FIXED_COLUMNS).skip(1) {
+        if let Some(mut found) = Extremes::of(&time, values) {
+            found.minimum *= column.kind.from_si(units);
+            found.maximum *= column.kind.from_si(units);
+            extremes.insert(column.full_name(units), found);
+        }
+    }
+    Summary {
+        schema: SCHEMA.to_owned(),
+        program: format!("wedgelab {}", env!("CARGO_PKG_VERSION")),
+        name: run.case.name.clone(),
+        title: run.case.title.clone(),
+        units,
+        complete: stopped.is_none() && run.is_finished(),
+        stopped,
+        rows: time.len(),
+        averages: averages(run),
+        extremes,
+        events: events(run),
+        friction: friction(run),
+        ledger: ledger(run),
+        solver: solver(run),
+        assumptions: assumptions::of(&run.wedge),
+    }
+}
+
+fn averages(run: &Run) -> Averages {
+    let units = run.case.simulation.output_units;
+    let duration = run.case.simulation.duration;
+    let missing = |why: &str| Averages {
+        missing: why.to_owned(),
+        ..Averages::default()
+    };
+    let Some(cycle) = Cycle::of(&run.case.parameters) else {
+        return missing("the bolster's vertical motion is not one sine or triangle");
+    };
+    let mut averages = Averages::default();
+    match (cycle.window(duration), run.counts.probes.as_slice()) {
+        (Some((_, _, cycles)), [start, end]) => {
+            averages.cycles = cycles;
+            for (side, neighbour) in ["side_frame", "bolster"].into_iter().enumerate() {
+                let energy = (end[side] - start[side]) / f64::from(cycles);
+                averages
+                    .energy_per_cycle
+                    .insert(neighbour.to_owned(), Measure::new(energy, Kind::Energy, units));
+                if side == 0 {
+                    let area =
+                        std::f64::consts::PI * cycle.angular_frequency * cycle.amplitude * cycle.amplitude;
+                    averages.equivalent_damping = Some(Measure::new(energy / area, Kind::Damping, units));
+                }
+            }
+        }
+        _ => averages.missing = "no whole cycle after the first half period".to_owned(),
+    }
+    let column = |name: &str| {
+        let index = run
+            .outputs
+            .columns()
+            .iter()
+            .position(|column| column.name == name);
+        index.map_or(&[][..], |index| &run.values[index])
+    };
+    let (times, positions, speeds) = (
+        &run.values[0],
+        column("bolster_vertical"),
+        column("bolster_vertical_rate"),
+    );
+    let mut rows = [Vec::new(), Vec::new()];
+    for (row, ((time, position), speed)) in times.iter().zip(positions).zip(speeds).enumerate() {
+        if let Some(up) = cycle.branch(run.case.parameters.damping, *time, *position, *speed) {
+            rows[usize::from(up)].push(row);
+        }
+    }
+    for (rows, target) in rows.iter().zip([&mut averages.down, &mut averages.up]) {
+        for name in BRANCH_COLUMNS {
+            let kind = if name.ends_with("dissipation") {
+                Kind::Power
+            } else {
+                Kind::Force
+            };
+            if let Some(mean) = mean(column(name), rows) {
+                target.insert(name.to_owned(), Measure::new(mean, kind, units));
+            }
+        }
+    }
+    averages
+}
+
+fn events(run: &Run) -> Events {
+    let statistics = run.integrator.statistics();
+    let counts = FACES
+        .iter()
+        .zip(&run.counts.events)
+        .map(|(face, counts)| {
+            let kinds = EVENT_KINDS
+                .iter()
+                .zip(counts)
+                .map(|(kind, count)| ((*kind).to_owned(), *count))
+                .collect();
+            ((*face).to_owned(), kinds)
+        })
+        .collect();
+    Events {
+        total: run.counts.event_total,
+        counts,
+        unresolved: statistics.events_unresolved,
+        motion_breaks: statistics.restarts,
+        thresholds: vec![
+            "a corner closes where its gap falls to 0, and opens where it grows to 1e-6 in (2.54e-8 m)"
+                .to_owned(),
+            "tanh: slip begins at |v| = 2 v0 (96 % of the friction limit), stick at |v| = v0 (76 %)"
+                .to_owned(),
+            "bristle: slip begins at |T| = μN, stick at |T| = 0.999 μN".to_owned(),
+        ],
+        listed: run.counts.listed.clone(),
+        cap: EVENT_CAP,
+    }
+}
+
+fn friction(run: &Run) -> BTreeMap<String, FrictionSummary> {
+    let units = run.case.simulation.output_units;
+    let faces = [
+        &run.case.parameters.column_friction,
+        &run.case.parameters.slope_friction,
+    ];
+    FACES
+        .iter()
+        .zip(faces)
+        .zip(run.counts.crept.chunks(CORNERS.len()))
+        .map(|((name, face), crept)| {
+            let law = match face.law {
+                FrictionLaw::Tanh { .. } => "tanh",
+                FrictionLaw::Bristle { .. } => "bristle",
+            };
+            let crept = crept.iter().fold(0.0, |most: f64, crept| most.max(*crept));
+            let summary = FrictionSummary {
+                law: law.to_owned(),
+                coefficient: face.coefficient,
+                creep_speed_at_half_load: Measure::new(face.law.creep_speed(0.5), Kind::Speed, units),
+                crept_while_stuck: Measure::new(crept, Kind::Length, units),
+            };
+            ((*name).to_owned(), summary)
+        })
+        .collect()
+}
+
+fn ledger(run: &mut Run) -> LedgerSummary {
+    let units = run.case.simulation.output_units;
+    run.wedge.system.segment_like(run.integrator.problem());
+    let seen = run
+        .wedge
+        .system
+        .observe(run.integrator.time(), run.integrator.x());
+    let ledger = Outputs::ledger(&run.wedge.system, &seen, run.counts.start_energy);
+    let measure = |value: f64| Measure::new(value, Kind::Energy, units);
+    let entries = [
+        ("motion_work", ledger.motion_work),
+        ("coil_guide_work", ledger.coil_guide_work),
+        ("stored", ledger.stored),
+        ("side_frame_friction_loss", ledger.side_frame_friction_loss),
+        ("bolster_friction_loss", ledger.bolster_friction_loss),
+        ("contact_damping_loss", ledger.contact_damping_loss),
+        ("coil_damping_loss", ledger.coil_damping_loss),
+        ("residual", ledger.residual),
+    ];
+    let work = ledger.motion_work.abs().max(f64::MIN_POSITIVE);
+    LedgerSummary {
+        entries: entries
+            .into_iter()
+            .map(|(name, value)| (name.to_owned(), measure(value)))
+            .collect(),
+        stored_at_start: measure(run.counts.start_energy),
+        relative_residual: ledger.residual / work,
+        largest_relative_residual: run.counts.largest_residual / work,
+    }
+}
+
+fn solver(run: &Run) -> Solver {
+    let scale = |value: f64, unit: &str| format!("{value} {unit}");
+    Solver {
+        method: run.case.simulation.method.to_string(),
+        relative_tolerance: run.case.simulation.relative_tolerance,
+        scales: [
+            ("displacement", scale(scales::DISPLACEMENT, "m")),
+            ("angle", scale(scales::ANGLE, "rad")),
+            ("velocity", scale(scales::VELOCITY, "m/s")),
+            ("angular_velocity", scale(scales::ANGULAR_VELOCITY, "rad/s")),
+            ("bristle_deflection", scale(scales::DEFLECTION, "m")),
+        ]
+        .into_iter()
+        .map(|(name, scale)| (name.to_owned(), scale))
+        .collect(),
+        statistics: run.integrator.statistics().clone(),
+    }
+}

@@ -1,0 +1,157 @@
+//! The summary of a run: what `summary.json` holds.
+//!
+//! Schema `wedgelab.summary/1`. Every dimensional number is a [`Measure`] with its unit, in the case's output units;
+//! times are seconds. A reader should ignore keys that it does not know; the number behind the slash grows when a key
+//! changes its meaning or goes.
+
+use std::collections::BTreeMap;
+
+use integrate::Statistics;
+use quantity::{Kind, System as Units};
+use serde::{Deserialize, Serialize};
+
+use crate::result::ContactEvent;
+
+/// The schema's name and version.
+pub const SCHEMA: &str = "wedgelab.summary/1";
+
+/// A number with its unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Measure {
+    /// The number.
+    pub value: f64,
+    /// Its unit, such as `lbf in`; empty for plain numbers.
+    pub unit: String,
+}
+
+impl Measure {
+    /// An SI value in output units.
+    #[must_use]
+    pub fn new(si: f64, kind: Kind, units: Units) -> Self {
+        Self {
+            value: si * kind.from_si(units),
+            unit: kind.unit(units).to_owned(),
+        }
+    }
+}
+
+/// The summary of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Version of the program that wrote it.
+    pub program: String,
+    /// The case's name.
+    pub name: String,
+    /// The case's title.
+    pub title: String,
+    /// Units of the numbers: `us` or `si`.
+    pub units: Units,
+    /// Whether the run came to its end.
+    pub complete: bool,
+    /// Why and when it stopped, if it did not.
+    pub stopped: Option<Stopped>,
+    /// Number of rows of the result.
+    pub rows: usize,
+    /// Averages over cycles and branches.
+    pub averages: Averages,
+    /// Least and greatest values of the columns with fixed names, by their names with units.
+    pub extremes: BTreeMap<String, crate::metrics::Extremes>,
+    /// Changes of contact states.
+    pub events: Events,
+    /// The active friction laws, by face, and how far they crept.
+    pub friction: BTreeMap<String, FrictionSummary>,
+    /// The energy ledger at the end.
+    pub ledger: LedgerSummary,
+    /// What the integrator did.
+    pub solver: Solver,
+    /// What the numbers rest on.
+    pub assumptions: Vec<String>,
+}
+
+/// Where and why a run stopped.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stopped {
+    /// Time, s.
+    pub time: f64,
+    /// Why.
+    pub reason: String,
+    /// Contact states at that time, by face and corner.
+    pub contacts: BTreeMap<String, String>,
+}
+
+/// Averages over cycles and branches of the bolster's vertical motion.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Averages {
+    /// Why there are none; empty where there are.
+    pub missing: String,
+    /// Number of whole cycles after the first half period.
+    pub cycles: u32,
+    /// Friction energy per cycle at the side frame and at the bolster.
+    pub energy_per_cycle: BTreeMap<String, Measure>,
+    /// Equivalent viscous damping of the side-frame friction, W/(π ω A²).
+    pub equivalent_damping: Option<Measure>,
+    /// Means over the branch in which the bolster goes up, by column.
+    pub up: BTreeMap<String, Measure>,
+    /// Means over the branch in which it goes down, by column.
+    pub down: BTreeMap<String, Measure>,
+}
+
+/// Changes of contact states.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Events {
+    /// How many there were in all.
+    pub total: u64,
+    /// Counts by face and kind: `column` → `opens`, `closes`, `sticks`, `slips`.
+    pub counts: BTreeMap<String, BTreeMap<String, u64>>,
+    /// Changes that could not be resolved within one step.
+    pub unresolved: u64,
+    /// Breaks of the prescribed motions at which the integrator restarted.
+    pub motion_breaks: u64,
+    /// The thresholds, in words.
+    pub thresholds: Vec<String>,
+    /// The first ones, up to the cap.
+    pub listed: Vec<ContactEvent>,
+    /// How many are listed at most.
+    pub cap: usize,
+}
+
+/// The friction of a face.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrictionSummary {
+    /// `tanh` or `bristle`.
+    pub law: String,
+    /// Coefficient of friction.
+    pub coefficient: f64,
+    /// Speed at which a corner creeps while it holds half its friction limit.
+    pub creep_speed_at_half_load: Measure,
+    /// Greatest distance that a corner crept while its state was `stick`, over the whole run.
+    pub crept_while_stuck: Measure,
+}
+
+/// The energy ledger at the end of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LedgerSummary {
+    /// Entries by name: work, stored energy, losses, residual.
+    pub entries: BTreeMap<String, Measure>,
+    /// Energy stored at the start.
+    pub stored_at_start: Measure,
+    /// Residual at the end, relative to the work done by the motions.
+    pub relative_residual: f64,
+    /// Largest residual at any output time, relative to the work done by the motions at the end.
+    pub largest_relative_residual: f64,
+}
+
+/// What the integrator did.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Solver {
+    /// The method.
+    pub method: String,
+    /// Relative tolerance.
+    pub relative_tolerance: f64,
+    /// The error scales that it is relative to.
+    pub scales: BTreeMap<String, String>,
+    /// Counters.
+    pub statistics: Statistics,
+}
