@@ -1,5 +1,7 @@
 //! Time per step of the integrator beyond the problem's own calls.
 
+#![allow(clippy::unwrap_used)] // it may stop where it stands
+
 use std::hint::black_box;
 use std::time::Instant;
 

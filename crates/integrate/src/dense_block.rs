@@ -26,12 +26,12 @@ fn invert_fixed<const N: usize>(values: &mut [f64]) -> bool {
     let mut order: [usize; N] = std::array::from_fn(|i| i);
     let mut exchanged = false;
     // written out, so that the matrix stays in registers
-    let regular = (N <= 0 || eliminate_column::<N>(0, &mut m, &mut order, &mut exchanged))
-        && (N <= 1 || eliminate_column::<N>(1, &mut m, &mut order, &mut exchanged))
-        && (N <= 2 || eliminate_column::<N>(2, &mut m, &mut order, &mut exchanged))
-        && (N <= 3 || eliminate_column::<N>(3, &mut m, &mut order, &mut exchanged))
-        && (N <= 4 || eliminate_column::<N>(4, &mut m, &mut order, &mut exchanged))
-        && (N <= 5 || eliminate_column::<N>(5, &mut m, &mut order, &mut exchanged));
+    let regular = (N == 0 || eliminate_column::<N>(0, &mut m, &mut order, &mut exchanged))
+        && (N < 2 || eliminate_column::<N>(1, &mut m, &mut order, &mut exchanged))
+        && (N < 3 || eliminate_column::<N>(2, &mut m, &mut order, &mut exchanged))
+        && (N < 4 || eliminate_column::<N>(3, &mut m, &mut order, &mut exchanged))
+        && (N < 5 || eliminate_column::<N>(4, &mut m, &mut order, &mut exchanged))
+        && (N < 6 || eliminate_column::<N>(5, &mut m, &mut order, &mut exchanged));
     if exchanged {
         for (target, row) in a.iter_mut().zip(&m) {
             for k in 0..N {

@@ -39,6 +39,8 @@ pub struct Partitioned {
     row_data: Vec<f64>,
     internal_rows: Vec<InternalRow>,
     lu: BlockLu,
+    /// Number of coordinates of every body, 0 where they differ.
+    uniform: usize,
     shift: f64,
     work: Vec<f64>,
 }
@@ -235,6 +237,7 @@ impl Partitioned {
             internals: 2 * groups.len(),
             quadratures: structure.quadratures,
             work: vec![0.0; speeds],
+            uniform: sizes.iter().copied().reduce(|a, b| if a == b { a } else { 0 }).unwrap_or(0),
             sizes,
             offsets,
             mass_starts,
@@ -412,8 +415,23 @@ impl Partitioned {
     }
 
     /// Solves `(shift · I - J) y = b` in place.
-    #[inline]
     pub fn solve(&mut self, b: &mut [f64]) {
+        // Loops of a known length are unrolled: where all bodies have the same number of coordinates.
+        match self.uniform {
+            1 => self.solve_sized::<1>(b),
+            2 => self.solve_sized::<2>(b),
+            3 => self.solve_sized::<3>(b),
+            4 => self.solve_sized::<4>(b),
+            5 => self.solve_sized::<5>(b),
+            6 => self.solve_sized::<6>(b),
+            _ => self.solve_sized::<0>(b),
+        }
+    }
+
+    /// The same, where all bodies have `N` coordinates; `N = 0` stands for any numbers.
+    #[inline(always)]
+    fn solve_sized<const N: usize>(&mut self, b: &mut [f64]) {
+        let size = |n: usize| if N > 0 { N } else { n };
         let layout = self.layout();
         let [q, u, s, w] = layout.split_mut(b);
         let inverse = 1.0 / self.shift;
@@ -421,6 +439,7 @@ impl Partitioned {
         // Right side of the speed rows: M r_u + K r_q/σ + F Z (r_s + G_q r_q/σ).
         work.fill(0.0);
         for (body, &n) in self.sizes.iter().enumerate() {
+            let n = size(n);
             let at = self.offsets[body];
             multiply_add(
                 n,
@@ -435,7 +454,7 @@ impl Partitioned {
         } in &self.pairs
         {
             let (i, j) = (self.offsets[row], self.offsets[column]);
-            let (m, n) = (self.sizes[row], self.sizes[column]);
+            let (m, n) = (size(self.sizes[row]), size(self.sizes[column]));
             if m == n {
                 multiply_add(
                     n,
@@ -457,7 +476,7 @@ impl Partitioned {
             let sides = &self.sides[group.first..group.first + group.count];
             let r = &mut s[2 * index..2 * index + 2];
             for side in sides {
-                let (at, n) = (self.offsets[side.body], self.sizes[side.body]);
+                let (at, n) = (self.offsets[side.body], size(self.sizes[side.body]));
                 let g_q = &self.side_data[side.start..][..2 * n];
                 for (target, g) in r.iter_mut().zip(g_q.chunks_exact(n)) {
                     *target += inverse * dot(g, &q[at..at + n]);
@@ -466,7 +485,7 @@ impl Partitioned {
             let z = &group.inverse;
             let zr = [z[0] * r[0] + z[1] * r[1], z[2] * r[0] + z[3] * r[1]];
             for side in sides {
-                let (at, n) = (self.offsets[side.body], self.sizes[side.body]);
+                let (at, n) = (self.offsets[side.body], size(self.sizes[side.body]));
                 let f_t = &self.side_data[side.start + 4 * n..][..2 * n];
                 for (i, target) in work[at..at + n].iter_mut().enumerate() {
                     *target += f_t[i] * zr[0] + f_t[n + i] * zr[1];
@@ -482,7 +501,7 @@ impl Partitioned {
         for (index, group) in self.groups.iter().enumerate() {
             let r = &mut s[2 * index..2 * index + 2];
             for side in &self.sides[group.first..group.first + group.count] {
-                let (at, n) = (self.offsets[side.body], self.sizes[side.body]);
+                let (at, n) = (self.offsets[side.body], size(self.sizes[side.body]));
                 let (g_q, g_u) = self.side_data[side.start..side.start + 4 * n].split_at(2 * n);
                 for row in 0..2 {
                     let (g_q, g_u) = (&g_q[row * n..][..n], &g_u[row * n..][..n]);
@@ -495,7 +514,7 @@ impl Partitioned {
             r.copy_from_slice(&k);
         }
         for row in &self.rows {
-            let (at, n) = (self.offsets[row.body], self.sizes[row.body]);
+            let (at, n) = (self.offsets[row.body], size(self.sizes[row.body]));
             let (p_q, p_u) = self.row_data[row.start..row.start + 2 * n].split_at(n);
             w[row.quadrature] += dot(p_q, &q[at..at + n]) + dot(p_u, &u[at..at + n]);
         }

@@ -35,6 +35,8 @@ pub trait Problem {
     }
 
     /// Writes `f(time, x)` to `dx`.
+    ///
+    /// Within a step that is about to be rejected `x` may be far out or not finite; so may then be `dx`.
     fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]);
 
     /// Evaluates and keeps the Jacobian matrix `J = ∂f/∂x` at `(time, x)`, where `f` is `dx`; writes `∂f/∂t`.

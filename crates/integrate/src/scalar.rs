@@ -4,8 +4,14 @@
 //! [`Dual`] it gives values and exact partial derivatives from the same lines (forward automatic
 //! differentiation). Elementary functions come from a Rust library, so that results do not depend
 //! on the system's mathematical library.
+//!
+//! Derivatives are computed in explicit pairs of lanes. Left to the compiler's own vectorization, these loops were
+//! translated wrongly at the highest optimization (rustc 1.95: a Jacobian with wrong entries from right
+//! source; see docs/decisions/0008), which is why the tests that check Jacobians also run on the released build.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use wide::f64x2;
 
 /// A real number, possibly with derivatives.
 pub trait Real:
@@ -170,19 +176,35 @@ impl<const N: usize> Real for Dual<N> {
     }
     #[inline(always)]
     fn chain(self, value: f64, slope: f64) -> Self {
-        Self {
-            value,
-            derivative: self.derivative.map(|d| slope * d),
-        }
+        Self { value, derivative: lane(&self.derivative, |d| d * slope) }
     }
 }
 
-/// Applies a function to the derivatives of two numbers, lane by lane.
+/// Applies a function to the derivatives of a number, two lanes at a time.
 #[inline(always)]
-fn lanes<const N: usize>(a: &[f64; N], b: &[f64; N], f: impl Fn(f64, f64) -> f64) -> [f64; N] {
+fn lane<const N: usize>(a: &[f64; N], f: impl Fn(f64x2) -> f64x2) -> [f64; N] {
     let mut out = [0.0; N];
-    for i in 0..N {
-        out[i] = f(a[i], b[i]);
+    for i in 0..N / 2 {
+        let [x, y] = f(f64x2::new([a[2 * i], a[2 * i + 1]])).to_array();
+        (out[2 * i], out[2 * i + 1]) = (x, y);
+    }
+    if N % 2 == 1 {
+        out[N - 1] = f(f64x2::splat(a[N - 1])).to_array()[0];
+    }
+    out
+}
+
+/// Applies a function to the derivatives of two numbers, two lanes at a time.
+#[inline(always)]
+fn lanes<const N: usize>(a: &[f64; N], b: &[f64; N], f: impl Fn(f64x2, f64x2) -> f64x2) -> [f64; N] {
+    let mut out = [0.0; N];
+    for i in 0..N / 2 {
+        let (a, b) = ([a[2 * i], a[2 * i + 1]], [b[2 * i], b[2 * i + 1]]);
+        let [x, y] = f(f64x2::new(a), f64x2::new(b)).to_array();
+        (out[2 * i], out[2 * i + 1]) = (x, y);
+    }
+    if N % 2 == 1 {
+        out[N - 1] = f(f64x2::splat(a[N - 1]), f64x2::splat(b[N - 1])).to_array()[0];
     }
     out
 }
@@ -241,7 +263,7 @@ impl<const N: usize> Neg for Dual<N> {
     fn neg(self) -> Self {
         Self {
             value: -self.value,
-            derivative: self.derivative.map(|d| -d),
+            derivative: lane(&self.derivative, |d| -d),
         }
     }
 }
@@ -274,7 +296,7 @@ impl<const N: usize> Mul<f64> for Dual<N> {
     fn mul(self, o: f64) -> Self {
         Self {
             value: self.value * o,
-            derivative: self.derivative.map(|d| d * o),
+            derivative: lane(&self.derivative, |d| d * o),
         }
     }
 }

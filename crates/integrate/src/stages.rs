@@ -44,17 +44,17 @@ pub(crate) fn combine(
     stride: usize,
     first: usize,
 ) {
-    match weights {
-        &[a] => combine_fixed(out, base, scale, &[a], stages, stride, first),
-        &[a, b] => combine_fixed(out, base, scale, &[a, b], stages, stride, first),
-        &[a, b, c] => combine_fixed(out, base, scale, &[a, b, c], stages, stride, first),
-        &[a, b, c, d] => combine_fixed(out, base, scale, &[a, b, c, d], stages, stride, first),
-        &[a, b, c, d, e] => combine_fixed(out, base, scale, &[a, b, c, d, e], stages, stride, first),
-        &[a, b, c, d, e, f] => combine_fixed(out, base, scale, &[a, b, c, d, e, f], stages, stride, first),
-        &[a, b, c, d, e, f, g] => {
+    match *weights {
+        [a] => combine_fixed(out, base, scale, &[a], stages, stride, first),
+        [a, b] => combine_fixed(out, base, scale, &[a, b], stages, stride, first),
+        [a, b, c] => combine_fixed(out, base, scale, &[a, b, c], stages, stride, first),
+        [a, b, c, d] => combine_fixed(out, base, scale, &[a, b, c, d], stages, stride, first),
+        [a, b, c, d, e] => combine_fixed(out, base, scale, &[a, b, c, d, e], stages, stride, first),
+        [a, b, c, d, e, f] => combine_fixed(out, base, scale, &[a, b, c, d, e, f], stages, stride, first),
+        [a, b, c, d, e, f, g] => {
             combine_fixed(out, base, scale, &[a, b, c, d, e, f, g], stages, stride, first)
         }
-        &[a, b, c, d, e, f, g, h] => {
+        [a, b, c, d, e, f, g, h] => {
             combine_fixed(out, base, scale, &[a, b, c, d, e, f, g, h], stages, stride, first);
         }
         _ => unreachable!("methods have at most {MAXIMUM_STAGES} stages"),

@@ -1,5 +1,7 @@
 //! The block-sparse factorization agrees with dense elimination.
 
+#![allow(clippy::unwrap_used)] // it may stop where it stands
+
 use integrate::{BlockLu, Singular};
 use proptest::prelude::*;
 

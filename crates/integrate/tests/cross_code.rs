@@ -1,5 +1,7 @@
 //! Agreement with an independent code (diffsol) and with closed forms.
 
+#![allow(clippy::unwrap_used)] // it may stop where it stands
+
 use diffsol::{
     NalgebraLU, NalgebraMat, OdeBuilder, OdeEquationsImplicit, OdeSolverMethod, OdeSolverProblem,
     OdeSolverStopReason, Vector,
@@ -152,9 +154,10 @@ fn van_der_pol_agrees_with_an_independent_code() {
                 "{method} at {time}: {found:?}, {independent:?}"
             );
         }
-        // Published: E. Hairer & G. Wanner's test set gives 1.706167732170469 at t = 2000 for this problem.
+        // Published: F. Mazzia, C. Magherini: Test Set for Initial Value Problem Solvers 2.4 (2008), problem VDPOL,
+        // whose time is t/μ
         assert!(
-            (found[2][0] - 1.706_167_732_170_469).abs() < 2e-6,
+            (found[2][0] - 1.706_167_732_170_483).abs() < 2e-6,
             "{method}: {:?}",
             found[2]
         );
@@ -258,7 +261,7 @@ fn a_bouncing_mass_with_loss_agrees_with_an_independent_code() {
         }
     }
     let times = [0.04, 0.06, 0.1, 0.2, 0.3];
-    let problem = OdeBuilder::<Matrix>::new()
+    let mut problem = OdeBuilder::<Matrix>::new()
         .rtol(1e-9)
         .atol([1e-11, 1e-8])
         .rhs_implicit(
@@ -278,6 +281,9 @@ fn a_bouncing_mass_with_loss_agrees_with_an_independent_code() {
         )
         .build()
         .unwrap();
+    // it has trouble at kinks
+    problem.ode_options.max_nonlinear_solver_failures = 100_000;
+    problem.ode_options.max_error_test_failures = 1000;
     let independent = reference(&problem, &times);
     for method in Method::ALL {
         let mine = Ordinary::new(

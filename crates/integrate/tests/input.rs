@@ -1,5 +1,7 @@
 //! Whatever is wrong is said, in a typed error.
 
+#![allow(clippy::unwrap_used)] // it may stop where it stands
+
 use integrate::{Integrator, Options, Ordinary, Reason, STATE_VERSION, SetupError};
 
 fn decay(scales: Vec<f64>) -> Ordinary<'static> {

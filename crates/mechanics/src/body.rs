@@ -175,6 +175,64 @@ impl<S: Real> Kinematics<S> {
 }
 
 impl Kinematics<f64> {
+    /// Accelerations of the six coordinates (held ones: zero) under a force at the body's origin and a moment about
+    /// it, bias and gravity already taken off.
+    ///
+    /// Solves `M q¨ = Q` by eliminating the translations, whose block of M is m times the unit matrix: what is
+    /// left is the inertia of the free rotations about the centre of gravity, plus that of the mass in the held
+    /// directions. A body that cannot be accelerated (no inertia) gives infinite or undefined values.
+    #[inline(always)]
+    #[must_use]
+    pub fn accelerations(&self, body: &Body, force: &Vector<f64>, moment: &Vector<f64>) -> [f64; 6] {
+        let arm: Vector<f64> = self.turn.rotation.apply(Vector(body.center_of_gravity));
+        let free = &body.free;
+        let zero = Vector::<f64>::zero();
+        let (mut lever, mut spin) = ([zero; 3], [zero; 3]);
+        let mut right = [0.0; 3];
+        for k in 0..3 {
+            if free[3 + k] {
+                let axis = &self.turn.axes[k];
+                lever[k] = axis.cross(arm);
+                spin[k] = self.turn.rotation.apply_transposed(*axis);
+                right[k] = axis.dot::<f64, f64>(*moment);
+                for c in 0..3 {
+                    right[k] -= if free[c] { lever[k].0[c] * force.0[c] } else { 0.0 };
+                }
+            }
+        }
+        let entry = |k: usize, l: usize| {
+            let mut value = if k == l && !free[3 + k] { 1.0 } else { 0.0 };
+            for c in 0..3 {
+                value += body.inertia[c] * spin[k].0[c] * spin[l].0[c];
+                value += if free[c] { 0.0 } else { body.mass * lever[k].0[c] * lever[l].0[c] };
+            }
+            value
+        };
+        // L D Lᵀ of the 3 × 3 matrix.
+        let d0 = entry(0, 0);
+        let (l10, l20) = (entry(1, 0) / d0, entry(2, 0) / d0);
+        let d1 = entry(1, 1) - l10 * l10 * d0;
+        let l21 = (entry(2, 1) - l20 * l10 * d0) / d1;
+        let d2 = entry(2, 2) - l20 * l20 * d0 - l21 * l21 * d1;
+        let y1 = right[1] - l10 * right[0];
+        let y2 = right[2] - l20 * right[0] - l21 * y1;
+        let yaw = y2 / d2;
+        let pitch = y1 / d1 - l21 * yaw;
+        let roll = right[0] / d0 - l10 * pitch - l20 * yaw;
+        let turns = [roll, pitch, yaw];
+        let mut out = [0.0; 6];
+        for c in 0..3 {
+            if free[c] {
+                out[c] = force.0[c] / body.mass
+                    - lever[0].0[c] * turns[0]
+                    - lever[1].0[c] * turns[1]
+                    - lever[2].0[c] * turns[2];
+            }
+            out[3 + c] = turns[c];
+        }
+        out
+    }
+
     /// The block of the mass matrix for the free coordinates, row-major `n × n`.
     #[inline(always)]
     pub fn mass_matrix(&self, body: &Body, free: &[usize], mass: &mut [f64]) {

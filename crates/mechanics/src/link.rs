@@ -6,7 +6,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use integrate::scalar::Real;
+use integrate::scalar::{Dual, Real};
 
 use crate::body::Kinematics;
 use crate::frame::FrameMotion;
@@ -89,6 +89,50 @@ impl<S: Real> Sight<S> {
             rotation: self.rotation.times(a.turn.rotation),
             velocity: self.velocity + velocity + swing,
             angular_velocity: self.angular_velocity + spin,
+        }
+    }
+}
+
+/// A mount on a prescribed body that moves without turning, seen by a body in a fixed frame: what stays the same.
+#[derive(Clone, Copy, Debug)]
+pub struct Translation {
+    /// From mount axes to fixed axes.
+    axes: Matrix<f64>,
+    /// From the origin of `b`'s frame to the mount's origin, fixed axes.
+    arm: Vector<f64>,
+}
+
+impl Translation {
+    /// The constant part of a sight; `b` may be anywhere along its motion.
+    pub fn new(b: &FrameMotion<f64>, body: &Kinematics<f64>, mount: &Mount) -> Self {
+        let turn: Matrix<f64> = b.rotation.times(body.turn.rotation);
+        let place: Vector<f64> = b.rotation.apply(body.position);
+        Self { axes: turn.times(mount.rotation), arm: place + turn.apply::<f64, f64>(mount.origin) }
+    }
+
+    /// Brings position and velocities of a sight up to date.
+    #[inline(always)]
+    pub fn update(&self, sight: &mut Sight<f64>, a: &FrameMotion<f64>, b: &FrameMotion<f64>) {
+        sight.position = self.axes.apply_transposed(a.position - b.position - self.arm);
+        sight.mount_velocity = self.axes.apply_transposed(b.velocity);
+        sight.velocity = -sight.mount_velocity;
+    }
+
+    /// The sight with its derivative by time.
+    #[inline(always)]
+    pub fn sight_in_time(&self, sight: &Sight<f64>, b: &FrameMotion<f64>) -> Sight<Dual<1>> {
+        let rate: Vector<f64> = self.axes.apply_transposed(b.acceleration);
+        let with = |value: &Vector<f64>, rate: &Vector<f64>| {
+            let component = |k: usize| Dual { value: value.0[k], derivative: [rate.0[k]] };
+            Vector([component(0), component(1), component(2)])
+        };
+        Sight {
+            position: with(&sight.position, &sight.velocity),
+            rotation: Matrix::lift(sight.rotation),
+            velocity: with(&sight.velocity, &-rate),
+            angular_velocity: Vector::zero(),
+            mount_velocity: with(&sight.mount_velocity, &rate),
+            mount_angular_velocity: Vector::zero(),
         }
     }
 }

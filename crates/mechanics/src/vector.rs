@@ -26,13 +26,13 @@ impl<S: Real> Vector<S> {
     #[inline(always)]
     #[must_use]
     pub fn lift(v: Vector<f64>) -> Self {
-        Self(v.0.map(S::from))
+        Self([S::from(v.0[0]), S::from(v.0[1]), S::from(v.0[2])])
     }
     /// The values without derivatives.
     #[inline(always)]
     #[must_use]
     pub fn value(self) -> Vector<f64> {
-        Vector(self.0.map(Real::value))
+        Vector([self.0[0].value(), self.0[1].value(), self.0[2].value()])
     }
     /// The scalar product.
     #[inline(always)]
@@ -82,13 +82,15 @@ impl<S: Real> Matrix<S> {
     #[inline(always)]
     #[must_use]
     pub fn lift(m: Matrix<f64>) -> Self {
-        Self(m.0.map(|row| row.map(S::from)))
+        let row = |i: usize| Vector::<S>::lift(Vector(m.0[i])).0;
+        Self([row(0), row(1), row(2)])
     }
     /// The values without derivatives.
     #[inline(always)]
     #[must_use]
     pub fn value(self) -> Matrix<f64> {
-        Matrix(self.0.map(|row| row.map(Real::value)))
+        let row = |i: usize| Vector(self.0[i]).value().0;
+        Matrix([row(0), row(1), row(2)])
     }
     /// The transposed matrix.
     #[inline(always)]
@@ -197,6 +199,6 @@ impl<S: Real> Neg for Vector<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(Neg::neg))
+        Self([-self.0[0], -self.0[1], -self.0[2]])
     }
 }

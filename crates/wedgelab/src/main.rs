@@ -1,2 +1,73 @@
 //! The command line of Wedgelab.
-fn main() {}
+
+mod commands;
+mod execute;
+mod failure;
+mod progress;
+mod select;
+mod table;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use commands::{case, quasi_static, reproduce, run};
+use failure::Failure;
+
+/// A laboratory for railway friction wedges.
+///
+/// Wedgelab computes the friction wedge of a three-piece bogie: a rigid body between side frame and bolster, with
+/// unilateral contact, stick-slip friction and its control coil, as in Steets (2007).
+#[derive(Debug, Parser)]
+#[command(
+    name = "wedgelab",
+    version,
+    max_term_width = 100,
+    after_help = "\
+Begin with:
+  wedgelab reproduce                 the thesis's twelve runs, into the folder reproduction/
+  wedgelab case                      the built-in cases
+  wedgelab case NAME > my.toml       a complete case file to change ...
+  wedgelab run my.toml               ... and to run
+
+Exit codes: 0 done; 1 a run could not finish or files could not be written; 2 the input is wrong."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Reproduce(reproduce::Arguments),
+    Run(run::Arguments),
+    Case(case::Arguments),
+    QuasiStatic(quasi_static::Arguments),
+}
+
+impl Cli {
+    fn execute(self) -> Result<ExitCode, Failure> {
+        match self.command {
+            Command::Reproduce(arguments) => reproduce::execute(&arguments),
+            Command::Run(arguments) => run::execute(&arguments),
+            Command::Case(arguments) => case::execute(&arguments),
+            Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    failure::set_up();
+    let done = match Cli::try_parse() {
+        Ok(cli) => cli.execute(),
+        Err(message) => {
+            // Help and version are messages too. If nobody listens there is nothing to be done.
+            let _ = message.print();
+            return ExitCode::from(if message.use_stderr() { failure::INPUT } else { 0 });
+        }
+    };
+    let flushed = std::io::stdout().flush();
+    done.and_then(|code| Ok(flushed.map(|()| code)?))
+        .unwrap_or_else(|failure| failure.report())
+}

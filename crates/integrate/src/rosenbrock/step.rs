@@ -37,7 +37,7 @@ impl<P: Problem> Integrator<P> {
                 let index = (scaled_error > 0.0).then(|| self.dominant().0);
                 return Err(self.error(reason, step, index, scaled_error));
             }
-            let mut failure = match self.attempt(step, target) {
+            let mut failure = match self.attempt::<false>(step, target) {
                 Ok(error) if self.options.fixed_step.is_some() || error <= 1.0 => {
                     self.accept(step, target, error, cut, proposed);
                     return Ok(());
@@ -73,12 +73,18 @@ impl<P: Problem> Integrator<P> {
                 .max(4.0 * f64::EPSILON * self.time.abs())
                 .max(f64::MIN_POSITIVE);
             if step < minimum || self.options.fixed_step.is_some() {
-                if failure.reason == Reason::Error {
-                    failure.index = Some(self.dominant().0);
-                } else {
-                    scaled_error = f64::NAN;
-                }
                 let tried = target - self.time;
+                match failure.reason {
+                    Reason::Error => failure.index = Some(self.dominant().0),
+                    Reason::NotFinite => {
+                        scaled_error = f64::NAN;
+                        // once more, to see where it begins
+                        if let Err(again) = self.attempt::<true>(tried, target) {
+                            failure = again;
+                        }
+                    }
+                    _ => scaled_error = f64::NAN,
+                }
                 return Err(self.error(failure.reason, tried, failure.index, scaled_error));
             }
             (step, target) = self.fit(step, end);
@@ -140,8 +146,10 @@ impl<P: Problem> Integrator<P> {
     }
 
     /// Tries one step; the size of its error.
+    ///
+    /// Only a checked attempt tells which state is to blame for a value that is not finite.
     #[inline]
-    fn attempt(&mut self, step: f64, target: f64) -> Result<f64, Failure> {
+    fn attempt<const CHECKED: bool>(&mut self, step: f64, target: f64) -> Result<f64, Failure> {
         let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
         if !self.linearized {
             self.df_dt.fill(0.0);
@@ -184,9 +192,7 @@ impl<P: Problem> Integrator<P> {
                     self.time + alpha * step
                 };
                 self.problem.derivative(time, &argument[..n], &mut slope[..n]);
-                if !all_finite(slope) {
-                    self.statistics.derivatives += i as u64;
-                    self.statistics.solves += i as u64;
+                if CHECKED && !all_finite(slope) {
                     return Err(not_finite(&slope[..n]));
                 }
                 combine(stage, slope, inverse, tableau.c[i], done, stride, 0);

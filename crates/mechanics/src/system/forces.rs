@@ -129,22 +129,16 @@ impl System {
             let moments = (&mut self.force[..], &mut self.moment[..]);
             apply(coil, &self.kinematics, &[], &mut [], moments, d_quadratures);
         }
-        for (number, free) in self.free.iter().enumerate() {
+        for free in &self.free {
             let (body, kinematics) = (&self.bodies[free.body], &self.kinematics[free.body]);
             let frame = &self.frames[free.body];
             let (force, moment) =
                 kinematics.inertia(body, &frame.motion, !frame.fixed, self.gravity, &[0.0; 6]);
             let (force, moment) = (self.force[free.body] - force, self.moment[free.body] - moment);
-            let right = &mut d_speeds[free.offset..free.offset + free.free.len()];
-            for (target, &k) in right.iter_mut().zip(&free.free) {
-                *target = kinematics.generalized(k, &force, &moment);
-            }
-            let mass = &mut self.mass[number];
-            kinematics.mass_matrix(body, &free.free, mass.at_mut(0));
-            if mass.factor().is_ok() {
-                mass.solve(right);
-            } else {
-                right.fill(f64::NAN);
+            let accelerations = kinematics.accelerations(body, &force, &moment);
+            let target = &mut d_speeds[free.offset..free.offset + free.free.len()];
+            for (target, &k) in target.iter_mut().zip(&free.free) {
+                *target = accelerations[k];
             }
         }
     }

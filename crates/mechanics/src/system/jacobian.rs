@@ -83,51 +83,48 @@ impl System {
         let layout = self.layout;
         let [_, _, internal, _] = layout.split(x);
         let [_, d_speeds, d_internal, d_quadratures] = layout.split_mut(df_dt);
-        let clock = Dual::<1>::variable(time, 0);
-        let frame = |number: usize| -> FrameMotion<Dual<1>> {
-            if self.frames[number].fixed {
-                lift_frame(&self.frames[number].motion)
-            } else {
-                self.bodies[number].frame.evaluate(clock, self.reference)
-            }
-        };
-        for free in &self.free {
-            let state = &self.frames[free.body];
-            if state.fixed {
+        for (body, load) in self.load_rate.iter_mut().enumerate() {
+            *load = (Vector::zero(), Vector::zero());
+            let Some(number) = self.free_number[body] else { continue };
+            if self.frames[body].fixed {
                 continue;
             }
-            let (coordinates, speeds) = self.coordinates(free, x);
-            let body = &self.bodies[free.body];
-            let kinematics =
-                Kinematics::<Dual<1>>::new(coordinates.map(Dual::from), speeds.map(Dual::from), body.rolls());
-            let (force, moment) = kinematics.inertia(
-                body,
-                &frame(free.body),
-                true,
-                self.gravity,
-                &self.accelerations[free.body],
-            );
+            // The inertia forces change with a moving reference frame: this needs its jerk.
+            let clock = Dual::<1>::variable(time, 0);
+            let frame = self.bodies[body].frame.evaluate(clock, self.reference);
+            let free = &self.free[number];
+            let mut coordinates = self.bodies[body].initial;
+            let mut speeds = [0.0; 6];
             for (j, &k) in free.free.iter().enumerate() {
-                d_speeds[free.offset + j] -= kinematics.generalized(k, &force, &moment).derivative[0];
+                coordinates[k] = x[free.offset + j];
+                speeds[k] = x[layout.speeds + free.offset + j];
             }
+            let kinematics = Kinematics::<Dual<1>>::new(
+                coordinates.map(Dual::from),
+                speeds.map(Dual::from),
+                self.bodies[body].rolls(),
+            );
+            let accelerations = &self.accelerations[body];
+            let (force, moment) =
+                kinematics.inertia(&self.bodies[body], &frame, true, self.gravity, accelerations);
+            *load = (-rate_of(&force), -rate_of(&moment));
         }
         for face in self.faces.iter().filter(|face| face.moves) {
-            let (a, b) = (frame(face.body), frame(face.on));
             let internal = &internal[face.first_internal..][..face.internal_count];
             let rates = &mut d_internal[face.first_internal..][..face.internal_count];
-            time_derivative(face, self, &a, &b, internal, rates, d_speeds, d_quadratures);
+            let scene = (&self.frames[..], &self.kinematics[..]);
+            time_derivative(face, scene, internal, rates, &mut self.load_rate, d_quadratures);
         }
         for coil in self.coils.iter().filter(|coil| coil.moves) {
-            let (a, b) = (frame(coil.body), frame(coil.on));
-            time_derivative(coil, self, &a, &b, &[], &mut [], d_speeds, d_quadratures);
+            let scene = (&self.frames[..], &self.kinematics[..]);
+            time_derivative(coil, scene, &[], &mut [], &mut self.load_rate, d_quadratures);
         }
-        for (number, free) in self.free.iter().enumerate() {
-            let right = &mut d_speeds[free.offset..free.offset + free.free.len()];
-            // The factors of the mass matrix may belong to another state: factor it anew.
-            let mass = &mut self.mass[number];
-            mass.at_mut(0).copy_from_slice(self.jacobian.mass_mut(number));
-            if mass.factor().is_ok() {
-                mass.solve(right);
+        for free in &self.free {
+            let (force, moment) = &self.load_rate[free.body];
+            let accelerations =
+                self.kinematics[free.body].accelerations(&self.bodies[free.body], force, moment);
+            for (j, &k) in free.free.iter().enumerate() {
+                d_speeds[free.offset + j] = accelerations[k];
             }
         }
     }
@@ -137,29 +134,28 @@ impl System {
 #[inline(always)]
 fn time_derivative<E: Element>(
     mounted: &Mounted<E>,
-    system: &System,
-    a: &FrameMotion<Dual<1>>,
-    b: &FrameMotion<Dual<1>>,
+    (frames, kinematics): (&[FrameState], &[Kinematics<f64>]),
     internal: &[f64],
     d_internal: &mut [f64],
-    d_speeds: &mut [f64],
+    load_rate: &mut [(Vector<f64>, Vector<f64>)],
     d_quadratures: &mut [f64],
 ) {
-    let on = lift_kinematics(&system.kinematics[mounted.on]);
-    let sight = Sight::new(a, b, &on, &mounted.mount);
-    let relative: Relative<Dual<1>> = sight.relative(&system.kinematics[mounted.body]);
+    let on = lift_kinematics(&kinematics[mounted.on]);
+    let sight = match &mounted.translation {
+        Some(translation) => translation.sight_in_time(&mounted.sight, &frames[mounted.on].motion),
+        None => {
+            let (a, b) = (moving(&frames[mounted.body].motion), moving(&frames[mounted.on].motion));
+            Sight::new(&a, &b, &on, &mounted.mount)
+        }
+    };
+    let relative: Relative<Dual<1>> = sight.relative(&kinematics[mounted.body]);
     let action = mounted.element.act(&relative, internal, |point, rate| {
         d_internal[2 * point] = rate[0].derivative[0];
         d_internal[2 * point + 1] = rate[1].derivative[0];
     });
     let mut add = |body: usize, (force, moment): (Vector<Dual<1>>, Vector<Dual<1>>)| {
-        if let Some(number) = system.free_number[body] {
-            let free = &system.free[number];
-            let kinematics = lift_kinematics(&system.kinematics[body]);
-            for (j, &k) in free.free.iter().enumerate() {
-                d_speeds[free.offset + j] += kinematics.generalized(k, &force, &moment).derivative[0];
-            }
-        }
+        load_rate[body].0 += rate_of(&force);
+        load_rate[body].1 += rate_of(&moment);
     };
     add(mounted.body, action.on_body(&sight));
     if mounted.on_free {
@@ -172,6 +168,29 @@ fn time_derivative<E: Element>(
     }
     if mounted.driven {
         d_quadratures[0] += action.drive_power(&relative, &sight).derivative[0];
+    }
+}
+
+/// The derivatives of a vector that carries one.
+#[inline(always)]
+fn rate_of(v: &Vector<Dual<1>>) -> Vector<f64> {
+    Vector(v.0.map(|component| component.derivative[0]))
+}
+
+/// A frame's pose and velocity with their derivatives by time; accelerations have none here.
+fn moving(motion: &FrameMotion<f64>) -> FrameMotion<Dual<1>> {
+    let with = |value: Vector<f64>, rate: Vector<f64>| {
+        Vector(std::array::from_fn(|k| Dual { value: value.0[k], derivative: [rate.0[k]] }))
+    };
+    let spin = |j: usize| -> Vector<f64> { motion.angular_velocity.cross(motion.rotation.column(j)) };
+    let columns = [0, 1, 2].map(|j| with(motion.rotation.column(j), spin(j)).0);
+    FrameMotion {
+        position: with(motion.position, motion.velocity),
+        rotation: Matrix(columns).transpose(),
+        velocity: with(motion.velocity, motion.acceleration),
+        angular_velocity: with(motion.angular_velocity, motion.angular_acceleration),
+        acceleration: Vector::lift(motion.acceleration),
+        angular_acceleration: Vector::lift(motion.angular_acceleration),
     }
 }
 

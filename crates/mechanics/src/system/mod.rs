@@ -10,7 +10,6 @@ mod model;
 mod modes;
 mod observe;
 
-use integrate::BlockLu;
 use integrate::partitioned::{Layout, Partitioned, Structure};
 use integrate::{Problem, Singular};
 
@@ -89,7 +88,8 @@ pub struct System {
     accelerations: Vec<[f64; 6]>,
     force: Vec<Vector<f64>>,
     moment: Vec<Vector<f64>>,
-    mass: Vec<BlockLu>,
+    /// Derivative by time of force and moment on each body.
+    load_rate: Vec<(Vector<f64>, Vector<f64>)>,
     jacobian: Partitioned,
     /// Whether anything depends on time explicitly.
     moves: bool,
@@ -214,7 +214,10 @@ impl System {
 fn sight<E>(mounted: &mut Mounted<E>, frames: &[FrameState], kinematics: &[Kinematics<f64>], again: bool) {
     if mounted.on_free || (again && mounted.moves) {
         let (a, b) = (&frames[mounted.body].motion, &frames[mounted.on].motion);
-        mounted.sight = Sight::new(a, b, &kinematics[mounted.on], &mounted.mount);
+        match &mounted.translation {
+            Some(translation) => translation.update(&mut mounted.sight, a, b),
+            None => mounted.sight = Sight::new(a, b, &kinematics[mounted.on], &mounted.mount),
+        }
     }
 }
 

@@ -1,6 +1,5 @@
 //! The description of a system, and how it becomes a [`System`].
 
-use integrate::BlockLu;
 use integrate::partitioned::Partitioned;
 use thiserror::Error;
 
@@ -8,7 +7,7 @@ use super::{FrameState, FreeBody, System, is_bristle, scale_of, scales, structur
 use crate::body::{Body, Kinematics};
 use crate::coil::Coil;
 use crate::contact::ContactFace;
-use crate::link::{Mount, Sight};
+use crate::link::{Mount, Sight, Translation};
 use crate::surface::Plane;
 use crate::vector::Vector;
 
@@ -87,6 +86,8 @@ pub struct Mounted<E> {
     /// Whether the body that it stands on is prescribed and moves.
     pub(super) driven: bool,
     pub(super) sight: Sight<f64>,
+    /// What is constant of the sight where the body under the element only translates.
+    pub(super) translation: Option<Translation>,
     /// Coupling blocks (body, on) and (on, body).
     pub(super) pairs: [usize; 2],
     /// Rows of the quadratures (channels, work) by `body` and by `on`.
@@ -229,10 +230,8 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         .collect();
     let jacobian = Partitioned::new(&structure(&free, couplings, &parts));
     let layout = jacobian.layout();
-    let mut mass = Vec::new();
     for (number, free) in free.iter_mut().enumerate() {
         free.pair = jacobian.pair(number, number);
-        mass.push(BlockLu::new(&[free.free.len()], &[]));
     }
     for mounted in &mut mounted_faces {
         mounted.find_pairs(&jacobian, &free_number);
@@ -256,6 +255,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         accelerations: vec![[0.0; 6]; bodies.len()],
         force: vec![Vector::zero(); bodies.len()],
         moment: vec![Vector::zero(); bodies.len()],
+        load_rate: vec![(Vector::zero(), Vector::zero()); bodies.len()],
         bodies,
         gravity: Vector(gravity),
         faces: mounted_faces,
@@ -269,7 +269,6 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         frames_at: f64::NAN,
         reference: 0.0,
         kinematics,
-        mass,
         jacobian,
         moves,
     })
@@ -341,7 +340,11 @@ impl Placer<'_> {
                 parts.quadrature_pairs.push((quadrature, pair));
             }
         }
+        let translates = driven && self.frames[on].keeps_orientation && self.frames[body].fixed;
+        let translation =
+            translates.then(|| Translation::new(&self.frames[on].motion, &self.kinematics[on], &mount));
         Ok(Mounted {
+            translation,
             element,
             body,
             on,

@@ -1,0 +1,517 @@
+//! Every entry of the Jacobian matrix, and the derivative by time, against differences of the right-hand side.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+use common::{ALL, Random, UP, body, coil, difference, face, ground, model, rates};
+use integrate::Problem;
+use mechanics::body::Body;
+use mechanics::characteristic::Characteristic;
+use mechanics::coil::CoilLaw;
+use mechanics::frame::Frame;
+use mechanics::friction::FrictionLaw;
+use mechanics::link::Mount;
+use mechanics::motion::{Motion, RampProfile};
+use mechanics::spline::Spline;
+use mechanics::system::{Model, System};
+
+const TANH: FrictionLaw = FrictionLaw::Tanh { reference_speed: 0.7 };
+const BRISTLE: FrictionLaw = FrictionLaw::Bristle {
+    stiffness: 900.0,
+    damping: 60.0,
+};
+
+/// What must not change within a difference: on which piece every law is.
+fn pieces(system: &mut System, time: f64, x: &[f64]) -> Vec<i64> {
+    let seen = system.observe(time, x);
+    let mut out = Vec::new();
+    for (mounted, face) in system.faces().iter().zip(&seen.faces) {
+        let bristle = mounted.internal_count > 0;
+        for point in &face.points {
+            out.push(i64::from(point.gap < 0.0));
+            out.push(i64::from(point.normal > 0.0));
+            out.push(i64::from(bristle && point.friction.sticks));
+        }
+    }
+    for (mounted, coil) in system.coils().iter().zip(&seen.coils) {
+        out.push(i64::from(coil.coil.spring > 0.0));
+        if let CoilLaw::Table(table) = &mounted.element.law {
+            let compression = mounted.element.free_length - coil.coil.length;
+            out.push(table.points().iter().filter(|p| p[0] <= compression).count() as i64);
+        }
+    }
+    out
+}
+
+fn norm(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |m, v| m.max(v.abs()))
+}
+
+/// The inverse, by Gauss-Jordan elimination with row exchange.
+fn inverse(mut a: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let n = a.len();
+    let mut b: Vec<Vec<f64>> = (0..n)
+        .map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect())
+        .collect();
+    for k in 0..n {
+        let pivot = (k..n)
+            .max_by(|i, j| a[*i][k].abs().total_cmp(&a[*j][k].abs()))
+            .unwrap();
+        a.swap(k, pivot);
+        b.swap(k, pivot);
+        let p = a[k][k];
+        for j in 0..n {
+            a[k][j] /= p;
+            b[k][j] /= p;
+        }
+        for i in 0..n {
+            let factor = a[i][k];
+            if i != k && factor != 0.0 {
+                for j in 0..n {
+                    a[i][j] -= factor * a[k][j];
+                    b[i][j] -= factor * b[k][j];
+                }
+            }
+        }
+    }
+    b
+}
+
+/// What a comparison saw, so that a test can demand that it saw the cases that it is about.
+#[derive(Default)]
+struct Seen {
+    states: usize,
+    closed: usize,
+    open: usize,
+    lifted: usize,
+    stick: usize,
+    slip: usize,
+}
+
+/// The matrix by differences: `rows[i][j] = ∂f_i/∂x_j`.
+fn by_differences(system: &mut System, time: f64, x: &[f64], h: f64) -> Vec<Vec<f64>> {
+    let n = x.len();
+    let mut rows = vec![vec![0.0; n]; n];
+    for j in 0..n {
+        let column = difference(h, |d| {
+            let mut y = x.to_vec();
+            y[j] += d;
+            rates(system, time, &y)
+        });
+        for i in 0..n {
+            rows[i][j] = column[i];
+        }
+    }
+    rows
+}
+
+/// The matrix as the system keeps it: `J = shift I - (shift I - J)⁻¹⁻¹`, entry by entry, and the solution of
+/// `(shift I - J) y = b`, for several shifts.
+fn check_matrix(system: &mut System, time: f64, x: &[f64], expected: &[Vec<f64>], random: &mut Random) {
+    let n = x.len();
+    let dx = rates(system, time, x);
+    let mut df_dt = vec![0.0; n];
+    system.linearize(time, x, &dx, &mut df_dt);
+    let largest = expected.iter().map(|row| norm(row)).fold(0.0, f64::max);
+    // A shift near the size of the matrix keeps it well conditioned.
+    for shift in [largest.max(1.0), 3.7 * largest.max(1.0)] {
+        system.factor(shift).unwrap();
+        let mut columns = Vec::new();
+        for j in 0..n {
+            let mut b = vec![0.0; n];
+            b[j] = 1.0;
+            system.solve(&mut b);
+            columns.push(b);
+        }
+        let solved = (0..n).map(|i| (0..n).map(|j| columns[j][i]).collect()).collect();
+        let back = inverse(solved);
+        for i in 0..n {
+            let size = norm(&expected[i]).max(1.0);
+            for j in 0..n {
+                let value = if i == j { shift } else { 0.0 } - back[i][j];
+                let error = (value - expected[i][j]).abs();
+                assert!(
+                    error <= 3e-8 * size + 1e-11 * shift,
+                    "entry ({i}, {j}) of {n}: {value} instead of {} (largest of the row {size})",
+                    expected[i][j]
+                );
+            }
+        }
+    }
+    for shift in [20.0, 1e3, 1e5] {
+        system.factor(shift).unwrap();
+        let b: Vec<f64> = (0..n).map(|_| random.between(-1.0, 1.0)).collect();
+        let mut y = b.clone();
+        system.solve(&mut y);
+        for i in 0..n {
+            let (mut left, mut size) = (shift * y[i], (shift * y[i]).abs() + b[i].abs());
+            for j in 0..n {
+                left -= expected[i][j] * y[j];
+                size += (expected[i][j] * y[j]).abs() + norm(&expected[i]) * y[j].abs();
+            }
+            assert!(
+                (left - b[i]).abs() <= 1e-7 * size,
+                "row {i} of {n}, shift {shift}: {left} instead of {}",
+                b[i]
+            );
+        }
+    }
+}
+
+/// Compares matrix and time derivative at random states; passes over states with a kink within the difference.
+fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Seen {
+    let mut system = System::new(model.clone()).unwrap();
+    let layout = system.layout();
+    let n = layout.len();
+    let mut random = Random(seed);
+    let mut seen = Seen::default();
+    let h = 5e-4;
+    for _ in 0..200 * wanted {
+        if seen.states == wanted {
+            break;
+        }
+        let time = random.between(0.3, 1.9);
+        system.segment(time);
+        let mut x = system.initial_state();
+        for value in &mut x[..layout.speeds] {
+            *value += random.between(-spread[0], spread[0]);
+        }
+        for value in &mut x[layout.speeds..2 * layout.speeds] {
+            *value = random.between(-spread[1], spread[1]);
+        }
+        for value in &mut x[2 * layout.speeds..n - layout.quadratures] {
+            *value = random.between(-spread[2], spread[2]);
+        }
+        let here = pieces(&mut system, time, &x);
+        let smooth = (0..n - layout.quadratures).all(|j| {
+            [-2.5, 2.5].iter().all(|d| {
+                let mut y = x.clone();
+                y[j] += d * h;
+                pieces(&mut system, time, &y) == here
+            })
+        }) && [-2.5, 2.5]
+            .iter()
+            .all(|d| pieces(&mut system, time + d * h, &x) == here);
+        if !smooth {
+            continue;
+        }
+        seen.states += 1;
+        let observation = system.observe(time, &x);
+        for (face, state) in model.faces.iter().zip(&observation.faces) {
+            for point in &state.points {
+                seen.open += usize::from(point.gap >= 0.0);
+                seen.closed += usize::from(point.normal > 0.0);
+                seen.lifted += usize::from(point.gap < 0.0 && point.normal == 0.0);
+                if face.3.state_count() > 0 && point.normal > 0.0 {
+                    seen.stick += usize::from(point.friction.sticks);
+                    seen.slip += usize::from(!point.friction.sticks);
+                }
+            }
+        }
+        let expected = by_differences(&mut system, time, &x, h);
+        check_matrix(&mut system, time, &x, &expected, &mut random);
+        let dx = rates(&mut system, time, &x);
+        let mut df_dt = vec![0.0; n];
+        system.linearize(time, &x, &dx, &mut df_dt);
+        let in_time = difference(h, |d| rates(&mut system, time + d, &x));
+        let size = norm(&in_time).max(1.0);
+        for i in 0..n {
+            assert!(
+                (df_dt[i] - in_time[i]).abs() <= 1e-7 * size,
+                "time derivative of state {i} of {n}: {} instead of {}",
+                df_dt[i],
+                in_time[i]
+            );
+        }
+        assert_eq!(
+            dx,
+            rates(&mut system, time, &x),
+            "linearize must leave nothing behind"
+        );
+    }
+    assert_eq!(seen.states, wanted, "too few smooth states");
+    seen
+}
+
+const CORNERS: [[f64; 3]; 4] = [
+    [0.3, 0.4, -0.2],
+    [0.3, -0.4, -0.2],
+    [-0.3, 0.4, -0.25],
+    [-0.3, -0.4, -0.25],
+];
+
+fn sine(amplitude: f64, angular_frequency: f64, phase: f64) -> Motion {
+    Motion::Sine {
+        amplitude,
+        angular_frequency,
+        phase,
+    }
+}
+
+/// One motion of every shape; those about axes turn the frame.
+fn shapes(turning: bool) -> [Motion; 6] {
+    let times: Vec<f64> = (0..12).map(|i| 0.4 * f64::from(i) - 1.0).collect();
+    let values = times.iter().map(|t| 0.1 * libm::sin(1.3 * t)).collect();
+    let swept = Motion::SweptSine {
+        amplitude: 0.1,
+        start: 1.0,
+        end: 4.0,
+        duration: 1.1,
+    };
+    let ramp = |profile| Motion::Ramp {
+        amplitude: 0.2,
+        start: 0.2,
+        duration: 1.5,
+        profile,
+    };
+    let triangle = Motion::Triangle {
+        amplitude: 0.1,
+        angular_frequency: 3.0,
+    };
+    let turns = [
+        swept.clone(),
+        Motion::Sum(vec![sine(0.2, 2.0, 0.3), ramp(RampProfile::Smooth)]),
+        Motion::Table(Spline::new(times.clone(), values).unwrap()),
+    ];
+    let held = [0.1, -0.2, 0.15].map(Motion::Constant);
+    let [a, b, c] = if turning { turns } else { held };
+    let z = Motion::Sum(vec![triangle, ramp(RampProfile::Linear), sine(0.1, 2.0, 0.1)]);
+    [
+        Motion::Sum(vec![swept, ramp(RampProfile::Smooth)]),
+        sine(0.1, 3.0, 1.0),
+        z,
+        a,
+        b,
+        c,
+    ]
+}
+
+fn moving(turning: bool) -> Frame {
+    Frame {
+        origin: [0.05, -0.1, 0.02],
+        orientation: [0.1, -0.2, 0.3],
+        motions: shapes(turning),
+    }
+}
+
+fn table() -> CoilLaw {
+    CoilLaw::Table(Characteristic::new(vec![[-0.3, -20.0], [0.0, 10.0], [0.2, 60.0], [0.3, 150.0]]).unwrap())
+}
+
+/// One free body on a prescribed one: a face (damped or not), coils with both lines of action.
+fn one_on_driven(free: [bool; 6], law: FrictionLaw, damping: f64, frame: Frame, held: [f64; 6]) -> Model {
+    let mut one = body("b", 2.0, [0.3, 0.5, 0.7], [-0.1, 0.05, 0.1], free, held);
+    one.frame = Frame::fixed([0.02, 0.03, 0.0], [0.1, 0.05, -0.1]);
+    let base = Body {
+        initial: [0.1, 0.05, -0.1, 0.05, -0.05, 0.1],
+        ..Body::prescribed("base", frame)
+    };
+    let mut model = model(vec![one, base, ground()], [0.3, 0.1, -9.8]);
+    let points = face("face", &CORNERS, 500.0, damping, 0.4, law);
+    model.faces.push((0, 1, Mount::new([0.0, 0.1, -0.2], UP), points));
+    let other = face("side", &CORNERS[..2], 300.0, 0.0, 0.3, TANH);
+    model
+        .faces
+        .push((0, 2, Mount::new([0.0, 0.1, -0.2], [0.3, -1.2, 0.2]), other));
+    let mut through_end = coil([0.1, 0.0, -0.1], [0.1, 0.0, -0.1], 300.0, 1.2);
+    through_end.damping = 8.0;
+    let mut through_center = coil([0.1, 0.2, -0.1], [-0.1, 0.05, 0.1], 0.0, 1.1);
+    through_center.law = table();
+    through_center.rotational_damping = 3.0;
+    through_center.damping = 5.0;
+    model
+        .coils
+        .push((0, 1, Mount::new([0.2, -0.1, -1.1], [0.3, 0.2, 0.5]), through_end));
+    model.coils.push((
+        0,
+        1,
+        Mount::new([-0.2, 0.1, -1.0], [0.1, 0.2, 0.1]),
+        through_center,
+    ));
+    let mut slack = coil([0.0; 3], [0.2, 0.0, 0.0], 200.0, 1.0);
+    slack.pulls = false;
+    model
+        .coils
+        .push((0, 2, Mount::new([0.9, 0.4, 0.3], [0.0; 3]), slack));
+    model
+}
+
+const SPREAD: [f64; 3] = [0.25, 0.8, 0.15];
+
+#[test]
+fn bodies_with_one_to_six_free_coordinates() {
+    // Every coordinate alone, and 2 to 6 of them; roll free, held at zero, held at an angle.
+    let choices = [
+        0b000001, 0b000010, 0b000100, 0b001000, 0b010000, 0b100000, 0b000101, 0b110000, 0b010101, 0b111000,
+        0b110101, 0b101110, 0b011111, 0b111110, 0b111111,
+    ];
+    for (i, choice) in choices.into_iter().enumerate() {
+        let free: [bool; 6] = std::array::from_fn(|k| choice >> k & 1 == 1);
+        let roll = if i % 2 == 0 { 0.0 } else { 0.2 };
+        let held = [0.05, -0.05, 0.02, roll, 0.1, -0.1];
+        compare(
+            &one_on_driven(free, BRISTLE, 4.0, moving(true), held),
+            100 + choice,
+            3,
+            SPREAD,
+        );
+    }
+}
+
+#[test]
+fn tanh_on_a_turning_body() {
+    let model = one_on_driven(ALL, TANH, 0.0, moving(true), [0.0; 6]);
+    let seen = compare(&model, 1, 12, SPREAD);
+    assert!(seen.open > 5 && seen.closed > 5);
+}
+
+#[test]
+fn tanh_with_contact_damping() {
+    let model = one_on_driven(ALL, TANH, 60.0, moving(true), [0.0; 6]);
+    let seen = compare(&model, 2, 20, [0.2, 1.5, 0.1]);
+    assert!(seen.open > 5 && seen.closed > 5 && seen.lifted > 2);
+}
+
+#[test]
+fn bristles_on_a_turning_body() {
+    let model = one_on_driven(ALL, BRISTLE, 60.0, moving(true), [0.0; 6]);
+    let seen = compare(&model, 3, 30, [0.25, 0.4, 0.03]);
+    assert!(seen.open > 5 && seen.lifted > 0 && seen.stick > 2 && seen.slip > 2);
+}
+
+/// A base that moves without turning is evaluated by lines of its own.
+#[test]
+fn on_a_base_that_does_not_turn() {
+    for (law, free) in [
+        (TANH, ALL),
+        (BRISTLE, ALL),
+        (BRISTLE, [true, false, true, false, true, true]),
+    ] {
+        let model = one_on_driven(free, law, 4.0, moving(false), [0.0; 6]);
+        let seen = compare(&model, 4, 8, SPREAD);
+        assert!(seen.open > 5 && seen.closed > 5);
+    }
+}
+
+#[test]
+fn on_a_base_at_rest() {
+    let rest = Frame::fixed([0.05, -0.1, 0.02], [0.1, -0.2, 0.3]);
+    let seen = compare(&one_on_driven(ALL, BRISTLE, 4.0, rest, [0.0; 6]), 5, 8, SPREAD);
+    assert!(seen.open > 5 && seen.closed > 5);
+}
+
+/// Two free bodies, faces and coils in both directions, all on a driven base.
+fn two_free(free: [[bool; 6]; 2], frames: [Frame; 2]) -> Model {
+    let [frame_a, frame_b] = frames;
+    let mut a = body("a", 2.0, [0.3, 0.5, 0.7], [-0.1, 0.05, 0.1], free[0], [0.0; 6]);
+    let mut b = body(
+        "b",
+        3.0,
+        [0.4, 0.3, 0.6],
+        [0.1, 0.03, -0.1],
+        free[1],
+        [0.1, 0.0, -0.3, 0.1, 0.0, 0.1],
+    );
+    (a.frame, b.frame) = (frame_a, frame_b);
+    let base = Body::prescribed("base", moving(true));
+    let mut model = model(vec![a, base, b], [0.3, 0.1, -9.8]);
+    for (body, on, law, damping) in [(0, 2, BRISTLE, 30.0), (2, 0, TANH, 3.0), (2, 1, BRISTLE, 0.0)] {
+        let height = if on == 0 { -0.4 } else { 0.05 };
+        let one = face("face", &CORNERS, 400.0, damping, 0.4, law);
+        model
+            .faces
+            .push((body, on, Mount::new([0.1, 0.05, height], [0.1, -1.4, 0.2]), one));
+    }
+    for (body, on) in [(0, 2), (2, 0), (0, 1), (2, 1)] {
+        let acts_at = if on == 2 {
+            [0.1, 0.2, -0.1]
+        } else {
+            [0.0, 0.1, 0.2]
+        };
+        let mut one = coil([0.1, 0.2, -0.1], acts_at, 250.0, 1.1);
+        one.damping = 6.0;
+        one.rotational_damping = 2.0;
+        if body == 2 {
+            one.law = table();
+        }
+        model
+            .coils
+            .push((body, on, Mount::new([-0.2, 0.1, -1.0], [0.1, 0.2, 0.4]), one));
+    }
+    model
+}
+
+#[test]
+fn two_free_bodies() {
+    let rest = || Frame::fixed([0.0; 3], [0.05, 0.1, -0.05]);
+    let four = [true, false, true, false, true, true];
+    let mut total = Seen::default();
+    for (i, free) in [
+        [ALL, ALL],
+        [four, ALL],
+        [ALL, [true, false, false, false, false, false]],
+        [four, four],
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let seen = compare(
+            &two_free(free, [rest(), rest()]),
+            10 + i as u64,
+            8,
+            [0.25, 0.6, 0.04],
+        );
+        total.open += seen.open;
+        total.stick += seen.stick;
+        total.slip += seen.slip;
+    }
+    let Seen {
+        open, stick, slip, ..
+    } = total;
+    assert!(
+        open > 20 && stick > 5 && slip > 10,
+        "{open} open, {stick} stick, {slip} slip"
+    );
+}
+
+#[test]
+fn two_free_bodies_in_frames_that_move() {
+    let rest = || Frame::fixed([0.0; 3], [0.05, 0.1, -0.05]);
+    compare(&two_free([ALL, ALL], [moving(true), rest()]), 20, 6, SPREAD);
+    compare(&two_free([ALL, ALL], [rest(), moving(true)]), 21, 6, SPREAD);
+    compare(&two_free([ALL, ALL], [moving(true), moving(true)]), 22, 6, SPREAD);
+    compare(
+        &two_free([ALL, ALL], [moving(false), moving(true)]),
+        23,
+        6,
+        SPREAD,
+    );
+}
+
+/// The very state in which a model starts: at rest, bristles relaxed, points open.
+#[test]
+fn open_points_at_rest_with_relaxed_bristles() {
+    let mut one = body("b", 2.0, [0.3, 0.5, 0.7], [0.0; 3], ALL, [0.0; 6]);
+    one.initial[2] = 1.0;
+    let mut model = model(vec![one, ground()], [0.0, 0.0, -9.8]);
+    model.faces.push((
+        0,
+        1,
+        Mount::new([0.0; 3], UP),
+        face("floor", &CORNERS, 500.0, 0.0, 0.4, BRISTLE),
+    ));
+    let mut system = System::new(model).unwrap();
+    let x = system.initial_state();
+    let expected = by_differences(&mut system, 0.0, &x, 1e-3);
+    check_matrix(&mut system, 0.0, &x, &expected, &mut Random(30));
+}
+
+/// The stiffness that is due to the accelerations (change of the mass matrix) is there: a body that turns fast.
+#[test]
+fn a_fast_turning_body_without_elements() {
+    let one = body("b", 2.0, [0.3, 0.5, 0.7], [-0.4, 0.3, 0.2], ALL, [0.0; 6]);
+    let mut model = model(vec![one], [0.3, 0.1, -9.8]);
+    compare(&model, 31, 10, [0.6, 6.0, 0.0]);
+    model.bodies[0].frame = moving(true);
+    compare(&model, 32, 10, [0.6, 6.0, 0.0]);
+}

@@ -1,0 +1,57 @@
+//! `result.csv`: one row an output time, one column an output.
+//!
+//! A header of full names (`wedge_x_in`), numbers in the shortest decimal form that reads back to the same bits, a
+//! point as decimal sign, `,` between columns, and `\n` at the end of every line. Contact states are integers.
+
+use std::io::{self, Write};
+
+use quantity::{Kind, System as Units};
+use study::result::RunResult;
+
+/// The file's name.
+pub const FILE_NAME: &str = "result.csv";
+
+/// Writes the table in the units of the result's summary, row by row.
+///
+/// # Errors
+/// The writer's.
+pub fn write(result: &RunResult, out: &mut dyn Write) -> io::Result<()> {
+    let units = result.summary.units;
+    let mut line = Vec::new();
+    for column in &result.columns {
+        separate(&mut line);
+        line.extend_from_slice(column.full_name(units).as_bytes());
+    }
+    end(&mut line, out)?;
+    let kinds: Vec<Kind> = result.columns.iter().map(|column| column.kind).collect();
+    let mut decimal = ryu::Buffer::new();
+    for row in 0..result.rows() {
+        for (kind, values) in kinds.iter().zip(&result.values) {
+            separate(&mut line);
+            let value = converted(values[row], *kind, units);
+            let text = decimal.format(value);
+            line.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
+        }
+        end(&mut line, out)?;
+    }
+    Ok(())
+}
+
+/// An SI value as files have it.
+#[must_use]
+pub fn converted(si: f64, kind: Kind, units: Units) -> f64 {
+    si * kind.from_si(units)
+}
+
+fn separate(line: &mut Vec<u8>) {
+    if !line.is_empty() {
+        line.push(b',');
+    }
+}
+
+fn end(line: &mut Vec<u8>, out: &mut dyn Write) -> io::Result<()> {
+    line.push(b'\n');
+    out.write_all(line)?;
+    line.clear();
+    Ok(())
+}

@@ -1,0 +1,6 @@
+//! The commands, one file each: arguments and what they do.
+
+pub mod case;
+pub mod quasi_static;
+pub mod reproduce;
+pub mod run;

@@ -1,0 +1,203 @@
+//! `wedgelab quasi-static`: the massless wedge in steady sliding.
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
+use quantity::{Kind, Quantity, System as Units};
+
+use crate::failure::Failure;
+use crate::table::Table;
+
+/// Forces of the massless wedge in steady sliding, and its jam margin
+///
+/// Solves the balance of forces of a wedge without mass (Steets 2007, eq. 5-1, derived anew) for both directions of the
+/// bolster and both directions of the slope's friction. Where the jam margin is not positive there is no steady
+/// sliding: the wedge jams. The defaults are the thesis's with variable damping, its coil compressed by 1 in.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab quasi-static
+  wedgelab quasi-static --toe \"0.2 deg out\" --coil-force \"3702.2 lbf\" --angle \"37.5 deg\"
+  wedgelab quasi-static --mu-column 0.6 --mu-slope 0.6 --units si")]
+pub struct Arguments {
+    /// Wedge angle from the vertical
+    #[arg(long, default_value = "32 deg", value_parser = angle, allow_hyphen_values = true)]
+    angle: Quantity,
+    /// Toe angle of the column with its direction, such as "0.2 deg out"
+    #[arg(long, default_value = "0 deg", value_parser = toe, allow_hyphen_values = true)]
+    toe: Toe,
+    /// Coefficient of friction at the column
+    #[arg(long, value_name = "MU", default_value = "0.4", value_parser = friction, allow_hyphen_values = true)]
+    mu_column: f64,
+    /// Coefficient of friction at the slope
+    #[arg(long, value_name = "MU", default_value = "0.4", value_parser = friction, allow_hyphen_values = true)]
+    mu_slope: f64,
+    /// Force of the control coil, upwards on the wedge
+    #[arg(long, value_name = "FORCE", default_value = "3000 lbf", value_parser = force, allow_hyphen_values = true)]
+    coil_force: Quantity,
+    /// Units of the output
+    #[arg(long, default_value = "us")]
+    units: OutputUnits,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum OutputUnits {
+    /// US customary units
+    Us,
+    /// SI units
+    Si,
+}
+
+/// A toe angle as typed and in rad, positive out.
+#[derive(Clone, Debug)]
+struct Toe {
+    text: String,
+    value: f64,
+}
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let units = match arguments.units {
+        OutputUnits::Us => Units::Us,
+        OutputUnits::Si => Units::Si,
+    };
+    let wedge = QuasiStaticWedge {
+        angle: arguments.angle.to_si(),
+        toe: arguments.toe.value,
+        column_friction: arguments.mu_column,
+        slope_friction: arguments.mu_slope,
+    };
+    let mut out = io::stdout().lock();
+    writeln!(
+        out,
+        "Massless wedge in steady sliding: angle {}, toe {}, friction {} at the column and {} at the slope,\ncoil force {}.\n",
+        arguments.angle, arguments.toe.text, arguments.mu_column, arguments.mu_slope, arguments.coil_force
+    )?;
+    forces(&wedge, arguments.coil_force.to_si(), units).write(&mut out)?;
+    let critical = wedge.critical_friction();
+    writeln!(
+        out,
+        "\n* The branch that the motion chooses: the slope slips down with toe out, up with toe in (bolster going down).\n  \
+         {}\n\nCritical friction, equal at both faces, above which the wedge jams while the bolster goes down with the\n\
+         slope's friction up the slope: {critical:.4}.",
+        if wedge.toe == 0.0 {
+            "With no toe the slope does not slip; the branch of toe out is the usual choice."
+        } else {
+            "The other branch is for comparison."
+        }
+    )?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn forces(wedge: &QuasiStaticWedge, coil_force: f64, units: Units) -> Table {
+    let unit = Kind::Force.label(units);
+    let mut table = Table::new(
+        2,
+        &[
+            ("bolster", "goes"),
+            ("slope's friction", "on the wedge"),
+            ("column normal", unit),
+            ("column friction", unit),
+            ("slope normal", unit),
+            ("jam margin", "deg"),
+        ],
+    );
+    for direction in [Direction::Down, Direction::Up] {
+        let chosen = wedge.branch(direction);
+        let other = match chosen {
+            SlopeFriction::UpSlope => SlopeFriction::DownSlope,
+            SlopeFriction::DownSlope => SlopeFriction::UpSlope,
+        };
+        for slope in [chosen, other] {
+            let force = |value: f64| format!("{:.1}", value * Kind::Force.from_si(units));
+            let forces = match wedge.slide(direction, slope, coil_force) {
+                Some(sliding) => [
+                    force(sliding.column_normal),
+                    force(sliding.column_friction),
+                    force(sliding.slope_normal),
+                ],
+                None => ["jams", "-", "-"].map(str::to_owned),
+            };
+            let mut row = vec![
+                match direction {
+                    Direction::Down => "down",
+                    Direction::Up => "up",
+                }
+                .to_owned(),
+                format!(
+                    "{}{}",
+                    match slope {
+                        SlopeFriction::UpSlope => "up the slope",
+                        SlopeFriction::DownSlope => "down the slope",
+                    },
+                    if slope == chosen { " *" } else { "" }
+                ),
+            ];
+            row.extend(forces);
+            row.push(format!("{:.2}", wedge.jam_margin(direction, slope).to_degrees()));
+            table.row(row);
+        }
+    }
+    table
+}
+
+fn quantity(text: &str, kind: Kind) -> Result<Quantity, String> {
+    Quantity::parse_as(text.trim(), kind).map_err(|error| format!("{error}; {}", error.help()))
+}
+
+fn angle(text: &str) -> Result<Quantity, String> {
+    let angle = quantity(text, Kind::Angle)?;
+    if angle.to_si() > 0.0 && angle.to_si() < std::f64::consts::FRAC_PI_2 {
+        Ok(angle)
+    } else {
+        Err(
+            "a wedge angle lies between 0 deg and 90 deg, both excluded; write for example \"32 deg\""
+                .to_owned(),
+        )
+    }
+}
+
+fn toe(text: &str) -> Result<Toe, String> {
+    const HELP: &str = "write its size and direction: \"0.2 deg out\" (the gap between column and bolster opens downwards), \
+         \"0.2 deg in\", or \"0 deg\"";
+    let text = text.trim();
+    let (size, sign) = match text.rsplit_once(char::is_whitespace) {
+        Some((size, "out")) => (size, Some(1.0)),
+        Some((size, "in")) => (size, Some(-1.0)),
+        _ => (text, None),
+    };
+    let size = Quantity::parse_as(size.trim(), Kind::Angle)
+        .map_err(|error| format!("{error}; {HELP}"))?
+        .to_si();
+    let most = std::f64::consts::FRAC_PI_8;
+    match sign {
+        None if size != 0.0 => Err(format!("the direction is missing; {HELP}")),
+        _ if size < 0.0 => Err(format!("the size of a toe angle is not negative; {HELP}")),
+        _ if size >= most => Err(format!("a toe angle is below 22.5 deg; {HELP}")),
+        _ => Ok(Toe {
+            text: text.to_owned(),
+            value: sign.unwrap_or(1.0) * size,
+        }),
+    }
+}
+
+fn friction(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err(
+            "a coefficient of friction is a number, 0 or more, without unit; write for example 0.4"
+                .to_owned(),
+        ),
+    }
+}
+
+fn force(text: &str) -> Result<Quantity, String> {
+    let force = quantity(text, Kind::Force)?;
+    if force.to_si() > 0.0 {
+        Ok(force)
+    } else {
+        Err("the coil pushes, its force is positive; write for example \"3000 lbf\"".to_owned())
+    }
+}

@@ -1,0 +1,115 @@
+//! Running one case, writing its files, and its row in the table.
+
+use std::time::{Duration, Instant};
+
+use miette::Report;
+use report::files::Folder;
+use report::run_files;
+use study::case::Case;
+use study::result::RunResult;
+use study::run::{Run, RunError};
+use study::summary::{Measure, Summary};
+
+use crate::failure::{Failure, Message};
+use crate::progress::Progress;
+use crate::table::Table;
+
+/// A run that has ended, perhaps before its time, and whose files are written.
+#[derive(Debug)]
+pub struct Done {
+    /// What came out.
+    pub result: RunResult,
+    /// How long it took, without writing.
+    pub wall: Duration,
+}
+
+/// Runs a case and writes its files.
+pub fn execute(case: &Case, folder: &Folder, progress: &Progress) -> Result<Done, Failure> {
+    let start = Instant::now();
+    let run = Run::new(case).map_err(|error| cannot_begin(case, &error))?;
+    let result = run.finish(progress.of_run(case.simulation.duration));
+    let wall = start.elapsed();
+    run_files::write(folder, case, &result)?;
+    let how = match &result.summary.stopped {
+        Some(stopped) => format!("stopped at {} s", stopped.time),
+        None => format!("{:.2} s", wall.as_secs_f64()),
+    };
+    progress.done(&case.name, &how);
+    Ok(Done { result, wall })
+}
+
+fn cannot_begin(case: &Case, error: &RunError) -> Failure {
+    let message = format!("the run {} cannot begin: {error}", case.name);
+    let advice = "look for values that are out of proportion; `wedgelab case` has cases that run";
+    let report = Report::from(Message::new(message, advice));
+    match error {
+        RunError::Build(_) => Failure::Input(report),
+        _ => Failure::Failed(report),
+    }
+}
+
+/// Why a run is incomplete, for its user; `None` if it is complete.
+pub fn incomplete(summary: &Summary, folder: &Folder) -> Option<Report> {
+    let stopped = summary.stopped.as_ref()?;
+    let message = format!(
+        "the run {} stopped at {} s and is incomplete: {}",
+        summary.name, stopped.time, stopped.reason
+    );
+    let advice = format!(
+        "what was computed until then is in {}, marked as incomplete; values far from the thesis's are the first \
+         suspects: try a softer contact.stiffness, a larger friction.reference_speed, a looser \
+         simulation.relative_tolerance",
+        folder.path().display()
+    );
+    Some(Message::new(message, advice).into())
+}
+
+/// The table of runs; all of them in the same units.
+pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone) -> Table {
+    let unit = |of: fn(&Summary) -> Option<&Measure>| {
+        let found = runs.clone().into_iter().find_map(|(summary, _)| of(summary));
+        found.map_or(String::new(), |measure| measure.unit.clone())
+    };
+    let mut table = Table::new(
+        1,
+        &[
+            ("run", ""),
+            ("mean force, up", &unit(up)),
+            ("mean force, down", &unit(down)),
+            ("energy per cycle", &unit(energy)),
+            ("ledger residual", "of the work"),
+            ("wall time", "s"),
+        ],
+    );
+    for (summary, wall) in runs {
+        let cell = |measure: Option<&Measure>| {
+            measure.map_or("-".to_owned(), |measure| format!("{:.1}", measure.value))
+        };
+        table.row([
+            summary.name.clone(),
+            cell(up(summary)),
+            cell(down(summary)),
+            cell(energy(summary)),
+            format!("{:.1e}", summary.ledger.largest_relative_residual),
+            format!("{:.2}", wall.as_secs_f64()),
+        ]);
+    }
+    table
+}
+
+/// What the columns of the table are.
+pub const TABLE_NOTE: &str = "\
+Mean force: vertical wedge force (column friction on the side frame, positive up), averaged over the branch in which the
+bolster goes up or down. Energy per cycle: lost in friction at the side frame. Ledger residual: the largest at any time.";
+
+fn up(summary: &Summary) -> Option<&Measure> {
+    summary.averages.up.get("vertical_wedge_force")
+}
+
+fn down(summary: &Summary) -> Option<&Measure> {
+    summary.averages.down.get("vertical_wedge_force")
+}
+
+fn energy(summary: &Summary) -> Option<&Measure> {
+    summary.averages.energy_per_cycle.get("side_frame")
+}

@@ -1,0 +1,111 @@
+//! How the program says that it could not do what it was asked to.
+
+use std::io::{self, IsTerminal, Write};
+use std::process::ExitCode;
+
+use miette::{Diagnostic, MietteHandlerOpts, Report};
+use report::files::FileError;
+use study::case::CaseError;
+use thiserror::Error;
+
+/// Exit code: a run could not finish, or something could not be written.
+pub const FAILED: u8 = 1;
+/// Exit code: the input is wrong.
+pub const INPUT: u8 = 2;
+
+/// Why the program stops.
+#[derive(Debug)]
+pub enum Failure {
+    /// The input is wrong.
+    Input(Report),
+    /// A run could not finish, or something could not be written.
+    Failed(Report),
+    /// Nobody reads the output any more.
+    NobodyReads,
+}
+
+impl Failure {
+    /// Tells the user, and gives the exit code.
+    pub fn report(self) -> ExitCode {
+        let (report, code) = match self {
+            Self::Input(report) => (report, INPUT),
+            Self::Failed(report) => (report, FAILED),
+            Self::NobodyReads => return ExitCode::SUCCESS,
+        };
+        say(&format!("{report:?}"));
+        ExitCode::from(code)
+    }
+}
+
+impl From<CaseError> for Failure {
+    fn from(error: CaseError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+impl From<Message> for Failure {
+    /// Messages of commands are about wrong input.
+    fn from(message: Message) -> Self {
+        Self::Input(message.into())
+    }
+}
+
+impl From<io::Error> for Failure {
+    /// Errors of the standard output.
+    fn from(error: io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self::NobodyReads
+        } else {
+            Self::Failed(Message::new(format!("cannot write the output: {error}"), "").into())
+        }
+    }
+}
+
+/// A message with advice.
+#[derive(Debug, Error)]
+#[error("{message}")]
+pub struct Message {
+    message: String,
+    advice: String,
+}
+
+impl Message {
+    /// What is wrong, and what to do.
+    pub fn new(message: impl Into<String>, advice: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            advice: advice.into(),
+        }
+    }
+}
+
+impl Diagnostic for Message {
+    fn help<'a>(&'a self) -> Option<Box<dyn std::fmt::Display + 'a>> {
+        (!self.advice.is_empty()).then(|| Box::new(&self.advice) as Box<dyn std::fmt::Display>)
+    }
+}
+
+/// A line on the standard error; if nobody listens there is nothing to be done.
+pub fn say(text: &str) {
+    let _ = writeln!(io::stderr(), "{}", text.trim_end());
+}
+
+/// Errors with colours on a terminal, plain and in long lines elsewhere.
+pub fn set_up() {
+    let terminal = io::stderr().is_terminal();
+    let set = miette::set_hook(Box::new(move |_| {
+        let options = MietteHandlerOpts::new().context_lines(1).terminal_links(false);
+        Box::new(if terminal {
+            options.build()
+        } else {
+            options.color(false).wrap_lines(false).build()
+        })
+    }));
+    debug_assert!(set.is_ok(), "the hook is set once");
+}

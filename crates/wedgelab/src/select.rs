@@ -1,0 +1,105 @@
+//! Choosing built-in cases by name, beginning of a name, or pattern.
+
+use quantity::nearest;
+use study::case::builtin;
+
+use crate::failure::Message;
+
+/// The built-in cases that the texts choose, in the order of the list; all of them if there are no texts.
+pub fn select(texts: &[String]) -> Result<Vec<&'static str>, Message> {
+    let names: Vec<&'static str> = builtin::names().collect();
+    if texts.is_empty() {
+        return Ok(names);
+    }
+    let mut chosen = vec![false; names.len()];
+    for text in texts {
+        for index in matching(text, &names)? {
+            chosen[index] = true;
+        }
+    }
+    Ok(names
+        .into_iter()
+        .zip(chosen)
+        .filter_map(|(name, chosen)| chosen.then_some(name))
+        .collect())
+}
+
+fn matching(text: &str, names: &[&str]) -> Result<Vec<usize>, Message> {
+    let having = |fits: &dyn Fn(&str) -> bool| -> Vec<usize> {
+        (0..names.len()).filter(|index| fits(names[*index])).collect()
+    };
+    if text.contains(['*', '?']) {
+        let found = having(&|name| fits(text.as_bytes(), name.as_bytes()));
+        return if found.is_empty() {
+            Err(Message::new(
+                format!("no built-in case fits `{text}`"),
+                format!("the built-in cases are {}", names.join(", ")),
+            ))
+        } else {
+            Ok(found)
+        };
+    }
+    let exact = having(&|name| name == text);
+    if !exact.is_empty() {
+        return Ok(exact);
+    }
+    let beginning = having(&|name| !text.is_empty() && name.starts_with(text));
+    match beginning.as_slice() {
+        [_] => Ok(beginning),
+        [] => Err(Message::new(
+            format!("there is no built-in case `{text}`"),
+            match nearest(text, names.iter().copied()) {
+                Some(near) => format!("did you mean {near}? `wedgelab case` lists all"),
+                None => format!("the built-in cases are {}", names.join(", ")),
+            },
+        )),
+        several => {
+            let several: Vec<&str> = several.iter().map(|index| names[*index]).collect();
+            Err(Message::new(
+                format!("`{text}` is the beginning of {} names", several.len()),
+                format!(
+                    "write '{text}*' for all of them, or one of {}",
+                    several.join(", ")
+                ),
+            ))
+        }
+    }
+}
+
+/// Whether a name fits a pattern in which `*` is any text and `?` any sign.
+fn fits(pattern: &[u8], name: &[u8]) -> bool {
+    match (pattern, name) {
+        ([], []) => true,
+        ([b'*', rest @ ..], _) => (0..=name.len()).any(|skip| fits(rest, &name[skip..])),
+        ([b'?', pattern @ ..], [_, name @ ..]) => fits(pattern, name),
+        ([sign, pattern @ ..], [own, name @ ..]) => sign == own && fits(pattern, name),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chosen(texts: &[&str]) -> Result<Vec<&'static str>, String> {
+        let texts: Vec<String> = texts.iter().map(|text| (*text).to_owned()).collect();
+        select(&texts).map_err(|message| message.to_string())
+    }
+
+    #[test]
+    fn names_beginnings_and_patterns() {
+        assert_eq!(chosen(&[]).unwrap().len(), 12);
+        assert_eq!(chosen(&["vdrun_toe_0_psi_0"]).unwrap(), ["vdrun_toe_0_psi_0"]);
+        assert_eq!(
+            chosen(&["cdrun_toe_0_psi_0.0"]).unwrap(),
+            ["cdrun_toe_0_psi_0.012"]
+        );
+        assert_eq!(chosen(&["vdrun*"]).unwrap().len(), 6);
+        assert_eq!(chosen(&["*psi_0", "cdrun_toe_0_psi_0"]).unwrap().len(), 6);
+        assert_eq!(chosen(&["?drun_toe_0_psi_0"]).unwrap().len(), 2);
+        assert!(chosen(&["vdrun"]).unwrap_err().contains("beginning of 6 names"));
+        assert!(chosen(&["nothing"]).unwrap_err().contains("no built-in case"));
+        assert!(chosen(&["x*"]).unwrap_err().contains("fits"));
+        assert!(chosen(&[""]).is_err());
+    }
+}

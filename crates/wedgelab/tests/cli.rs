@@ -1,0 +1,435 @@
+//! The commands, as a user calls them.
+
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use tempfile::TempDir;
+
+const SHORT: [&str; 2] = ["--set", "simulation.duration=0.05 s"];
+
+struct Output {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wedgelab"));
+    command
+        .current_dir(folder)
+        .args(arguments)
+        .env_remove("FORCE_COLOR");
+    command
+}
+
+fn wedgelab(folder: &Path, arguments: &[&str]) -> Output {
+    let output = command(folder, arguments).output().unwrap();
+    Output {
+        code: output.status.code(),
+        out: String::from_utf8(output.stdout).unwrap(),
+        err: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+fn temporary() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+/// The call is refused with this exit code and all of these texts, without a trace of it.
+#[track_caller]
+fn refused(folder: &Path, arguments: &[&str], code: i32, texts: &[&str]) {
+    let before = names(folder);
+    let output = wedgelab(folder, arguments);
+    assert_eq!(output.code, Some(code), "{arguments:?}: {}", output.err);
+    for text in texts {
+        assert!(output.err.contains(text), "{text:?} is not in: {}", output.err);
+    }
+    assert!(
+        !output.err.contains("panicked") && !output.err.contains('\u{1b}'),
+        "{}",
+        output.err
+    );
+    assert_eq!(names(folder), before);
+}
+
+#[test]
+fn help_shows_examples() {
+    let folder = temporary();
+    for (arguments, text) in [
+        (vec!["--help"], "wedgelab run my.toml"),
+        (vec!["reproduce", "--help"], "Examples:"),
+        (vec!["run", "--help"], "--set friction.column=0.3"),
+        (vec!["case", "--help"], "> a.toml"),
+        (vec!["quasi-static", "--help"], "0.2 deg out"),
+        (vec!["--version"], env!("CARGO_PKG_VERSION")),
+    ] {
+        let output = wedgelab(folder.path(), &arguments);
+        assert_eq!(output.code, Some(0), "{arguments:?}");
+        assert!(output.out.contains(text), "{}", output.out);
+    }
+    refused(folder.path(), &[], 2, &["Usage"]);
+    refused(folder.path(), &["repeat"], 2, &["repeat"]);
+}
+
+#[test]
+fn the_list_of_cases() {
+    let folder = temporary();
+    let output = wedgelab(folder.path(), &["case"]);
+    assert_eq!(output.code, Some(0));
+    assert!(
+        output
+            .out
+            .contains("cdrun_toe_-0.2_psi_0.012   constant damping, toe out, yawed"),
+        "{}",
+        output.out
+    );
+    refused(
+        folder.path(),
+        &["case", "vdrun_toe_0_psi_1"],
+        2,
+        &[
+            "there is no built-in case `vdrun_toe_0_psi_1`",
+            "did you mean vdrun_toe_0_psi_0?",
+        ],
+    );
+}
+
+#[test]
+fn a_printed_case_runs_as_the_built_in_one() {
+    let folder = temporary();
+    let path = folder.path();
+    for name in ["vdrun_toe_-0.2_psi_0.012", "cdrun_toe_0.2_psi_0"] {
+        let printed = wedgelab(path, &["case", name]);
+        assert_eq!(printed.code, Some(0));
+        fs::write(path.join("a.toml"), &printed.out).unwrap();
+        let run = |case: &str, out: &str| {
+            let output = wedgelab(path, &[&["run", case, "--out", out], &SHORT[..]].concat());
+            assert_eq!(output.code, Some(0), "{}", output.err);
+            assert!(output.out.contains(name), "{}", output.out);
+            ["result.csv", "case.toml", "summary.json"]
+                .map(|file| fs::read_to_string(path.join(out).join(file)).unwrap())
+        };
+        let own = run("a.toml", &format!("{name}/own"));
+        assert_eq!(own, run(name, &format!("{name}/builtin")));
+        assert!(own[1].contains("\"0.05 s\""));
+    }
+}
+
+#[test]
+fn set_changes_a_value() {
+    let folder = temporary();
+    let path = folder.path();
+    let call = ["run", "vdrun_toe_0_psi_0", "--set", "simulation.output_units=si"];
+    let output = wedgelab(path, &[&call[..], &SHORT].concat());
+    assert_eq!(output.code, Some(0), "{}", output.err);
+    let csv = fs::read_to_string(path.join("vdrun_toe_0_psi_0/result.csv")).unwrap();
+    assert!(csv.starts_with("time_s,bolster_vertical_m,"));
+    refused(
+        path,
+        &[
+            "run",
+            "vdrun_toe_0_psi_0",
+            "--out",
+            "x",
+            "--set",
+            "friction.colum=0.3",
+        ],
+        2,
+        &["--set", "friction.colum", "column"],
+    );
+    refused(
+        path,
+        &["run", "vdrun_toe_0_psi_0", "--out", "x", "--set", "friction"],
+        2,
+        &["path.key=value"],
+    );
+}
+
+#[test]
+fn results_are_overwritten_only_by_force() {
+    let folder = temporary();
+    let path = folder.path();
+    let call = [&["run", "vdrun_toe_0_psi_0", "--out", "x"], &SHORT[..]].concat();
+    assert_eq!(wedgelab(path, &call).code, Some(0));
+    fs::write(path.join("x/result.csv"), "mine").unwrap();
+    refused(path, &call, 1, &["x/result.csv", "--force", "--out"]);
+    assert_eq!(fs::read_to_string(path.join("x/result.csv")).unwrap(), "mine");
+    let forced = wedgelab(path, &[&call[..], &["--force"]].concat());
+    assert_eq!(forced.code, Some(0), "{}", forced.err);
+    assert_ne!(fs::read_to_string(path.join("x/result.csv")).unwrap(), "mine");
+    assert_eq!(
+        names(&path.join("x")),
+        ["case.toml", "result.csv", "summary.json"]
+    );
+
+    // Found before anything is computed.
+    fs::create_dir_all(path.join("r/runs/cdrun_toe_0_psi_0")).unwrap();
+    fs::write(path.join("r/runs/cdrun_toe_0_psi_0/summary.json"), "").unwrap();
+    refused(
+        path,
+        &["reproduce", "--out", "r"],
+        1,
+        &["r/runs/cdrun_toe_0_psi_0/summary.json", "--force"],
+    );
+    assert_eq!(names(&path.join("r/runs")), ["cdrun_toe_0_psi_0"]);
+}
+
+#[test]
+fn folders_that_cannot_be() {
+    let folder = temporary();
+    let path = folder.path();
+    fs::write(path.join("file"), "").unwrap();
+    for out in ["file", "file/below", "file/far/below"] {
+        refused(
+            path,
+            &["run", "vdrun_toe_0_psi_0", "--out", out],
+            1,
+            &["`file` is not a folder", "--out"],
+        );
+        refused(
+            path,
+            &["reproduce", "--out", out],
+            1,
+            &["`file` is not a folder", "--out"],
+        );
+    }
+}
+
+/// Everything that the input of a case may have wrong: the message names file, line and column, shows the text and says
+/// what is expected.
+#[test]
+fn bad_cases() {
+    let folder = temporary();
+    let path = folder.path();
+    fs::write(path.join("short.csv"), "time,value\ns,in\n0,0\n").unwrap();
+    fs::write(
+        path.join("unsorted.csv"),
+        "time,value\ns,in\n0,0\n2,1\n1,0\n3,1\n",
+    )
+    .unwrap();
+    for (section, line, column, texts) in [
+        (
+            "control_coil",
+            "stiffness = \"3000 lbf\"",
+            13,
+            ["a force (lbf)", "a stiffness is expected", "3000 lbf"],
+        ),
+        (
+            "control_coil",
+            "stiffness = \"3000 lfb/in\"",
+            13,
+            ["there is no unit \"lfb\"", "lbf", "lfb"],
+        ),
+        (
+            "control_coil",
+            "stiffness = 3000",
+            13,
+            ["stiffness", "a number", "3000 lbf/in"],
+        ),
+        (
+            "control_coil",
+            "stifness = \"3000 lbf/in\"",
+            1,
+            ["stifness", "stiffness", "did you mean"],
+        ),
+        (
+            "control_coil",
+            "stiffness = \"0 lbf/in\"",
+            13,
+            ["0 lbf/in", "positive", "stiffness"],
+        ),
+        (
+            "wedge",
+            "weight = \"-50 lbf\"",
+            10,
+            ["-50 lbf", "positive", "weight"],
+        ),
+        ("wedge", "height = \"0 in\"", 10, ["0 in", "positive", "height"]),
+        (
+            "wedge",
+            "angle = \"90 deg\"",
+            9,
+            ["90 deg", "between 0 deg and 90 deg", "angle"],
+        ),
+        ("wedge", "angle = \"nan deg\"", 9, ["nan", "finite", "angle"]),
+        ("friction", "column = -0.1", 10, ["-0.1", "column", "negative"]),
+        ("friction", "column = nan", 10, ["nan", "column", "finite"]),
+        (
+            "simulation",
+            "output_interval = \"11 s\"",
+            19,
+            ["11 s", "duration", "output_interval"],
+        ),
+        (
+            "simulation",
+            "relative_tolerance = 1.0",
+            22,
+            ["1", "between 0 and 1", "relative_tolerance"],
+        ),
+        (
+            "bolster",
+            "vertical = { shape = \"table\", file = \"short.csv\" }",
+            0,
+            ["short.csv", "row", "table"],
+        ),
+        (
+            "bolster",
+            "vertical = { shape = \"table\", file = \"unsorted.csv\" }",
+            0,
+            ["unsorted.csv", "2", "1"],
+        ),
+        (
+            "bolster",
+            "vertical = { shape = \"table\", file = \"none.csv\" }",
+            0,
+            ["none.csv", "no", "table"],
+        ),
+    ] {
+        fs::write(path.join("bad.toml"), format!("# a case\n[{section}]\n{line}\n")).unwrap();
+        let mut all = texts.to_vec();
+        let place = format!("bad.toml:3:{column}");
+        if column > 0 {
+            all.extend([place.as_str(), line]);
+        }
+        refused(path, &["run", "bad.toml"], 2, &all);
+    }
+    fs::write(path.join("bad.toml"), "# a case\n[wedge\n").unwrap();
+    refused(path, &["run", "bad.toml"], 2, &["bad.toml:2:"]);
+    refused(
+        path,
+        &["run", "none.toml"],
+        2,
+        &["there is no case file none.toml", "wedgelab case"],
+    );
+    refused(
+        path,
+        &["run", "vdrun_toe_0_psi"],
+        2,
+        &["vdrun_toe_0_psi", "did you mean"],
+    );
+    refused(
+        path,
+        &["reproduce", "--only", "vdrun_toe_1_psi_0"],
+        2,
+        &["did you mean"],
+    );
+    refused(
+        path,
+        &["reproduce", "--only", "vdrun"],
+        2,
+        &["beginning of 6 names", "'vdrun*'"],
+    );
+    refused(path, &["reproduce", "--jobs", "0"], 2, &["--jobs"]);
+}
+
+#[test]
+fn quasi_static_wedges() {
+    let folder = temporary();
+    let path = folder.path();
+    let output = wedgelab(path, &["quasi-static", "--toe", "0.2 deg out"]);
+    assert_eq!(output.code, Some(0), "{}", output.err);
+    assert!(
+        output.out.contains("jams") && output.out.contains("lbf") && output.out.contains("0.2890"),
+        "{}",
+        output.out
+    );
+    let output = wedgelab(
+        path,
+        &[
+            "quasi-static",
+            "--units",
+            "si",
+            "--mu-column",
+            "0",
+            "--mu-slope",
+            "0",
+        ],
+    );
+    // Without friction N_c = F_s / tan(angle).
+    let force = 3000.0 * 4.448_221_615_260_5 / 32f64.to_radians().tan();
+    assert!(
+        output.out.contains(&format!("{force:.1}")) && !output.out.contains("jams"),
+        "{}",
+        output.out
+    );
+    for (arguments, text) in [
+        (["--angle", "90 deg"], "between 0 deg and 90 deg"),
+        (["--angle", "32"], "the unit is missing; an angle is expected"),
+        (["--angle", "-5 deg"], "between 0 deg and 90 deg"),
+        (["--toe", "0.2 deg"], "the direction is missing"),
+        (["--toe", "-0.2 deg out"], "not negative"),
+        (["--toe", "30 deg in"], "below 22.5 deg"),
+        (["--mu-column", "-0.1"], "0 or more"),
+        (["--mu-slope", "nan"], "0 or more"),
+        (["--coil-force", "3000 lb"], "lb is a mass, lbf the force"),
+        (["--coil-force", "0 lbf"], "positive"),
+        (["--units", "metric"], "possible values: us, si"),
+    ] {
+        refused(
+            path,
+            &[&["quasi-static"], &arguments[..]].concat(),
+            2,
+            &[text, arguments[0]],
+        );
+    }
+}
+
+#[test]
+fn a_run_that_cannot_finish_keeps_what_it_has() {
+    let folder = temporary();
+    let path = folder.path();
+    let mut call = vec!["run", "vdrun_toe_0_psi_0", "--out", "x"];
+    for set in HOPELESS {
+        call.extend(["--set", set]);
+    }
+    let output = wedgelab(path, &call);
+    assert_eq!(output.code, Some(1), "{}{}", output.out, output.err);
+    for text in [
+        "is incomplete",
+        "at time",
+        "column_lower_left",
+        "relative_tolerance",
+    ] {
+        assert!(output.err.contains(text), "{text}: {}", output.err);
+    }
+    let summary: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(path.join("x/summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["complete"], false);
+    assert!(summary["stopped"]["time"].as_f64().unwrap() < 10.0);
+    assert!(!summary["stopped"]["reason"].as_str().unwrap().is_empty());
+    let rows = fs::read_to_string(path.join("x/result.csv"))
+        .unwrap()
+        .lines()
+        .count()
+        - 1;
+    assert_eq!(summary["rows"], rows);
+    assert!(rows >= 1);
+}
+
+const HOPELESS: [&str; 2] = ["contact.stiffness=1e300 lbf/in", "simulation.duration=0.05 s"];
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let folder = temporary();
+    let mut child = command(folder.path(), &["case", "vdrun_toe_0_psi_0"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+    assert_eq!(output.status.code(), Some(0));
+}
