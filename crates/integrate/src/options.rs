@@ -76,8 +76,8 @@ impl Options {
         rule(
             "relative_tolerance",
             tolerance,
-            (1e-14..=0.1).contains(&tolerance),
-            "lie between 1e-14 and 0.1",
+            tolerance > 0.0 && tolerance < 1.0,
+            "lie between 0 and 1",
         )?;
         for (name, step) in [
             ("initial_step", self.initial_step),

@@ -135,17 +135,8 @@ impl<F: Surface> ContactFace<F> {
         sum: &mut FaceResultant<S>,
     ) -> PointContact<S> {
         let mut contact = self.geometry(point, relative);
-        if let FrictionLaw::Bristle { stiffness, damping } = self.law {
-            let relaxation = -stiffness / damping;
-            let rate = [deflection[0] * relaxation, deflection[1] * relaxation];
-            let loss = (rate[0] * rate[0] + rate[1] * rate[1]) * (damping * point.share);
-            contact.friction = Friction {
-                rate,
-                loss,
-                ..Friction::none()
-            };
-            sum.friction_loss += loss;
-        }
+        contact.friction = self.friction(point.share, S::zero(), contact.slip, deflection);
+        sum.friction_loss += contact.friction.loss;
         contact
     }
 

@@ -95,10 +95,10 @@ impl Motion {
                 angular_frequency,
             } => {
                 // Pieces are numbered by the half period around the corners at (n - 1/2) · half.
-                let half = std::f64::consts::PI / angular_frequency;
+                let half = std::f64::consts::PI / angular_frequency.abs();
                 let n = (reference / half + 0.5).floor();
                 let sign = if n.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 };
-                let rate = sign * amplitude * 2.0 / half;
+                let rate = sign * angular_frequency.signum() * amplitude * 2.0 / half;
                 [(time - n * half) * rate, S::from(rate), S::zero()]
             }
             Self::SweptSine {
@@ -167,7 +167,7 @@ impl Motion {
             Self::Triangle {
                 angular_frequency, ..
             } => {
-                let half = std::f64::consts::PI / angular_frequency;
+                let half = std::f64::consts::PI / angular_frequency.abs();
                 let mut n = (time / half - 0.5).floor();
                 // The loop runs once or twice: it guards against rounding in the division.
                 loop {

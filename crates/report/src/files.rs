@@ -39,16 +39,16 @@ pub enum FileError {
         path: PathBuf,
     },
     /// The folder cannot be made or written to.
-    #[error("cannot write into `{}`: {source}", .folder.display())]
+    #[error("cannot write into `{}`: {reason}", .folder.display())]
     #[diagnostic(help("choose a folder that you may write to with --out"))]
     Unwritable {
         /// The folder.
         folder: PathBuf,
         /// Why.
-        source: io::Error,
+        reason: io::Error,
     },
     /// A file cannot be written.
-    #[error("cannot write `{}`: {source}", .file.display())]
+    #[error("cannot write `{}`: {reason}", .file.display())]
     #[diagnostic(help(
         "nothing of this result was left there; look for space and rights, or choose another folder with --out"
     ))]
@@ -56,7 +56,7 @@ pub enum FileError {
         /// The file.
         file: PathBuf,
         /// Why.
-        source: io::Error,
+        reason: io::Error,
     },
 }
 
@@ -132,16 +132,16 @@ impl Folder {
         } else {
             parent(&self.path)
         };
-        fs::create_dir_all(beside).map_err(|source| FileError::Unwritable {
+        fs::create_dir_all(beside).map_err(|reason| FileError::Unwritable {
             folder: beside.to_owned(),
-            source,
+            reason,
         })?;
         let hidden = hidden_folder(beside)?;
         // A folder of its own inside: the hidden one is private to the user, results are not.
         let stage = hidden.path().join("result");
-        fs::create_dir(&stage).map_err(|source| FileError::Unwritable {
+        fs::create_dir(&stage).map_err(|reason| FileError::Unwritable {
             folder: beside.to_owned(),
-            source,
+            reason,
         })?;
         let mut files = Files {
             folder: self,
@@ -157,7 +157,7 @@ impl Folder {
         self.refuse(names.iter().map(String::as_str))?;
         for name in &names {
             let file = self.path.join(name);
-            fs::rename(stage.join(name), &file).map_err(|source| FileError::Write { file, source })?;
+            fs::rename(stage.join(name), &file).map_err(|reason| FileError::Write { file, reason })?;
         }
         Ok(())
     }
@@ -233,9 +233,9 @@ impl Files<'_> {
                 .map_err(io::IntoInnerError::into_error)?
                 .sync_all()
         });
-        written.map_err(|source| FileError::Write {
+        written.map_err(|reason| FileError::Write {
             file: self.folder.path.join(name),
-            source,
+            reason,
         })?;
         self.names.push(name.to_owned());
         Ok(())
@@ -269,10 +269,10 @@ fn nearest_existing(path: &Path) -> Result<PathBuf, FileError> {
                     error.kind(),
                     io::ErrorKind::NotFound | io::ErrorKind::NotADirectory
                 ) => {}
-            Err(source) => {
+            Err(reason) => {
                 return Err(FileError::Unwritable {
                     folder: ancestor.to_owned(),
-                    source,
+                    reason,
                 });
             }
         }
@@ -287,14 +287,13 @@ fn hidden_folder(beside: &Path) -> Result<TempDir, FileError> {
         .tempdir_in(beside)
         .map_err(|error| FileError::Unwritable {
             folder: beside.to_owned(),
-            source: plain(error),
+            reason: plain(&error),
         })
 }
 
 /// The system's error without the name of the hidden folder, which means nothing to anybody.
-fn plain(error: io::Error) -> io::Error {
-    match error.get_ref().and_then(|inner| inner.source()) {
-        Some(source) => io::Error::new(error.kind(), source.to_string()),
-        None => error,
-    }
+fn plain(error: &io::Error) -> io::Error {
+    let text = error.to_string();
+    let own = text.split(" at path ").next().unwrap_or_default();
+    io::Error::new(error.kind(), own.to_owned())
 }

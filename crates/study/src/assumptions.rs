@@ -35,8 +35,11 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
             .to_owned(),
         CoilLine::Seat => "The coil's force acts where the coil ends, at the wedge's bottom, with its moment.".to_owned(),
     });
-    if p.coil.pulls && matches!(p.coil.law, CoilLaw::Linear { .. }) {
-        list.push("The coil pushes and pulls, as in the thesis.".to_owned());
+    if p.coil.pulls {
+        list.push(match p.coil.law {
+            CoilLaw::Linear { .. } => "The coil pushes and pulls, as in the thesis.".to_owned(),
+            CoilLaw::Table(_) => "The coil's table goes on beyond its ends with their slopes, also into tension.".to_owned(),
+        });
     }
     for (face, friction) in [("column", &p.column_friction), ("slope", &p.slope_friction)] {
         list.push(friction_assumption(face, friction));
@@ -59,7 +62,7 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
             .to_owned(),
     );
     list.push(
-        "Face A lies at p1 - h1/3 in the wedge frame, so that the centre of gravity is the prism's centroid; moments of \
+        "Face A lies at p1 - h1/3 in the wedge frame, so that the centre of gravity is as far from it as the prism's centroid; moments of \
          inertia are principal, about the centre of gravity."
             .to_owned(),
     );

@@ -18,6 +18,8 @@ pub struct Cycle {
     pub angular_frequency: f64,
     /// Peak speed of the bolster, m/s.
     pub peak_speed: f64,
+    /// The displacement about which it moves, m.
+    pub middle: f64,
 }
 
 impl Cycle {
@@ -34,6 +36,7 @@ impl Cycle {
                     amplitude: amplitude.abs(),
                     angular_frequency: angular_frequency.abs(),
                     peak_speed: (amplitude * angular_frequency).abs(),
+                    middle: 0.0,
                 }),
                 Motion::Triangle {
                     amplitude,
@@ -42,11 +45,16 @@ impl Cycle {
                     amplitude: amplitude.abs(),
                     angular_frequency: angular_frequency.abs(),
                     peak_speed: (2.0 * amplitude * angular_frequency / std::f64::consts::PI).abs(),
+                    middle: 0.0,
                 }),
                 Motion::Sum(parts) => {
                     let mut moving = parts.iter().filter(|part| !part.is_constant());
                     match (moving.next(), moving.next()) {
-                        (Some(one), None) => find(one),
+                        (Some(one), None) => {
+                            let held = parts.iter().filter(|part| part.is_constant());
+                            let middle = held.map(|part| part.evaluate(0.0, 0.0)[0]).sum();
+                            find(one).map(|cycle| Cycle { middle, ..cycle })
+                        }
                         _ => None,
                     }
                 }
@@ -77,7 +85,7 @@ impl Cycle {
         let counts = time > 0.5 * self.period()
             && match damping {
                 Damping::Constant => speed.abs() > 0.9 * self.peak_speed,
-                Damping::Variable => speed.abs() > 0.25 * self.peak_speed && position < -0.3 * self.amplitude,
+                Damping::Variable => speed.abs() > 0.25 * self.peak_speed && position - self.middle < -0.3 * self.amplitude,
             };
         counts.then_some(speed > 0.0)
     }

@@ -20,7 +20,7 @@ pub const SCHEMA: &str = "wedgelab.summary/1";
 pub struct Measure {
     /// The number.
     pub value: f64,
-    /// Its unit, such as `lbf in`; empty for plain numbers.
+    /// Its unit, such as `lbf·in`; empty for plain numbers.
     pub unit: String,
 }
 
@@ -30,7 +30,7 @@ impl Measure {
     pub fn new(si: f64, kind: Kind, units: Units) -> Self {
         Self {
             value: si * kind.from_si(units),
-            unit: kind.unit(units).to_owned(),
+            unit: kind.label(units).to_owned(),
         }
     }
 }

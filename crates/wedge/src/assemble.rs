@@ -57,7 +57,7 @@ pub struct Wedge {
     pub system: System,
     /// How far the column was moved away along -x for a touching start, m.
     pub column_shift: f64,
-    /// How far the pocket was moved away along x for a touching start, m.
+    /// How far the pocket was moved away along the bolster's x axis for a touching start, m.
     pub pocket_shift: f64,
     /// The state at time zero.
     pub initial_state: Vec<f64>,
@@ -92,7 +92,7 @@ impl Wedge {
     }
 }
 
-/// How far column and pocket must move apart along x until no corner penetrates at time zero, m.
+/// How far column and pocket must move apart, each along the x axis of its body, until no corner penetrates at time zero, m.
 fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
     let mut system = System::new(model(parameters, [0.0; 2]))?;
     let start = system.initial_state();

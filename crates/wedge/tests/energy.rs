@@ -30,7 +30,7 @@ fn checked(parameters: Parameters, tolerance: f64) -> (End, f64) {
         .map(|f| matches!(f.law, FrictionLaw::Tanh { .. }));
     let mut start = None;
     let mut before = vec![0.0; wedge.system.channels().len()];
-    let mut worst = 0.0_f64;
+    let (mut worst, mut fall) = (0.0_f64, 0.0_f64);
     let end = run(&wedge, tolerance, (UNTIL, 0.01), |seen, _| {
         let start = *start.get_or_insert(seen.energies.total());
         let ledger = wedge::outputs::Outputs::ledger(&wedge.system, seen, start);
@@ -42,13 +42,13 @@ fn checked(parameters: Parameters, tolerance: f64) -> (End, f64) {
             assert!(!tanh || (face.friction_power + face.friction_loss).abs() <= 1e-12 * face.friction_loss);
         }
         for &i in &losses {
-            // Dense output may swing by a part of the tolerance.
-            let change = seen.quadratures[i] - before[i];
-            assert!(change > -1e-4 * LBF_IN, "{:?} falls by {change:e} J at {} s", wedge.system.channels()[i], seen.time);
+            fall = fall.max(before[i] - seen.quadratures[i]);
         }
         before.copy_from_slice(&seen.quadratures);
     });
     let work = end.ledger.motion_work;
+    // Losses are integrated without an error control of their own: they may swing by as much as the ledger may be off.
+    assert!(fall < 1e-5 * work, "a loss falls by {fall:e} of {work} J");
     (end, worst / work)
 }
 

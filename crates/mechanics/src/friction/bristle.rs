@@ -28,6 +28,11 @@ pub fn friction<S: Real>(
     deflection: [S; 2],
 ) -> Friction<S> {
     let elastic = [deflection[0] * stiffness, deflection[1] * stiffness];
+    let flow = 1.0 / damping;
+    if limit.value() <= 0.0 {
+        let rate = [elastic[0] * -flow, elastic[1] * -flow];
+        return Friction { rate, loss: dot(rate, rate) * damping, ..Friction::none() };
+    }
     let trial = [
         elastic[0] + velocity[0] * damping,
         elastic[1] + velocity[1] * damping,
@@ -40,13 +45,12 @@ pub fn friction<S: Real>(
             rate: velocity,
             loss: dot(velocity, velocity) * damping,
             sticks: true,
-            load: if size > 0.0 { size / limit.value() } else { 0.0 },
+            load: size / limit.value(),
         };
     }
     let length = square.sqrt();
     let pull = limit / length;
     let slider = [trial[0] * pull, trial[1] * pull];
-    let flow = 1.0 / damping;
     let rate = [(slider[0] - elastic[0]) * flow, (slider[1] - elastic[1]) * flow];
     Friction {
         force: [-slider[0], -slider[1]],

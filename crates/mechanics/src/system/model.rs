@@ -242,13 +242,18 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
 
     let mut error_scales = vec![f64::INFINITY; layout.len()];
     {
-        let [q, u, s, _] = layout.split_mut(&mut error_scales);
+        let [q, u, s, w] = layout.split_mut(&mut error_scales);
         for free in &free {
             for (j, &k) in free.free.iter().enumerate() {
                 (q[free.offset + j], u[free.offset + j]) = scale_of(k);
             }
         }
         s.fill(scales::DEFLECTION);
+        for (scale, channel) in w.iter_mut().zip(&parts.channels) {
+            if channel.kind == ChannelKind::ContactDampingLoss {
+                *scale = scales::CONTACT_DAMPING_LOSS;
+            }
+        }
     }
     let moves = frames.iter().any(|frame| !frame.fixed);
     Ok(System {

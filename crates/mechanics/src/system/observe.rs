@@ -136,8 +136,10 @@ impl System {
                 angular_velocity: frame.rotation.apply(omega),
                 center_of_gravity: cg,
             });
-            energies.kinetic += kinematics.kinetic_energy(body, frame);
-            energies.gravity -= body.mass * self.gravity.dot::<f64, f64>(cg);
+            if self.free_number[number].is_some() {
+                energies.kinetic += kinematics.kinetic_energy(body, frame);
+                energies.gravity -= body.mass * self.gravity.dot::<f64, f64>(cg);
+            }
         }
         let [_, _, internal, quadratures] = self.layout.split(x);
         let faces: Vec<FaceState> = (0..self.faces.len())

@@ -79,13 +79,14 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let critical = wedge.critical_friction();
     writeln!(
         out,
-        "\n* The branch that the motion chooses: the slope slips down with toe out, up with toe in (bolster going down).\n  \
-         {}\n\nCritical friction, equal at both faces, above which the wedge jams while the bolster goes down with the\n\
-         slope's friction up the slope: {critical:.4}.",
+        "\n* What the motion chooses. With the bolster going down, friction of the slope acts on the wedge down the slope if\n  \
+         the toe is out, up the slope if it is in; with the bolster going up, the reverse. {}\n\nCritical friction, equal \
+         at both faces, above which the wedge jams with the bolster going down and the slope's\nfriction up the slope: \
+         {critical:.4}.",
         if wedge.toe == 0.0 {
-            "With no toe the slope does not slip; the branch of toe out is the usual choice."
+            "Without toe the slope does\n  not slip; toe out is the usual choice."
         } else {
-            "The other branch is for comparison."
+            "The others are for comparison."
         }
     )?;
     Ok(ExitCode::SUCCESS)

@@ -68,18 +68,21 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
 fn read(path: &Path, set: &[String]) -> Result<Case, Failure> {
     let name = path.to_str().unwrap_or("");
-    if !path.exists() {
-        if builtin::names().any(|builtin| builtin == name) {
-            return Ok(builtin::case_with(name, set)?);
-        }
-        if !name.ends_with(".toml") && path.components().count() == 1 {
-            let advice = match nearest(name, builtin::names()) {
-                Some(near) => format!("did you mean the built-in case {near}? `wedgelab case` lists all"),
-                None => "name a TOML file, or one of the cases that `wedgelab case` lists".to_owned(),
-            };
-            let message = format!("there is neither a case file nor a built-in case `{name}`");
-            return Err(Message::new(message, advice).into());
-        }
+    // A folder may well have a built-in case's name: that of its results.
+    if (!path.exists() || path.is_dir()) && builtin::names().any(|builtin| builtin == name) {
+        return Ok(builtin::case_with(name, set)?);
+    }
+    if path.is_dir() {
+        let advice = format!("name a case file, perhaps {}", path.join("case.toml").display());
+        return Err(Message::new(format!("`{name}` is a folder, not a case file"), advice).into());
+    }
+    if !path.exists() && !name.ends_with(".toml") && path.components().count() == 1 {
+        let advice = match nearest(name, builtin::names()) {
+            Some(near) => format!("did you mean the built-in case {near}? `wedgelab case` lists all"),
+            None => "name a TOML file, or one of the cases that `wedgelab case` lists".to_owned(),
+        };
+        let message = format!("there is neither a case file nor a built-in case `{name}`");
+        return Err(Message::new(message, advice).into());
     }
     Ok(Case::read(path, set)?)
 }
