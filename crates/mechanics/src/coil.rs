@@ -82,9 +82,14 @@ impl Coil {
     /// The coil's force.
     #[inline(always)]
     pub fn evaluate<S: Real>(&self, relative: &Relative<S>) -> CoilForce<S> {
-        let arm: Vector<S> = relative.rotation.apply(self.end);
-        let d = relative.position + arm;
-        let rate: Vector<S> = relative.velocity + relative.angular_velocity.cross(arm);
+        // A coil that ends at the body's origin, as in a wedge, needs no lever.
+        let central = self.end == Vector::zero();
+        let (mut arm, mut d, mut rate) = (Vector::zero(), relative.position, relative.velocity);
+        if !central {
+            arm = relative.rotation.apply(self.end);
+            d += arm;
+            rate += relative.angular_velocity.cross(arm);
+        }
         let length = d.dot(d).sqrt();
         let spring = self.spring(length);
         let along = d.scale(spring / length);

@@ -179,6 +179,17 @@ impl<F: Surface> ContactFace<F> {
         contact
     }
 
+    /// How far a closed point is from its law's own change between stick and slip, see [`Friction::load`].
+    #[inline(always)]
+    pub(crate) fn load(&self, share: f64, normal: f64, slip: [f64; 2], deflection: [f64; 2]) -> f64 {
+        match self.law {
+            FrictionLaw::Tanh { reference_speed } => {
+                (slip[0] * slip[0] + slip[1] * slip[1]).sqrt() / reference_speed
+            }
+            FrictionLaw::Bristle { .. } => self.friction(share, normal, slip, deflection).load,
+        }
+    }
+
     /// Friction of a point that carries `share` of the face's tangential stiffness.
     #[inline(always)]
     pub fn friction<S: Real>(&self, share: f64, normal: S, slip: [S; 2], deflection: [S; 2]) -> Friction<S> {

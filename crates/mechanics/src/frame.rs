@@ -98,7 +98,13 @@ impl Frame {
         time: f64,
         reference: f64,
     ) -> FrameMotion<f64> {
-        let jets: [Jet<f64>; 3] = std::array::from_fn(|k| self.motions[k].evaluate(time, reference));
+        let mut jets: [Jet<f64>; 3] = [[0.0; 3]; 3];
+        for (jet, motion) in jets.iter_mut().zip(&self.motions) {
+            *jet = match motion {
+                Motion::Constant(value) => [*value, 0.0, 0.0],
+                motion => motion.evaluate(time, reference),
+            };
+        }
         let translation = |order: usize| Vector([jets[0][order], jets[1][order], jets[2][order]]);
         FrameMotion {
             position: Vector(self.origin) + base.apply::<f64, f64>(translation(0)),

@@ -117,10 +117,12 @@ impl<S: Real> Matrix<S> {
         S: Mul<R, Output = O>,
         O: Add<Output = O>,
     {
-        Vector(
-            self.0
-                .map(|row| row[0] * v.0[0] + row[1] * v.0[1] + row[2] * v.0[2]),
-        )
+        // Written out: `array::map` is not always inlined.
+        let row = |i: usize| {
+            let row = &self.0[i];
+            row[0] * v.0[0] + row[1] * v.0[1] + row[2] * v.0[2]
+        };
+        Vector([row(0), row(1), row(2)])
     }
     /// The transposed matrix times a vector.
     #[inline(always)]
@@ -140,11 +142,12 @@ impl<S: Real> Matrix<S> {
         S: Mul<R, Output = O>,
         O: Add<Output = O>,
     {
-        Matrix(
-            self.0.map(|row| {
-                std::array::from_fn(|j| row[0] * o.0[0][j] + row[1] * o.0[1][j] + row[2] * o.0[2][j])
-            }),
-        )
+        let entry = |i: usize, j: usize| {
+            let row = &self.0[i];
+            row[0] * o.0[0][j] + row[1] * o.0[1][j] + row[2] * o.0[2][j]
+        };
+        let row = |i: usize| [entry(i, 0), entry(i, 1), entry(i, 2)];
+        Matrix([row(0), row(1), row(2)])
     }
 }
 

@@ -177,8 +177,14 @@ impl Folder {
     /// Removes the folders that were made, as far as they are empty.
     fn remove_empty(&self) {
         for folder in self.path.ancestors() {
-            if folder == self.existing || folder.as_os_str().is_empty() || fs::remove_dir(folder).is_err() {
+            if folder == self.existing || folder.as_os_str().is_empty() {
                 return;
+            }
+            match fs::remove_dir(folder) {
+                Ok(()) => {}
+                // It was not made yet; those above may have been.
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+                Err(_) => return,
             }
         }
     }

@@ -38,7 +38,9 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
     if p.coil.pulls {
         list.push(match p.coil.law {
             CoilLaw::Linear { .. } => "The coil pushes and pulls, as in the thesis.".to_owned(),
-            CoilLaw::Table(_) => "The coil's table goes on beyond its ends with their slopes, also into tension.".to_owned(),
+            CoilLaw::Table(_) => {
+                "The coil's table goes on beyond its ends with their slopes, also into tension.".to_owned()
+            }
         });
     }
     for (face, friction) in [("column", &p.column_friction), ("slope", &p.slope_friction)] {

@@ -85,7 +85,9 @@ impl Cycle {
         let counts = time > 0.5 * self.period()
             && match damping {
                 Damping::Constant => speed.abs() > 0.9 * self.peak_speed,
-                Damping::Variable => speed.abs() > 0.25 * self.peak_speed && position - self.middle < -0.3 * self.amplitude,
+                Damping::Variable => {
+                    speed.abs() > 0.25 * self.peak_speed && position - self.middle < -0.3 * self.amplitude
+                }
             };
         counts.then_some(speed > 0.0)
     }

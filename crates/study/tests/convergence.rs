@@ -20,7 +20,11 @@ fn case(name: &str, tolerance: f64, interval: f64, duration: f64) -> Case {
 /// with kinks, so no order is asked for: only that they fall, and are small where users are.
 #[test]
 fn yawed_cases_converge() {
-    for name in ["vdrun_toe_-0.2_psi_0.012", "cdrun_toe_-0.2_psi_0.012", "cdrun_toe_0_psi_0.012"] {
+    for name in [
+        "vdrun_toe_-0.2_psi_0.012",
+        "cdrun_toe_-0.2_psi_0.012",
+        "cdrun_toe_0_psi_0.012",
+    ] {
         let tolerances = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
         let cases = tolerances.map(|tolerance| case(name, tolerance, 0.01, 10.0));
         let results: Vec<[f64; 3]> = run_all(&cases, 2).iter().map(averages).collect();
@@ -33,7 +37,10 @@ fn yawed_cases_converge() {
         // At the default tolerance: a thousandth; two digits more below that.
         assert!(errors[2] < 2e-3, "{name}: {errors:?}");
         assert!(errors[4] < 2e-4, "{name}: {errors:?}");
-        assert!(errors[4] < errors[2].max(1e-5) && errors[4] < errors[0], "{name}: {errors:?}");
+        assert!(
+            errors[4] < errors[2].max(1e-5) && errors[4] < errors[0],
+            "{name}: {errors:?}"
+        );
     }
 }
 
@@ -50,8 +57,14 @@ fn the_output_interval_changes_nothing_but_the_rows() {
             // The integration: same steps, same events at the same times, bit for bit.
             assert_eq!(other.solver.statistics, first.solver.statistics, "{name}");
             assert_eq!(other.events, first.events, "{name}");
-            assert_eq!(other.averages.energy_per_cycle, first.averages.energy_per_cycle, "{name}");
-            assert_eq!(other.averages.equivalent_damping, first.averages.equivalent_damping);
+            assert_eq!(
+                other.averages.energy_per_cycle, first.averages.energy_per_cycle,
+                "{name}"
+            );
+            assert_eq!(
+                other.averages.equivalent_damping,
+                first.averages.equivalent_damping
+            );
             assert_eq!(other.ledger.entries, first.ledger.entries, "{name}");
             assert_eq!(other.friction, first.friction, "{name}");
             // The last row is the end in all of them.
@@ -70,7 +83,11 @@ fn the_output_interval_changes_nothing_but_the_rows() {
                     .listed
                     .iter()
                     .any(|e| e.face == "column" && e.corner == "upper_left" && between(e.time));
-                assert!(!changed || listed, "{name}: unlisted change before {} s", times[i]);
+                assert!(
+                    !changed || listed,
+                    "{name}: unlisted change before {} s",
+                    times[i]
+                );
             }
         }
     }

@@ -7,6 +7,7 @@ use mechanics::motion::Motion;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use study::case::{Case, builtin};
+use study::result::RunResult;
 use study::run::Run;
 use wedge::parameters::{FaceFriction, Start};
 
@@ -16,7 +17,9 @@ const LBF_PER_IN: f64 = LBF / INCH;
 
 fn law() -> impl Strategy<Value = FrictionLaw> {
     prop_oneof![
-        (1e-4..1e-1).prop_map(|speed| FrictionLaw::Tanh { reference_speed: speed * INCH }),
+        (1e-4..1e-1).prop_map(|speed| FrictionLaw::Tanh {
+            reference_speed: speed * INCH
+        }),
         (1e5..5e6, 1e2..5e3).prop_map(|(stiffness, damping)| FrictionLaw::Bristle {
             stiffness: stiffness * LBF_PER_IN,
             damping: damping * LBF_PER_IN,
@@ -73,9 +76,27 @@ prop_compose! {
     }
 }
 
+/// The ledger's residual, relative to the energy that goes through the wedge: the largest entry.
+fn residual(result: &RunResult) -> f64 {
+    let ledger = &result.summary.ledger;
+    let turnover = ledger
+        .entries
+        .iter()
+        .filter(|(name, _)| *name != "residual")
+        .fold(ledger.stored_at_start.value.abs(), |m, (_, entry)| {
+            m.max(entry.value.abs())
+        });
+    ledger.entries["residual"].value.abs() / turnover
+}
+
 #[test]
 fn random_wedges_are_finite_close_their_ledger_and_friction_adds_nothing() {
-    let config = Config { cases: 32, failure_persistence: None, max_shrink_iters: 40, ..Config::default() };
+    let config = Config {
+        cases: 32,
+        failure_persistence: None,
+        max_shrink_iters: 40,
+        ..Config::default()
+    };
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]);
     let mut runner = TestRunner::new_with_rng(config, rng);
     let result = runner.run(&wedges(), |case| {
@@ -83,10 +104,18 @@ fn random_wedges_are_finite_close_their_ledger_and_friction_adds_nothing() {
         let result = Run::new(&case).unwrap().finish(|_| {});
         prop_assert!(result.summary.complete, "{:?}", result.summary.stopped);
         for (column, values) in result.columns.iter().zip(&result.values) {
-            prop_assert!(values.iter().all(|v| v.is_finite()), "{} is not finite", column.name);
+            prop_assert!(
+                values.iter().all(|v| v.is_finite()),
+                "{} is not finite",
+                column.name
+            );
         }
         for name in ["side_frame_dissipation", "bolster_dissipation"] {
-            let most = result.column(name).unwrap().iter().fold(f64::NEG_INFINITY, |m, v| m.max(*v));
+            let most = result
+                .column(name)
+                .unwrap()
+                .iter()
+                .fold(f64::NEG_INFINITY, |m, v| m.max(*v));
             prop_assert!(most <= 0.0, "{name}: {most}");
         }
         for (name, face) in [
@@ -94,19 +123,29 @@ fn random_wedges_are_finite_close_their_ledger_and_friction_adds_nothing() {
             ("bolster_friction_power", &case.parameters.slope_friction),
         ] {
             if matches!(face.law, FrictionLaw::Tanh { .. }) {
-                let most = result.column(name).unwrap().iter().fold(f64::NEG_INFINITY, |m, v| m.max(*v));
+                let most = result
+                    .column(name)
+                    .unwrap()
+                    .iter()
+                    .fold(f64::NEG_INFINITY, |m, v| m.max(*v));
                 prop_assert!(most <= 0.0, "{name}: {most}");
             }
         }
-        // The energy that goes through the wedge: work, stored, lost, whichever is largest.
-        let ledger = &result.summary.ledger.entries;
-        let turnover = ledger
-            .iter()
-            .filter(|(name, _)| *name != "residual")
-            .fold(result.summary.ledger.stored_at_start.value.abs(), |m, (_, entry)| m.max(entry.value.abs()));
-        let residual = ledger["residual"].value.abs() / turnover;
-        println!("{residual:.1e} {} steps", result.summary.solver.statistics.steps);
-        prop_assert!(residual < 1e-4, "residual {residual:e} of {turnover} lbf in");
+        let coarse = residual(&result);
+        println!("{coarse:.1e} {} steps", result.summary.solver.statistics.steps);
+        if coarse > 1e-5 {
+            // Losses are integrated without an error control of their own: a start that is released and gone within a few
+            // steps shows it. What is left must fall with the tolerance.
+            let mut finer = case.clone();
+            finer.simulation.relative_tolerance = 1e-9;
+            let fine = residual(&Run::new(&finer).unwrap().finish(|_| {}));
+            println!("    at 1e-9: {fine:.1e}");
+            prop_assert!(coarse < 1e-2, "residual {coarse:e}");
+            prop_assert!(
+                fine < 1e-5 && fine < 0.1 * coarse,
+                "residual {coarse:e}, at 1e-9 {fine:e}"
+            );
+        }
         Ok(())
     });
     if let Err(error) = result {

@@ -30,7 +30,16 @@ fn independent(plain: &Plain, tolerance: f64) -> Vec<Row> {
     };
     let mut problem = OdeBuilder::<NalgebraMat<f64>>::new()
         .rtol(tolerance)
-        .atol([tolerance, tolerance, tolerance, tolerance, 1e2 * tolerance, 1e2 * tolerance, 1e2 * tolerance, 1e2 * tolerance])
+        .atol([
+            tolerance,
+            tolerance,
+            tolerance,
+            tolerance,
+            1e2 * tolerance,
+            1e2 * tolerance,
+            1e2 * tolerance,
+            1e2 * tolerance,
+        ])
         .rhs_implicit(
             |x: &[f64], _: &[f64], t: f64, y: &mut [f64]| rates(t, x, y),
             |x: &[f64], _: &[f64], t: f64, v: &[f64], y: &mut [f64]| {
@@ -77,14 +86,24 @@ fn independent(plain: &Plain, tolerance: f64) -> Vec<Row> {
 
 fn own(damping: Damping, toe: f64, amplitude: f64, tolerance: f64) -> Vec<Row> {
     let mut parameters = thesis::parameters(damping, toe, YAW);
-    parameters.bolster.coordinates[2] =
-        Motion::Sine { amplitude: amplitude * INCH, angular_frequency: 2.0, phase: 0.0 };
+    parameters.bolster.coordinates[2] = Motion::Sine {
+        amplitude: amplitude * INCH,
+        angular_frequency: 2.0,
+        phase: 0.0,
+    };
     let wedge = Wedge::new(parameters).unwrap();
     let mut rows = Vec::new();
     run(&wedge, tolerance, (UNTIL, INTERVAL), |seen, _| {
         let q = seen.bodies[WEDGE].coordinates;
         let (longitudinal, vertical) = column_forces(seen);
-        rows.push([q[0] / INCH, q[2] / INCH, q[4], q[5], longitudinal / LBF, vertical / LBF]);
+        rows.push([
+            q[0] / INCH,
+            q[2] / INCH,
+            q[4],
+            q[5],
+            longitudinal / LBF,
+            vertical / LBF,
+        ]);
     });
     rows
 }

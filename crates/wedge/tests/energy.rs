@@ -14,29 +14,39 @@ use wedge::parameters::{Damping, Parameters, Start};
 use wedge::{Wedge, thesis};
 
 const BOTH: [Damping; 2] = [Damping::Variable, Damping::Constant];
-/// A whole cycle and the beginning of the next.
-const UNTIL: f64 = 4.0;
+/// As the thesis's runs.
+const UNTIL: f64 = 10.0;
 
 /// Runs and checks on the way: losses never negative and never falling, and with tanh no friction power into the wedge.
 /// Returns the end and the largest residual at any row, relative to the work done.
-fn checked(parameters: Parameters, tolerance: f64) -> (End, f64) {
+fn checked(parameters: Parameters, tolerance: f64, until: f64) -> (End, f64) {
     let wedge = Wedge::new(parameters).unwrap();
     let losses: Vec<usize> = (0..wedge.system.channels().len())
         .filter(|&i| {
-            !matches!(wedge.system.channels()[i].kind, ChannelKind::MotionWork | ChannelKind::CoilGuideWork)
+            !matches!(
+                wedge.system.channels()[i].kind,
+                ChannelKind::MotionWork | ChannelKind::CoilGuideWork
+            )
         })
         .collect();
-    let tanh = [&wedge.parameters.column_friction, &wedge.parameters.slope_friction]
-        .map(|f| matches!(f.law, FrictionLaw::Tanh { .. }));
+    let tanh = [
+        &wedge.parameters.column_friction,
+        &wedge.parameters.slope_friction,
+    ]
+    .map(|f| matches!(f.law, FrictionLaw::Tanh { .. }));
     let mut start = None;
     let mut before = vec![0.0; wedge.system.channels().len()];
     let (mut worst, mut fall) = (0.0_f64, 0.0_f64);
-    let end = run(&wedge, tolerance, (UNTIL, 0.01), |seen, _| {
+    let end = run(&wedge, tolerance, (until, 0.01), |seen, _| {
         let start = *start.get_or_insert(seen.energies.total());
         let ledger = wedge::outputs::Outputs::ledger(&wedge.system, seen, start);
         worst = worst.max(ledger.residual.abs());
         for (face, tanh) in seen.faces.iter().zip(tanh) {
-            assert!(face.friction_loss >= 0.0, "friction adds energy at {} s", seen.time);
+            assert!(
+                face.friction_loss >= 0.0,
+                "friction adds energy at {} s",
+                seen.time
+            );
             assert!(!tanh || face.friction_power <= 0.0);
             // Equal with tanh.
             assert!(!tanh || (face.friction_power + face.friction_loss).abs() <= 1e-12 * face.friction_loss);
@@ -46,7 +56,11 @@ fn checked(parameters: Parameters, tolerance: f64) -> (End, f64) {
         }
         before.copy_from_slice(&seen.quadratures);
     });
-    let work = end.ledger.motion_work;
+    // What went through the wedge: the work, or where it is small the largest of the other entries.
+    let l = &end.ledger;
+    let losses =
+        l.side_frame_friction_loss + l.bolster_friction_loss + l.contact_damping_loss + l.coil_damping_loss;
+    let work = l.motion_work.abs().max(losses);
     // Losses are integrated without an error control of their own: they may swing by as much as the ledger may be off.
     assert!(fall < 1e-5 * work, "a loss falls by {fall:e} of {work} J");
     (end, worst / work)
@@ -56,7 +70,7 @@ fn checked(parameters: Parameters, tolerance: f64) -> (End, f64) {
 fn yawed_cases_close_to_1e_5_at_the_default_tolerance() {
     for damping in BOTH {
         for toe in [TOE, 0.0, -TOE] {
-            let (end, residual) = checked(thesis::parameters(damping, toe, YAW), 1e-6);
+            let (end, residual) = checked(thesis::parameters(damping, toe, YAW), 1e-6, UNTIL);
             println!(
                 "{damping:?} toe {toe:.4} yawed: work {:.1} lbf in, residual {residual:.2e}, {} steps",
                 end.ledger.motion_work / LBF_IN,
@@ -72,10 +86,13 @@ fn ringing_cases_close_to_1e_4_and_better_with_the_tolerance() {
     for damping in BOTH {
         for toe in [TOE, 0.0, -TOE] {
             let residuals = [1e-5, 1e-6, 1e-7]
-                .map(|tolerance| checked(thesis::parameters(damping, toe, 0.0), tolerance).1);
+                .map(|tolerance| checked(thesis::parameters(damping, toe, 0.0), tolerance, 4.0).1);
             println!("{damping:?} toe {toe:.4}: {residuals:?}");
             assert!(residuals[1] < 1e-4, "{damping:?}, toe {toe}: {residuals:?}");
-            assert!(residuals[2] < residuals[0], "{damping:?}, toe {toe}: {residuals:?}");
+            assert!(
+                residuals[2] < residuals[0],
+                "{damping:?}, toe {toe}: {residuals:?}"
+            );
         }
     }
 }
@@ -86,7 +103,7 @@ fn leaving_one_entry_out_makes_the_ledger_fail() {
     let mut parameters = thesis::parameters(Damping::Variable, TOE, YAW);
     parameters.contact.damping = 50.0 * LBF_PER_IN;
     parameters.coil.damping = 20.0 * LBF_PER_IN;
-    let (end, residual) = checked(parameters, 1e-6);
+    let (end, residual) = checked(parameters, 1e-6, 4.0);
     let l = end.ledger;
     assert!(residual < 1e-5, "{residual:e}");
     let entries = [
@@ -124,7 +141,13 @@ fn the_ledger_closes_for_every_kind_of_case() {
             p.contact.damping = 50.0 * LBF_PER_IN;
         }),
         ("a table of the coil", |p| {
-            let points = [[-2.0, -4000.0], [0.0, 0.0], [0.5, 1200.0], [1.0, 4000.0], [3.0, 9000.0]];
+            let points = [
+                [-2.0, -4000.0],
+                [0.0, 0.0],
+                [0.5, 1200.0],
+                [1.0, 4000.0],
+                [3.0, 9000.0],
+            ];
             let points = points.map(|[x, f]| [x * INCH, f * LBF]).to_vec();
             p.coil.law = CoilLaw::Table(Characteristic::new(points).unwrap());
         }),
@@ -143,21 +166,30 @@ fn the_ledger_closes_for_every_kind_of_case() {
             p.wedge.free = [true; 6];
             p.contact.damping = 50.0 * LBF_PER_IN;
             for (k, amplitude) in [(3, 2e-3), (4, 3e-3), (5, 4e-3)] {
-                p.bolster.coordinates[k] =
-                    Motion::Sine { amplitude, angular_frequency: 3.0 + k as f64, phase: 0.3 };
+                p.bolster.coordinates[k] = Motion::Sine {
+                    amplitude,
+                    angular_frequency: 3.0 + k as f64,
+                    phase: 0.3,
+                };
             }
             p.bolster.center = Some([0.3, 0.1, 0.2]);
         }),
         ("a side frame that moves", |p| {
             for (k, amplitude) in [(0, 5e-5), (1, 1e-3), (2, 1e-2), (3, 2e-3), (4, 1e-3), (5, 2e-3)] {
-                p.side_frame.coordinates[k] =
-                    Motion::Sine { amplitude, angular_frequency: 2.5 + k as f64, phase: 0.0 };
+                p.side_frame.coordinates[k] = Motion::Sine {
+                    amplitude,
+                    angular_frequency: 2.5 + k as f64,
+                    phase: 0.0,
+                };
             }
             p.contact.damping = 50.0 * LBF_PER_IN;
         }),
         ("motions with corners", |p| {
             p.bolster.coordinates[2] = Motion::Sum(vec![
-                Motion::Triangle { amplitude: INCH, angular_frequency: 2.0 },
+                Motion::Triangle {
+                    amplitude: INCH,
+                    angular_frequency: 2.0,
+                },
                 Motion::Ramp {
                     amplitude: 0.1 * INCH,
                     start: 0.5,
@@ -171,7 +203,7 @@ fn the_ledger_closes_for_every_kind_of_case() {
         for (name, change) in &changes {
             let mut parameters = thesis::parameters(damping, TOE, YAW);
             change(&mut parameters);
-            let (end, residual) = checked(parameters, 1e-6);
+            let (end, residual) = checked(parameters, 1e-6, 4.0);
             println!(
                 "{damping:?}, {name}: work {:.1} lbf in, residual {residual:.2e}, {} steps",
                 end.ledger.motion_work / LBF_IN,

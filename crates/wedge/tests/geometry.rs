@@ -48,12 +48,12 @@ fn toe_and_yaw_make_the_right_corners_penetrate() {
                 // Yaw to the left brings the slope's +y half (n has -y) onto the wedge, by its width; the height of
                 // the corner also counts, as the slope leans: its trace turns about the pocket's centre.
                 let side = 0.5 * 10.5 * cos * yaw.sin();
-                let tilt = 0.5 * 6.125 * cos * thesis::parameters(damping, 0.0, 0.0).wedge.angle.tan()
+                let tilt = 0.5
+                    * 6.125
+                    * cos
+                    * thesis::parameters(damping, 0.0, 0.0).wedge.angle.tan()
                     * (1.0 - yaw.cos());
-                assert_gaps(
-                    slope,
-                    [side + tilt, -side + tilt, side - tilt, -side - tilt],
-                );
+                assert_gaps(slope, [side + tilt, -side + tilt, side - tilt, -side - tilt]);
             }
         }
     }
@@ -89,7 +89,8 @@ fn equilibrium_is_at_rest_with_the_closed_forms_of_statics() {
         // The bolster moves at time zero, and friction with it: look at the frictionless forces only.
         let start = wedge.initial_state.clone();
         let seen = wedge.system.observe(0.0, &start);
-        let sum = |face: usize| -> f64 { seen.faces[face].points.iter().map(|p| p.normal).sum::<f64>() / LBF };
+        let sum =
+            |face: usize| -> f64 { seen.faces[face].points.iter().map(|p| p.normal).sum::<f64>() / LBF };
         let coil = seen.coils[0].spring_force.0.map(|f| f / LBF);
         // Two unknown normal forces: n_c = (cos φ, -sin φ), n_s = (-cos θ, -sin θ); coil (0, F) and weight (0, -W).
         let (column, slope) = (sum(COLUMN), sum(SLOPE));
@@ -105,7 +106,11 @@ fn equilibrium_is_at_rest_with_the_closed_forms_of_statics() {
             assert!(((column + coil[0]) / (lift / angle.tan()) - 1.0).abs() < 1e-9);
             assert!(coil[0].abs() < 10.0);
         }
-        assert!((coil[2] - 3702.2).abs() < 60.0, "the coil keeps its preload: {}", coil[2]);
+        assert!(
+            (coil[2] - 3702.2).abs() < 60.0,
+            "the coil keeps its preload: {}",
+            coil[2]
+        );
         // Still without friction and motion: accelerations vanish.
         let mut still = thesis::parameters(Damping::Constant, toe, 0.0);
         still.bolster = NeighbourMotion::fixed();
@@ -166,8 +171,9 @@ fn gaps_at_random_poses() {
         let mut parameters = thesis::parameters(damping, toe, 0.0);
         parameters.wedge.free = [true; 6];
         let mut poses = [[0.0; 6]; 2];
-        for (pose, neighbour) in
-            poses.iter_mut().zip([&mut parameters.side_frame, &mut parameters.bolster])
+        for (pose, neighbour) in poses
+            .iter_mut()
+            .zip([&mut parameters.side_frame, &mut parameters.bolster])
         {
             for (i, value) in pose.iter_mut().enumerate() {
                 *value = random.between(-0.1, 0.1) * if i < 3 { INCH } else { 1.0 };
@@ -187,8 +193,7 @@ fn gaps_at_random_poses() {
         let length = parameters.coil.nominal_length / INCH;
         let mut wedge = Wedge::new(parameters).unwrap();
         let mut x = wedge.initial_state.clone();
-        let q: [f64; 6] =
-            std::array::from_fn(|i| random.between(-0.1, 0.1) * if i < 3 { INCH } else { 1.0 });
+        let q: [f64; 6] = std::array::from_fn(|i| random.between(-0.1, 0.1) * if i < 3 { INCH } else { 1.0 });
         x[..6].copy_from_slice(&q);
         let seen = wedge.system.observe(1.0, &x);
 
@@ -200,7 +205,11 @@ fn gaps_at_random_poses() {
             let (lower_x, center_x, normal) = if face == COLUMN {
                 (face_x, face_x, [toe.cos(), 0.0, -toe.sin()])
             } else {
-                (face_x + bottom, face_x + 0.5 * bottom, [-theta.cos(), 0.0, -theta.sin()])
+                (
+                    face_x + bottom,
+                    face_x + 0.5 * bottom,
+                    [-theta.cos(), 0.0, -theta.sin()],
+                )
             };
             let pose = &poses[face];
             let n = apply(&turn([pose[3], pose[4], pose[5]]), normal);
@@ -213,9 +222,17 @@ fn gaps_at_random_poses() {
             ];
             for (point, corner) in seen.faces[face].points.iter().zip(corners) {
                 let r = apply(&body, corner);
-                let place = [r[0] + q[0] / INCH, r[1] + q[1] / INCH, r[2] + q[2] / INCH + length];
+                let place = [
+                    r[0] + q[0] / INCH,
+                    r[1] + q[1] / INCH,
+                    r[2] + q[2] / INCH + length,
+                ];
                 let gap: f64 = (0..3).map(|i| (place[i] - plane[i]) * n[i]).sum();
-                assert!((point.gap / INCH - gap).abs() < 1e-13, "{} {gap}", point.gap / INCH);
+                assert!(
+                    (point.gap / INCH - gap).abs() < 1e-13,
+                    "{} {gap}",
+                    point.gap / INCH
+                );
             }
         }
     }

@@ -44,7 +44,10 @@ fn sliding(damping: Damping, contact_damping: f64, windows: [(f64, f64); 2]) -> 
 #[test]
 fn steady_sliding_reaches_the_closed_forms_with_constant_damping() {
     let angle = 37.5_f64.to_radians();
-    let (down, up) = (sliding_ratio(angle, TOE, 0.4, 1.0), sliding_ratio(angle, TOE, 0.4, -1.0));
+    let (down, up) = (
+        sliding_ratio(angle, TOE, 0.4, 1.0),
+        sliding_ratio(angle, TOE, 0.4, -1.0),
+    );
     assert!((down - 0.310).abs() < 5e-4 && (up - 0.585).abs() < 5e-4);
     // The last part of each branch in which the slope still slides well above the reference speed. The very first
     // branch is the start's.
@@ -55,25 +58,42 @@ fn steady_sliding_reaches_the_closed_forms_with_constant_damping() {
         assert!((ratio / up - 1.0).abs() < 5e-3, "up {ratio}, closed form {up}");
     }
     for ratio in downs {
-        assert!((ratio / -down - 1.0).abs() < 5e-3, "down {ratio}, closed form {down}");
+        assert!(
+            (ratio / -down - 1.0).abs() < 5e-3,
+            "down {ratio}, closed form {down}"
+        );
     }
 }
 
-/// The coil force changes while the faces slide, against the toe: the closed forms are met within 4 %. The undamped
-/// contacts would ring for the whole branch; a little contact damping shows the mean.
+/// The coil force changes while the faces slide. Without contact damping the contacts ring along the whole branch, and
+/// the mean comes within 4 % of the closed forms by its end; with a little of it the closed forms are met.
 #[test]
 fn steady_sliding_comes_near_the_closed_forms_with_variable_damping() {
     let angle = 32_f64.to_radians();
-    let (down, up) = (sliding_ratio(angle, TOE, 0.4, 1.0), sliding_ratio(angle, TOE, 0.4, -1.0));
-    println!("undamped {:?}", sliding(Damping::Variable, 0.0, [(300.0, 330.0), (215.0, 245.0)]));
-    let [ups, downs] = sliding(Damping::Variable, 50.0, [(320.0, 330.0), (235.0, 245.0)]);
-    println!("up {up} {ups:?} down {down} {downs:?}");
-    assert!(ups.len() >= 3 && downs.len() >= 3);
-    for ratio in ups {
-        assert!((ratio / up - 1.0).abs() < 0.04, "up {ratio}, closed form {up}");
-    }
-    for ratio in downs {
-        assert!((ratio / -down - 1.0).abs() < 0.04, "down {ratio}, closed form {down}");
+    let (down, up) = (
+        sliding_ratio(angle, TOE, 0.4, 1.0),
+        sliding_ratio(angle, TOE, 0.4, -1.0),
+    );
+    for (contact_damping, tolerance) in [(0.0, 0.04), (50.0, 0.005)] {
+        let [ups, downs] = sliding(
+            Damping::Variable,
+            contact_damping,
+            [(320.0, 330.0), (255.0, 264.0)],
+        );
+        println!("damping {contact_damping}: up {up} {ups:?} down {down} {downs:?}");
+        assert!(ups.len() >= 3 && downs.len() >= 3);
+        for ratio in ups {
+            assert!(
+                (ratio / up - 1.0).abs() < tolerance,
+                "up {ratio}, closed form {up}"
+            );
+        }
+        for ratio in downs {
+            assert!(
+                (ratio / -down - 1.0).abs() < tolerance,
+                "down {ratio}, closed form {down}"
+            );
+        }
     }
 }
 
@@ -95,7 +115,7 @@ fn a_lifted_off_wedge_rings_on_its_coil() {
         parameters.wedge.free = free(coordinates);
         parameters.bolster.coordinates[2] = Motion::Constant(INCH);
         let wedge = Wedge::new(parameters).unwrap();
-        let mut worst = [0.0_f64; 2];
+        let (mut worst, mut pressed) = ([0.0_f64; 2], 0.0_f64);
         let mut crossings = Vec::new();
         let mut before = (0.0, 0.0);
         for (tolerance, worst) in [1e-6, 1e-9].into_iter().zip(&mut worst) {
@@ -106,8 +126,11 @@ fn a_lifted_off_wedge_rings_on_its_coil() {
                 let swing = (damped * t).cos() + decay / damped * (damped * t).sin();
                 let exact = -sag * (1.0 - (-decay * t).exp() * swing);
                 *worst = worst.max((z - exact).abs());
-                // The column touches, by rounding (and the wedge topples off its coil, slowly), N.
-                assert!(seen.faces.iter().all(|f| f.points.iter().all(|p| p.normal < 1e-3)));
+                pressed = seen
+                    .faces
+                    .iter()
+                    .flat_map(|f| &f.points)
+                    .fold(pressed, |m, p| m.max(p.normal));
                 let rate = z + sag;
                 if t > 0.0 && before.1 > 0.0 && rate <= 0.0 {
                     crossings.push(before.0 + 0.001 * before.1 / (before.1 - rate));
@@ -115,13 +138,17 @@ fn a_lifted_off_wedge_rings_on_its_coil() {
                 before = (t, rate);
             });
         }
-        println!("{coordinates:?}: {worst:?} in");
-        // The tolerance is relative to 0.01 m = 0.39 in; errors of some forty periods add up.
-        assert!(worst[0] < 100.0 * 1e-6 * 0.39, "{worst:?}");
-        assert!(worst[1] < 100.0 * 1e-9 * 0.39, "{worst:?}");
+        println!("{coordinates:?}: {worst:?} in, contacts up to {pressed:e} N");
+        // Errors of some forty periods add up.
+        let scale = mechanics::system::scales::DISPLACEMENT / INCH;
+        assert!(worst[0] < 100.0 * 1e-6 * scale, "{worst:?}");
+        assert!(worst[1] < 100.0 * 1e-9 * scale, "{worst:?}");
         let periods = (crossings.len() - 1) as f64;
         let frequency = periods / (crossings[crossings.len() - 1] - crossings[0]);
-        assert!((frequency - damped / std::f64::consts::TAU).abs() < 1e-3, "{frequency} Hz");
+        assert!(
+            (frequency - damped / std::f64::consts::TAU).abs() < 1e-3,
+            "{frequency} Hz"
+        );
     }
 }
 
@@ -154,11 +181,15 @@ fn a_jam_is_an_elastic_ramp() {
         parameters.coil.free_length = parameters.coil.nominal_length + preload / 1979.0 * INCH;
         parameters.contact.damping = 100.0 * LBF_PER_IN;
         parameters.column_friction.coefficient = mu;
-        parameters.column_friction.law = FrictionLaw::Tanh { reference_speed: 1e-4 * INCH };
+        parameters.column_friction.law = FrictionLaw::Tanh {
+            reference_speed: 1e-4 * INCH,
+        };
         // Stiff enough to be rigid: 1e-5 of the contact's compliance.
         parameters.slope_friction.coefficient = mu;
-        parameters.slope_friction.law =
-            FrictionLaw::Bristle { stiffness: 1e11 * LBF_PER_IN, damping: 1e6 * LBF_PER_IN };
+        parameters.slope_friction.law = FrictionLaw::Bristle {
+            stiffness: 1e11 * LBF_PER_IN,
+            damping: 1e6 * LBF_PER_IN,
+        };
         parameters.start = Start::Equilibrium;
         parameters.bolster.coordinates[2] = Motion::Ramp {
             amplitude: -1.5 * INCH,
@@ -173,8 +204,14 @@ fn a_jam_is_an_elastic_ramp() {
                 return;
             }
             let (normal, vertical) = column_forces(seen);
-            assert!((vertical / normal / -mu - 1.0).abs() < 1e-4 + 2.0 * TOE.tan(), "the column slides down");
-            assert!(modes[4..].iter().all(|mode| *mode == Mode::Stick as u8), "the slope sticks: {modes:?}");
+            assert!(
+                (vertical / normal / -mu - 1.0).abs() < 1e-4 + 2.0 * TOE.tan(),
+                "the column slides down"
+            );
+            assert!(
+                modes[4..].iter().all(|mode| *mode == Mode::Stick as u8),
+                "the slope sticks: {modes:?}"
+            );
             let closed = seen.faces[COLUMN].points.iter().filter(|p| p.gap < 0.0).count();
             points.push((seen.bodies[1].travel.0[2] / INCH, normal / LBF, closed));
         });
@@ -183,8 +220,15 @@ fn a_jam_is_an_elastic_ramp() {
         assert!(points.iter().all(|p| p.2 == closed), "{points:?}");
         let slope = (last.1 - first.1) / (first.0 - last.0);
         let expected = formula(angle, toe, mu, [2.5e5 * closed as f64, 1e6]);
-        println!("{slope} {expected} over {} in, from {} lbf", first.0 - last.0, first.1);
-        assert!((slope / expected - 1.0).abs() < 2.0 * toe.tan(), "{slope} {expected}");
+        println!(
+            "{slope} {expected} over {} in, from {} lbf",
+            first.0 - last.0,
+            first.1
+        );
+        assert!(
+            (slope / expected - 1.0).abs() < 2.0 * toe.tan(),
+            "{slope} {expected}"
+        );
         // A straight line.
         for (z, force, _) in &points {
             let line = first.1 + slope * (first.0 - z);
@@ -201,8 +245,13 @@ fn without_yaw_there_is_no_yaw_moment_and_no_lateral_force() {
             let wedge = Wedge::new(thesis::parameters(damping, toe, 0.0)).unwrap();
             let outputs = Outputs::new(&wedge.parameters);
             let column = |name: &str| outputs.columns().iter().position(|c| c.name == name).unwrap();
-            let zeros = ["wedge_yaw", "side_frame_yaw_moment", "bolster_yaw_moment", "side_frame_roll_moment"]
-                .map(column);
+            let zeros = [
+                "wedge_yaw",
+                "side_frame_yaw_moment",
+                "bolster_yaw_moment",
+                "side_frame_roll_moment",
+            ]
+            .map(column);
             let lateral = ["net_force_on_side_frame_y", "net_force_on_bolster_y"].map(column);
             let mut observer = wedge.system.clone();
             let _ = observer.observe(0.0, &wedge.initial_state);
@@ -221,14 +270,24 @@ fn without_yaw_there_is_no_yaw_moment_and_no_lateral_force() {
             println!("{damping:?} {toe}: {largest:?}");
             // Left and right corners cancel; what is left is rounding of the forces.
             assert!(largest.2 > 1000.0);
-            assert!(largest.0 < 1e-9 * largest.2 && largest.1 < 1e-9 * largest.2, "{largest:?}");
+            assert!(
+                largest.0 < 1e-9 * largest.2 && largest.1 < 1e-9 * largest.2,
+                "{largest:?}"
+            );
         }
     }
     // And yaw makes both.
     let wedge = Wedge::new(thesis::parameters(Damping::Constant, 0.0, YAW)).unwrap();
     let mut most = 0.0_f64;
     run(&wedge, 1e-6, (1.0, 0.01), |seen, _| {
-        most = most.max(seen.faces[SLOPE].normal_forces.iter().map(|f| f.0[1]).sum::<f64>().abs());
+        most = most.max(
+            seen.faces[SLOPE]
+                .normal_forces
+                .iter()
+                .map(|f| f.0[1])
+                .sum::<f64>()
+                .abs(),
+        );
     });
     assert!(most / LBF > 10.0);
 }
@@ -237,7 +296,9 @@ fn without_yaw_there_is_no_yaw_moment_and_no_lateral_force() {
 fn hanging(law: FrictionLaw, load: f64) -> Parameters {
     let mut parameters = thesis::parameters(Damping::Variable, 0.0, 0.0);
     parameters.wedge.free = free(&["z"]);
-    parameters.coil.law = CoilLaw::Linear { stiffness: 1e-6 * LBF_PER_IN };
+    parameters.coil.law = CoilLaw::Linear {
+        stiffness: 1e-6 * LBF_PER_IN,
+    };
     parameters.coil.damping = 0.0;
     parameters.coil.acts_at = CoilLine::Seat;
     parameters.bolster.coordinates[2] = Motion::Constant(INCH);
@@ -250,7 +311,9 @@ fn hanging(law: FrictionLaw, load: f64) -> Parameters {
 fn tanh_creeps_under_a_held_load_as_predicted() {
     for load in [0.25_f64, 0.5, 0.9] {
         let speed = 1e-3;
-        let law = FrictionLaw::Tanh { reference_speed: speed * INCH };
+        let law = FrictionLaw::Tanh {
+            reference_speed: speed * INCH,
+        };
         let wedge = Wedge::new(hanging(law, load)).unwrap();
         let mut fallen = [0.0; 2];
         run(&wedge, 1e-8, (10.0, 1.0), |seen, _| {
@@ -281,7 +344,11 @@ fn the_bristle_holds_a_load_without_creep() {
         // Elastic: weight over the bristle's stiffness.
         let expected = 50.0 / 1e6;
         assert!((places[1] / expected - 1.0).abs() < 1e-6, "{places:?}");
-        assert!((places[11] - places[1]).abs() < 1e-12, "{:e} in over 10 s", places[11] - places[1]);
+        assert!(
+            (places[11] - places[1]).abs() < 1e-12,
+            "{:e} in over 10 s",
+            places[11] - places[1]
+        );
     }
     // Beyond its limit it slides, with the acceleration that is left: g (1 - 1/load).
     let wedge = Wedge::new(hanging(bristle(), 1.25)).unwrap();
@@ -319,7 +386,9 @@ fn a_held_bolster_is_held_by_bristles_and_not_by_tanh() {
     println!("bristle: {first:?} {last:?}");
     assert!(first.2.abs() > 500.0, "friction carries a load: {first:?}");
     assert!((last.1 / first.1 - 1.0).abs() < 1e-6 && (last.2 / first.2 - 1.0).abs() < 1e-6);
-    let let_go = case(FrictionLaw::Tanh { reference_speed: 1e-3 * INCH });
+    let let_go = case(FrictionLaw::Tanh {
+        reference_speed: 1e-3 * INCH,
+    });
     let (first, last) = (&let_go[4], &let_go[24]);
     println!("tanh: {first:?} {last:?}");
     // It falls by a quarter and more within ten seconds, all corners "sticking".

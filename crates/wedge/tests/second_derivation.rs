@@ -14,22 +14,34 @@ use wedge::{Wedge, thesis};
 
 /// The same wedge for the program, SI.
 fn parameters(p: &Plain) -> Parameters {
-    let damping = if p.variable { Damping::Variable } else { Damping::Constant };
+    let damping = if p.variable {
+        Damping::Variable
+    } else {
+        Damping::Constant
+    };
     let mut s = thesis::parameters(damping, p.toe, p.yaw);
     s.wedge.angle = p.angle.to_radians();
     s.wedge.mass = p.weight * POUND;
     s.wedge.inertia = p.inertia.map(|i| i * POUND * INCH * INCH);
     s.wedge.center_of_gravity = p.cg.map(|c| c * INCH);
-    s.coil.law = CoilLaw::Linear { stiffness: p.coil_stiffness * LBF_PER_IN };
+    s.coil.law = CoilLaw::Linear {
+        stiffness: p.coil_stiffness * LBF_PER_IN,
+    };
     s.coil.free_length = p.free_length * INCH;
     s.coil.nominal_length = p.nominal_length * INCH;
     s.coil.damping = p.coil_damping * LBF_PER_IN;
     s.coil.rotational_damping = p.turn_damping * LBF_IN;
     s.coil.pulls = p.pulls;
-    s.coil.acts_at = if p.at_seat { CoilLine::Seat } else { CoilLine::CenterOfGravity };
+    s.coil.acts_at = if p.at_seat {
+        CoilLine::Seat
+    } else {
+        CoilLine::CenterOfGravity
+    };
     s.contact.stiffness = p.corner_stiffness * LBF_PER_IN;
     s.contact.damping = p.corner_damping * LBF_PER_IN;
-    let law = FrictionLaw::Tanh { reference_speed: p.reference_speed * INCH };
+    let law = FrictionLaw::Tanh {
+        reference_speed: p.reference_speed * INCH,
+    };
     (s.column_friction.coefficient, s.column_friction.law) = (p.friction[0], law);
     (s.slope_friction.coefficient, s.slope_friction.law) = (p.friction[1], law);
     s
@@ -67,7 +79,11 @@ fn random_state(random: &mut Random, fast: bool) -> (f64, [f64; 4], [f64; 4]) {
 fn compare(wedge: &mut Wedge, answer: &Answer, t: f64, x: &[f64]) -> f64 {
     let mut dx = vec![0.0; x.len()];
     wedge.system.derivative(t, x, &mut dx);
-    let a: Vec<f64> = [INCH, INCH, 1.0, 1.0].iter().zip(&dx[4..8]).map(|(unit, a)| a / unit).collect();
+    let a: Vec<f64> = [INCH, INCH, 1.0, 1.0]
+        .iter()
+        .zip(&dx[4..8])
+        .map(|(unit, a)| a / unit)
+        .collect();
     let b = &answer.accelerations;
     let mut worst = 0.0_f64;
     // What one group of accelerations leaves in the other by rounding: the arm of the mass is inches.
@@ -81,7 +97,11 @@ fn compare(wedge: &mut Wedge, answer: &Answer, t: f64, x: &[f64]) -> f64 {
     let seen = wedge.system.observe(t, x);
     for (face, gaps) in seen.faces.iter().zip(answer.gaps.chunks(4)) {
         for (point, gap) in face.points.iter().zip(gaps) {
-            assert!((point.gap / INCH - gap).abs() < 2e-14, "{} {gap}", point.gap / INCH);
+            assert!(
+                (point.gap / INCH - gap).abs() < 2e-14,
+                "{} {gap}",
+                point.gap / INCH
+            );
         }
     }
     let (longitudinal, vertical) = common::column_forces(&seen);
@@ -101,10 +121,22 @@ fn compare(wedge: &mut Wedge, answer: &Answer, t: f64, x: &[f64]) -> f64 {
         (ledger.coil_damping_loss, answer.coil_damping_loss),
     ];
     let size = pairs.iter().fold(0.0_f64, |s, (_, p)| s.max(p.abs()));
-    for (name, (power, plain)) in
-        ["motion", "guide", "column", "slope", "contact damping", "coil damping"].iter().zip(pairs)
+    for (name, (power, plain)) in [
+        "motion",
+        "guide",
+        "column",
+        "slope",
+        "contact damping",
+        "coil damping",
+    ]
+    .iter()
+    .zip(pairs)
     {
-        assert!((power / LBF_IN - plain).abs() < 1e-9 * size, "{name}: {} {plain}", power / LBF_IN);
+        assert!(
+            (power / LBF_IN - plain).abs() < 1e-9 * size,
+            "{name}: {} {plain}",
+            power / LBF_IN
+        );
     }
     worst
 }
@@ -146,18 +178,29 @@ fn the_wedge_of_the_thesis() {
 fn other_wedges() {
     let mut random = Random(7);
     for k in 0..40 {
-        let mut plain =
-            Plain::thesis(k % 2 == 0, random.spread(1e-4, 2e-2), random.spread(1e-4, 3e-2));
+        let mut plain = Plain::thesis(k % 2 == 0, random.spread(1e-4, 2e-2), random.spread(1e-4, 3e-2));
         plain.angle = random.between(20.0, 55.0);
         plain.weight = random.between(20.0, 120.0);
         // A principal moment is at most the sum of the two others; all three differ, so that gyroscopic terms show.
-        plain.inertia = [random.between(400.0, 700.0), random.between(100.0, 300.0), random.between(450.0, 650.0)];
-        plain.cg = [random.between(-1.5, -0.5), random.between(-0.5, 0.5), random.between(1.0, 3.0)];
+        plain.inertia = [
+            random.between(400.0, 700.0),
+            random.between(100.0, 300.0),
+            random.between(450.0, 650.0),
+        ];
+        plain.cg = [
+            random.between(-1.5, -0.5),
+            random.between(-0.5, 0.5),
+            random.between(1.0, 3.0),
+        ];
         plain.coil_damping = random.between(0.0, 20.0);
         plain.turn_damping = random.between(0.0, 20.0);
         plain.at_seat = k % 4 < 2;
         plain.pulls = k % 3 > 0;
-        plain.corner_damping = if k % 8 < 4 { random.between(0.0, 500.0) } else { 0.0 };
+        plain.corner_damping = if k % 8 < 4 {
+            random.between(0.0, 500.0)
+        } else {
+            0.0
+        };
         plain.friction = [random.between(0.0, 0.7), random.between(0.0, 0.7)];
         plain.reference_speed = random.spread(1e-4, 1e-1).abs();
         check(&plain, 25, 1000 + k);
@@ -198,7 +241,9 @@ fn the_linear_systems_are_those_of_the_second_derivation() {
         wedge.system.linearize(t, &x, &dx, &mut df_dt);
         let shift = 1e4;
         wedge.system.factor(shift).unwrap();
-        let b: Vec<f64> = (0..x.len()).map(|i| if i < 4 { 0.0 } else { random.between(-1.0, 1.0) }).collect();
+        let b: Vec<f64> = (0..x.len())
+            .map(|i| if i < 4 { 0.0 } else { random.between(-1.0, 1.0) })
+            .collect();
         let mut y = b.clone();
         wedge.system.solve(&mut y);
         // The largest step along y that leaves no corner's side and stays far below the reference speed.

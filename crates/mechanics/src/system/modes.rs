@@ -108,15 +108,11 @@ impl System {
             let law = usize::from(matches!(face.element.law, FrictionLaw::Bristle { .. }));
             for (i, point) in face.element.points.iter().enumerate() {
                 let contact = face.element.geometry(point, &relative);
-                let load = if law == 0 {
-                    face.element.friction(1.0, 0.0, contact.slip, [0.0; 2]).load
-                } else if contact.gap < 0.0 {
+                let load = if law == 0 || contact.gap < 0.0 {
                     let elastic = -contact.gap * point.stiffness;
                     let normal = (elastic - contact.gap_rate * point.damping).max(0.0);
-                    let deflection = [deflections[2 * i], deflections[2 * i + 1]];
-                    face.element
-                        .friction(point.share, normal, contact.slip, deflection)
-                        .load
+                    let deflection = deflections.get(2 * i..2 * i + 2).map_or([0.0; 2], |e| [e[0], e[1]]);
+                    face.element.load(point.share, normal, contact.slip, deflection)
                 } else {
                     0.0
                 };

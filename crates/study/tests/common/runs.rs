@@ -14,7 +14,9 @@ pub const LBF_IN: f64 = LBF * INCH;
 
 /// The twelve runs of table 4-1.
 pub static TWELVE: LazyLock<BTreeMap<&'static str, RunResult>> = LazyLock::new(|| {
-    let cases: Vec<Case> = builtin::names().map(|name| builtin::case(name).unwrap()).collect();
+    let cases: Vec<Case> = builtin::names()
+        .map(|name| builtin::case(name).unwrap())
+        .collect();
     builtin::names().zip(run_all(&cases, 2)).collect()
 });
 
@@ -43,12 +45,22 @@ pub fn run_all(cases: &[Case], threads: usize) -> Vec<RunResult> {
             });
         }
     });
-    results.into_inner().unwrap().into_iter().map(Option::unwrap).collect()
+    results
+        .into_inner()
+        .unwrap()
+        .into_iter()
+        .map(Option::unwrap)
+        .collect()
 }
 
 /// A column in inches, lbf, lbf·in.
 pub fn column(result: &RunResult, name: &str, unit: f64) -> Vec<f64> {
-    result.column(name).unwrap_or_else(|| panic!("no column {name}")).iter().map(|v| v / unit).collect()
+    result
+        .column(name)
+        .unwrap_or_else(|| panic!("no column {name}"))
+        .iter()
+        .map(|v| v / unit)
+        .collect()
 }
 
 /// Branch means of the vertical wedge force (up, down) in lbf, and the energy per cycle at the side frame in lbf·in,

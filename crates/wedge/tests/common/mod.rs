@@ -41,7 +41,10 @@ pub fn run_system(
     mut each: impl FnMut(&Observation, &[u8]),
 ) -> End {
     let mut observer = system.clone();
-    let options = Options { relative_tolerance: tolerance, ..Options::default() };
+    let options = Options {
+        relative_tolerance: tolerance,
+        ..Options::default()
+    };
     let mut run = Integrator::new(system.clone(), options, 0.0, start).unwrap();
     let first = observer.observe(0.0, start);
     let start_energy = first.energies.total();
@@ -52,10 +55,12 @@ pub fn run_system(
         events.extend_from_slice(run.events());
         observer.segment_like(run.problem());
         loop {
+            // The last row is the end, whatever the rounding of its number times the interval.
             let time = f64::from(row) * interval;
-            if time > run.time() {
+            if time > run.time() + 1e-9 * interval {
                 break;
             }
+            let time = time.min(run.time());
             run.interpolate(time, &mut buffer);
             each(&observer.observe(time, &buffer), run.modes());
             row += 1;
@@ -73,12 +78,7 @@ pub fn run_system(
 }
 
 /// Runs a wedge from its start.
-pub fn run(
-    wedge: &Wedge,
-    tolerance: f64,
-    rows: (f64, f64),
-    each: impl FnMut(&Observation, &[u8]),
-) -> End {
+pub fn run(wedge: &Wedge, tolerance: f64, rows: (f64, f64), each: impl FnMut(&Observation, &[u8])) -> End {
     run_system(&wedge.system, &wedge.initial_state, tolerance, rows, each)
 }
 
@@ -100,7 +100,10 @@ pub fn with_law(mut parameters: Parameters, law: FrictionLaw) -> Parameters {
 
 /// The bristle with the specification's default values, N/m and N·s/m.
 pub fn bristle() -> FrictionLaw {
-    FrictionLaw::Bristle { stiffness: 1e6 * LBF_PER_IN, damping: 1e3 * LBF_PER_IN }
+    FrictionLaw::Bristle {
+        stiffness: 1e6 * LBF_PER_IN,
+        damping: 1e3 * LBF_PER_IN,
+    }
 }
 
 /// Which of x, y, z, roll, pitch, yaw are free.

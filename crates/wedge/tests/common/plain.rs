@@ -189,7 +189,11 @@ impl Plain {
 
         let middle = self.nominal_length + 0.5 * self.height;
         let planes: [(V, V, V); 2] = [
-            ([face_x, 0.0, middle], [self.toe.cos(), 0.0, -self.toe.sin()], [0.0; 3]),
+            (
+                [face_x, 0.0, middle],
+                [self.toe.cos(), 0.0, -self.toe.sin()],
+                [0.0; 3],
+            ),
             (
                 [face_x + 0.5 * bottom, 0.0, middle + zb],
                 [-cos * self.yaw.cos(), -cos * self.yaw.sin(), -sin],
@@ -212,7 +216,11 @@ impl Plain {
             let lower_x = if face == 0 { face_x } else { face_x + bottom };
             for corner in 0..4 {
                 let y = if corner % 2 == 0 { -0.5 } else { 0.5 } * self.width;
-                let a = if corner < 2 { [lower_x, y, 0.0] } else { [face_x, y, self.height] };
+                let a = if corner < 2 {
+                    [lower_x, y, 0.0]
+                } else {
+                    [face_x, y, self.height]
+                };
                 let gap = dot(&sub(&place(&a), point), normal);
                 answer.gaps[4 * face + corner] = gap;
                 if gap >= 0.0 {
