@@ -83,18 +83,19 @@ fn clippy(workspace: &Workspace) -> Outcome {
 }
 
 fn tests(workspace: &Workspace) -> Outcome {
+    // In the release profile: what is tested is what users run (docs/decisions/0008), and it is several times faster.
     // Benchmarks are left to `cargo xtask bench`; clippy has compiled them.
     let targets = ["--lib", "--bins", "--tests", "--examples"];
     shell::run(
         workspace
-            .cargo(["test", "--workspace", "--no-fail-fast"])
+            .cargo(["test", "--workspace", "--release", "--no-fail-fast"])
             .args(targets),
     )?;
     Ok(None)
 }
 
 fn doc_tests(workspace: &Workspace) -> Outcome {
-    shell::run(&mut workspace.cargo(["test", "--workspace", "--no-fail-fast", "--doc"]))?;
+    shell::run(&mut workspace.cargo(["test", "--workspace", "--release", "--no-fail-fast", "--doc"]))?;
     Ok(None)
 }
 

@@ -237,7 +237,11 @@ impl Partitioned {
             internals: 2 * groups.len(),
             quadratures: structure.quadratures,
             work: vec![0.0; speeds],
-            uniform: sizes.iter().copied().reduce(|a, b| if a == b { a } else { 0 }).unwrap_or(0),
+            uniform: sizes
+                .iter()
+                .copied()
+                .reduce(|a, b| if a == b { a } else { 0 })
+                .unwrap_or(0),
             sizes,
             offsets,
             mass_starts,

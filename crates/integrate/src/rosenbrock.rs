@@ -99,6 +99,7 @@ impl<P: Problem> Integrator<P> {
             statistics: Statistics::default(),
         };
         let mut this = Self::resume(problem, options, state)?;
+        this.statistics.derivatives = 1;
         this.problem.initial_modes(time, x, &mut this.switches.modes);
         this.switches.before.copy_from_slice(&this.switches.modes);
         this.proposed_step = match (this.options.fixed_step, this.options.initial_step) {
@@ -185,7 +186,10 @@ impl<P: Problem> Integrator<P> {
             argument: zero(),
             slope: zero(),
         };
+        // Not counted: a run without a break has this evaluation from its last step.
+        let counted = this.statistics.derivatives;
         this.evaluate_derivative();
+        this.statistics.derivatives = counted;
         if let Some(index) = this.first_not_finite() {
             let value = this.dx[index];
             return Err(SetupError::NotFiniteDerivative {

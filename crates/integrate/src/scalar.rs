@@ -176,7 +176,10 @@ impl<const N: usize> Real for Dual<N> {
     }
     #[inline(always)]
     fn chain(self, value: f64, slope: f64) -> Self {
-        Self { value, derivative: lane(&self.derivative, |d| d * slope) }
+        Self {
+            value,
+            derivative: lane(&self.derivative, |d| d * slope),
+        }
     }
 }
 
@@ -234,6 +237,8 @@ impl<const N: usize> Sub for Dual<N> {
 impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
     #[inline(always)]
+    // The product rule is a sum.
+    #[allow(clippy::suspicious_arithmetic_impl)]
     fn mul(self, o: Self) -> Self {
         Self {
             value: self.value * o.value,

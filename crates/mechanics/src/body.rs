@@ -204,7 +204,11 @@ impl Kinematics<f64> {
             let mut value = if k == l && !free[3 + k] { 1.0 } else { 0.0 };
             for c in 0..3 {
                 value += body.inertia[c] * spin[k].0[c] * spin[l].0[c];
-                value += if free[c] { 0.0 } else { body.mass * lever[k].0[c] * lever[l].0[c] };
+                value += if free[c] {
+                    0.0
+                } else {
+                    body.mass * lever[k].0[c] * lever[l].0[c]
+                };
             }
             value
         };

@@ -107,7 +107,10 @@ impl Translation {
     pub fn new(b: &FrameMotion<f64>, body: &Kinematics<f64>, mount: &Mount) -> Self {
         let turn: Matrix<f64> = b.rotation.times(body.turn.rotation);
         let place: Vector<f64> = b.rotation.apply(body.position);
-        Self { axes: turn.times(mount.rotation), arm: place + turn.apply::<f64, f64>(mount.origin) }
+        Self {
+            axes: turn.times(mount.rotation),
+            arm: place + turn.apply::<f64, f64>(mount.origin),
+        }
     }
 
     /// Brings position and velocities of a sight up to date.
@@ -123,7 +126,10 @@ impl Translation {
     pub fn sight_in_time(&self, sight: &Sight<f64>, b: &FrameMotion<f64>) -> Sight<Dual<1>> {
         let rate: Vector<f64> = self.axes.apply_transposed(b.acceleration);
         let with = |value: &Vector<f64>, rate: &Vector<f64>| {
-            let component = |k: usize| Dual { value: value.0[k], derivative: [rate.0[k]] };
+            let component = |k: usize| Dual {
+                value: value.0[k],
+                derivative: [rate.0[k]],
+            };
             Vector([component(0), component(1), component(2)])
         };
         Sight {

@@ -22,6 +22,9 @@ pub const RUN_STATE_VERSION: u32 = 1;
 /// How many events are listed at most.
 pub const EVENT_CAP: usize = 500;
 
+/// A run that needs more attempted steps than this is stopped: some minutes of computing.
+pub const MAXIMUM_STEPS: u64 = 50_000_000;
+
 /// Why a run cannot begin or go on.
 #[derive(Debug, Error)]
 pub enum RunError {
@@ -404,6 +407,7 @@ fn options(case: &Case) -> Options {
     Options {
         method: case.simulation.method,
         relative_tolerance: case.simulation.relative_tolerance,
+        maximum_steps: MAXIMUM_STEPS,
         ..Options::default()
     }
 }

@@ -52,6 +52,9 @@ pub struct Summary {
     pub complete: bool,
     /// Why and when it stopped, if it did not.
     pub stopped: Option<Stopped>,
+    /// What makes the numbers doubtful; empty for a sound run.
+    #[serde(default)]
+    pub warnings: Vec<String>,
     /// Number of rows of the result.
     pub rows: usize,
     /// Averages over cycles and branches.

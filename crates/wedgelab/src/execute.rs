@@ -10,7 +10,7 @@ use study::result::RunResult;
 use study::run::{Run, RunError};
 use study::summary::{Measure, Summary};
 
-use crate::failure::{Failure, Message};
+use crate::failure::{Failure, Message, say};
 use crate::progress::Progress;
 use crate::table::Table;
 
@@ -35,6 +35,9 @@ pub fn execute(case: &Case, folder: &Folder, progress: &Progress) -> Result<Done
         None => format!("{:.2} s", wall.as_secs_f64()),
     };
     progress.done(&case.name, &how);
+    for warning in &result.summary.warnings {
+        say(&format!("warning: {}: {warning}", case.name));
+    }
     Ok(Done { result, wall })
 }
 

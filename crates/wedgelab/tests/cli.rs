@@ -164,7 +164,7 @@ fn results_are_overwritten_only_by_force() {
     let call = [&["run", "vdrun_toe_0_psi_0", "--out", "x"], &SHORT[..]].concat();
     assert_eq!(wedgelab(path, &call).code, Some(0));
     fs::write(path.join("x/result.csv"), "mine").unwrap();
-    refused(path, &call, 1, &["x/result.csv", "--force", "--out"]);
+    refused(path, &call, 2, &["x/result.csv", "--force", "--out"]);
     assert_eq!(fs::read_to_string(path.join("x/result.csv")).unwrap(), "mine");
     let forced = wedgelab(path, &[&call[..], &["--force"]].concat());
     assert_eq!(forced.code, Some(0), "{}", forced.err);
@@ -180,7 +180,7 @@ fn results_are_overwritten_only_by_force() {
     refused(
         path,
         &["reproduce", "--out", "r"],
-        1,
+        2,
         &["r/runs/cdrun_toe_0_psi_0/summary.json", "--force"],
     );
     assert_eq!(names(&path.join("r/runs")), ["cdrun_toe_0_psi_0"]);
@@ -195,13 +195,13 @@ fn folders_that_cannot_be() {
         refused(
             path,
             &["run", "vdrun_toe_0_psi_0", "--out", out],
-            1,
+            2,
             &["`file` is not a folder", "--out"],
         );
         refused(
             path,
             &["reproduce", "--out", out],
-            1,
+            2,
             &["`file` is not a folder", "--out"],
         );
     }

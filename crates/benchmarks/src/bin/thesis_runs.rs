@@ -45,9 +45,15 @@ fn main() -> ExitCode {
         let wall = clock.elapsed().as_secs_f64();
         total += wall;
         let mean = |branch: &std::collections::BTreeMap<String, study::summary::Measure>| {
-            branch.get("vertical_wedge_force").map_or(f64::NAN, |measure| measure.value)
+            branch
+                .get("vertical_wedge_force")
+                .map_or(f64::NAN, |measure| measure.value)
         };
-        let energy = summary.averages.energy_per_cycle.get("side_frame").map_or(f64::NAN, |e| e.value);
+        let energy = summary
+            .averages
+            .energy_per_cycle
+            .get("side_frame")
+            .map_or(f64::NAN, |e| e.value);
         let statistics = &summary.solver.statistics;
         println!(
             "{name:26} {:9.1} {:9.1} {energy:10.1} {:10.1e} {:8} {:8} {:8.1}",

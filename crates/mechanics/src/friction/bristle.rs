@@ -31,7 +31,11 @@ pub fn friction<S: Real>(
     let flow = 1.0 / damping;
     if limit.value() <= 0.0 {
         let rate = [elastic[0] * -flow, elastic[1] * -flow];
-        return Friction { rate, loss: dot(rate, rate) * damping, ..Friction::none() };
+        return Friction {
+            rate,
+            loss: dot(rate, rate) * damping,
+            ..Friction::none()
+        };
     }
     let trial = [
         elastic[0] + velocity[0] * damping,

@@ -85,7 +85,9 @@ impl System {
         let [_, d_speeds, d_internal, d_quadratures] = layout.split_mut(df_dt);
         for (body, load) in self.load_rate.iter_mut().enumerate() {
             *load = (Vector::zero(), Vector::zero());
-            let Some(number) = self.free_number[body] else { continue };
+            let Some(number) = self.free_number[body] else {
+                continue;
+            };
             if self.frames[body].fixed {
                 continue;
             }
@@ -144,7 +146,10 @@ fn time_derivative<E: Element>(
     let sight = match &mounted.translation {
         Some(translation) => translation.sight_in_time(&mounted.sight, &frames[mounted.on].motion),
         None => {
-            let (a, b) = (moving(&frames[mounted.body].motion), moving(&frames[mounted.on].motion));
+            let (a, b) = (
+                moving(&frames[mounted.body].motion),
+                moving(&frames[mounted.on].motion),
+            );
             Sight::new(&a, &b, &on, &mounted.mount)
         }
     };
@@ -180,7 +185,10 @@ fn rate_of(v: &Vector<Dual<1>>) -> Vector<f64> {
 /// A frame's pose and velocity with their derivatives by time; accelerations have none here.
 fn moving(motion: &FrameMotion<f64>) -> FrameMotion<Dual<1>> {
     let with = |value: Vector<f64>, rate: Vector<f64>| {
-        Vector(std::array::from_fn(|k| Dual { value: value.0[k], derivative: [rate.0[k]] }))
+        Vector(std::array::from_fn(|k| Dual {
+            value: value.0[k],
+            derivative: [rate.0[k]],
+        }))
     };
     let spin = |j: usize| -> Vector<f64> { motion.angular_velocity.cross(motion.rotation.column(j)) };
     let columns = [0, 1, 2].map(|j| with(motion.rotation.column(j), spin(j)).0);

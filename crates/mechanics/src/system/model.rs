@@ -250,9 +250,10 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         }
         s.fill(scales::DEFLECTION);
         for (scale, channel) in w.iter_mut().zip(&parts.channels) {
-            if channel.kind == ChannelKind::ContactDampingLoss {
-                *scale = scales::CONTACT_DAMPING_LOSS;
-            }
+            *scale = match channel.kind {
+                ChannelKind::ContactDampingLoss => scales::CONTACT_DAMPING_LOSS,
+                _ => scales::ENERGY,
+            };
         }
     }
     let moves = frames.iter().any(|frame| !frame.fixed);

@@ -111,7 +111,9 @@ impl System {
                 let load = if law == 0 || contact.gap < 0.0 {
                     let elastic = -contact.gap * point.stiffness;
                     let normal = (elastic - contact.gap_rate * point.damping).max(0.0);
-                    let deflection = deflections.get(2 * i..2 * i + 2).map_or([0.0; 2], |e| [e[0], e[1]]);
+                    let deflection = deflections
+                        .get(2 * i..2 * i + 2)
+                        .map_or([0.0; 2], |e| [e[0], e[1]]);
                     face.element.load(point.share, normal, contact.slip, deflection)
                 } else {
                     0.0

@@ -37,7 +37,9 @@ pub(super) fn summary(run: &mut Run, stopped: Option<Stopped>) -> Summary {
             extremes.insert(column.full_name(units), found);
         }
     }
+    let ledger = ledger(run);
     Summary {
+        warnings: warnings(run, &ledger),
         schema: SCHEMA.to_owned(),
         program: format!("wedgelab {}", env!("CARGO_PKG_VERSION")),
         name: run.case.name.clone(),
@@ -50,10 +52,38 @@ pub(super) fn summary(run: &mut Run, stopped: Option<Stopped>) -> Summary {
         extremes,
         events: events(run),
         friction: friction(run),
-        ledger: ledger(run),
+        ledger,
         solver: solver(run),
         assumptions: assumptions::of(&run.wedge),
     }
+}
+
+/// A ledger that does not close to this share of the energies makes a run doubtful.
+const DOUBTFUL_RESIDUAL: f64 = 1e-3;
+
+fn warnings(run: &Run, ledger: &LedgerSummary) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let size = |name: &str| ledger.entries.get(name).map_or(0.0, |entry| entry.value.abs());
+    let most = ledger
+        .entries
+        .keys()
+        .map(|name| if name == "residual" { 0.0 } else { size(name) });
+    let most = most.fold(ledger.stored_at_start.value.abs(), f64::max);
+    // Written so that a residual that is not a number counts.
+    if !(size("residual") <= DOUBTFUL_RESIDUAL * most) {
+        warnings.push(format!(
+            "the energy ledger does not close: its residual is {:.1e} of the energies; lower simulation.relative_tolerance, \
+             and look for values out of all proportion",
+            size("residual") / most
+        ));
+    }
+    if run.integrator.statistics().events_unresolved > 0 {
+        warnings.push(format!(
+            "{} steps held more contact events than could be resolved: contact states are doubtful there",
+            run.integrator.statistics().events_unresolved
+        ));
+    }
+    warnings
 }
 
 fn averages(run: &Run) -> Averages {
@@ -218,6 +248,8 @@ fn solver(run: &Run) -> Solver {
             ("velocity", scale(scales::VELOCITY, "m/s")),
             ("angular_velocity", scale(scales::ANGULAR_VELOCITY, "rad/s")),
             ("bristle_deflection", scale(scales::DEFLECTION, "m")),
+            ("energy", scale(scales::ENERGY, "J")),
+            ("contact_damping_loss", scale(scales::CONTACT_DAMPING_LOSS, "J")),
         ]
         .into_iter()
         .map(|(name, scale)| (name.to_owned(), scale))

@@ -137,7 +137,8 @@ fn check(
     let mut folders = check_all(
         std::iter::once((out.to_owned(), names.as_slice())).chain(runs),
         force,
-    )?;
+    )
+    .map_err(|error| Failure::Input(error.into()))?;
     let sheets = folders.remove(0);
     Ok((sheets, folders))
 }

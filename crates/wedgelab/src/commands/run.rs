@@ -46,7 +46,8 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let case = read(&arguments.case, &arguments.set)?;
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
-    let folder = Folder::check(path, &run_files::NAMES, arguments.force)?;
+    let folder = Folder::check(path, &run_files::NAMES, arguments.force)
+        .map_err(|error| Failure::Input(error.into()))?;
     let progress = Progress::new(1, arguments.quiet);
     let done = execute_case(&case, &folder, &progress);
     progress.finish();
