@@ -1,20 +1,16 @@
-//! The right-hand side and the Jacobian of the wedge, in ns.
+//! The right-hand side, the Jacobian and one factorization with a solution, of the wedge, in ns.
 #![allow(missing_docs, clippy::unwrap_used)]
 
+use std::hint::black_box;
+
+use benchmarks::sliding_wedge;
 use criterion::{Criterion, criterion_group, criterion_main};
 use integrate::Problem;
-use std::hint::black_box;
 use wedge::parameters::Damping;
-use wedge::{Wedge, thesis};
 
 fn wedge(c: &mut Criterion) {
     for damping in [Damping::Variable, Damping::Constant] {
-        // A state in the middle of a branch, pressed into both faces, sliding.
-        let mut wedge = Wedge::new(thesis::parameters(damping, 0.003, 0.012)).unwrap();
-        let mut x = wedge.initial_state.clone();
-        x[1] = 2e-5;
-        x[3] = 0.006;
-        x[5] = -0.04;
+        let (mut wedge, x) = sliding_wedge(damping).unwrap();
         let system = &mut wedge.system;
         system.segment(0.0);
         let (mut dx, mut df_dt) = (vec![0.0; x.len()], vec![0.0; x.len()]);

@@ -34,13 +34,14 @@ fn yawed_cases_converge() {
             .map(|r| (0..3).fold(0.0_f64, |m, i| m.max((r[i] / reference[i] - 1.0).abs())))
             .collect();
         println!("{name}: {errors:.1?} {errors:?}");
-        // At the default tolerance: a thousandth; two digits more below that.
-        assert!(errors[2] < 2e-3, "{name}: {errors:?}");
-        assert!(errors[4] < 2e-4, "{name}: {errors:?}");
+        // At the default tolerance and below nothing changes but the fourth digit and later ones; what is left there is
+        // the sensitivity of kinked motion, not the error of the method.
+        assert!(errors[2] < 2e-4, "{name}: {errors:?}");
         assert!(
-            errors[4] < errors[2].max(1e-5) && errors[4] < errors[0],
+            errors[3..5].iter().all(|error| *error < 5e-5),
             "{name}: {errors:?}"
         );
+        assert!(errors[3].max(errors[4]) < 0.2 * errors[0], "{name}: {errors:?}");
     }
 }
 
