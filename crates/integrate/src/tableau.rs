@@ -65,7 +65,6 @@ impl Tableau {
 #[serde(rename_all = "lowercase")]
 pub enum Method {
     /// Order 4(3), 6 stages: the cheapest step.
-    #[default]
     Rodas4,
     /// Order 4(3), 6 stages, another choice of the free parameters.
     Rodas42,
@@ -74,6 +73,7 @@ pub enum Method {
     /// Order 4(3), 6 stages; as [`Method::Rodas4P`], with smaller errors from an inexact Jacobian.
     Rodas4P2,
     /// Order 5(4), 8 stages; little order reduction; dense output of order 4.
+    #[default]
     Rodas5P,
 }
 
