@@ -12,6 +12,7 @@ mod control;
 mod dense_block;
 mod error;
 mod events;
+mod layout;
 mod options;
 mod ordinary;
 pub mod partitioned;

@@ -16,6 +16,8 @@
 //! and what is factored is one block row a body,
 //! `W = σ M - D - K/σ - F Z (G_u + G_q/σ)`, with `K = ∂(f - M u˙)/∂q`, `D = ∂f/∂u`, `F = ∂f/∂s`, `A = ∂g/∂s`.
 
+pub use crate::layout::{Layout, Structure};
+
 use crate::block_lu::BlockLu;
 use crate::problem::Singular;
 
@@ -87,64 +89,6 @@ struct InternalRow {
     quadrature: usize,
     group: usize,
     values: [f64; 2],
-}
-
-/// The structure of a second-order system: which parts are coupled.
-#[derive(Clone, Debug, Default)]
-pub struct Structure {
-    /// Number of coordinates of each body (at least 1).
-    pub bodies: Vec<usize>,
-    /// Pairs of bodies that an element couples.
-    pub couplings: Vec<(usize, usize)>,
-    /// For each pair of internal states the bodies that it is coupled to.
-    pub internal_pairs: Vec<Vec<usize>>,
-    /// Number of quadratures.
-    pub quadratures: usize,
-    /// Which quadrature depends on which body.
-    pub quadrature_bodies: Vec<(usize, usize)>,
-    /// Which quadrature depends on which pair of internal states.
-    pub quadrature_pairs: Vec<(usize, usize)>,
-}
-
-/// The parts of a state vector `(q, u, s, w)`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Layout {
-    /// Number of positions, and of speeds.
-    pub speeds: usize,
-    /// Number of internal states.
-    pub internals: usize,
-    /// Number of quadratures.
-    pub quadratures: usize,
-}
-
-impl Layout {
-    /// Length of the state vector.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        2 * self.speeds + self.internals + self.quadratures
-    }
-    /// Whether there is no state at all.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-    /// Positions, speeds, internal states and quadratures of a state vector.
-    #[inline(always)]
-    #[must_use]
-    pub fn split<'x>(&self, x: &'x [f64]) -> [&'x [f64]; 4] {
-        let (q, rest) = x.split_at(self.speeds);
-        let (u, rest) = rest.split_at(self.speeds);
-        let (s, w) = rest.split_at(self.internals);
-        [q, u, s, w]
-    }
-    /// The same, mutable.
-    #[inline(always)]
-    pub fn split_mut<'x>(&self, x: &'x mut [f64]) -> [&'x mut [f64]; 4] {
-        let (q, rest) = x.split_at_mut(self.speeds);
-        let (u, rest) = rest.split_at_mut(self.speeds);
-        let (s, w) = rest.split_at_mut(self.internals);
-        [q, u, s, w]
-    }
 }
 
 impl Partitioned {

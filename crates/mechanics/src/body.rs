@@ -121,7 +121,7 @@ impl<S: Real> Kinematics<S> {
     /// `frame` is the motion of the reference frame, `gravity` the field in fixed axes (m/s²).
     #[inline(always)]
     #[must_use]
-    pub fn inertia<T: Real>(
+    pub fn inertia<T>(
         &self,
         body: &Body,
         frame: &FrameMotion<T>,
@@ -131,7 +131,7 @@ impl<S: Real> Kinematics<S> {
     ) -> (Vector<S>, Vector<S>)
     where
         S: Add<T, Output = S>,
-        T: Mul<S, Output = S>,
+        T: Real + Mul<S, Output = S>,
     {
         let rolls = body.rolls();
         let a = accelerations;

@@ -137,10 +137,10 @@ impl<S: Real> Matrix<S> {
     /// This matrix times another.
     #[inline(always)]
     #[must_use]
-    pub fn times<R: Copy, O: Copy>(self, o: Matrix<R>) -> Matrix<O>
+    pub fn times<R: Copy, O>(self, o: Matrix<R>) -> Matrix<O>
     where
         S: Mul<R, Output = O>,
-        O: Add<Output = O>,
+        O: Copy + Add<Output = O>,
     {
         let entry = |i: usize, j: usize| {
             let row = &self.0[i];

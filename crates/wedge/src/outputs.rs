@@ -57,6 +57,10 @@ pub struct Ledger {
     pub residual: f64,
 }
 
+/// Name, value and text of a column of stored energy.
+type StoredRow = (&'static str, fn(&Scene<'_>) -> f64, &'static str);
+/// Name, value and text of a column of work or losses.
+type SpentRow = (&'static str, fn(&Ledger) -> f64, &'static str);
 type Value = Box<dyn Fn(&Scene<'_>) -> f64 + Send + Sync>;
 
 /// The output table of wedge runs.
@@ -445,7 +449,7 @@ impl Outputs {
 
     fn energy_columns(&mut self) {
         let none = ("", "");
-        let stored: [(&str, fn(&Scene<'_>) -> f64, &str); 6] = [
+        let stored: [StoredRow; 6] = [
             ("kinetic_energy", |s| s.seen.energies.kinetic, "kinetic energy"),
             (
                 "coil_energy",
@@ -473,7 +477,7 @@ impl Outputs {
                 "all stored energy, less that at the start",
             ),
         ];
-        let spent: [(&str, fn(&Ledger) -> f64, &str); 7] = [
+        let spent: [SpentRow; 7] = [
             (
                 "motion_work",
                 |l| l.motion_work,

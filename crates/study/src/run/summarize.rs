@@ -69,8 +69,9 @@ fn warnings(run: &Run, ledger: &LedgerSummary) -> Vec<String> {
         .keys()
         .map(|name| if name == "residual" { 0.0 } else { size(name) });
     let most = most.fold(ledger.stored_at_start.value.abs(), f64::max);
-    // Written so that a residual that is not a number counts.
-    if !(size("residual") <= DOUBTFUL_RESIDUAL * most) {
+    let closes = size("residual") <= DOUBTFUL_RESIDUAL * most;
+    // A residual that is not a number does not close either.
+    if !closes {
         warnings.push(format!(
             "the energy ledger does not close: its residual is {:.1e} of the energies; lower simulation.relative_tolerance, \
              and look for values out of all proportion",
