@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
-use integrate::{Integrator, Options, Ordinary, Reason, STATE_VERSION, SetupError};
+use integrate::{Integrator, Method, Options, Ordinary, Reason, STATE_VERSION, SetupError};
 
 fn decay(scales: Vec<f64>) -> Ordinary<'static> {
     let n = scales.len();
@@ -282,6 +282,7 @@ fn a_singular_matrix_shortens_the_step_or_is_reported() {
     // J = 4/h for a first step of h and γ = 1/4: the matrix is zero
     let problem = || Ordinary::new(vec![1.0], |_, x, dx| dx[0] = 40.0 * x[0], |_, _, j| j[0] = 40.0);
     let options = Options {
+        method: Method::Rodas4,
         initial_step: Some(0.1),
         ..Options::default()
     };
@@ -289,6 +290,7 @@ fn a_singular_matrix_shortens_the_step_or_is_reported() {
     integrator.step_to(f64::INFINITY).unwrap();
     assert_eq!(integrator.statistics().rejected_singular, 1);
     let options = Options {
+        method: Method::Rodas4,
         fixed_step: Some(0.1),
         ..Options::default()
     };
