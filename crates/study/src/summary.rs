@@ -140,7 +140,7 @@ pub struct LedgerSummary {
     pub entries: BTreeMap<String, Measure>,
     /// Energy stored at the start.
     pub stored_at_start: Measure,
-    /// Residual at the end, relative to the work done by the motions.
+    /// Residual at the end, relative to the work done by the motions (where they do none: to the largest energy there is).
     pub relative_residual: f64,
     /// Largest residual at any output time, relative to the work done by the motions at the end.
     pub largest_relative_residual: f64,

@@ -226,7 +226,19 @@ fn ledger(run: &mut Run) -> LedgerSummary {
         ("coil_damping_loss", ledger.coil_damping_loss),
         ("residual", ledger.residual),
     ];
-    let work = ledger.motion_work.abs().max(f64::MIN_POSITIVE);
+    // Where the motions do no work (a wedge that hangs free), the largest energy there is stands in for it.
+    let others = entries
+        .iter()
+        .filter(|(name, _)| *name != "residual")
+        .map(|(_, value)| value.abs());
+    let largest = others
+        .fold(run.counts.start_energy.abs(), f64::max)
+        .max(f64::MIN_POSITIVE);
+    let work = if ledger.motion_work == 0.0 {
+        largest
+    } else {
+        ledger.motion_work.abs()
+    };
     LedgerSummary {
         entries: entries
             .into_iter()
