@@ -68,7 +68,6 @@ pub struct Outputs {
     columns: Vec<Column>,
     values: Vec<Value>,
     damping: Damping,
-    faces: [Vec<String>; 2],
 }
 
 impl Outputs {
@@ -79,7 +78,6 @@ impl Outputs {
             columns: Vec::new(),
             values: Vec::new(),
             damping: parameters.damping,
-            faces: [COLUMN, SLOPE].map(|_| CORNERS.map(str::to_owned).to_vec()),
         };
         table.fixed_columns();
         table.motion_columns();
@@ -371,8 +369,8 @@ impl Outputs {
 
     fn corner_columns(&mut self) {
         for (face, face_name) in FACES.into_iter().enumerate() {
-            for point in 0..self.faces[face].len() {
-                let corner = format!("{face_name}_{}", self.faces[face][point]);
+            for (point, corner_name) in CORNERS.into_iter().enumerate() {
+                let corner = format!("{face_name}_{corner_name}");
                 let place = ("fixed", "the corner");
                 self.add(
                     format!("{corner}_gap"),

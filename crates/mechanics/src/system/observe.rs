@@ -6,7 +6,6 @@ use super::System;
 use crate::coil::CoilForce;
 use crate::contact::PointContact;
 use crate::link::Relative;
-use crate::system::forces::Action;
 use crate::vector::{Matrix, Vector};
 
 /// Where a body is and how it moves, in the fixed frame (SI).
@@ -238,15 +237,7 @@ impl System {
         point: Vector<f64>,
     ) -> (Vector<f64>, Vector<f64>) {
         let lever: Vector<f64> = from - point;
-        let action = Action {
-            force,
-            moment,
-            powers: [0.0; 2],
-        };
-        (
-            -action.force,
-            -(action.moment + lever.cross::<f64, f64>(action.force)),
-        )
+        (-force, -(moment + lever.cross::<f64, f64>(force)))
     }
 }
 
