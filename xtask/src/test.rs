@@ -2,6 +2,7 @@
 
 mod deny;
 mod floors;
+mod page;
 mod prose;
 
 use std::process::ExitCode;
@@ -58,6 +59,11 @@ const CHECKS: &[Check] = &[
     ),
     Check::new("doctest", "the examples in the documentation run", doc_tests),
     Check::new("doc", "the documentation builds without a warning", docs),
+    Check::new(
+        "page",
+        "the report's page passes an HTML validator (needs Node.js)",
+        page::check,
+    ),
     Check::new(
         "deny",
         "licences, duplicates and sources of dependencies",

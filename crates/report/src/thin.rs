@@ -51,9 +51,70 @@ pub fn thin(points: &[(f64, f64)], columns: u32) -> Vec<(f64, f64)> {
     kept
 }
 
+/// The part of a curve whose abscissae lie in a window; where it crosses the window's edges it is cut by a straight
+/// line, and where it leaves the window it is interrupted.
+#[must_use]
+pub fn window(points: &[(f64, f64)], (left, right): (f64, f64)) -> Vec<(f64, f64)> {
+    const GAP: (f64, f64) = (f64::NAN, f64::NAN);
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    let inside = |x: f64| x >= left && x <= right;
+    for (index, point) in points.iter().enumerate() {
+        let Some(before) = index.checked_sub(1).map(|index| points[index]) else {
+            if inside(point.0) {
+                kept.push(*point);
+            }
+            continue;
+        };
+        if !(before.0.is_finite() && point.0.is_finite()) {
+            kept.push(if inside(point.0) { *point } else { GAP });
+            continue;
+        }
+        let at = |x: f64| {
+            let share = (x - before.0) / (point.0 - before.0);
+            (x, before.1 + share * (point.1 - before.1))
+        };
+        let (low, high) = (left.max(before.0.min(point.0)), right.min(before.0.max(point.0)));
+        if low <= high {
+            let rising = before.0 <= point.0;
+            let (enter, leave) = if rising { (low, high) } else { (high, low) };
+            if !inside(before.0) && enter != point.0 {
+                kept.push(at(enter));
+            }
+            if inside(point.0) {
+                kept.push(*point);
+            } else if leave != before.0 {
+                kept.push(at(leave));
+            }
+        }
+        if !inside(point.0) && inside(before.0) {
+            kept.push(GAP);
+        }
+    }
+    while kept.last().is_some_and(|point| point.0.is_nan()) {
+        kept.pop();
+    }
+    kept
+}
+
 #[cfg(test)]
 mod tests {
-    use super::thin;
+    use super::{thin, window};
+
+    #[test]
+    fn a_window_cuts_at_its_edges() {
+        let line: Vec<(f64, f64)> = (0..=10).map(|i| (f64::from(i), 2.0 * f64::from(i))).collect();
+        assert_eq!(
+            window(&line, (2.5, 5.0)),
+            [(2.5, 5.0), (3.0, 6.0), (4.0, 8.0), (5.0, 10.0)]
+        );
+        assert_eq!(window(&line, (2.25, 2.75)), [(2.25, 4.5), (2.75, 5.5)]);
+        assert!(window(&line, (20.0, 30.0)).is_empty());
+        let there_and_back = [(0.0, 0.0), (4.0, 4.0), (0.0, 8.0)];
+        let cut = window(&there_and_back, (0.0, 2.0));
+        assert_eq!((cut[0], cut[1]), ((0.0, 0.0), (2.0, 2.0)));
+        assert!(cut[2].0.is_nan());
+        assert_eq!((cut[3], cut[4]), ((2.0, 6.0), (0.0, 8.0)));
+    }
 
     #[test]
     fn peaks_and_ends_stay() {

@@ -7,12 +7,11 @@ use std::time::Duration;
 
 use clap::Args;
 use rayon::prelude::*;
+use report::figures::{Exhibit, Outcome};
 use report::files::{Folder, check_all};
-use report::hysteresis::{self, Loop};
-use report::run_files;
+use report::page::{self, Contents};
+use report::{run_files, sections};
 use study::case::{Case, builtin};
-use study::summary::Summary;
-use wedge::parameters::Damping;
 
 use crate::execute::{TABLE_NOTE, execute as execute_case, incomplete, table};
 use crate::failure::{FAILED, Failure, Message};
@@ -22,8 +21,8 @@ use crate::select::select;
 /// Run all built-in cases: the thesis's twelve runs
 ///
 /// Computes the twelve runs of Steets (2007), table 4-1: variable and constant damping, toe out, none and in, with and
-/// without yaw of the bolster. Writes for each run runs/NAME/result.csv, case.toml and summary.json, and for each
-/// damping a hysteresis figure; prints a table of the runs.
+/// without yaw of the bolster. Writes the report index.html, each of its figures as SVG and PNG, and for each run
+/// runs/NAME/result.csv, case.toml and summary.json; prints a table of the runs.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -48,11 +47,10 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// What is kept of a run whose files are written.
+/// A run whose files are written.
 struct Kept {
-    summary: Summary,
+    outcome: Outcome,
     wall: Duration,
-    hysteresis: Option<Loop>,
 }
 
 /// Does it.
@@ -61,12 +59,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .into_iter()
         .map(builtin::case)
         .collect::<Result<Vec<Case>, _>>()?;
-    let figures: Vec<(Damping, String)> = [Damping::Variable, Damping::Constant]
-        .into_iter()
-        .filter(|damping| cases.iter().any(|case| case.parameters.damping == *damping))
-        .map(|damping| (damping, hysteresis::file_name(damping)))
-        .collect();
-    let (sheets, folders) = check(&arguments.out, &cases, &figures, arguments.force)?;
+    let places = check(&arguments.out, &cases, arguments.force)?;
 
     let progress = Progress::new(cases.len(), arguments.quiet);
     let pool = rayon::ThreadPoolBuilder::new()
@@ -74,39 +67,32 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .build()
         .map_err(|error| Failure::Failed(Message::new(error.to_string(), "try --jobs 1").into()))?;
     let kept: Vec<Result<Kept, Failure>> = pool.install(|| {
-        let work = cases.par_iter().zip(&folders).with_max_len(1);
+        let work = cases.into_par_iter().zip(&places.runs).with_max_len(1);
         work.map(|(case, folder)| keep(case, folder, &progress)).collect()
     });
     progress.finish();
     let kept = kept.into_iter().collect::<Result<Vec<Kept>, Failure>>()?;
+    let walls: Vec<Duration> = kept.iter().map(|kept| kept.wall).collect();
+    let outcomes: Vec<Outcome> = kept.into_iter().map(|kept| kept.outcome).collect();
 
-    let loops: Vec<Loop> = kept.iter().filter_map(|kept| kept.hysteresis.clone()).collect();
-    sheets.write(|files| {
-        for (damping, name) in &figures {
-            if let Some(figure) = hysteresis::figure(*damping, &loops) {
-                files.add(name, |out| out.write_all(figure.to_svg().as_bytes()))?;
-            }
-        }
-        Ok(())
-    })?;
+    let figures = pool.install(|| tell(&outcomes, &places))?;
 
     let mut out = io::stdout().lock();
-    table(kept.iter().map(|kept| (&kept.summary, kept.wall))).write(&mut out)?;
+    let summaries = outcomes.iter().map(|(_, result)| &result.summary);
+    table(summaries.zip(walls.iter().copied())).write(&mut out)?;
     writeln!(
         out,
-        "\n{TABLE_NOTE}\n\nWritten into {}: runs/NAME/{{{}}}, {}.",
-        sheets.path().display(),
+        "\n{TABLE_NOTE}\n\nWritten into {}: {} (the report; open it in a browser), {}/ ({figures} figures as SVG and PNG), \
+         runs/NAME/{{{}}}.",
+        places.sheets.path().display(),
+        page::FILE_NAME,
+        page::FIGURES,
         run_files::NAMES.join(", "),
-        figures
-            .iter()
-            .map(|(_, name)| name.as_str())
-            .collect::<Vec<_>>()
-            .join(", "),
     )?;
     out.flush()?;
     let mut code = ExitCode::SUCCESS;
-    for (kept, folder) in kept.iter().zip(&folders) {
-        if let Some(report) = incomplete(&kept.summary, folder) {
+    for ((_, result), folder) in outcomes.iter().zip(&places.runs) {
+        if let Some(report) = incomplete(&result.summary, folder) {
             code = ExitCode::from(FAILED);
             Failure::Failed(report).report();
         }
@@ -114,31 +100,86 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Ok(code)
 }
 
-fn keep(case: &Case, folder: &Folder, progress: &Progress) -> Result<Kept, Failure> {
-    let done = execute_case(case, folder, progress)?;
+fn keep(case: Case, folder: &Folder, progress: &Progress) -> Result<Kept, Failure> {
+    let done = execute_case(&case, folder, progress)?;
     Ok(Kept {
-        hysteresis: Loop::of(case, &done.result),
-        summary: done.result.summary,
         wall: done.wall,
+        outcome: (case, done.result),
     })
 }
 
-/// The folder of the figures and those of the runs, found fit before anything is computed.
-fn check(
-    out: &Path,
-    cases: &[Case],
-    figures: &[(Damping, String)],
-    force: bool,
-) -> Result<(Folder, Vec<Folder>), Failure> {
-    let names: Vec<&str> = figures.iter().map(|(_, name)| name.as_str()).collect();
+/// Draws all figures and writes them and the page; gives the number of figures.
+fn tell(outcomes: &[Outcome], places: &Places) -> Result<usize, Failure> {
+    let plans = sections::thesis(outcomes);
+    let exhibits: Vec<&Exhibit> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
+    let drawings: Vec<(String, Vec<u8>)> = exhibits
+        .par_iter()
+        .map(|exhibit| {
+            let png = exhibit.figure.to_png().map_err(|reason| {
+                let message = format!("cannot draw {}: {reason}", exhibit.name);
+                Failure::Failed(Message::new(message, "").into())
+            })?;
+            Ok((exhibit.figure.to_svg(), png))
+        })
+        .collect::<Result<_, Failure>>()?;
+    places.figures.write(|files| {
+        for (exhibit, (svg, png)) in exhibits.iter().zip(&drawings) {
+            files.add(&format!("{}.svg", exhibit.name), |out| {
+                out.write_all(svg.as_bytes())
+            })?;
+            files.add(&format!("{}.png", exhibit.name), |out| out.write_all(png))?;
+        }
+        Ok(())
+    })?;
+    let count = exhibits.len();
+    let mut svgs = drawings.into_iter().map(|(svg, _)| svg);
+    let sections: Vec<page::Section> = plans
+        .iter()
+        .map(|plan| sections::drawn(plan, svgs.by_ref().take(plan.exhibits.len())))
+        .collect();
+    let page = page::render(&Contents {
+        outcomes,
+        sections: &sections,
+    });
+    places
+        .sheets
+        .write(|files| files.add(page::FILE_NAME, |out| out.write_all(page.as_bytes())))?;
+    Ok(count)
+}
+
+/// The folders that are written into.
+struct Places {
+    sheets: Folder,
+    figures: Folder,
+    runs: Vec<Folder>,
+}
+
+/// The folders, found fit before anything is computed.
+fn check(out: &Path, cases: &[Case], force: bool) -> Result<Places, Failure> {
+    let figures = out.join(page::FIGURES);
+    // Which figures there will be is not known yet: all that lie there are in the way.
+    let present: Vec<String> = std::fs::read_dir(&figures).map_or(Vec::new(), |entries| {
+        let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        names
+            .filter(|name| name.ends_with(".svg") || name.ends_with(".png"))
+            .collect()
+    });
+    let present: Vec<&str> = present.iter().map(String::as_str).collect();
+    let sheets: [&str; 1] = [page::FILE_NAME];
+    let folders = [(out.to_owned(), sheets.as_slice()), (figures, present.as_slice())];
     let runs = cases
         .iter()
         .map(|case| (out.join("runs").join(&case.name), run_files::NAMES.as_slice()));
-    let mut folders = check_all(
-        std::iter::once((out.to_owned(), names.as_slice())).chain(runs),
-        force,
-    )
-    .map_err(|error| Failure::Input(error.into()))?;
-    let sheets = folders.remove(0);
-    Ok((sheets, folders))
+    let mut folders =
+        check_all(folders.into_iter().chain(runs), force).map_err(|error| Failure::Input(error.into()))?;
+    let runs = folders.split_off(2);
+    let mut folders = folders.into_iter();
+    match (folders.next(), folders.next()) {
+        (Some(sheets), Some(figures)) => Ok(Places {
+            sheets,
+            figures,
+            runs,
+        }),
+        _ => unreachable!("a folder was given for each"),
+    }
 }

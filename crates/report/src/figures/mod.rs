@@ -1,0 +1,141 @@
+//! The report's figures.
+//!
+//! - [`thesis`]: those of the thesis's stand-alone runs, three toe cases in each.
+//! - [`model`]: the bolster's motion, the friction law, the coil.
+//! - [`run`]: what the thesis lacks, run by run.
+
+pub mod model;
+pub mod run;
+pub mod thesis;
+
+use mechanics::motion::Motion;
+use quantity::{Kind, System as Units};
+use study::case::Case;
+use study::result::RunResult;
+use wedge::parameters::Damping;
+
+use crate::csv::converted;
+use crate::drawing::{Colour, Curve, Figure, Line};
+
+/// A case and what came out of it.
+pub type Outcome = (Case, RunResult);
+
+/// A figure of the report.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exhibit {
+    /// Its name, as in file names and links.
+    pub name: String,
+    /// What it is called in the thesis, such as `figure 5-3`; empty if the thesis does not have it.
+    pub thesis: String,
+    /// The figure.
+    pub figure: Figure,
+}
+
+/// A damping's name, as in file names.
+#[must_use]
+pub fn damping_name(damping: Damping) -> &'static str {
+    match damping {
+        Damping::Variable => "variable",
+        Damping::Constant => "constant",
+    }
+}
+
+/// The bolster's constant yaw, rad; 0 if it moves.
+#[must_use]
+pub fn yaw(case: &Case) -> f64 {
+    match &case.parameters.bolster.coordinates[5] {
+        Motion::Constant(yaw) => *yaw,
+        _ => 0.0,
+    }
+}
+
+/// How curves of this toe angle (rad, positive out) look, so that they look the same in all figures.
+#[must_use]
+pub fn toe_style(toe: f64) -> (String, Colour, Line) {
+    let degrees = (toe.to_degrees().abs() * 1e6).round() / 1e6;
+    if toe > 0.0 {
+        (format!("toe out {degrees}°"), Colour::Blue, Line::Solid)
+    } else if toe < 0.0 {
+        (format!("toe in {degrees}°"), Colour::Vermillion, Line::DashDot)
+    } else {
+        ("no toe".to_owned(), Colour::Black, Line::Dashed)
+    }
+}
+
+/// The points of one column over another, in the result's units.
+#[must_use]
+pub fn points(result: &RunResult, x: &str, y: &str) -> Vec<(f64, f64)> {
+    let (Some((x, x_kind)), Some((y, y_kind))) = (column(result, x), column(result, y)) else {
+        return Vec::new();
+    };
+    let units = result.summary.units;
+    x.iter()
+        .zip(y)
+        .map(|(x, y)| (converted(*x, x_kind, units), converted(*y, y_kind, units)))
+        .collect()
+}
+
+/// A column's values (SI) and kind.
+fn column<'r>(result: &'r RunResult, name: &str) -> Option<(&'r [f64], Kind)> {
+    let index = result.columns.iter().position(|column| column.name == name)?;
+    Some((&result.values[index], result.columns[index].kind))
+}
+
+/// A curve of one column over another; none if a column is missing.
+#[must_use]
+pub fn curve(result: &RunResult, x: &str, y: &str, (label, colour, line): (&str, Colour, Line)) -> Curve {
+    Curve {
+        label: label.to_owned(),
+        colour,
+        line,
+        points: points(result, x, y),
+    }
+}
+
+/// A name with its unit, as axes have it.
+#[must_use]
+pub fn axis(name: &str, kind: Kind, units: Units) -> String {
+    match kind.label(units) {
+        "" => name.to_owned(),
+        unit => format!("{name} ({unit})"),
+    }
+}
+
+/// A word with its first letter made large.
+pub(crate) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    match letters.next() {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => String::new(),
+    }
+}
+
+/// A number for a caption: three or four significant digits, a true minus sign.
+fn digits(value: f64) -> String {
+    let size = value.abs();
+    let decimals = match size {
+        _ if size >= 100.0 || size == 0.0 => 0,
+        _ if size >= 10.0 => 1,
+        _ if size >= 0.1 => 2,
+        _ if size >= 1e-4 => 5,
+        _ => return format!("{value:.2e}").replace('-', "\u{2212}"),
+    };
+    let text = format!("{value:.decimals$}");
+    let text = if decimals > 2 {
+        text.trim_end_matches('0')
+    } else {
+        &text
+    };
+    text.replace('-', "\u{2212}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn captions_have_short_numbers() {
+        let texts = [12345.6, -17.25, 0.123, 0.001, 0.0].map(digits);
+        assert_eq!(texts, ["12346", "\u{2212}17.2", "0.12", "0.001", "0"]);
+    }
+}

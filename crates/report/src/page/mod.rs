@@ -1,0 +1,178 @@
+//! `index.html`: the report as one page that needs nothing else to be shown.
+
+mod runs;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::drawing::Figure;
+use crate::figures::{Exhibit, Outcome};
+
+/// The page's file name.
+pub const FILE_NAME: &str = "index.html";
+/// The folder of the figures' files, beside the page.
+pub const FIGURES: &str = "figures";
+
+const STYLE: &str = include_str!("style.css");
+
+/// A figure with its drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// The figure.
+    pub exhibit: Exhibit,
+    /// Its drawing.
+    pub svg: String,
+}
+
+/// Figures that belong together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Its name in links.
+    pub id: String,
+    /// Its heading.
+    pub title: String,
+    /// What to look at; may be empty.
+    pub intro: String,
+    /// Its figures.
+    pub figures: Vec<Drawn>,
+    /// Whether it begins folded.
+    pub folded: bool,
+}
+
+/// What the page tells.
+#[derive(Clone, Copy, Debug)]
+pub struct Contents<'c> {
+    /// The runs.
+    pub outcomes: &'c [Outcome],
+    /// The figures.
+    pub sections: &'c [Section],
+}
+
+/// The page as HTML.
+#[must_use]
+pub fn render(contents: &Contents<'_>) -> String {
+    let program = contents
+        .outcomes
+        .first()
+        .map_or(String::new(), |(_, result)| result.summary.program.clone());
+    let (open, folded): (Vec<&Section>, Vec<&Section>) =
+        contents.sections.iter().partition(|section| !section.folded);
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { "Friction wedge: the runs of Steets (2007)" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header {
+                    h1 { "Friction wedge: the runs of Steets (2007)" }
+                    p.lead {
+                        "One friction wedge of a three-piece truck between the column of the side frame and the slope of the \
+                         bolster: a rigid body with unilateral contact, stick-slip friction and its control coil. Computed by "
+                        (program) "."
+                    }
+                }
+                nav aria-label="Contents" {
+                    ul {
+                        li { a href="#runs" { "Runs" } }
+                        @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
+                        @if !folded.is_empty() { li { a href="#run-by-run" { "Run by run" } } }
+                        li { a href="#assumptions" { "Assumptions" } }
+                        li { a href="#files" { "Files" } }
+                    }
+                }
+                main {
+                    (runs::table(contents.outcomes))
+                    @for section in &open {
+                        section {
+                            h2 id=(anchor(&section.id)) { (section.title) }
+                            (body(section))
+                        }
+                    }
+                    @if !folded.is_empty() {
+                        section {
+                            h2 id="run-by-run" { "Run by run" }
+                            p {
+                                "What the thesis does not show: the energy ledger, the state of each contact, the forces at the \
+                                 corners, how much of the contact sticks, and the power that wears the faces."
+                            }
+                            @for section in &folded {
+                                details id=(anchor(&section.id)) {
+                                    summary { (section.title) }
+                                    (body(section))
+                                }
+                            }
+                        }
+                    }
+                    (runs::assumptions(contents.outcomes))
+                    (runs::files(contents.outcomes))
+                }
+            }
+        }
+    };
+    page.into_string()
+}
+
+fn body(section: &Section) -> Markup {
+    html! {
+        @if !section.intro.is_empty() { p { (section.intro) } }
+        @for figure in &section.figures { (shown(figure)) }
+    }
+}
+
+fn shown(drawn: &Drawn) -> Markup {
+    let exhibit = &drawn.exhibit;
+    let name = exhibit.name.as_str();
+    html! {
+        figure id=(anchor(name)) {
+            (PreEscaped(inline(&Figure::named(&drawn.svg, &anchor(name)), &exhibit.figure.title)))
+            figcaption {
+                @if !exhibit.thesis.is_empty() { strong { "Thesis, " (exhibit.thesis) ". " } }
+                (exhibit.figure.caption) " "
+                a href={ (FIGURES) "/" (name) ".svg" } { "SVG" } ", "
+                a href={ (FIGURES) "/" (name) ".png" } { "PNG" }
+            }
+        }
+    }
+}
+
+/// A name as the target of links, where points are not allowed.
+fn anchor(name: &str) -> String {
+    name.replace('.', "_")
+}
+
+/// A drawing as part of the page: a picture with a name, scaled to the page's width. Its description stands in the
+/// caption, so that it is not told twice.
+fn inline(svg: &str, title: &str) -> String {
+    let attribute = |name: &str| {
+        let start = svg.find(&format!(" {name}=\""))? + name.len() + 3;
+        let end = start + svg[start..].find('"')?;
+        svg.get(start..end)
+    };
+    let (width, height) = (
+        attribute("width").unwrap_or("960"),
+        attribute("height").unwrap_or("400"),
+    );
+    let label = html! { (title) }.into_string();
+    let own = format!(
+        "<svg role=\"img\" aria-label=\"{}\" viewBox=\"0 0 {width} {height}\"",
+        label.replace('"', "&quot;")
+    );
+    let svg = svg.replacen("<svg xmlns=\"http://www.w3.org/2000/svg\"", &own, 1);
+    let svg = without(&svg, "<title>", "</title>\n");
+    let svg = without(&svg, "<desc>", "</desc>\n");
+    without(&svg, "<!--", "-->\n")
+}
+
+/// The text without the first piece from `start` to `end`.
+fn without(text: &str, start: &str, end: &str) -> String {
+    let Some(from) = text.find(start) else {
+        return text.to_owned();
+    };
+    match text[from..].find(end) {
+        Some(length) => format!("{}{}", &text[..from], &text[from + length + end.len()..]),
+        None => text.to_owned(),
+    }
+}

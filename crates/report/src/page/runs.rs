@@ -1,0 +1,152 @@
+//! The table of runs, their assumptions, and their files.
+
+use maud::{Markup, html};
+use study::summary::{Measure, Summary};
+
+use super::FIGURES;
+use crate::figures::{Outcome, toe_style, yaw};
+use crate::run_files;
+
+/// The table of runs.
+pub(super) fn table(outcomes: &[Outcome]) -> Markup {
+    let unit = |of: fn(&Summary) -> Option<&Measure>| {
+        let found = outcomes.iter().find_map(|(_, result)| of(&result.summary));
+        found.map_or(String::new(), |measure| measure.unit.clone())
+    };
+    let cell = |measure: Option<&Measure>| {
+        measure.map_or("–".to_owned(), |measure| format!("{:.1}", measure.value))
+    };
+    html! {
+        section {
+            h2 id="runs" { "Runs" }
+            p {
+                "Each run gives the bolster a vertical motion and computes the wedge. Mean force: vertical wedge force \
+                 (friction of the column on the side frame, positive up), averaged over the branch in which the bolster goes \
+                 up or down. Energy per cycle: lost in friction at the side frame. Equivalent damping: that energy over \
+                 π ω A². Ledger: the largest difference between the work done and what became of it, over the work."
+            }
+            div.wide {
+                table {
+                    thead {
+                        tr {
+                            th scope="col" { "run" }
+                            th scope="col" { "damping" }
+                            th scope="col" { "toe" }
+                            th.number scope="col" { "yaw" br; span.unit { "rad" } }
+                            th.number scope="col" { "mean force, up" br; span.unit { (unit(up)) } }
+                            th.number scope="col" { "mean force, down" br; span.unit { (unit(down)) } }
+                            th.number scope="col" { "energy per cycle" br; span.unit { (unit(energy)) } }
+                            th.number scope="col" { "equivalent damping" br; span.unit { (unit(equivalent)) } }
+                            th.number scope="col" { "ledger" br; span.unit { "of the work" } }
+                            th.number scope="col" { "steps" }
+                        }
+                    }
+                    tbody {
+                        @for (case, result) in outcomes {
+                            @let summary = &result.summary;
+                            tr {
+                                th scope="row" { a href={ "#run-" (super::anchor(&case.name)) } { (case.name) } }
+                                td { (crate::figures::damping_name(case.parameters.damping)) }
+                                td.plain { (toe_style(case.parameters.toe).0) }
+                                td.number { (yaw(case)) }
+                                td.number { (cell(up(summary))) }
+                                td.number { (cell(down(summary))) }
+                                td.number { (cell(energy(summary))) }
+                                td.number { (cell(equivalent(summary))) }
+                                td.number { (format!("{:.1e}", summary.ledger.largest_relative_residual)) }
+                                td.number { (summary.solver.statistics.steps) }
+                            }
+                        }
+                    }
+                }
+            }
+            @for (case, result) in outcomes {
+                @if let Some(stopped) = &result.summary.stopped {
+                    p.warning { (case.name) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
+                }
+                @for warning in &result.summary.warnings { p.warning { (case.name) ": " (warning) } }
+            }
+        }
+    }
+}
+
+fn up(summary: &Summary) -> Option<&Measure> {
+    summary.averages.up.get("vertical_wedge_force")
+}
+
+fn down(summary: &Summary) -> Option<&Measure> {
+    summary.averages.down.get("vertical_wedge_force")
+}
+
+fn energy(summary: &Summary) -> Option<&Measure> {
+    summary.averages.energy_per_cycle.get("side_frame")
+}
+
+fn equivalent(summary: &Summary) -> Option<&Measure> {
+    summary.averages.equivalent_damping.as_ref()
+}
+
+/// The assumptions: those of all runs, then those of some.
+pub(super) fn assumptions(outcomes: &[Outcome]) -> Markup {
+    let mut texts: Vec<(&str, Vec<&str>)> = Vec::new();
+    for (case, result) in outcomes {
+        for text in &result.summary.assumptions {
+            match texts.iter_mut().find(|(own, _)| *own == text.as_str()) {
+                Some((_, runs)) => runs.push(&case.name),
+                None => texts.push((text, vec![&case.name])),
+            }
+        }
+    }
+    let (all, some): (Vec<_>, Vec<_>) = texts
+        .into_iter()
+        .partition(|(_, runs)| runs.len() == outcomes.len());
+    html! {
+        section {
+            h2 id="assumptions" { "Assumptions" }
+            p {
+                "The thesis is silent or contradicts itself in places. What these runs assume; each is a parameter of the \
+                 case file."
+            }
+            h3 { "In all runs" }
+            ul { @for (text, _) in &all { li { (text) } } }
+            @if !some.is_empty() {
+                h3 { "In some runs" }
+                ul {
+                    @for (text, runs) in &some {
+                        li { (text) " (" @if runs.len() > 6 { (runs.len()) " runs" } @else { (runs.join(", ")) } ")" }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Where the data are.
+pub(super) fn files(outcomes: &[Outcome]) -> Markup {
+    html! {
+        section {
+            h2 id="files" { "Files" }
+            p {
+                "Beside this page: " code { (FIGURES) "/" } " holds each figure as SVG and PNG; " code { "claims.json" }
+                " the statements and verdicts; " code { "runs/" } " the data of each run."
+            }
+            div.wide {
+                table {
+                    thead { tr { th scope="col" { "run" } th scope="col" { "files" } } }
+                    tbody {
+                        @for (case, _) in outcomes {
+                            tr {
+                                th scope="row" { (case.name) }
+                                td {
+                                    @for name in run_files::NAMES {
+                                        a href={ "runs/" (case.name) "/" (name) } { (name) } " "
+                                    }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! How the report is divided: which figures belong together, and what is said before them.
+
+use wedge::parameters::Damping;
+
+use crate::figures::{self, Exhibit, Outcome, damping_name};
+use crate::page::{Drawn, Section};
+
+/// Figures that belong together, not yet drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Its name in links.
+    pub id: String,
+    /// Its heading.
+    pub title: String,
+    /// What to look at; may be empty.
+    pub intro: String,
+    /// Its figures.
+    pub exhibits: Vec<Exhibit>,
+    /// Whether it begins folded.
+    pub folded: bool,
+}
+
+/// The sections of the report on these runs of the thesis's kind.
+#[must_use]
+pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
+    let mut plans = vec![Plan {
+        id: "model".to_owned(),
+        title: "Motion, friction law, coil".to_owned(),
+        intro: "What goes into the runs.".to_owned(),
+        exhibits: figures::model::exhibits(outcomes),
+        folded: false,
+    }];
+    for chapter in figures::thesis::chapters(outcomes) {
+        let (damping, yawed) = (chapter.damping, chapter.yawed);
+        let name = damping_name(damping);
+        let with = if yawed {
+            "with yaw of the bolster"
+        } else {
+            "without yaw"
+        };
+        plans.push(Plan {
+            id: format!("{name}{}", if yawed { "-yawed" } else { "" }),
+            title: format!("{} damping, {with}", figures::capital(name)),
+            intro: intro(damping, yawed).to_owned(),
+            exhibits: chapter.exhibits,
+            folded: false,
+        });
+    }
+    plans.extend(outcomes.iter().map(|outcome| Plan {
+        id: format!("run-{}", outcome.0.name),
+        title: format!("{}: {}", outcome.0.name, outcome.0.title),
+        intro: String::new(),
+        exhibits: figures::run::exhibits(outcome),
+        folded: true,
+    }));
+    plans.retain(|plan| !plan.exhibits.is_empty());
+    plans
+}
+
+fn intro(damping: Damping, yawed: bool) -> &'static str {
+    match (damping, yawed) {
+        (Damping::Variable, false) => {
+            "The coil stands on the side frame: it presses the wedge while the bolster is low, and the bolster lifts off when \
+             it is high. Then the wedge rings on its coil."
+        }
+        (Damping::Variable, true) => {
+            "The bolster is turned by 0.012 rad, so that the wedge is carried on edges and corners; the ringing of contacts is \
+             less, and the pitch and yaw moments are larger."
+        }
+        (Damping::Constant, false) => {
+            "The coil stands in the bolster's pocket: its force hardly changes, and the bolster never lifts off."
+        }
+        (Damping::Constant, true) => {
+            "With the bolster turned by 0.012 rad the corners carry unequal loads, which gives moments about all axes."
+        }
+    }
+}
+
+/// A section's figures as drawn.
+#[must_use]
+pub fn drawn(plan: &Plan, svgs: impl IntoIterator<Item = String>) -> Section {
+    Section {
+        id: plan.id.clone(),
+        title: plan.title.clone(),
+        intro: plan.intro.clone(),
+        folded: plan.folded,
+        figures: plan
+            .exhibits
+            .iter()
+            .cloned()
+            .zip(svgs)
+            .map(|(exhibit, svg)| Drawn { exhibit, svg })
+            .collect(),
+    }
+}

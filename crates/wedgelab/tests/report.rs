@@ -1,0 +1,103 @@
+//! The report that `reproduce` writes: complete, self-contained, small.
+
+#![allow(clippy::unwrap_used)]
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::sync::OnceLock;
+
+use tempfile::TempDir;
+
+/// The folder of a whole reproduction.
+fn reproduction() -> &'static Path {
+    static FOLDER: OnceLock<TempDir> = OnceLock::new();
+    FOLDER
+        .get_or_init(|| {
+            let folder = tempfile::tempdir().unwrap();
+            let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
+                .args(["reproduce", "--quiet", "--force", "--out"])
+                .arg(folder.path())
+                .output()
+                .unwrap();
+            let errors = String::from_utf8(output.stderr).unwrap();
+            assert!(output.status.success(), "{errors}");
+            assert_eq!(errors, "");
+            folder
+        })
+        .path()
+}
+
+fn page() -> String {
+    fs::read_to_string(reproduction().join("index.html")).unwrap()
+}
+
+/// The values of an attribute.
+fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {
+    let start = format!(" {attribute}=\"");
+    page.split(start.as_str())
+        .skip(1)
+        .filter_map(|rest| rest.split('"').next())
+        .collect()
+}
+
+#[test]
+fn every_link_leads_somewhere() {
+    let page = page();
+    let ids: Vec<&str> = values(&page, "id");
+    let unique: BTreeSet<&str> = ids.iter().copied().collect();
+    assert_eq!(ids.len(), unique.len(), "an id stands twice");
+    let links = values(&page, "href");
+    assert!(links.len() > 200, "{}", links.len());
+    for link in links {
+        match link.strip_prefix('#') {
+            Some(id) => assert!(unique.contains(id), "{link}"),
+            None => assert!(reproduction().join(link).is_file(), "{link}"),
+        }
+    }
+}
+
+#[test]
+fn the_page_needs_nothing_else() {
+    let page = page();
+    assert!(values(&page, "src").is_empty());
+    for foreign in ["http:", "https:", "<link", "@import", "url("] {
+        let found = page
+            .replace("http://www.w3.org/2000/svg", "")
+            .replace("url(#", "");
+        assert!(!found.contains(foreign), "{foreign}");
+    }
+    assert!(page.len() < 15_000_000, "{} bytes", page.len());
+}
+
+#[test]
+fn every_figure_is_there_twice_and_has_its_caption() {
+    let page = page();
+    let figures = page.matches("<figure ").count();
+    assert_eq!(figures, page.matches("<figcaption>").count());
+    assert_eq!(figures, page.matches("<svg role=\"img\"").count());
+    let files: BTreeSet<String> = fs::read_dir(reproduction().join("figures"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    assert_eq!(files.len(), 2 * figures);
+    for file in &files {
+        let bytes = fs::read(reproduction().join("figures").join(file)).unwrap();
+        if let Some(name) = file.strip_suffix(".svg") {
+            assert!(files.contains(&format!("{name}.png")), "{name}");
+            assert!(
+                bytes.starts_with(b"<svg ") && bytes.ends_with(b"</svg>\n"),
+                "{file}"
+            );
+        } else {
+            assert!(bytes.starts_with(b"\x89PNG"), "{file}");
+            assert!(has_ink(&bytes), "{file} is empty");
+        }
+    }
+}
+
+/// Whether a picture is more than a blank page: a blank one of this size packs into a few kilobytes.
+fn has_ink(png: &[u8]) -> bool {
+    png.len() > 8_000
+}
