@@ -1,9 +1,10 @@
 //! Files and figures of results.
 //!
 //! - [`csv`]: the table `result.csv`.
+//! - [`mat`]: the file `result.mat`, under the thesis's names; [`mat5`] is its format.
 //! - [`summary`]: the file `summary.json`.
 //! - [`files`]: writing whole results, or nothing.
-//! - [`run_files`]: the three files of a run.
+//! - [`run_files`]: the files of a run.
 //! - [`drawing`]: figures, their curves and axes, drawn as SVG; [`thin`] makes their curves small.
 //! - [`hysteresis`]: the wedge force over the bolster's displacement.
 
@@ -11,6 +12,8 @@ pub mod csv;
 pub mod drawing;
 pub mod files;
 pub mod hysteresis;
+pub mod mat;
+pub mod mat5;
 pub mod run_files;
 pub mod summary;
 pub mod thin;

@@ -22,8 +22,8 @@ use crate::select::select;
 /// Run all built-in cases: the thesis's twelve runs
 ///
 /// Computes the twelve runs of Steets (2007), table 4-1: variable and constant damping, toe out, none and in, with and
-/// without yaw of the bolster. Writes for each run runs/NAME/result.csv, case.toml and summary.json, and for each
-/// damping a hysteresis figure; prints a table of the runs.
+/// without yaw of the bolster. Writes for each run runs/NAME/result.csv, result.mat, case.toml and summary.json, and
+/// for each damping a hysteresis figure; prints a table of the runs.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
