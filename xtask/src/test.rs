@@ -2,6 +2,7 @@
 
 mod deny;
 mod floors;
+mod octave;
 mod page;
 mod prose;
 
@@ -56,6 +57,11 @@ const CHECKS: &[Check] = &[
         "test",
         "the tests of libraries, programs and examples pass",
         tests,
+    ),
+    Check::new(
+        "octave",
+        "Octave and SciPy read the results, the plotting scripts draw them",
+        octave::check,
     ),
     Check::new("doctest", "the examples in the documentation run", doc_tests),
     Check::new("doc", "the documentation builds without a warning", docs),

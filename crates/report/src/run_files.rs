@@ -1,15 +1,15 @@
-//! The three files of a run: the table, the completed case, the summary.
+//! The files of a run: the table, the same under the thesis's names, the completed case, the summary.
 
 use study::case::Case;
 use study::result::RunResult;
 
 use crate::files::{FileError, Folder};
-use crate::{csv, summary};
+use crate::{csv, mat, summary};
 
 /// The name of the case's file.
 pub const CASE_FILE_NAME: &str = "case.toml";
 /// The files of a run.
-pub const NAMES: [&str; 3] = [csv::FILE_NAME, CASE_FILE_NAME, summary::FILE_NAME];
+pub const NAMES: [&str; 4] = [csv::FILE_NAME, mat::FILE_NAME, CASE_FILE_NAME, summary::FILE_NAME];
 
 /// Writes the files of a run, all of them or none.
 ///
@@ -20,6 +20,7 @@ pub const NAMES: [&str; 3] = [csv::FILE_NAME, CASE_FILE_NAME, summary::FILE_NAME
 pub fn write(folder: &Folder, case: &Case, result: &RunResult) -> Result<(), FileError> {
     folder.write(|files| {
         files.add(csv::FILE_NAME, |out| csv::write(result, out))?;
+        files.add(mat::FILE_NAME, |out| mat::write(case, result, out))?;
         files.add(CASE_FILE_NAME, |out| {
             let document = case.document.clone().with_tables_embedded();
             out.write_all(document.to_toml().as_bytes())

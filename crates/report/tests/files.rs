@@ -97,7 +97,10 @@ fn a_run_is_written_once() {
     let folder = Folder::check(&path, &run_files::NAMES, false).unwrap();
     assert!(names(temporary.path()).is_empty(), "checking leaves nothing");
     run_files::write(&folder, &case, &result).unwrap();
-    assert_eq!(names(&path), ["case.toml", "result.csv", "summary.json"]);
+    assert_eq!(
+        names(&path),
+        ["case.toml", "result.csv", "result.mat", "summary.json"]
+    );
     assert_eq!(names(path.parent().unwrap()), ["run"]);
 
     let again = Folder::check(&path, &run_files::NAMES, false).unwrap_err();
@@ -112,7 +115,13 @@ fn a_run_is_written_once() {
     run_files::write(&folder, &case, &result).unwrap();
     assert_eq!(
         names(&path),
-        ["case.toml", "notes.txt", "result.csv", "summary.json"]
+        [
+            "case.toml",
+            "notes.txt",
+            "result.csv",
+            "result.mat",
+            "summary.json"
+        ]
     );
     assert_eq!(
         fs::read_to_string(path.join("result.csv")).unwrap(),

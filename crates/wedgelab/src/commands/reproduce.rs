@@ -22,7 +22,7 @@ use crate::select::select;
 ///
 /// Computes the twelve runs of Steets (2007), table 4-1: variable and constant damping, toe out, none and in, with and
 /// without yaw of the bolster. Writes the report index.html, each of its figures as SVG and PNG, and for each run
-/// runs/NAME/result.csv, case.toml and summary.json; prints a table of the runs.
+/// runs/NAME/result.csv, result.mat, case.toml and summary.json; prints a table of the runs.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

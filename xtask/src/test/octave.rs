@@ -1,0 +1,132 @@
+//! The tests that need Octave and SciPy. What is missing is installed: Octave with `apt-get`, SciPy into `target/tools`.
+
+use std::env;
+use std::path::PathBuf;
+use std::process::Command;
+
+use super::Outcome;
+use crate::shell::{self, Workspace};
+
+/// What Octave needs to draw, though nobody sees it: a toolkit, and a font to measure texts with. About 280 MB.
+const PACKAGES: [&str; 3] = ["octave", "gnuplot-nox", "fonts-freefont-otf"];
+
+/// Draws an unseen curve.
+const DRAW: &str = "set (0, 'defaultfigurevisible', 'off'); plot (1:2); close all";
+
+/// The versions that pip may choose from.
+const SCIPY: &str = "scipy>=1.11,<2";
+
+/// Installs what is missing and runs the tests.
+pub fn check(workspace: &Workspace) -> Outcome {
+    let octave = octave()?;
+    let python = python(workspace)?;
+    let mut tests = workspace.cargo(["test", "--release", "-p", "wedgelab", "--test", "octave"]);
+    tests
+        .args(["--", "--ignored"])
+        .env("WEDGELAB_OCTAVE", &octave)
+        .env("WEDGELAB_PYTHON", &python);
+    shell::run(&mut tests)?;
+    Ok(version(&octave))
+}
+
+/// An Octave that can draw.
+fn octave() -> Result<String, String> {
+    let program = env::var("WEDGELAB_OCTAVE").unwrap_or_else(|_| "octave-cli".to_owned());
+    if draws(&program) {
+        return Ok(program);
+    }
+    println!("An Octave that can draw is missing and is installed now, once (90 MB to fetch).");
+    install().map_err(|error| format!("{}\n{error}", advice()))?;
+    if draws(&program) {
+        Ok(program)
+    } else {
+        Err(advice())
+    }
+}
+
+fn draws(program: &str) -> bool {
+    let mut command = Command::new(program);
+    command.args(["--no-init-file", "--quiet", "--eval", DRAW]);
+    shell::output(&mut command).is_some()
+}
+
+fn install() -> Result<(), String> {
+    let apt = |arguments: &[&str]| {
+        let mut command = Command::new("apt-get");
+        command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive");
+        shell::run(&mut command)
+    };
+    // Lists of packages may be missing or old; if they cannot be fetched, those that are there may do.
+    if let Err(error) = apt(&["update"]) {
+        println!("{error}");
+    }
+    let mut arguments = vec!["install", "-y", "--no-install-recommends"];
+    arguments.extend(PACKAGES);
+    apt(&arguments)
+}
+
+fn advice() -> String {
+    format!(
+        "Octave is missing or cannot draw, and it could not be installed. On Debian and Ubuntu an administrator installs it \
+         with `apt-get install {}`; elsewhere install Octave and gnuplot, and name the program in WEDGELAB_OCTAVE if it \
+         is not called octave-cli. `cargo xtask test --only` runs other checks without it.",
+        PACKAGES.join(" ")
+    )
+}
+
+/// A Python that has SciPy: the one of an environment in `target/tools`, made if missing.
+fn python(workspace: &Workspace) -> Result<PathBuf, String> {
+    let folder = workspace.target.join("tools").join("scipy");
+    let program = if cfg!(windows) {
+        folder.join("Scripts").join("python.exe")
+    } else {
+        folder.join("bin").join("python")
+    };
+    let has_scipy = || shell::output(Command::new(&program).args(["-c", "import scipy.io"])).is_some();
+    if has_scipy() {
+        return Ok(program);
+    }
+    println!("SciPy is missing and is installed into target/tools now, once (240 MB).");
+    let made = shell::run(
+        Command::new("python3")
+            .args(["-m", "venv", "--clear"])
+            .arg(&folder),
+    )
+    .and_then(|()| {
+        let pip = [
+            "-m",
+            "pip",
+            "install",
+            "--quiet",
+            "--disable-pip-version-check",
+            SCIPY,
+        ];
+        shell::run(Command::new(&program).args(pip))
+    });
+    made.map_err(|error| {
+        format!("SciPy could not be installed; it needs Python 3 with `venv` (Debian: python3-venv) and network.\n{error}")
+    })?;
+    Ok(program)
+}
+
+/// The version, as the first line of `--version` has it.
+fn version(octave: &str) -> Option<String> {
+    let text = shell::output(Command::new(octave).arg("--version"))?;
+    text.lines().next().map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_that_is_not_there_cannot_draw() {
+        assert!(!draws("there-is-no-such-octave"));
+    }
+
+    #[test]
+    fn the_advice_names_every_package() {
+        let advice = advice();
+        assert!(PACKAGES.iter().all(|package| advice.contains(package)));
+    }
+}
