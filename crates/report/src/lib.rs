@@ -1,5 +1,6 @@
 //! Files and figures of results.
 //!
+//! - [`claims`]: what the thesis says of its runs, with verdicts.
 //! - [`csv`]: the table `result.csv`.
 //! - [`mat`]: the file `result.mat`, under the thesis's names; [`mat5`] is its format.
 //! - [`summary`]: the file `summary.json`.
@@ -9,6 +10,7 @@
 //! - [`figures`]: the report's figures.
 //! - [`run_files`]: the files of a run.
 
+pub mod claims;
 pub mod csv;
 pub mod drawing;
 pub mod figures;

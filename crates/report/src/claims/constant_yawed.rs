@@ -1,0 +1,346 @@
+//! Section 6.2: constant damping, bolster yawed.
+
+use super::measures::*;
+use super::words::*;
+use super::{Claim, claim, undecidable};
+
+pub(super) static CLAIMS: &[Claim] = &[
+    claim! {
+        id: "6.2-yaw-changes-results",
+        group: ConstantYawed,
+        place: "section 6.2, page 65",
+        says: "The bolster's constant yaw makes the vertical forces come out differently.",
+        test: "the mean vertical wedge force with yaw differs from that without by more than 1 %, going up and going down, for \
+               each toe",
+        runs: [cd_out_yaw, cd_out, cd_none_yaw, cd_none, cd_in_yaw, cd_in],
+        holds: every([(cd_out_yaw, cd_out), (cd_none_yaw, cd_none), (cd_in_yaw, cd_in)], |(yawed, not)| all([
+            !within(0.01, [yawed, not].map(|run| mean(run, vertical_force, going_up))),
+            !within(0.01, [yawed, not].map(|run| mean(run, vertical_force, going_down))),
+        ])),
+    },
+    claim! {
+        id: "6.2-sticks-then-slips-down",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-10, page 66",
+        says: "As the bolster goes down, the wedge sticks until a break-out force is reached, then it slips (toe \
+               out).",
+        test: "the column sticks for more than half of the first 0.05 s of the way down, and slips for more than 90 \
+               % of the branch",
+        runs: [cd_out_yaw],
+        holds: all([
+            share(cd_out_yaw, column_sticks, first_of_down) > 0.5,
+            share(cd_out_yaw, column_slips, going_down) > 0.9,
+        ]),
+    },
+    claim! {
+        id: "6.2-sticks-then-slips-up",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-10, page 66",
+        says: "As the bolster goes up, the wedge sticks until a break-out force is reached, then it slips (toe out).",
+        test: "the column sticks for more than half of the first 0.05 s of the way up, and slips for more than 90 % \
+               of the branch",
+        runs: [cd_out_yaw],
+        holds: all([
+            share(cd_out_yaw, column_sticks, first_of_up) > 0.5,
+            share(cd_out_yaw, column_slips, going_up) > 0.9,
+        ]),
+    },
+    claim! {
+        id: "6.2-force-without-motion-up",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-11, page 66",
+        says: "Section (1): the way up starts with a large force and no motion of the wedge (toe out).",
+        test: "at the bottom reversal (bolster below -0.99 A), while the column sticks, the vertical wedge force \
+               goes through more than half its range in the run, and the wedge through less than 1 % of its own",
+        runs: [cd_out_yaw],
+        holds: all([
+            range(cd_out_yaw, vertical_force, stuck_at_bottom) > 0.5 * range(cd_out_yaw, vertical_force, settled),
+            range(cd_out_yaw, wedge_z, stuck_at_bottom) < 0.01 * range(cd_out_yaw, wedge_z, settled),
+        ]),
+    },
+    claim! {
+        id: "6.2-slips-up",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-11, page 66",
+        says: "Section (2): beyond the break-out force the wedge slips and moves up with the bolster (toe out).",
+        test: "the wedge rises, and the column slips, for more than 90 % of the branch going up",
+        runs: [cd_out_yaw],
+        holds: all([
+            share(cd_out_yaw, rising, going_up) > 0.9,
+            share(cd_out_yaw, column_slips, going_up) > 0.9,
+        ]),
+    },
+    claim! {
+        id: "6.2-force-without-motion-down",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-11, page 66",
+        says: "Section (3): the way down starts with the force of static friction (toe out).",
+        test: "at the top reversal (bolster above 0.99 A), while the column sticks, the vertical wedge force goes \
+               through more than half its range in the run, and the wedge through less than 1 % of its own",
+        runs: [cd_out_yaw],
+        holds: all([
+            range(cd_out_yaw, vertical_force, stuck_at_top) > 0.5 * range(cd_out_yaw, vertical_force, settled),
+            range(cd_out_yaw, wedge_z, stuck_at_top) < 0.01 * range(cd_out_yaw, wedge_z, settled),
+        ]),
+    },
+    claim! {
+        id: "6.2-slips-down",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-11, page 66",
+        says: "Section (4): beyond the break-out force the wedge slips and moves down (toe out).",
+        test: "the wedge slides down for more than 90 % of the branch going down",
+        runs: [cd_out_yaw],
+        holds: share(cd_out_yaw, sliding_down, going_down) > 0.9,
+    },
+    claim! {
+        id: "6.2-break-out-differs-little",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-12, page 67",
+        says: "At the start of the way up the vertical forces of the toe cases differ little.",
+        test: "peak vertical wedge force while the bolster starts up (below -0.95 A), of the three toe cases: within \
+               10 %",
+        runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
+        holds: within(0.1, [cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| peak(run, vertical_force, starting_up))),
+    },
+    claim! {
+        id: "6.2-break-out-up-toe-out",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-12, page 67",
+        says: "Toe out has a larger break-out force on the way up than toe in.",
+        test: "peak vertical wedge force while the bolster starts up (below -0.95 A): toe out > toe in",
+        runs: [cd_out_yaw, cd_in_yaw],
+        holds: peak(cd_out_yaw, vertical_force, starting_up) > peak(cd_in_yaw, vertical_force, starting_up),
+    },
+    claim! {
+        id: "6.2-break-out-down-toe-in",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-12, page 67",
+        says: "Toe in has the largest break-out force on the way down.",
+        test: "peak vertical wedge force while the bolster starts down (above 0.95 A): toe in > toe out, toe in > no \
+               toe",
+        runs: [cd_in_yaw, cd_out_yaw, cd_none_yaw],
+        holds: all([
+            peak(cd_in_yaw, vertical_force, starting_down) > peak(cd_out_yaw, vertical_force, starting_down),
+            peak(cd_in_yaw, vertical_force, starting_down) > peak(cd_none_yaw, vertical_force, starting_down),
+        ]),
+    },
+    undecidable! {
+        id: "6.2-accurate-motion",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-12, page 67",
+        says: "The differences between the toe cases show that the model captures the wedge's actual motion \
+               accurately.",
+        reason: "No motion was measured: the runs cannot say whether the model's differences are those of a real \
+                 wedge.",
+    },
+    claim! {
+        id: "6.2-toe-order-up",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-13, page 68",
+        says: "Going up, toe in has the least force and toe out the greatest, with no toe between.",
+        test: "mean vertical wedge force going up: toe out > no toe > toe in",
+        runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
+        holds: descending([cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| mean(run, vertical_force, going_up))),
+    },
+    claim! {
+        id: "6.2-travel-order-up",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-13, page 68",
+        says: "Going up, toe in lets the wedge move most, and toe out least.",
+        test: "range of the wedge's vertical displacement while the bolster goes up: toe in > no toe > toe out",
+        runs: [cd_in_yaw, cd_none_yaw, cd_out_yaw],
+        holds: descending([cd_in_yaw, cd_none_yaw, cd_out_yaw].map(|run| range(run, wedge_z, upwards))),
+    },
+    claim! {
+        id: "6.2-toe-order-down",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-13, page 68",
+        says: "Going down, toe in has the largest force and toe out the least, with no toe between.",
+        test: "size of the mean vertical wedge force going down: toe in > no toe > toe out",
+        runs: [cd_in_yaw, cd_none_yaw, cd_out_yaw],
+        holds: descending([cd_in_yaw, cd_none_yaw, cd_out_yaw].map(|run| size(run, vertical_force, going_down))),
+    },
+    claim! {
+        id: "6.2-travel-order-down",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-13, page 68",
+        says: "Going down, toe in lets the wedge move least, and toe out most.",
+        test: "range of the wedge's vertical displacement while the bolster goes down: toe out > no toe > toe in",
+        runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
+        holds: descending([cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| range(run, wedge_z, downwards))),
+    },
+    claim! {
+        id: "6.2-longitudinal-less-down",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-14, page 69",
+        says: "Going down, the longitudinal force is less with yaw than without (toe out).",
+        test: "mean longitudinal force going down: with yaw < without",
+        runs: [cd_out_yaw, cd_out],
+        holds: mean(cd_out_yaw, longitudinal_force, going_down) < mean(cd_out, longitudinal_force, going_down),
+    },
+    claim! {
+        id: "6.2-longitudinal-more-up",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-14, page 69",
+        says: "Going up, the longitudinal force is greater with yaw than without (toe out).",
+        test: "mean longitudinal force going up: with yaw > without",
+        runs: [cd_out_yaw, cd_out],
+        holds: mean(cd_out_yaw, longitudinal_force, going_up) > mean(cd_out, longitudinal_force, going_up),
+    },
+    claim! {
+        id: "6.2-yaw-holds-wedge",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-14, page 69",
+        says: "Yaw prevents some of the wedge's longitudinal motion as the bolster goes down (toe out).",
+        test: "range of the wedge's longitudinal displacement while the bolster goes down: with yaw < without",
+        runs: [cd_out_yaw, cd_out],
+        holds: range(cd_out_yaw, wedge_x, downwards) < range(cd_out, wedge_x, downwards),
+    },
+    claim! {
+        id: "6.2-longitudinal-toe-out-at-bottom",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-15, page 70",
+        says: "With toe out the longitudinal force is largest where the bolster is lowest.",
+        test: "at the peak of the longitudinal force the bolster is below -0.9 of its amplitude",
+        runs: [cd_out_yaw],
+        holds: at_peak(cd_out_yaw, longitudinal_force, settled, bolster_z) < -0.9 * amplitude(cd_out_yaw),
+    },
+    claim! {
+        id: "6.2-longitudinal-toe-out-largest",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-15, page 70",
+        says: "Toe out has the largest longitudinal peaks at the bottom of the toe cases.",
+        test: "peak longitudinal force at the bottom reversal (bolster below -0.99 A): toe out > no toe, toe out > \
+               toe in",
+        runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
+        holds: all([
+            peak(cd_out_yaw, longitudinal_force, at_bottom) > peak(cd_none_yaw, longitudinal_force, at_bottom),
+            peak(cd_out_yaw, longitudinal_force, at_bottom) > peak(cd_in_yaw, longitudinal_force, at_bottom),
+        ]),
+    },
+    claim! {
+        id: "6.2-gap-below-toe-out",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-15, page 70",
+        says: "With toe out the wedge is farthest from the lower part of the column when the bolster is lowest.",
+        test: "where the gap between column and the wedge's lower corner is greatest (and it is open), the bolster \
+               is below -0.9 of its amplitude",
+        runs: [cd_out_yaw],
+        holds: all([
+            greatest(cd_out_yaw, lower_gap, settled) > 0.0,
+            at_peak(cd_out_yaw, lower_gap, settled, bolster_z) < -0.9 * amplitude(cd_out_yaw),
+        ]),
+    },
+    claim! {
+        id: "6.2-longitudinal-toe-in-up",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-15, page 70",
+        says: "With toe in the longitudinal force is largest while the bolster goes up.",
+        test: "at the peak of the longitudinal force the bolster goes up; and the mean over the branch going up is \
+               greater than that going down",
+        runs: [cd_in_yaw],
+        holds: all([
+            at_peak(cd_in_yaw, longitudinal_force, settled, bolster_speed) > 0.0,
+            mean(cd_in_yaw, longitudinal_force, going_up) > mean(cd_in_yaw, longitudinal_force, going_down),
+        ]),
+    },
+    claim! {
+        id: "6.2-gap-above-toe-in",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-15, page 70",
+        says: "With toe in the gap between wedge and the upper part of the column is greatest as the bolster goes \
+               up.",
+        test: "where the gap between column and the wedge's upper corner is greatest (and it is open), the bolster \
+               goes up",
+        runs: [cd_in_yaw],
+        holds: all([
+            greatest(cd_in_yaw, upper_gap, settled) > 0.0,
+            at_peak(cd_in_yaw, upper_gap, settled, bolster_speed) > 0.0,
+        ]),
+    },
+    claim! {
+        id: "6.2-longitudinal-none-between",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-15, page 70",
+        says: "The longitudinal forces without toe lie between toe in and toe out.",
+        test: "mean longitudinal force: going up, toe out > no toe > toe in; going down, toe in > no toe > toe out",
+        runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
+        holds: all([
+            descending([cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| mean(run, longitudinal_force, going_up))),
+            descending([cd_in_yaw, cd_none_yaw, cd_out_yaw].map(|run| mean(run, longitudinal_force, going_down))),
+        ]),
+    },
+    claim! {
+        id: "6.2-no-dissipation-only-sticking",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-16, page 71",
+        says: "Dissipation at the side frame is zero only while the wedge sticks (toe out).",
+        test: "where less than 1 % of the greatest rate is dissipated, the column sticks for more than 99 % of the \
+               time",
+        runs: [cd_out_yaw],
+        holds: share(cd_out_yaw, column_sticks, not_dissipating) > 0.99,
+    },
+    claim! {
+        id: "6.2-dissipation-order-up",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-17, page 72",
+        says: "Going up, toe out dissipates most and toe in least, with no toe between.",
+        test: "size of the mean dissipation at the side frame going up: toe out > no toe > toe in",
+        runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
+        holds: descending([cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| size(run, dissipation, going_up))),
+    },
+    claim! {
+        id: "6.2-dissipation-order-down",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-17, page 72",
+        says: "Going down, toe in dissipates most and toe out least, with no toe between.",
+        test: "size of the mean dissipation at the side frame going down: toe in > no toe > toe out",
+        runs: [cd_in_yaw, cd_none_yaw, cd_out_yaw],
+        holds: descending([cd_in_yaw, cd_none_yaw, cd_out_yaw].map(|run| size(run, dissipation, going_down))),
+    },
+    claim! {
+        id: "6.2-surface-in-contact",
+        group: ConstantYawed,
+        place: "section 6.2, figure 6-17, page 72",
+        says: "With toe out more of the wedge's face touches the column than with toe in, as the wedge goes up.",
+        test: "mean number of column corners that touch going up: toe out > toe in",
+        runs: [cd_out_yaw, cd_in_yaw],
+        holds: mean(cd_out_yaw, corners_touching, going_up) > mean(cd_in_yaw, corners_touching, going_up),
+    },
+    claim! {
+        id: "6.2-significant-moments",
+        group: ConstantYawed,
+        place: "section 6.2, figures 6-18 and 6-19, page 72",
+        says: "The pitch and yaw moments are significant.",
+        test: "the peak pitch (yaw) moment is above 10 % of the peak longitudinal force times half the face's height \
+               (width), for each toe",
+        runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
+        holds: every([cd_out_yaw, cd_none_yaw, cd_in_yaw], |run| all([
+            peak(run, pitch_moment, settled) > 0.1 * pitch_limit(run),
+            peak(run, yaw_moment, settled) > 0.1 * yaw_limit(run),
+        ])),
+    },
+    claim! {
+        id: "6.2-moments-by-sticking",
+        group: ConstantYawed,
+        place: "section 6.2, figures 6-18 and 6-19, pages 72 and 73",
+        says: "The moments come from the wedge's sticking.",
+        test: "the mean size of the pitch moment, and of the yaw moment, is greater while the column sticks than while it \
+               slips, for each toe",
+        runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
+        holds: every([cd_out_yaw, cd_none_yaw, cd_in_yaw], |run| all([
+            mean_size(run, pitch_moment, column_sticks) > mean_size(run, pitch_moment, column_slips),
+            mean_size(run, yaw_moment, column_sticks) > mean_size(run, yaw_moment, column_slips),
+        ])),
+    },
+    claim! {
+        id: "6.2-uneven-forces",
+        group: ConstantYawed,
+        place: "section 6.2, figures 6-18 and 6-19, page 73",
+        says: "The forces on the wedge are unevenly distributed, which causes the moments.",
+        test: "the upper corners' share of the column's normal force is on average more than 0.1 away from one half, for \
+               each toe",
+        runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
+        holds: every([cd_out_yaw, cd_none_yaw, cd_in_yaw], |run| mean_size(run, unevenness, settled) > 0.1),
+    },
+];

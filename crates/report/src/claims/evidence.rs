@@ -1,0 +1,313 @@
+//! What the claims are decided from: the runs, by what they are (not by what they are called).
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::fmt;
+
+use mechanics::motion::Motion;
+use quantity::{Kind, System as Units};
+use study::case::Case;
+use study::metrics::Cycle;
+use study::result::RunResult;
+use wedge::parameters::Damping;
+
+/// Direction of the toe angle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Toe {
+    /// The gap between column and bolster opens downwards.
+    Out,
+    /// Column and bolster are parallel.
+    None,
+    /// The gap closes downwards.
+    In,
+}
+
+/// Which of the twelve runs: damping, toe, yaw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct RunId {
+    /// Whether the damping is constant; variable otherwise.
+    pub constant: bool,
+    /// Direction of the toe angle.
+    pub toe: Toe,
+    /// Whether the bolster is yawed.
+    pub yawed: bool,
+}
+
+impl RunId {
+    /// What a case is, by its parameters.
+    #[must_use]
+    pub fn of(case: &Case) -> Self {
+        let parameters = &case.parameters;
+        Self {
+            constant: parameters.damping == Damping::Constant,
+            toe: match parameters.toe {
+                toe if toe > 0.0 => Toe::Out,
+                toe if toe < 0.0 => Toe::In,
+                _ => Toe::None,
+            },
+            yawed: !matches!(&parameters.bolster.coordinates[5], Motion::Constant(yaw) if *yaw == 0.0),
+        }
+    }
+}
+
+impl fmt::Display for RunId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(if self.constant { "constant" } else { "variable" })?;
+        f.write_str(match self.toe {
+            Toe::Out => ", toe out",
+            Toe::None => ", no toe",
+            Toe::In => ", toe in",
+        })?;
+        f.write_str(if self.yawed { ", yawed" } else { "" })
+    }
+}
+
+/// The names that predicates have for the runs: `vd` and `cd` for variable and constant damping.
+#[allow(non_upper_case_globals)] // They stand for the names of arguments.
+pub(super) mod runs {
+    use super::{RunId, Toe};
+
+    const fn id(constant: bool, toe: Toe, yawed: bool) -> RunId {
+        RunId { constant, toe, yawed }
+    }
+
+    pub(in crate::claims) const vd_out: RunId = id(false, Toe::Out, false);
+    pub(in crate::claims) const vd_none: RunId = id(false, Toe::None, false);
+    pub(in crate::claims) const vd_in: RunId = id(false, Toe::In, false);
+    pub(in crate::claims) const vd_out_yaw: RunId = id(false, Toe::Out, true);
+    pub(in crate::claims) const vd_none_yaw: RunId = id(false, Toe::None, true);
+    pub(in crate::claims) const vd_in_yaw: RunId = id(false, Toe::In, true);
+    pub(in crate::claims) const cd_out: RunId = id(true, Toe::Out, false);
+    pub(in crate::claims) const cd_none: RunId = id(true, Toe::None, false);
+    pub(in crate::claims) const cd_in: RunId = id(true, Toe::In, false);
+    pub(in crate::claims) const cd_out_yaw: RunId = id(true, Toe::Out, true);
+    pub(in crate::claims) const cd_none_yaw: RunId = id(true, Toe::None, true);
+    pub(in crate::claims) const cd_in_yaw: RunId = id(true, Toe::In, true);
+}
+
+/// The runs that there are.
+#[derive(Clone, Debug, Default)]
+pub struct Evidence<'a> {
+    runs: BTreeMap<RunId, (&'a Case, &'a RunResult)>,
+}
+
+impl<'a> Evidence<'a> {
+    /// Takes runs; each is known by its case's parameters. Of two runs of one kind the later one counts.
+    pub fn new(runs: impl IntoIterator<Item = (&'a Case, &'a RunResult)>) -> Self {
+        Self {
+            runs: runs
+                .into_iter()
+                .map(|(case, result)| (RunId::of(case), (case, result)))
+                .collect(),
+        }
+    }
+
+    /// The same with the places of two runs exchanged: what would be found if one were taken for the other.
+    #[must_use]
+    pub fn exchanged(mut self, one: RunId, other: RunId) -> Self {
+        let (first, second) = (self.runs.remove(&one), self.runs.remove(&other));
+        self.runs.extend(second.map(|run| (one, run)));
+        self.runs.extend(first.map(|run| (other, run)));
+        self
+    }
+
+    /// Units in which values are shown: those of the first run, inch-pound without any.
+    #[must_use]
+    pub fn units(&self) -> Units {
+        self.runs
+            .values()
+            .next()
+            .map_or(Units::Us, |(_, result)| result.summary.units)
+    }
+
+    /// A run that is there, complete, and moves in cycles.
+    fn find(&self, id: RunId) -> Result<Seen<'a>, String> {
+        let Some((case, result)) = self.runs.get(&id) else {
+            return Err(format!("the run \"{id}\" was not made"));
+        };
+        if !result.summary.complete {
+            let time = result.column("time").and_then(<[f64]>::last).copied();
+            return Err(format!(
+                "the run \"{id}\" stopped at {:.3} s",
+                time.unwrap_or_default()
+            ));
+        }
+        let Some(cycle) = Cycle::of(&case.parameters) else {
+            return Err(format!(
+                "the bolster's vertical motion in the run \"{id}\" is not one sine or triangle"
+            ));
+        };
+        Ok(Seen {
+            id,
+            case,
+            result,
+            cycle,
+        })
+    }
+}
+
+/// A run found.
+#[derive(Clone, Copy)]
+struct Seen<'a> {
+    id: RunId,
+    case: &'a Case,
+    result: &'a RunResult,
+    cycle: Cycle,
+}
+
+/// A value that was found, SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Value {
+    /// What it is of.
+    pub label: String,
+    /// The value, SI.
+    pub value: f64,
+    /// What it stands for.
+    pub kind: Kind,
+}
+
+/// What predicates note down as they are evaluated.
+#[derive(Debug, Default)]
+struct Notes {
+    values: RefCell<Vec<Value>>,
+    gaps: RefCell<Vec<String>>,
+}
+
+/// A run as a predicate sees it.
+#[derive(Clone, Copy)]
+pub(super) struct View<'a> {
+    seen: Seen<'a>,
+    notes: &'a Notes,
+}
+
+impl<'a> View<'a> {
+    /// What it is, in words.
+    pub(super) fn name(self) -> String {
+        self.seen.id.to_string()
+    }
+
+    pub(super) fn case(self) -> &'a Case {
+        self.seen.case
+    }
+
+    pub(super) fn result(self) -> &'a RunResult {
+        self.seen.result
+    }
+
+    pub(super) fn cycle(self) -> Cycle {
+        self.seen.cycle
+    }
+
+    /// A column, SI; without it the claim cannot be decided.
+    pub(super) fn column(self, name: &str) -> &'a [f64] {
+        self.seen.result.column(name).unwrap_or_else(|| {
+            self.missing(format!("there is no column {name}"));
+            &[]
+        })
+    }
+
+    /// Notes a value; one that is not a number makes the claim undecidable.
+    pub(super) fn note(self, label: String, value: f64, kind: Kind) -> f64 {
+        if value.is_nan() {
+            self.missing(format!("there is no {label}"));
+        }
+        let value_found = Value { label, value, kind };
+        let mut values = self.notes.values.borrow_mut();
+        if !values.contains(&value_found) {
+            values.push(value_found);
+        }
+        value
+    }
+
+    fn missing(self, what: String) {
+        let mut gaps = self.notes.gaps.borrow_mut();
+        if !gaps.contains(&what) {
+            gaps.push(what);
+        }
+    }
+}
+
+/// Whether a claim holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+pub enum Verdict {
+    /// The runs show what is claimed.
+    #[serde(rename = "holds")]
+    Holds,
+    /// They show something else: a finding.
+    #[serde(rename = "does not hold")]
+    DoesNot,
+    /// They say nothing of it.
+    #[serde(rename = "cannot be decided")]
+    CannotBeDecided,
+}
+
+impl Verdict {
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::DoesNot => "does not hold",
+            Self::CannotBeDecided => "cannot be decided",
+        }
+    }
+}
+
+/// What came out of a predicate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// Whether it holds.
+    pub verdict: Verdict,
+    /// The values that it rests on.
+    pub values: Vec<Value>,
+    /// Why it cannot be decided; empty otherwise.
+    pub undecided: String,
+}
+
+impl Finding {
+    /// The finding of a claim that the runs cannot decide.
+    #[must_use]
+    pub fn undecided(why: impl Into<String>) -> Self {
+        Self {
+            verdict: Verdict::CannotBeDecided,
+            values: Vec::new(),
+            undecided: why.into(),
+        }
+    }
+}
+
+/// Evaluates a predicate on the runs that it names.
+pub(super) fn decide<const N: usize>(
+    evidence: &Evidence<'_>,
+    runs: [RunId; N],
+    holds: impl Fn([View<'_>; N]) -> bool,
+) -> Finding {
+    let found = runs.map(|id| evidence.find(id));
+    let missing: Vec<&str> = found
+        .iter()
+        .filter_map(|found| found.as_ref().err().map(String::as_str))
+        .collect();
+    if !missing.is_empty() {
+        return Finding::undecided(missing.join("; "));
+    }
+    let notes = Notes::default();
+    let views: Vec<View<'_>> = found
+        .into_iter()
+        .flatten()
+        .map(|seen| View { seen, notes: &notes })
+        .collect();
+    let Ok(views) = <[View<'_>; N]>::try_from(views) else {
+        return Finding::undecided("runs are missing");
+    };
+    let holds = holds(views);
+    let gaps = notes.gaps.take();
+    Finding {
+        verdict: match (gaps.is_empty(), holds) {
+            (false, _) => Verdict::CannotBeDecided,
+            (true, true) => Verdict::Holds,
+            (true, false) => Verdict::DoesNot,
+        },
+        values: notes.values.take(),
+        undecided: gaps.join("; "),
+    }
+}

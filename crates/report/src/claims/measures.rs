@@ -1,0 +1,344 @@
+//! The verbs of predicates: what is made of a quantity over a time. Every value is noted, so that a page can show it.
+//!
+//! Where there are no rows, a value is NaN and the claim cannot be decided.
+
+use mechanics::coil::CoilLaw;
+use quantity::Kind;
+
+use super::evidence::View;
+use super::words::{Quantity, When};
+
+/// Values of a quantity at the rows of a time.
+fn chosen(run: View<'_>, quantity: Quantity, when: When) -> Vec<f64> {
+    (quantity.series)(run)
+        .into_iter()
+        .zip((when.rows)(run))
+        .filter_map(|(value, counts)| counts.then_some(value))
+        .collect()
+}
+
+fn average(values: &[f64]) -> f64 {
+    if values.is_empty() {
+        f64::NAN
+    } else {
+        values.iter().sum::<f64>() / values.len() as f64
+    }
+}
+
+fn noted(run: View<'_>, what: &str, quantity: Quantity, when: When, value: f64) -> f64 {
+    let label = format!("{what}{}, {}, {}", quantity.name, run.name(), when.name);
+    run.note(label, value, quantity.kind)
+}
+
+/// Mean.
+pub(super) fn mean(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+    let value = average(&chosen(run, quantity, when));
+    noted(run, "mean ", quantity, when, value)
+}
+
+/// Size of the mean, whatever its sign.
+pub(super) fn size(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+    let value = average(&chosen(run, quantity, when)).abs();
+    noted(run, "size of the mean ", quantity, when, value)
+}
+
+/// Mean of the size, whatever the sign.
+pub(super) fn mean_size(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+    let sizes: Vec<f64> = chosen(run, quantity, when).iter().map(|v| v.abs()).collect();
+    noted(run, "mean size of ", quantity, when, average(&sizes))
+}
+
+/// Greatest size, whatever the sign.
+pub(super) fn peak(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+    let values = chosen(run, quantity, when);
+    let most = values.iter().fold(f64::NAN, |most, value| value.abs().max(most));
+    noted(run, "peak ", quantity, when, most)
+}
+
+fn least_and_greatest(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::NAN, f64::NAN), |(least, most), v| {
+        (v.min(least), v.max(most))
+    })
+}
+
+/// Least value.
+pub(super) fn least(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+    let (least, _) = least_and_greatest(&chosen(run, quantity, when));
+    noted(run, "least ", quantity, when, least)
+}
+
+/// Greatest value.
+pub(super) fn greatest(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+    let (_, most) = least_and_greatest(&chosen(run, quantity, when));
+    noted(run, "greatest ", quantity, when, most)
+}
+
+/// Greatest less least value.
+pub(super) fn range(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+    let (least, most) = least_and_greatest(&chosen(run, quantity, when));
+    noted(run, "range of ", quantity, when, most - least)
+}
+
+/// Mean size of the second difference between rows that follow each other: how rough a curve is.
+pub(super) fn roughness(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+    let (values, rows) = ((quantity.series)(run), (when.rows)(run));
+    let bends: Vec<f64> = values
+        .windows(3)
+        .zip(rows.windows(3))
+        .filter(|(_, rows)| rows.iter().all(|counts| *counts))
+        .map(|(v, _)| (v[2] - 2.0 * v[1] + v[0]).abs())
+        .collect();
+    noted(run, "roughness of ", quantity, when, average(&bends))
+}
+
+/// How many peaks a curve has: rises after which it falls again by more than 2 % of its greatest size.
+pub(super) fn peaks(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+    let values = chosen(run, quantity, when);
+    let most = values.iter().fold(f64::NAN, |most, value| value.abs().max(most));
+    let threshold = 0.02 * most;
+    let (mut count, mut rising) = (0.0, false);
+    let mut extreme = values.first().copied().unwrap_or(f64::NAN);
+    for value in values {
+        if rising {
+            extreme = extreme.max(value);
+            if value < extreme - threshold {
+                (count, rising, extreme) = (count + 1.0, false, value);
+            }
+        } else {
+            extreme = extreme.min(value);
+            if value > extreme + threshold {
+                (rising, extreme) = (true, value);
+            }
+        }
+    }
+    let count = if most.is_nan() { f64::NAN } else { count };
+    let label = format!("peaks of the {}, {}, {}", quantity.name, run.name(), when.name);
+    run.note(label, count, Kind::Count)
+}
+
+/// Share of a time in which something is so.
+pub(super) fn share(run: View<'_>, so: When, when: When) -> f64 {
+    let so = (so.rows, so.name);
+    let rows = (when.rows)(run);
+    let marks: Vec<f64> = (so.0)(run)
+        .into_iter()
+        .zip(rows)
+        .filter_map(|(so, counts)| counts.then_some(f64::from(u8::from(so))))
+        .collect();
+    let label = format!("share of time {}, {}, {}", so.1, run.name(), when.name);
+    run.note(label, average(&marks), Kind::Dimensionless)
+}
+
+/// What another quantity is where one has its peak.
+pub(super) fn at_peak(run: View<'_>, quantity: Quantity, when: When, other: Quantity) -> f64 {
+    let values = chosen(run, quantity, when);
+    let others = chosen(run, other, when);
+    let (_, value) = values
+        .iter()
+        .zip(&others)
+        .fold((f64::NEG_INFINITY, f64::NAN), |found, (v, other)| {
+            if v.abs() > found.0 {
+                (v.abs(), *other)
+            } else {
+                found
+            }
+        });
+    let label = format!(
+        "{} at the peak of the {}, {}, {}",
+        other.name,
+        quantity.name,
+        run.name(),
+        when.name
+    );
+    run.note(label, value, other.kind)
+}
+
+/// Whether something is so where a quantity has its peak: 1 or 0.
+pub(super) fn so_at_peak(run: View<'_>, quantity: Quantity, when: When, so: When) -> bool {
+    let values = chosen(run, quantity, when);
+    let marks: Vec<bool> = (so.rows)(run)
+        .into_iter()
+        .zip((when.rows)(run))
+        .filter_map(|(so, counts)| counts.then_some(so))
+        .collect();
+    let (size, found) = values
+        .iter()
+        .zip(marks)
+        .fold((f64::NEG_INFINITY, false), |found, (v, so)| {
+            if v.abs() > found.0 { (v.abs(), so) } else { found }
+        });
+    let value = if size.is_finite() {
+        f64::from(u8::from(found))
+    } else {
+        f64::NAN
+    };
+    let label = format!(
+        "{} at the peak of the {} (1: yes), {}",
+        so.name,
+        quantity.name,
+        run.name()
+    );
+    run.note(label, value, Kind::Count) == 1.0
+}
+
+/// Friction energy per cycle at the side frame, as the summary has it.
+pub(super) fn energy_per_cycle(run: View<'_>) -> f64 {
+    let summary = &run.result().summary;
+    let energy = summary
+        .averages
+        .energy_per_cycle
+        .get("side_frame")
+        .map_or(f64::NAN, |energy| {
+            energy.value / Kind::Energy.from_si(summary.units)
+        });
+    run.note(
+        format!("energy per cycle at the side frame, {}", run.name()),
+        energy,
+        Kind::Energy,
+    )
+}
+
+/// Root mean square of the difference between a quantity and itself one period later, over that of the quantity.
+pub(super) fn change_between_cycles(run: View<'_>, quantity: Quantity) -> f64 {
+    let values = (quantity.series)(run);
+    let times = run.column("time");
+    let period = run.cycle().period();
+    let (mut change, mut all, mut row) = (0.0, 0.0, 0);
+    for (time, value) in times.iter().zip(&values) {
+        if *time <= 0.5 * period {
+            continue;
+        }
+        while row + 1 < times.len() && times[row + 1] < time + period {
+            row += 1;
+        }
+        let (Some(next), true) = (times.get(row + 1), times[row] <= time + period) else {
+            break;
+        };
+        let part = (time + period - times[row]) / (next - times[row]);
+        let later = values[row] + part * (values[row + 1] - values[row]);
+        change += (later - value) * (later - value);
+        all += value * value;
+    }
+    let value = if all > 0.0 {
+        (change / all).sqrt()
+    } else {
+        f64::NAN
+    };
+    let label = format!(
+        "change of the {} from cycle to cycle, over its size, {}",
+        quantity.name,
+        run.name()
+    );
+    run.note(label, value, Kind::Dimensionless)
+}
+
+/// Frequency (rad/s) with which a quantity crosses its mean.
+pub(super) fn ringing_frequency(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+    let (values, rows, times) = ((quantity.series)(run), (when.rows)(run), run.column("time"));
+    let middle = average(&chosen(run, quantity, when));
+    let (mut crossings, mut time) = (0.0, 0.0);
+    for row in 1..values.len().min(rows.len()).min(times.len()) {
+        if rows[row - 1] && rows[row] {
+            time += times[row] - times[row - 1];
+            if (values[row - 1] - middle) * (values[row] - middle) < 0.0 {
+                crossings += 1.0;
+            }
+        }
+    }
+    let value = if time > 0.0 {
+        std::f64::consts::PI * crossings / time
+    } else {
+        f64::NAN
+    };
+    let label = format!(
+        "ringing frequency of the {}, {}, {}",
+        quantity.name,
+        run.name(),
+        when.name
+    );
+    run.note(label, value, Kind::Frequency)
+}
+
+/// Natural frequency of the free wedge on its coil (rad/s).
+pub(super) fn natural_frequency(run: View<'_>) -> f64 {
+    let parameters = &run.case().parameters;
+    let value = match &parameters.coil.law {
+        CoilLaw::Linear { stiffness } => (stiffness / parameters.wedge.mass).sqrt(),
+        CoilLaw::Table(_) => f64::NAN,
+    };
+    let label = format!("natural frequency of the wedge on its coil, {}", run.name());
+    run.note(label, value, Kind::Frequency)
+}
+
+/// The first of some times (s) at which something is so.
+pub(super) fn first_time(run: View<'_>, so: When, when: When) -> f64 {
+    let rows = (so.rows)(run).into_iter().zip((when.rows)(run));
+    let value = run
+        .column("time")
+        .iter()
+        .zip(rows)
+        .find(|(_, (so, counts))| *so && *counts)
+        .map_or(f64::NAN, |(time, _)| *time);
+    run.note(
+        format!("first time {}, {}, {}", so.name, run.name(), when.name),
+        value,
+        Kind::Time,
+    )
+}
+
+/// The largest pitch moment that the face's normal forces could give with all of them at one edge: peak longitudinal
+/// force times half the face's height.
+pub(super) fn pitch_limit(run: View<'_>) -> f64 {
+    edge_moment(run, "height", run.case().parameters.wedge.height)
+}
+
+/// The largest yaw moment: peak longitudinal force times half the face's width.
+pub(super) fn yaw_limit(run: View<'_>) -> f64 {
+    edge_moment(run, "width", run.case().parameters.wedge.width)
+}
+
+fn edge_moment(run: View<'_>, what: &str, extent: f64) -> f64 {
+    let values = chosen(run, super::words::longitudinal_force, super::words::settled);
+    let most = values.iter().fold(f64::NAN, |most, value| value.abs().max(most));
+    let label = format!(
+        "peak longitudinal force times half the face's {what}, {}",
+        run.name()
+    );
+    run.note(label, 0.5 * extent * most, Kind::Moment)
+}
+
+/// Amplitude of the bolster's vertical motion.
+pub(super) fn amplitude(run: View<'_>) -> f64 {
+    run.cycle().amplitude
+}
+
+/// Largest residual of the energy ledger at any time, over the work done by the bolster.
+pub(super) fn ledger_residual(run: View<'_>) -> f64 {
+    let value = run.result().summary.ledger.largest_relative_residual.abs();
+    let label = format!(
+        "largest residual of the energy ledger over the work, {}",
+        run.name()
+    );
+    run.note(label, value, Kind::Dimensionless)
+}
+
+/// All of them; all are evaluated, so that all values are shown.
+pub(super) fn all<const N: usize>(parts: [bool; N]) -> bool {
+    parts.iter().all(|part| *part)
+}
+
+/// So for every one of some runs; all are evaluated.
+pub(super) fn every<T, const N: usize>(runs: [T; N], so: impl Fn(T) -> bool) -> bool {
+    all(runs.map(so))
+}
+
+/// Each greater than the next.
+pub(super) fn descending<const N: usize>(values: [f64; N]) -> bool {
+    values.windows(2).all(|pair| pair[0] > pair[1])
+}
+
+/// The least and the greatest differ by no more than this share of the greatest.
+pub(super) fn within<const N: usize>(share: f64, values: [f64; N]) -> bool {
+    let (least, most) = least_and_greatest(&values.map(f64::abs));
+    most - least <= share * most
+}

@@ -1,0 +1,298 @@
+//! The claims: what chapters 5 to 7 of Steets (2007) say of the stand-alone runs, each with a predicate and a verdict.
+//!
+//! One row per statement that can be decided from the twelve runs: where it stands, what it says (in our words), the
+//! predicate in words and as the code that is compiled, the values found, the verdict. Statements about the runs that
+//! they cannot decide have a row too, with the reason. A verdict "does not hold" is a finding: a sentence says why,
+//! as far as the runs tell. Statements that compare with the comparison program have a group of their own, without
+//! members yet.
+//!
+//! Words that have a number here, wherever the thesis gives none: *small*, *similar*, *close*: within 10 %; *large*
+//! differences: more than 10 %; *very small*: below 5 %; *close to zero* of a ringing force: its mean below 5 % of the run's peak;
+//! *zero*: below 1 % of the peak; a moment is *small* below 10 % of what the face could give with its whole peak
+//! load on one edge, *negligible* below 1 %, and *significant* above 10 %.
+//!
+//! Forces of chapter 5 are those that its figures draw: the vertical force on the side frame with the coil's part.
+//! Those of chapter 6 are the column friction.
+//!
+//! ```
+//! use report::claims::{Evidence, Verdict, evaluate};
+//!
+//! // Without any run nothing can be decided.
+//! let rows = evaluate(&Evidence::default());
+//! assert!(rows.iter().all(|row| row.verdict == Verdict::CannotBeDecided));
+//! ```
+
+mod conclusions;
+mod constant;
+mod constant_yawed;
+mod evidence;
+mod measures;
+mod variable;
+mod variable_yawed;
+mod words;
+
+pub use evidence::{Evidence, Finding, RunId, Toe, Value, Verdict};
+
+use serde::Serialize;
+use study::summary::Measure;
+
+/// Version of the structure of [`Row`], for files.
+pub const SCHEMA: &str = "wedgelab.claims/1";
+
+/// Where a claim belongs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Group {
+    /// Section 5.1.
+    Variable,
+    /// Section 5.2.
+    VariableYawed,
+    /// Section 6.1.
+    Constant,
+    /// Section 6.2.
+    ConstantYawed,
+    /// Chapter 7.
+    Conclusions,
+    /// Comparisons with the comparison program, of all chapters; none yet.
+    Comparison,
+}
+
+impl Group {
+    /// All groups, in order.
+    pub const ALL: [Self; 6] = [
+        Self::Variable,
+        Self::VariableYawed,
+        Self::Constant,
+        Self::ConstantYawed,
+        Self::Conclusions,
+        Self::Comparison,
+    ];
+
+    /// A heading.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Variable => "Variable damping (section 5.1)",
+            Self::VariableYawed => "Variable damping, bolster yawed (section 5.2)",
+            Self::Constant => "Constant damping (section 6.1)",
+            Self::ConstantYawed => "Constant damping, bolster yawed (section 6.2)",
+            Self::Conclusions => "Conclusions (chapter 7)",
+            Self::Comparison => "Against the comparison program",
+        }
+    }
+}
+
+/// A statement of the thesis with what decides it.
+#[derive(Clone, Debug)]
+pub struct Claim {
+    /// A short name that stays, such as `5.1-ringing-about-zero`.
+    pub id: &'static str,
+    /// Where it belongs.
+    pub group: Group,
+    /// Where it stands in the thesis.
+    pub place: &'static str,
+    /// What it says, in our words.
+    pub statement: &'static str,
+    /// The predicate in words, with its numbers.
+    pub predicate: &'static str,
+    /// The predicate as it is compiled; empty for a claim that the runs cannot decide.
+    pub code: &'static str,
+    /// Evaluates the predicate.
+    pub evaluate: fn(&Evidence<'_>) -> Finding,
+    /// Why it does not hold in the thesis's runs as they come out here; `None` where it does.
+    pub why_not: Option<&'static str>,
+}
+
+/// A claim with its verdict, ready to be shown or written.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// [`Claim::id`].
+    pub id: &'static str,
+    /// [`Claim::group`].
+    pub group: Group,
+    /// [`Claim::place`].
+    pub place: &'static str,
+    /// [`Claim::statement`].
+    pub statement: &'static str,
+    /// [`Claim::predicate`].
+    pub predicate: &'static str,
+    /// [`Claim::code`], on one line.
+    pub code: String,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The values found, in the runs' units.
+    pub values: Vec<Shown>,
+    /// Why it does not hold or cannot be decided; empty where it holds.
+    pub note: String,
+}
+
+/// A value found, with its unit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Shown {
+    /// What it is of.
+    pub label: String,
+    /// The value and its unit.
+    #[serde(flatten)]
+    pub measure: Measure,
+}
+
+/// All verdicts, as they are written into a file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Claims {
+    /// [`SCHEMA`].
+    pub schema: &'static str,
+    /// How many hold.
+    pub hold: usize,
+    /// How many do not.
+    pub do_not: usize,
+    /// How many cannot be decided.
+    pub undecided: usize,
+    /// The claims in the order of the thesis.
+    pub claims: Vec<Row>,
+}
+
+impl Claims {
+    /// Counts rows.
+    #[must_use]
+    pub fn of(claims: Vec<Row>) -> Self {
+        let count = |verdict| claims.iter().filter(|row| row.verdict == verdict).count();
+        Self {
+            schema: SCHEMA,
+            hold: count(Verdict::Holds),
+            do_not: count(Verdict::DoesNot),
+            undecided: count(Verdict::CannotBeDecided),
+            claims,
+        }
+    }
+}
+
+/// All claims, in the order of the thesis.
+pub fn claims() -> impl Iterator<Item = &'static Claim> {
+    [
+        variable::CLAIMS,
+        variable_yawed::CLAIMS,
+        constant::CLAIMS,
+        constant_yawed::CLAIMS,
+        conclusions::CLAIMS,
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// What is said of a claim that comes out otherwise than when its reasons were looked for.
+const NOT_LOOKED_INTO: &str =
+    "Why is not known: with the thesis's twelve runs as this program makes them it holds.";
+
+/// All claims with their verdicts, in the order of the thesis. Runs that are missing or incomplete leave the claims that need
+/// them undecided.
+#[must_use]
+pub fn evaluate(evidence: &Evidence<'_>) -> Vec<Row> {
+    let units = evidence.units();
+    claims()
+        .map(|claim| {
+            let finding = (claim.evaluate)(evidence);
+            Row {
+                id: claim.id,
+                group: claim.group,
+                place: claim.place,
+                statement: claim.statement,
+                predicate: claim.predicate,
+                code: on_one_line(claim.code),
+                verdict: finding.verdict,
+                values: finding
+                    .values
+                    .into_iter()
+                    .filter(|found| !found.value.is_nan())
+                    .map(|found| Shown {
+                        label: found.label,
+                        measure: Measure::new(found.value, found.kind, units),
+                    })
+                    .collect(),
+                note: match finding.verdict {
+                    Verdict::Holds => String::new(),
+                    Verdict::DoesNot => claim.why_not.unwrap_or(NOT_LOOKED_INTO).to_owned(),
+                    Verdict::CannotBeDecided => finding.undecided,
+                },
+            }
+        })
+        .collect()
+}
+
+/// Code without the line breaks of its layout.
+fn on_one_line(code: &str) -> String {
+    let words: Vec<&str> = code.split_whitespace().collect();
+    words
+        .join(" ")
+        .replace("( ", "(")
+        .replace("[ ", "[")
+        .replace(", )", ")")
+        .replace(",)", ")")
+        .replace(", ]", "]")
+        .replace(",]", "]")
+}
+
+/// A claim whose predicate is compiled and shown from the same words. `runs` names the runs that it needs; in `holds`
+/// they are what [`evidence::View`] shows of them.
+macro_rules! claim {
+    (
+        id: $id:literal,
+        group: $group:ident,
+        place: $place:literal,
+        says: $says:literal,
+        test: $test:literal,
+        runs: [$($run:ident),+ $(,)?],
+        holds: $holds:expr
+        $(, but: $but:literal)? $(,)?
+    ) => {
+        $crate::claims::Claim {
+            id: $id,
+            group: $crate::claims::Group::$group,
+            place: $place,
+            statement: $says,
+            predicate: $test,
+            code: stringify!($holds),
+            evaluate: |evidence| {
+                $crate::claims::evidence::decide(
+                    evidence,
+                    [$($crate::claims::evidence::runs::$run),+],
+                    |[$($run),+]| $holds,
+                )
+            },
+            why_not: $crate::claims::because!($($but)?),
+        }
+    };
+}
+
+/// The reason, if there is one.
+macro_rules! because {
+    () => {
+        None
+    };
+    ($why:literal) => {
+        Some($why)
+    };
+}
+
+/// A statement about the runs that they cannot decide.
+macro_rules! undecidable {
+    (
+        id: $id:literal,
+        group: $group:ident,
+        place: $place:literal,
+        says: $says:literal,
+        reason: $reason:literal $(,)?
+    ) => {
+        $crate::claims::Claim {
+            id: $id,
+            group: $crate::claims::Group::$group,
+            place: $place,
+            statement: $says,
+            predicate: "none: nothing in the runs decides it",
+            code: "",
+            evaluate: |_| $crate::claims::Finding::undecided($reason),
+            why_not: None,
+        }
+    };
+}
+
+use {because, claim, undecidable};

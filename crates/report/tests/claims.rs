@@ -1,0 +1,322 @@
+//! The claims of chapters 5 to 7: complete, decided from the runs, and honest about what is missing.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Mutex, OnceLock};
+
+use quantity::System as Units;
+use report::claims::{Claims, Evidence, Row, RunId, SCHEMA, Toe, Verdict, claims, evaluate};
+use study::case::{Case, builtin};
+use study::result::RunResult;
+use study::run::Run;
+
+/// The twelve runs, made once, two at a time.
+fn twelve() -> &'static [(Case, RunResult)] {
+    static TWELVE: OnceLock<Vec<(Case, RunResult)>> = OnceLock::new();
+    TWELVE.get_or_init(|| runs(&[]))
+}
+
+fn runs(set: &[String]) -> Vec<(Case, RunResult)> {
+    let names: Vec<&str> = builtin::names().collect();
+    let next = Mutex::new(0);
+    let done = Mutex::new(BTreeMap::new());
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                loop {
+                    let i = {
+                        let mut next = next.lock().unwrap();
+                        *next += 1;
+                        *next - 1
+                    };
+                    let Some(name) = names.get(i) else { break };
+                    let case = builtin::case_with(name, set).unwrap();
+                    let result = Run::new(&case).unwrap().finish(|_| ());
+                    done.lock().unwrap().insert(i, (case, result));
+                }
+            });
+        }
+    });
+    done.into_inner().unwrap().into_values().collect()
+}
+
+fn evidence(runs: &[(Case, RunResult)]) -> Evidence<'_> {
+    Evidence::new(runs.iter().map(|(case, result)| (case, result)))
+}
+
+/// The rows of the twelve runs.
+fn rows() -> &'static [Row] {
+    static ROWS: OnceLock<Vec<Row>> = OnceLock::new();
+    ROWS.get_or_init(|| evaluate(&evidence(twelve())))
+}
+
+fn row<'r>(rows: &'r [Row], id: &str) -> &'r Row {
+    rows.iter()
+        .find(|row| row.id == id)
+        .unwrap_or_else(|| panic!("no claim {id}"))
+}
+
+fn verdicts(rows: &[Row]) -> Vec<(&'static str, Verdict)> {
+    rows.iter().map(|row| (row.id, row.verdict)).collect()
+}
+
+#[test]
+fn every_claim_says_what_it_is() {
+    assert!(claims().count() >= 45, "{}", claims().count());
+    let ids: BTreeSet<&str> = claims().map(|claim| claim.id).collect();
+    assert_eq!(ids.len(), claims().count(), "ids are unique");
+    for claim in claims() {
+        assert!(
+            claim.place.starts_with("section ") && claim.place.contains("page"),
+            "{}: {}",
+            claim.id,
+            claim.place
+        );
+        for text in [claim.statement, claim.predicate] {
+            assert!(text.len() > 15, "{}: {text}", claim.id);
+            assert!(!text.contains("  "), "{}: {text}", claim.id);
+        }
+        assert!(claim.statement.ends_with('.'), "{}", claim.id);
+        let section = &claim.id[..3];
+        assert!(
+            claim.place.starts_with(&format!("section {section}")),
+            "{}",
+            claim.id
+        );
+    }
+}
+
+#[test]
+fn the_table() {
+    let table = Claims::of(rows().to_vec());
+    for row in &table.claims {
+        println!(
+            "\n{} [{}] {}: {}",
+            row.id,
+            row.place,
+            row.verdict.words(),
+            row.statement
+        );
+        println!("   {}\n   {}", row.predicate, row.code);
+        for value in &row.values {
+            println!(
+                "   {} = {:.5} {}",
+                value.label, value.measure.value, value.measure.unit
+            );
+        }
+        if !row.note.is_empty() {
+            println!("   -> {}", row.note);
+        }
+    }
+    println!(
+        "\n{} hold, {} do not, {} cannot be decided",
+        table.hold, table.do_not, table.undecided
+    );
+    assert_eq!(table.hold + table.do_not + table.undecided, claims().count());
+    let written = serde_json::to_value(&table).unwrap();
+    assert_eq!(written["schema"], SCHEMA);
+    assert_eq!(written["claims"].as_array().unwrap().len(), claims().count());
+    let value = &written["claims"][0]["values"][0];
+    assert!(value["label"].is_string() && value["value"].is_number() && value["unit"] == "lbf");
+    assert_eq!(written["claims"][0]["verdict"], "holds");
+    assert_eq!(written["claims"][0]["group"], "variable");
+}
+
+/// What is not a question of numbers is decided by the twelve runs, or says why not; every failure is explained.
+#[test]
+fn verdicts_come_with_their_reasons() {
+    for row in rows() {
+        let claim = claims().find(|claim| claim.id == row.id).unwrap();
+        match row.verdict {
+            Verdict::Holds => assert!(row.note.is_empty(), "{}", row.id),
+            Verdict::DoesNot => {
+                let why = claim.why_not.unwrap_or_else(|| panic!("{}: why not?", row.id));
+                assert!(why.len() > 30 && why.ends_with('.'), "{}: {why}", row.id);
+                assert_eq!(row.note, why);
+            }
+            Verdict::CannotBeDecided => {
+                assert!(row.code.is_empty(), "{}: {}", row.id, row.note);
+                assert!(row.note.len() > 30, "{}: {}", row.id, row.note);
+            }
+        }
+        if row.verdict != Verdict::CannotBeDecided {
+            assert!(!row.values.is_empty() && !row.code.is_empty(), "{}", row.id);
+            assert!(
+                !row.code.contains("  ") && !row.code.contains('\n'),
+                "{}",
+                row.code
+            );
+        }
+    }
+}
+
+/// What the thesis says of its figures and what has been found required.
+#[test]
+fn what_must_hold_holds() {
+    for id in [
+        "6.1-toe-order-up",
+        "6.1-toe-order-down",
+        "5.1-toe-order-down",
+        "5.1-lift-off-after-3-s",
+        "5.1-no-dissipation-in-lift-off",
+        "7.1-no-dissipation-in-lift-off",
+        "5.1-rings-about-zero-any-toe",
+        "5.1-stick-gives-largest-force",
+        "6.1-never-lifts-off",
+        "6.1-no-dissipation-only-sticking",
+        "5.1-small-yaw-moment",
+        "6.1-yaw-moment-negligible",
+        "7.1-no-lateral-force",
+    ] {
+        let row = row(rows(), id);
+        assert_eq!(row.verdict, Verdict::Holds, "{row:#?}");
+    }
+}
+
+/// The values are those of the summaries.
+#[test]
+fn values_are_those_of_the_summaries() {
+    let (_, result) = twelve()
+        .iter()
+        .find(|(case, _)| case.name == "cdrun_toe_-0.2_psi_0")
+        .unwrap();
+    let expected = &result.summary.averages.up["vertical_wedge_force"];
+    let found = &row(rows(), "6.1-toe-order-up").values[0];
+    assert!(found.label.contains("constant, toe out"), "{}", found.label);
+    assert_eq!(found.measure.unit, expected.unit);
+    assert!((found.measure.value / expected.value - 1.0).abs() < 1e-12);
+}
+
+/// If one run is taken for another, verdicts change: they come from the results, not from names.
+#[test]
+fn verdicts_follow_the_results() {
+    let run = |constant, toe| RunId {
+        constant,
+        toe,
+        yawed: false,
+    };
+    for (constant, ids) in [
+        (true, ["6.1-toe-order-up", "6.1-toe-order-down"].as_slice()),
+        (false, ["5.1-toe-order-down"].as_slice()),
+    ] {
+        let swapped = evidence(twelve()).exchanged(run(constant, Toe::Out), run(constant, Toe::In));
+        let changed = evaluate(&swapped);
+        for id in ids {
+            assert_eq!(row(rows(), id).verdict, Verdict::Holds);
+            assert_eq!(row(&changed, id).verdict, Verdict::DoesNot, "{id}");
+            assert!(!row(&changed, id).note.is_empty());
+        }
+    }
+    // Exchanged between dampings, hardly anything is left as it was.
+    let swapped = evidence(twelve()).exchanged(run(true, Toe::Out), run(false, Toe::Out));
+    let changed = evaluate(&swapped);
+    for id in ["6.1-never-lifts-off", "5.1-lift-off-after-3-s"] {
+        assert_ne!(row(&changed, id).verdict, Verdict::Holds, "{id}");
+    }
+}
+
+/// Runs are known by their parameters: names may be anything.
+#[test]
+fn names_do_not_matter() {
+    let renamed: Vec<(Case, RunResult)> = twelve()
+        .iter()
+        .enumerate()
+        .map(|(i, (case, result))| {
+            let mut case = case.clone();
+            case.name = format!("run_{}", 12 - i);
+            (case, result.clone())
+        })
+        .collect();
+    assert_eq!(evaluate(&evidence(&renamed)), rows());
+}
+
+#[test]
+fn missing_runs_leave_claims_undecided() {
+    for row in evaluate(&Evidence::default()) {
+        assert_eq!(row.verdict, Verdict::CannotBeDecided, "{}", row.id);
+        assert!(!row.note.is_empty());
+    }
+    let without: Vec<&(Case, RunResult)> = twelve()
+        .iter()
+        .filter(|(case, _)| case.name != "cdrun_toe_0.2_psi_0")
+        .collect();
+    let found = evaluate(&Evidence::new(
+        without.iter().map(|(case, result)| (case, result)),
+    ));
+    let ordered = row(&found, "6.1-toe-order-up");
+    assert_eq!(ordered.verdict, Verdict::CannotBeDecided);
+    assert_eq!(ordered.note, "the run \"constant, toe in\" was not made");
+    // The others stand.
+    for (found, row) in found.iter().zip(rows()) {
+        if !row.code.contains("cd_in") || row.code.contains("cd_in_yaw") && row.group != rows()[0].group {
+            continue;
+        }
+        assert_eq!(found.verdict, Verdict::CannotBeDecided, "{}", row.id);
+    }
+    assert_eq!(
+        row(&found, "5.1-toe-order-down").verdict,
+        row(rows(), "5.1-toe-order-down").verdict
+    );
+}
+
+/// Runs that stopped, and runs too short for what a claim looks at.
+#[test]
+fn incomplete_and_short_runs_leave_claims_undecided() {
+    let mut stopped: Vec<(Case, RunResult)> = twelve().to_vec();
+    for (case, result) in &mut stopped {
+        if case.name == "vdrun_toe_0_psi_0" {
+            result.summary.complete = false;
+        }
+    }
+    let found = evaluate(&evidence(&stopped));
+    let ordered = row(&found, "5.1-toe-order-down");
+    assert_eq!(ordered.verdict, Verdict::CannotBeDecided);
+    assert!(
+        ordered.note.contains("variable, no toe\" stopped at 10"),
+        "{}",
+        ordered.note
+    );
+
+    // 1 s: the bolster has not even come back; 0.01 s: two rows.
+    for duration in ["1 s", "0.01 s"] {
+        let short = runs(&[
+            format!("simulation.duration={duration}"),
+            "simulation.output_interval=0.01 s".to_owned(),
+        ]);
+        for row in evaluate(&evidence(&short)) {
+            if row.id.starts_with("5.1-") || row.id.starts_with("6.1-") {
+                assert_eq!(row.verdict, Verdict::CannotBeDecided, "{} {}", row.id, row.note);
+                assert!(!row.note.is_empty());
+            }
+        }
+    }
+}
+
+/// A table without the columns that a claim needs.
+#[test]
+fn missing_columns_leave_claims_undecided() {
+    let mut bare: Vec<(Case, RunResult)> = twelve().to_vec();
+    for (_, result) in &mut bare {
+        result.columns.clear();
+        result.values.clear();
+    }
+    for row in evaluate(&evidence(&bare)) {
+        let summary_only = row.code.contains("energy_per_cycle") || row.code.contains("ledger_residual");
+        if !summary_only {
+            assert_eq!(row.verdict, Verdict::CannotBeDecided, "{}", row.id);
+        }
+    }
+}
+
+#[test]
+fn verdicts_do_not_depend_on_units() {
+    let si = runs(&["simulation.output_units=si".to_owned()]);
+    let evidence = evidence(&si);
+    assert_eq!(evidence.units(), Units::Si);
+    let found = evaluate(&evidence);
+    assert_eq!(verdicts(&found), verdicts(rows()));
+    let value = &row(&found, "6.1-toe-order-up").values[0].measure;
+    assert_eq!(value.unit, "N");
+    let pounds = row(rows(), "6.1-toe-order-up").values[0].measure.value;
+    assert!((value.value / pounds - 4.448_221_615_260_5).abs() < 1e-9);
+}
