@@ -33,6 +33,8 @@ mod words;
 
 pub use evidence::{Evidence, Finding, RunId, Toe, Value, Verdict};
 
+use std::io::{self, Write};
+
 use serde::Serialize;
 use study::summary::Measure;
 
@@ -164,6 +166,18 @@ impl Claims {
             claims,
         }
     }
+}
+
+/// The name of the claims' file.
+pub const FILE_NAME: &str = "claims.json";
+
+/// Writes all verdicts as JSON.
+///
+/// # Errors
+/// The writer's.
+pub fn write(claims: &Claims, out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, claims)?;
+    out.write_all(b"\n")
 }
 
 /// All claims, in the order of the thesis.

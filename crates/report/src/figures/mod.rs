@@ -111,7 +111,7 @@ pub(crate) fn capital(text: &str) -> String {
 }
 
 /// A number for a caption: three or four significant digits, a true minus sign.
-fn digits(value: f64) -> String {
+pub(crate) fn digits(value: f64) -> String {
     let size = value.abs();
     let decimals = match size {
         _ if size >= 100.0 || size == 0.0 => 0,

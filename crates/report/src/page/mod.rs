@@ -1,9 +1,11 @@
 //! `index.html`: the report as one page that needs nothing else to be shown.
 
+mod claims;
 mod runs;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::claims::Claims;
 use crate::drawing::Figure;
 use crate::figures::{Exhibit, Outcome};
 
@@ -43,6 +45,8 @@ pub struct Section {
 pub struct Contents<'c> {
     /// The runs.
     pub outcomes: &'c [Outcome],
+    /// The thesis's statements and what was found.
+    pub claims: &'c Claims,
     /// The figures.
     pub sections: &'c [Section],
 }
@@ -77,6 +81,9 @@ pub fn render(contents: &Contents<'_>) -> String {
                 nav aria-label="Contents" {
                     ul {
                         li { a href="#runs" { "Runs" } }
+                        @if !contents.claims.claims.is_empty() {
+                            li { a href="#claims" { "The thesis's statements, one by one" } }
+                        }
                         @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
                         @if !folded.is_empty() { li { a href="#run-by-run" { "Run by run" } } }
                         li { a href="#assumptions" { "Assumptions" } }
@@ -85,6 +92,7 @@ pub fn render(contents: &Contents<'_>) -> String {
                 }
                 main {
                     (runs::table(contents.outcomes))
+                    (claims::tables(contents.claims))
                     @for section in &open {
                         section {
                             h2 id=(anchor(&section.id)) { (section.title) }

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use clap::Args;
 use rayon::prelude::*;
+use report::claims::{self, Claims, Evidence};
 use report::figures::{Exhibit, Outcome};
 use report::files::{Folder, check_all};
 use report::page::{self, Contents};
@@ -21,7 +22,7 @@ use crate::select::select;
 /// Run all built-in cases: the thesis's twelve runs
 ///
 /// Computes the twelve runs of Steets (2007), table 4-1: variable and constant damping, toe out, none and in, with and
-/// without yaw of the bolster. Writes the report index.html, each of its figures as SVG and PNG, and for each run
+/// without yaw of the bolster. Writes the report index.html, its statements with verdicts claims.json, each figure as SVG and PNG, and for each run
 /// runs/NAME/result.csv, result.mat, case.toml and summary.json; prints a table of the runs.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
@@ -82,10 +83,11 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     table(summaries.zip(walls.iter().copied())).write(&mut out)?;
     writeln!(
         out,
-        "\n{TABLE_NOTE}\n\nWritten into {}: {} (the report; open it in a browser), {}/ ({figures} figures as SVG and PNG), \
+        "\n{TABLE_NOTE}\n\nWritten into {}: {} (the report; open it in a browser), {}, {}/ ({figures} figures as SVG and PNG), \
          runs/NAME/{{{}}}.",
         places.sheets.path().display(),
         page::FILE_NAME,
+        claims::FILE_NAME,
         page::FIGURES,
         run_files::NAMES.join(", "),
     )?;
@@ -137,13 +139,17 @@ fn tell(outcomes: &[Outcome], places: &Places) -> Result<usize, Failure> {
         .iter()
         .map(|plan| sections::drawn(plan, svgs.by_ref().take(plan.exhibits.len())))
         .collect();
+    let evidence = Evidence::new(outcomes.iter().map(|(case, result)| (case, result)));
+    let verdicts = Claims::of(claims::evaluate(&evidence));
     let page = page::render(&Contents {
         outcomes,
+        claims: &verdicts,
         sections: &sections,
     });
-    places
-        .sheets
-        .write(|files| files.add(page::FILE_NAME, |out| out.write_all(page.as_bytes())))?;
+    places.sheets.write(|files| {
+        files.add(page::FILE_NAME, |out| out.write_all(page.as_bytes()))?;
+        files.add(claims::FILE_NAME, |out| claims::write(&verdicts, out))
+    })?;
     Ok(count)
 }
 
@@ -165,7 +171,7 @@ fn check(out: &Path, cases: &[Case], force: bool) -> Result<Places, Failure> {
             .collect()
     });
     let present: Vec<&str> = present.iter().map(String::as_str).collect();
-    let sheets: [&str; 1] = [page::FILE_NAME];
+    let sheets = [page::FILE_NAME, claims::FILE_NAME];
     let folders = [(out.to_owned(), sheets.as_slice()), (figures, present.as_slice())];
     let runs = cases
         .iter()

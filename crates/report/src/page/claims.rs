@@ -1,0 +1,91 @@
+//! The thesis's statements with their verdicts.
+
+use maud::{Markup, html};
+
+use crate::claims::{Claims, Group, Row, Shown, Verdict};
+
+/// The tables, one a group; nothing without claims.
+pub(super) fn tables(claims: &Claims) -> Markup {
+    if claims.claims.is_empty() {
+        return html! {};
+    }
+    html! {
+        section {
+            h2 id="claims" { "The thesis's statements, one by one" }
+            p {
+                "What chapters 5 to 7 say of the stand-alone runs, in our words, and what these runs show: "
+                strong { (claims.hold) } " statements hold, " strong { (claims.do_not) } " do not, and "
+                strong { (claims.undecided) } " cannot be decided from these runs. Each has a predicate, evaluated from the \
+                runs' tables when this page was made; below it stands the code that was evaluated. A statement that does not \
+                hold is a finding, not a fault of the page."
+            }
+            p {
+                "Where the thesis gives no number: \u{201c}small\u{201d}, \u{201c}similar\u{201d} and \u{201c}close\u{201d} mean within 10 %, \
+                \u{201c}zero\u{201d} below 1 % of the peak. Chapter 5's vertical force is the one that its figures draw: the vertical \
+                force on the side frame, coil included; chapter 6's is the column's friction."
+            }
+            @for group in Group::ALL {
+                @let rows: Vec<&Row> = claims.claims.iter().filter(|row| row.group == group).collect();
+                @if !rows.is_empty() { (table(group, &rows)) }
+            }
+        }
+    }
+}
+
+fn table(group: Group, rows: &[&Row]) -> Markup {
+    html! {
+        h3 { (group.title()) }
+        div.wide {
+            table {
+                thead {
+                    tr {
+                        th scope="col" { "where" }
+                        th scope="col" { "statement" }
+                        th scope="col" { "predicate" }
+                        th scope="col" { "found" }
+                        th scope="col" { "verdict" }
+                    }
+                }
+                tbody {
+                    @for row in rows {
+                        tr id={ "claim-" (super::anchor(row.id)) } {
+                            td { (row.place) }
+                            td { (row.statement) }
+                            td {
+                                (row.predicate)
+                                @if !row.code.is_empty() { br; code { (row.code) } }
+                            }
+                            td {
+                                @for (number, value) in row.values.iter().enumerate() {
+                                    @if number > 0 { br; }
+                                    (value.label) ":\u{a0}" (shown(value))
+                                }
+                            }
+                            td {
+                                span class={ "verdict " (class(row.verdict)) } { (row.verdict.words()) }
+                                @if !row.note.is_empty() { br; (row.note) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn class(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Holds => "holds",
+        Verdict::DoesNot => "fails",
+        Verdict::CannotBeDecided => "open",
+    }
+}
+
+/// A value with its unit, to four digits.
+fn shown(value: &Shown) -> String {
+    let number = crate::figures::digits(value.measure.value);
+    match value.measure.unit.as_str() {
+        "" => number,
+        unit => format!("{number}\u{a0}{unit}"),
+    }
+}
