@@ -10,13 +10,13 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figure 5-1, page 42",
         says: "With the bolster off the wedge the vertical force oscillates close to zero (toe out).",
-        test: "in lift-off the mean vertical force on the side frame is below 5 % of its peak in the run, and the force \
-               takes both signs",
+        test: "in lift-off the vertical force on the side frame stays below 5 % of its peak in the run, and \
+               crosses its mean (which is the weight that the coil carries) time and again, with the bolster \
+               rising at more than 5 Hz",
         runs: [vd_out],
         holds: all([
-            size(vd_out, side_frame_force, lift_off) < 0.05 * peak(vd_out, side_frame_force, settled),
-            least(vd_out, side_frame_force, lift_off) < 0.0,
-            greatest(vd_out, side_frame_force, lift_off) > 0.0,
+            peak(vd_out, side_frame_force, lift_off) < 0.05 * peak(vd_out, side_frame_force, settled),
+            ringing_frequency(vd_out, side_frame_force, early_lift_off) > 5.0 * hertz,
         ]),
     },
     claim! {
@@ -24,8 +24,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figure 5-1, page 42",
         says: "While the bolster presses down (1.5 to 2.4 s), the wedge sticks and slips along the column (toe out).",
-        test: "while the bolster is below its middle and goes down, the column sticks for more than 5 % of the time, and \
-               slips for more than 5 %",
+        test: "while the bolster is below its middle and goes down, the column sticks for more than 5 % of the \
+               time, and slips for more than 5 %",
         runs: [vd_out],
         holds: all([
             share(vd_out, column_sticks, pressing_down) > 0.05,
@@ -36,11 +36,12 @@ pub(super) static CLAIMS: &[Claim] = &[
         id: "5.1-smoother-up",
         group: Variable,
         place: "section 5.1, figure 5-1, page 42",
-        says: "As the bolster goes up again (2.4 to 3.2 s), the wedge slides more smoothly than on its way down (toe out).",
-        test: "the side-frame dissipation is less rough (mean size of its second difference from row to row) with the \
-               bolster below its middle and going up than going down",
+        says: "As the bolster goes up again (2.4 to 3.2 s), the wedge slides more smoothly than on its way down \
+               (toe out).",
+        test: "the side-frame dissipation is less rough (mean size of its second difference from row to row) going \
+               up than going down, over the branches (without the reversal)",
         runs: [vd_out],
-        holds: roughness(vd_out, dissipation, returning_up) < roughness(vd_out, dissipation, pressing_down),
+        holds: roughness(vd_out, dissipation, going_up) < roughness(vd_out, dissipation, going_down),
     },
     claim! {
         id: "5.1-moves-up-together",
@@ -65,7 +66,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figures 5-2 and 5-4, pages 43 and 44",
         says: "Section (3): the bolster presses the wedge down, which slips along the column, whatever the toe.",
-        test: "the wedge slides down for more than 50 % of the time in which the bolster is below its middle and goes down",
+        test: "the wedge slides down for more than 50 % of the time in which the bolster is below its middle and \
+               goes down",
         runs: [vd_out, vd_none, vd_in],
         holds: every([vd_out, vd_none, vd_in], |run| share(run, sliding_down, pressing_down) > 0.5),
     },
@@ -73,13 +75,16 @@ pub(super) static CLAIMS: &[Claim] = &[
         id: "5.1-stick-gives-largest-force",
         group: Variable,
         place: "section 5.1, figures 5-2 and 5-4, pages 43 and 45",
-        says: "Section (4): still in the downward phase the wedge sticks to the column, with a large force and no motion.",
-        test: "at the bottom reversal (bolster below -0.99 A), while the column sticks, the force on the side frame goes \
-               through more than half its range in the run, and the wedge through less than 1 % of its own",
+        says: "Section (4): still in the downward phase the wedge sticks to the column, with a large force and no \
+               motion.",
+        test: "in the 0.1 s about the bottom reversal the column sticks at some time, the force on the side frame \
+               goes through more than half its range in the run, and the wedge through less than 1 % of its own, \
+               for each toe",
         runs: [vd_out, vd_none, vd_in],
         holds: every([vd_out, vd_none, vd_in], |run| all([
-            range(run, side_frame_force, stuck_at_bottom) > 0.5 * range(run, side_frame_force, settled),
-            range(run, wedge_z, stuck_at_bottom) < 0.01 * range(run, wedge_z, settled),
+            share(run, column_sticks, at_bottom) > 0.0,
+            range(run, side_frame_force, at_bottom) > 0.5 * range(run, side_frame_force, settled),
+            range(run, wedge_z, at_bottom) < 0.01 * range(run, wedge_z, settled),
         ])),
     },
     claim! {
@@ -87,8 +92,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figure 5-3, page 43",
         says: "The toe angles are so small that the vertical forces of the three toe cases differ very little.",
-        test: "the mean forces on the side frame of the three toe cases differ by no more than 10 % going down, and by no \
-               more than 10 % going up",
+        test: "the mean forces on the side frame of the three toe cases differ by no more than 10 % going down, \
+               and by no more than 10 % going up",
         runs: [vd_out, vd_none, vd_in],
         holds: all([
             within(0.1, [vd_out, vd_none, vd_in].map(|run| size(run, side_frame_force, going_down))),
@@ -99,7 +104,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         id: "5.1-accurate-motion",
         group: Variable,
         place: "section 5.1, figure 5-3, page 43",
-        says: "The small differences between the toe cases show that the model captures the wedge's actual motion accurately.",
+        says: "The small differences between the toe cases show that the model captures the wedge's actual motion \
+               accurately.",
         reason: "No motion was measured. That three runs of one model differ little says nothing about a real wedge.",
     },
     claim! {
@@ -107,8 +113,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figures 5-3 and 5-4, page 44",
         says: "Toe out gives the lowest vertical forces, toe in the highest: going down.",
-        test: "size of the mean vertical wedge force going down: toe in > no toe > toe out; and the same of the force on \
-               the side frame",
+        test: "size of the mean vertical wedge force going down: toe in > no toe > toe out; and the same of the \
+               force on the side frame",
         runs: [vd_out, vd_none, vd_in],
         holds: all([
             descending([vd_in, vd_none, vd_out].map(|run| size(run, vertical_force, going_down))),
@@ -129,8 +135,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figures 5-3 and 5-4, page 44",
         says: "The contact between wedge and column is smoother with toe out than with toe in.",
-        test: "while the bolster is below its middle, the longitudinal force is less rough (mean size of its second \
-               difference from row to row) with toe out than with toe in",
+        test: "while the bolster is below its middle, the longitudinal force is less rough (mean size of its \
+               second difference from row to row) with toe out than with toe in",
         runs: [vd_out, vd_in],
         holds: roughness(vd_out, longitudinal_force, pressed) < roughness(vd_in, longitudinal_force, pressed),
     },
@@ -139,8 +145,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figure 5-3, page 44",
         says: "Lift-off happens slightly after 3 s, whatever the toe.",
-        test: "after the bolster's first way down, the slope's corners are first all open, with the bolster going up, \
-               between 3.0 and 3.3 s",
+        test: "after the bolster's first way down, the slope's corners are first all open, with the bolster going \
+               up, between 3.0 and 3.3 s",
         runs: [vd_out, vd_none, vd_in],
         holds: every([vd_out, vd_none, vd_in], |run| {
             let time = first_time(run, bolster_off, upwards);
@@ -152,13 +158,13 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figures 5-3 and 5-4, pages 44 and 45",
         says: "During lift-off the vertical force oscillates about zero, whatever the toe.",
-        test: "in lift-off the mean vertical force on the side frame is below 5 % of its peak in the run, and the force \
-               takes both signs, for each toe",
+        test: "in lift-off the vertical force on the side frame stays below 5 % of its peak in the run, and \
+               crosses its mean (which is the weight that the coil carries) at more than 5 Hz with the bolster \
+               rising, for each toe",
         runs: [vd_out, vd_none, vd_in],
         holds: every([vd_out, vd_none, vd_in], |run| all([
-            size(run, side_frame_force, lift_off) < 0.05 * peak(run, side_frame_force, settled),
-            least(run, side_frame_force, lift_off) < 0.0,
-            greatest(run, side_frame_force, lift_off) > 0.0,
+            peak(run, side_frame_force, lift_off) < 0.05 * peak(run, side_frame_force, settled),
+            ringing_frequency(run, side_frame_force, early_lift_off) > 5.0 * hertz,
         ])),
     },
     claim! {
@@ -166,8 +172,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figures 5-1 and 5-3, pages 42 and 44",
         says: "The ringing in lift-off is that of the wedge's mass on the control coil.",
-        test: "in lift-off, with the bolster rising, the force on the side frame crosses its mean with the wedge's natural \
-               frequency on its coil, within 10 %, for each toe",
+        test: "in lift-off, with the bolster rising, the force on the side frame crosses its mean with the wedge's \
+               natural frequency on its coil, within 10 %, for each toe",
         runs: [vd_out, vd_none, vd_in],
         holds: every([vd_out, vd_none, vd_in], |run| {
             within(0.1, [ringing_frequency(run, side_frame_force, early_lift_off), natural_frequency(run)])
@@ -178,8 +184,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figure 5-4, page 44",
         says: "The hysteresis loops of the three toe cases differ little.",
-        test: "the energies per cycle at the side frame (the areas of the loops of the column friction) of the three toe cases differ by no \
-               more than 10 %",
+        test: "the energies per cycle at the side frame (the areas of the loops of the column friction) of the \
+               three toe cases differ by no more than 10 %",
         runs: [vd_out, vd_none, vd_in],
         holds: within(0.1, [energy_per_cycle(vd_out), energy_per_cycle(vd_none), energy_per_cycle(vd_in)]),
     },
@@ -188,8 +194,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figure 5-5, page 45",
         says: "The longitudinal force shows the wedge ringing between bolster and side frame (toe out).",
-        test: "the longitudinal force has more than 10 peaks (followed by falls of more than 2 % of its greatest value) \
-               in the time after the first half period: some four a cycle",
+        test: "the longitudinal force has more than 10 peaks (followed by falls of more than 2 % of its greatest \
+               value) in the time after the first half period: some four a cycle",
         runs: [vd_out],
         holds: peaks(vd_out, longitudinal_force, settled) > 10.0,
     },
@@ -198,7 +204,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figure 5-5, page 45",
         says: "The longitudinal force stays fairly periodic (toe out).",
-        test: "from one cycle to the next the longitudinal force changes by less than 20 % (root mean square, relative)",
+        test: "from one cycle to the next the longitudinal force changes by less than 20 % (root mean square, \
+               relative)",
         runs: [vd_out],
         holds: change_between_cycles(vd_out, longitudinal_force) < 0.2,
     },
@@ -225,7 +232,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figure 5-6, page 45",
         says: "With toe, in or out, bolster and side frame constrain the wedge's movement more than without.",
-        test: "range of the wedge's longitudinal displacement after the first half period: toe out < no toe, toe in < no toe",
+        test: "range of the wedge's longitudinal displacement after the first half period: toe out < no toe, toe \
+               in < no toe",
         runs: [vd_out, vd_none, vd_in],
         holds: all([
             range(vd_out, wedge_x, settled) < range(vd_none, wedge_x, settled),
@@ -246,10 +254,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figure 5-7, page 46",
         says: "The wedge on its coil conserves its energy while it oscillates in lift-off (toe out).",
-        test: "the range of the force on the side frame in lift-off is, with the bolster falling, not more than 10 % below \
-               that with the bolster rising",
+        test: "the range of the force on the side frame while the bolster rises above 0.75 A is not more than 10 % \
+               below that at the beginning of lift-off (bolster rising from 0.15 A to 0.5 A)",
         runs: [vd_out],
-        holds: range(vd_out, side_frame_force, late_lift_off) > 0.9 * range(vd_out, side_frame_force, early_lift_off),
+        holds: range(vd_out, side_frame_force, last_ringing) > 0.9 * range(vd_out, side_frame_force, first_ringing),
     },
     claim! {
         id: "5.1-energy-least-toe-out",
@@ -289,9 +297,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, figure 5-8, pages 46 and 47",
         says: "With toe in more of the wedge's face touches the column than with toe out.",
-        test: "mean number of column corners that touch, while the bolster is below its middle: toe in > toe out",
+        test: "mean number of column corners that touch, while the bolster is below its middle: toe in > toe out \
+               by more than 10 %",
         runs: [vd_in, vd_out],
-        holds: mean(vd_in, corners_touching, pressed) > mean(vd_out, corners_touching, pressed),
+        holds: mean(vd_in, corners_touching, pressed) > 1.1 * mean(vd_out, corners_touching, pressed),
     },
     claim! {
         id: "5.1-forces-on-wedge",
@@ -307,7 +316,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, page 48",
         says: "The input is so simple that the moments are small: pitch.",
-        test: "the peak pitch moment is below 10 % of the peak longitudinal force times half the face's height, for each toe",
+        test: "the peak pitch moment is below 10 % of the peak longitudinal force times half the face's height, \
+               for each toe",
         runs: [vd_out, vd_none, vd_in],
         holds: every([vd_out, vd_none, vd_in], |run| peak(run, pitch_moment, settled) < 0.1 * pitch_limit(run)),
     },
@@ -316,8 +326,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Variable,
         place: "section 5.1, page 48",
         says: "The input is so simple that the moments are small: yaw and roll.",
-        test: "the peak yaw and roll moments are below 1 % of the peak longitudinal force times half the face's width, for \
-               each toe",
+        test: "the peak yaw and roll moments are below 1 % of the peak longitudinal force times half the face's \
+               width, for each toe",
         runs: [vd_out, vd_none, vd_in],
         holds: every([vd_out, vd_none, vd_in], |run| all([
             peak(run, yaw_moment, settled) < 0.01 * yaw_limit(run),
@@ -328,7 +338,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         id: "5.1-other-inputs",
         group: Variable,
         place: "section 5.1, page 48",
-        says: "With more complicated inputs (twist and roll, yaw and sway) the model gives the moments on bolster and side frame.",
+        says: "With more complicated inputs (twist and roll, yaw and sway) the model gives the moments on bolster \
+               and side frame.",
         reason: "None of the twelve runs has such an input.",
     },
 ];
