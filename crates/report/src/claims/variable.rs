@@ -31,6 +31,9 @@ pub(super) static CLAIMS: &[Claim] = &[
             share(vd_out, column_sticks, pressing_down) > 0.05,
             share(vd_out, column_slips, pressing_down) > 0.05,
         ]),
+        but: "With toe out the wedge slides steadily all the way down: with one coefficient for rest and sliding, \
+              and a bolster that moves as prescribed, it sticks only for some hundredths of a second at the \
+              reversal.",
     },
     claim! {
         id: "5.1-smoother-up",
@@ -42,6 +45,9 @@ pub(super) static CLAIMS: &[Claim] = &[
                up than going down, over the branches (without the reversal)",
         runs: [vd_out],
         holds: roughness(vd_out, dissipation, going_up) < roughness(vd_out, dissipation, going_down),
+        but: "Both ways are about equally rough: with toe out the wedge slides steadily down as well, so that \
+              there is no stick-slip to be smoother than, and its corners ring a little when both faces slide on \
+              the way up.",
     },
     claim! {
         id: "5.1-moves-up-together",
@@ -99,6 +105,9 @@ pub(super) static CLAIMS: &[Claim] = &[
             within(0.1, [vd_out, vd_none, vd_in].map(|run| size(run, side_frame_force, going_down))),
             within(0.1, [vd_out, vd_none, vd_in].map(|run| size(run, side_frame_force, going_up))),
         ]),
+        but: "Going down they do, but going up the force on the side frame is what is left of the coil's force \
+              after the friction, a small difference, and with toe in the friction is lower as the gap opens \
+              again.",
     },
     undecidable! {
         id: "5.1-accurate-motion",
@@ -129,6 +138,9 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "size of the mean vertical wedge force going up: toe in > no toe > toe out",
         runs: [vd_out, vd_none, vd_in],
         holds: descending([vd_in, vd_none, vd_out].map(|run| size(run, vertical_force, going_up))),
+        but: "Going up, a wedge with toe in comes into a gap that opens for it: friction on the slope then acts \
+              the other way than with toe out, and the column's normal force falls, so that toe in has the lowest \
+              force instead of the highest.",
     },
     claim! {
         id: "5.1-smoother-contact-toe-out",
@@ -198,6 +210,8 @@ pub(super) static CLAIMS: &[Claim] = &[
                value) in the time after the first half period: some four a cycle",
         runs: [vd_out],
         holds: peaks(vd_out, longitudinal_force, settled) > 10.0,
+        but: "With toe out the wedge slides steadily on both faces, nothing excites the contacts, and the force \
+              follows the coil's; it rings without toe and with toe in, where the slope sticks.",
     },
     claim! {
         id: "5.1-longitudinal-periodic",
@@ -226,6 +240,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "number of peaks (followed by falls of more than 2 % of the greatest value): toe in < no toe",
         runs: [vd_in, vd_none],
         holds: peaks(vd_in, longitudinal_force, settled) < peaks(vd_none, longitudinal_force, settled),
+        but: "With toe in the slope sticks as the bolster goes down, and the column's sliding excites the stiff \
+              contact at the lower edge to many more, but smaller, peaks than the slow swaying without toe has.",
     },
     claim! {
         id: "5.1-toe-constrains",
@@ -239,6 +255,9 @@ pub(super) static CLAIMS: &[Claim] = &[
             range(vd_out, wedge_x, settled) < range(vd_none, wedge_x, settled),
             range(vd_in, wedge_x, settled) < range(vd_none, wedge_x, settled),
         ]),
+        but: "Most of the movement happens in lift-off, where nothing constrains the wedge: it stands on its coil \
+              as on an inverted pendulum, and toe, which lets it go off its middle, makes it drift farther before \
+              the bolster returns.",
     },
     claim! {
         id: "5.1-no-dissipation-in-lift-off",
@@ -258,6 +277,8 @@ pub(super) static CLAIMS: &[Claim] = &[
                below that at the beginning of lift-off (bolster rising from 0.15 A to 0.5 A)",
         runs: [vd_out],
         holds: range(vd_out, side_frame_force, last_ringing) > 0.9 * range(vd_out, side_frame_force, first_ringing),
+        but: "The coil's damping (1 lbf·s/in) takes the ringing away with a time constant of a quarter of a \
+              second, several times within one lift-off; only the friction at the side frame dissipates nothing.",
     },
     claim! {
         id: "5.1-energy-least-toe-out",
@@ -270,6 +291,8 @@ pub(super) static CLAIMS: &[Claim] = &[
             energy_per_cycle(vd_out) < energy_per_cycle(vd_none),
             energy_per_cycle(vd_out) < energy_per_cycle(vd_in),
         ]),
+        but: "Toe out dissipates least going down, but toe in dissipates least going up, where its normal force \
+              falls; over the cycle toe in comes out slightly below toe out.",
     },
     claim! {
         id: "5.1-energy-most-toe-in",
@@ -282,6 +305,8 @@ pub(super) static CLAIMS: &[Claim] = &[
             energy_per_cycle(vd_in) > energy_per_cycle(vd_none),
             energy_per_cycle(vd_in) > energy_per_cycle(vd_out),
         ]),
+        but: "What toe in dissipates more going down it dissipates less going up, as the gap opens for it: over \
+              the cycle no toe dissipates most.",
     },
     claim! {
         id: "5.1-energy-none-between",
@@ -291,6 +316,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "energy per cycle at the side frame: toe in > no toe > toe out",
         runs: [vd_out, vd_none, vd_in],
         holds: descending([energy_per_cycle(vd_in), energy_per_cycle(vd_none), energy_per_cycle(vd_out)]),
+        but: "Without toe the force is nearly as high as with toe in going down, and as high as with toe out going \
+              up: over the cycle no toe lies above both.",
     },
     claim! {
         id: "5.1-surface-in-contact",
@@ -301,6 +328,8 @@ pub(super) static CLAIMS: &[Claim] = &[
                by more than 10 %",
         runs: [vd_in, vd_out],
         holds: mean(vd_in, corners_touching, pressed) > 1.1 * mean(vd_out, corners_touching, pressed),
+        but: "A flat face between surfaces at an angle rests on an edge: two corners touch with toe in (the lower \
+              ones) as with toe out (the upper ones).",
     },
     claim! {
         id: "5.1-forces-on-wedge",
@@ -310,6 +339,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "mean longitudinal force while the bolster is below its middle: toe in > no toe > toe out",
         runs: [vd_in, vd_none, vd_out],
         holds: descending([vd_in, vd_none, vd_out].map(|run| mean(run, longitudinal_force, pressed))),
+        but: "Going down they are, but going up the normal force with toe in falls as the gap opens, and the mean \
+              of both is lowest with toe in.",
     },
     claim! {
         id: "5.1-small-pitch-moment",
@@ -320,6 +351,9 @@ pub(super) static CLAIMS: &[Claim] = &[
                for each toe",
         runs: [vd_out, vd_none, vd_in],
         holds: every([vd_out, vd_none, vd_in], |run| peak(run, pitch_moment, settled) < 0.1 * pitch_limit(run)),
+        but: "With toe the face rests on its upper edge (out) or lower edge (in), so that the whole longitudinal \
+              force acts some three inches off the middle; the moment is as large as the face can give, however \
+              simple the input.",
     },
     claim! {
         id: "5.1-small-yaw-moment",

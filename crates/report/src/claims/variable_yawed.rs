@@ -39,6 +39,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         holds: every([(vd_out_yaw, vd_out), (vd_none_yaw, vd_none), (vd_in_yaw, vd_in)], |(yawed, not)| {
             roughness(yawed, side_frame_force, returning_up) > roughness(not, side_frame_force, returning_up)
         }),
+        but: "Yaw makes the force smoother: pressed against one side, the wedge rests on few corners that stay \
+              closed, and the ringing that the runs without yaw have dies out.",
     },
     claim! {
         id: "5.2-lifts-off-completely",
@@ -48,6 +50,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "no corner of the slope touches for more than 95 % of lift-off",
         runs: [vd_out_yaw, vd_none_yaw, vd_in_yaw],
         holds: every([vd_out_yaw, vd_none_yaw, vd_in_yaw], |run| share(run, bolster_off, lift_off) > 0.95),
+        but: "The yawed pocket lets the wedge go off its middle; free on its coil it drifts until it leans against \
+              the pocket, long before the bolster has come down again.",
     },
     claim! {
         id: "5.2-rings-about-zero",
@@ -112,6 +116,8 @@ pub(super) static CLAIMS: &[Claim] = &[
             mean(vd_out_yaw, longitudinal_force, pressed) < mean(vd_out, longitudinal_force, pressed),
             peak(vd_out_yaw, longitudinal_force, settled) < peak(vd_out, longitudinal_force, settled),
         ]),
+        but: "Yaw turns one side of the pocket towards the column, which presses the wedge lower by some \
+              hundredths of an inch; the coil then carries more, and so do the faces.",
     },
     claim! {
         id: "5.2-yaw-holds-wedge",
@@ -121,6 +127,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "range of the wedge's longitudinal displacement after the first half period: with yaw < without",
         runs: [vd_out_yaw, vd_out],
         holds: range(vd_out_yaw, wedge_x, settled) < range(vd_out, wedge_x, settled),
+        but: "In lift-off, where it moves most, the wedge drifts farther with yaw, because the yawed pocket lets \
+              it go farther off its middle.",
     },
     claim! {
         id: "5.2-toe-in-begins-lower",
@@ -134,6 +142,8 @@ pub(super) static CLAIMS: &[Claim] = &[
             peak(vd_in_yaw, longitudinal_force, beginning) < peak(vd_out_yaw, longitudinal_force, beginning),
             peak(vd_in_yaw, longitudinal_force, beginning) < peak(vd_none_yaw, longitudinal_force, beginning),
         ]),
+        but: "Before the first pressing down there is only the release from the start, in which corners sit inside \
+              the yawed pocket; toe, in or out, adds to that penetration, so that no toe begins lowest.",
     },
     claim! {
         id: "5.2-toe-in-constrains",
@@ -183,6 +193,8 @@ pub(super) static CLAIMS: &[Claim] = &[
             within(0.1, [energy_per_cycle(vd_none_yaw), energy_per_cycle(vd_none)]),
             within(0.1, [energy_per_cycle(vd_in_yaw), energy_per_cycle(vd_in)]),
         ]),
+        but: "The yawed pocket presses the wedge lower, so that the coil's force and the friction are higher over \
+              the whole stroke; only without toe, whose energy was highest, is the difference within a tenth.",
     },
     claim! {
         id: "5.2-force-as-without-yaw",
@@ -209,6 +221,8 @@ pub(super) static CLAIMS: &[Claim] = &[
             share(run, column_sticks, pressing_down) > 0.05,
             share(run, column_slips, pressing_down) > 0.05,
         ])),
+        but: "With yaw the wedge slides steadily down whatever the toe; it sticks only for some hundredths of a \
+              second at the reversal.",
     },
     claim! {
         id: "5.2-small-moments",
@@ -222,6 +236,8 @@ pub(super) static CLAIMS: &[Claim] = &[
             peak(run, pitch_moment, settled) < 0.1 * pitch_limit(run),
             peak(run, yaw_moment, settled) < 0.1 * yaw_limit(run),
         ])),
+        but: "With yaw the wedge rests on the corners of one side, with toe on those of one edge: almost the whole \
+              longitudinal force acts half a face's width off the middle, as large a yaw moment as there can be.",
     },
     claim! {
         id: "5.2-moments-by-sticking",
@@ -235,6 +251,8 @@ pub(super) static CLAIMS: &[Claim] = &[
             so_at_peak(run, pitch_moment, pressed, column_sticks),
             so_at_peak(run, yaw_moment, pressed, column_sticks),
         ])),
+        but: "The moments come from where the faces touch, on one side and one edge, sliding or not; their peaks \
+              fall into the sliding on the way up, or just before the reversal.",
     },
     claim! {
         id: "5.2-pitch-largest-down",
@@ -247,6 +265,8 @@ pub(super) static CLAIMS: &[Claim] = &[
             peak(run, pitch_moment, pressing_down) > peak(run, pitch_moment, returning_up),
             mean_size(run, pitch_moment, pressing_down) > mean_size(run, pitch_moment, returning_up),
         ])),
+        but: "The pitch moment follows the normal force times its distance from the middle, and with toe both are \
+              about as large, or larger, on the way up, when friction presses the wedge into the taper.",
     },
     claim! {
         id: "5.2-yaw-moment-largest-down",
@@ -259,5 +279,7 @@ pub(super) static CLAIMS: &[Claim] = &[
             peak(run, yaw_moment, pressing_down) > peak(run, yaw_moment, returning_up),
             mean_size(run, yaw_moment, pressing_down) > mean_size(run, yaw_moment, returning_up),
         ])),
+        but: "The yaw moment is half the face's width times the normal force, which is larger on the way up, when \
+              the column's friction presses the wedge into the taper.",
     },
 ];
