@@ -337,6 +337,11 @@ pub(super) fn descending<const N: usize>(values: [f64; N]) -> bool {
     values.windows(2).all(|pair| pair[0] > pair[1])
 }
 
+/// Each greater than the next by more than this share of itself.
+pub(super) fn descending_by<const N: usize>(share: f64, values: [f64; N]) -> bool {
+    values.windows(2).all(|pair| pair[0] * (1.0 - share) > pair[1])
+}
+
 /// The least and the greatest differ by no more than this share of the greatest.
 pub(super) fn within<const N: usize>(share: f64, values: [f64; N]) -> bool {
     let (least, most) = least_and_greatest(&values.map(f64::abs));

@@ -7,8 +7,8 @@
 //! members yet.
 //!
 //! Words that have a number here, wherever the thesis gives none: *small*, *similar*, *close*: within 10 %; *large*
-//! differences: more than 10 %; *very small*: below 5 %; *close to zero* of a ringing force: its mean below 5 % of the run's peak;
-//! *zero*: below 1 % of the peak; a moment is *small* below 10 % of what the face could give with its whole peak
+//! differences: more than 10 %; *very small*: below 5 %; *close to zero* of a ringing force: below 5 % of the run's peak;
+//! *zero*: below 1 % of the peak, or as the row says; a moment is *small* below 10 % of what the face could give with its whole peak
 //! load on one edge, *negligible* below 1 %, and *significant* above 10 %.
 //!
 //! Forces of chapter 5 are those that its figures draw: the vertical force on the side frame with the coil's part.

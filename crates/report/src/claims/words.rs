@@ -25,6 +25,9 @@ pub(super) struct When {
     pub(super) rows: fn(View<'_>) -> Vec<bool>,
 }
 
+/// One cycle per second, rad/s.
+pub(super) const hertz: f64 = 2.0 * std::f64::consts::PI;
+
 const fn column(name: &'static str, kind: Kind, series: fn(View<'_>) -> Vec<f64>) -> Quantity {
     Quantity { name, kind, series }
 }
@@ -89,13 +92,17 @@ pub(super) const bolster_speed: Quantity = column("vertical bolster speed", Kind
 pub(super) const bolster_yaw: Quantity = column("yaw of the bolster", Kind::Angle, |run| {
     run.column("bolster_yaw").to_vec()
 });
-/// The lowest and the highest corners' distance from the column, where positive.
-pub(super) const lower_gap: Quantity = column("gap below, between column and wedge", Kind::Length, |run| {
-    gap(run, "column_lower_right_gap")
-});
-pub(super) const upper_gap: Quantity = column("gap above, between column and wedge", Kind::Length, |run| {
-    gap(run, "column_upper_right_gap")
-});
+/// Distance of a lower and of an upper corner from the column, where positive: those of the side that yaw lifts off.
+pub(super) const lower_gap: Quantity = column(
+    "gap at the lower right corner of the column",
+    Kind::Length,
+    |run| gap(run, "column_lower_right_gap"),
+);
+pub(super) const upper_gap: Quantity = column(
+    "gap at the upper right corner of the column",
+    Kind::Length,
+    |run| gap(run, "column_upper_right_gap"),
+);
 /// How many of the four column corners touch.
 pub(super) const corners_touching: Quantity =
     column("column corners that touch", Kind::Dimensionless, |run| {
@@ -207,11 +214,19 @@ pub(super) const lift_off: When = when("in lift-off (bolster above 0.15 A)", |ru
 pub(super) const early_lift_off: When = when("in lift-off, bolster rising", |run| {
     phase(run, |z, speed| z > 0.15 && speed > 0.0)
 });
-pub(super) const late_lift_off: When = when("in lift-off, bolster falling", |run| {
-    phase(run, |z, speed| z > 0.15 && speed < 0.0)
+/// Two parts of the bolster's rise in lift-off: 0.2 s from its beginning, and the last 0.35 s.
+pub(super) const first_ringing: When = when("in lift-off, bolster rising from 0.15 A to 0.5 A", |run| {
+    phase(run, |z, speed| z > 0.15 && z < 0.5 && speed > 0.0)
 });
-pub(super) const at_bottom: When = when("at the bottom reversal (bolster below -0.99 A)", |run| {
-    phase(run, |z, _| z < -0.99)
+pub(super) const last_ringing: When = when("in lift-off, bolster rising above 0.75 A", |run| {
+    phase(run, |z, speed| z > 0.75 && speed > 0.0)
+});
+/// 0.1 s about a reversal: the bolster moves by 0.5 % of its amplitude.
+pub(super) const at_bottom: When = when("at the bottom reversal (bolster below -0.995 A)", |run| {
+    phase(run, |z, _| z < -0.995)
+});
+pub(super) const at_top: When = when("at the top reversal (bolster above 0.995 A)", |run| {
+    phase(run, |z, _| z > 0.995)
 });
 pub(super) const at_reversals: When = when("at the reversals (bolster beyond 0.9999 A)", |run| {
     phase(run, |z, _| z.abs() > 0.9999)
@@ -266,12 +281,6 @@ pub(super) const bolster_off: When = when("while the bolster is off the wedge", 
         &phase(run, |_, _| true),
     )
 });
-pub(super) const stuck_at_bottom: When = when("stuck at the bottom reversal", |run| {
-    both((at_bottom.rows)(run), &(column_sticks.rows)(run))
-});
-pub(super) const stuck_at_top: When = when("stuck at the top reversal", |run| {
-    both(phase(run, |z, _| z > 0.99), &(column_sticks.rows)(run))
-});
 /// No corner of the column touches.
 pub(super) const column_open: When = when("while the column does not touch", |run| {
     both(
@@ -283,7 +292,7 @@ pub(super) const sliding_down: When = when("while the wedge slides down", |run| 
     both((column_slips.rows)(run), &wedge_moves(run, -1.0))
 });
 pub(super) const rising: When = when("while the wedge rises", |run| wedge_moves(run, 1.0));
-/// The column dissipates less than 1 % of what it does at most.
+/// The column dissipates less than 0.02 % of what it does at most.
 pub(super) const not_dissipating: When = when("while hardly anything is dissipated", |run| {
     let values = run.column("side_frame_dissipation");
     let most = values
@@ -291,7 +300,7 @@ pub(super) const not_dissipating: When = when("while hardly anything is dissipat
         .zip(phase(run, |_, _| true))
         .filter(|(_, counts)| *counts)
         .fold(0.0, |most: f64, (value, _)| most.max(value.abs()));
-    let quiet: Vec<bool> = values.iter().map(|value| value.abs() < 0.01 * most).collect();
+    let quiet: Vec<bool> = values.iter().map(|value| value.abs() < 2e-4 * most).collect();
     both(quiet, &phase(run, |_, _| true))
 });
 
