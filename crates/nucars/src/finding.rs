@@ -1,0 +1,296 @@
+//! What is wrong or doubtful with a file, where, and what to write instead.
+
+use std::fmt;
+use std::sync::Arc;
+
+use miette::{Diagnostic, LabeledSpan, SourceCode};
+use thiserror::Error;
+
+use crate::source::{Place, Source, Span};
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// Worth knowing; nothing to do.
+    Note,
+    /// The file can be used, but perhaps does not say what its author means.
+    Warning,
+    /// The file cannot be used.
+    Error,
+}
+
+impl fmt::Display for Severity {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(match self {
+            Severity::Note => "note",
+            Severity::Warning => "warning",
+            Severity::Error => "error",
+        })
+    }
+}
+
+/// One thing found: what, where, and what to write instead.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    severity: Severity,
+    code: &'static str,
+    message: String,
+    label: String,
+    help: String,
+    place: Place,
+}
+
+impl Finding {
+    pub(crate) fn new(
+        severity: Severity,
+        code: &'static str,
+        source: &Arc<Source>,
+        span: Span,
+        message: impl Into<String>,
+    ) -> Self {
+        Finding {
+            severity,
+            code,
+            message: message.into(),
+            label: String::new(),
+            help: String::new(),
+            place: Place {
+                source: Arc::clone(source),
+                span,
+            },
+        }
+    }
+
+    pub(crate) fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
+    pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = help.into();
+        self
+    }
+
+    /// How bad it is.
+    pub fn severity(&self) -> Severity {
+        self.severity
+    }
+
+    /// A short name for this kind of finding, in lower case with hyphens, such as `count`.
+    pub fn code_name(&self) -> &'static str {
+        self.code
+    }
+
+    /// What was found and what was expected.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
+    /// What to write instead, or why it matters.
+    pub fn advice(&self) -> Option<&str> {
+        (!self.help.is_empty()).then_some(self.help.as_str())
+    }
+
+    /// Where.
+    pub fn place(&self) -> &Place {
+        &self.place
+    }
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Finding {}
+
+impl Diagnostic for Finding {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new(self.code))
+    }
+
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match self.severity {
+            Severity::Note => miette::Severity::Advice,
+            Severity::Warning => miette::Severity::Warning,
+            Severity::Error => miette::Severity::Error,
+        })
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        (!self.help.is_empty()).then(|| Box::new(&self.help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        Some(&*self.place.source)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let label = if self.label.is_empty() {
+            "here"
+        } else {
+            &self.label
+        };
+        let range = self.place.span.range();
+        let span = LabeledSpan::new(Some(label.to_owned()), range.start, range.len());
+        Some(Box::new(std::iter::once(span)))
+    }
+}
+
+/// How many findings of a file are kept; a file that is none of ours would have one in every line.
+const MOST: usize = 100;
+
+/// Findings of one file.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    source: Arc<Source>,
+    list: Vec<Finding>,
+    not_kept: usize,
+}
+
+impl Findings {
+    pub(crate) fn new(source: &Arc<Source>) -> Self {
+        Findings {
+            source: Arc::clone(source),
+            list: Vec::new(),
+            not_kept: 0,
+        }
+    }
+
+    /// Whether no more are kept.
+    pub(crate) fn is_full(&self) -> bool {
+        self.list.len() >= MOST
+    }
+
+    pub(crate) fn source(&self) -> &Arc<Source> {
+        &self.source
+    }
+
+    /// Adds a finding; `with` gives it label and help.
+    pub(crate) fn add(
+        &mut self,
+        severity: Severity,
+        code: &'static str,
+        span: Span,
+        message: impl Into<String>,
+        with: impl FnOnce(Finding) -> Finding,
+    ) {
+        if self.list.len() >= MOST {
+            self.not_kept += 1;
+            return;
+        }
+        let finding = Finding::new(severity, code, &self.source, span, message);
+        self.list.push(with(finding));
+    }
+
+    /// Gives the last finding another help.
+    pub(crate) fn help_last(&mut self, help: String) {
+        if let Some(last) = self.list.last_mut().filter(|_| self.not_kept == 0) {
+            last.help = help;
+        }
+    }
+
+    pub(crate) fn error(&mut self, code: &'static str, span: Span, message: String, help: impl Into<String>) {
+        self.add(Severity::Error, code, span, message, |finding| finding.help(help));
+    }
+
+    pub(crate) fn warning(
+        &mut self,
+        code: &'static str,
+        span: Span,
+        message: String,
+        help: impl Into<String>,
+    ) {
+        self.add(Severity::Warning, code, span, message, |finding| {
+            finding.help(help)
+        });
+    }
+
+    pub(crate) fn note(&mut self, code: &'static str, span: Span, message: String, help: impl Into<String>) {
+        self.add(Severity::Note, code, span, message, |finding| finding.help(help));
+    }
+
+    /// Adds findings about the same text, without those that follow from an error at the same place.
+    pub(crate) fn join(&mut self, other: Findings) {
+        self.not_kept += other.not_kept;
+        for finding in other.list {
+            let span = finding.place.span;
+            let known = |had: &Finding| had.severity == Severity::Error && had.place.span == span;
+            if self.list.iter().any(known) {
+                continue;
+            }
+            if self.list.len() >= MOST {
+                self.not_kept += 1;
+            } else {
+                self.list.push(finding);
+            }
+        }
+    }
+
+    /// The findings in the order of the text.
+    pub fn sorted(mut self) -> Self {
+        self.list.sort_by_key(|finding| finding.place.span.start);
+        self
+    }
+
+    /// The findings; at most a hundred are kept.
+    pub fn list(&self) -> &[Finding] {
+        &self.list
+    }
+
+    /// How many more there were.
+    pub fn not_kept(&self) -> usize {
+        self.not_kept
+    }
+
+    /// How many of this severity are kept.
+    pub fn count(&self, severity: Severity) -> usize {
+        self.list
+            .iter()
+            .filter(|finding| finding.severity == severity)
+            .count()
+    }
+
+    /// Whether the file cannot be used.
+    pub fn has_errors(&self) -> bool {
+        self.count(Severity::Error) > 0
+    }
+}
+
+/// A file that cannot be used: all errors in it, at least one.
+#[derive(Clone, Debug, Error)]
+#[error("{name} has {} error(s); the first: {first}", errors.len())]
+pub struct FileErrors {
+    /// The file.
+    pub name: String,
+    first: String,
+    errors: Vec<Finding>,
+}
+
+impl FileErrors {
+    pub(crate) fn of(findings: &Findings) -> Option<Self> {
+        let errors: Vec<Finding> = findings
+            .list
+            .iter()
+            .filter(|finding| finding.severity == Severity::Error)
+            .cloned()
+            .collect();
+        Some(FileErrors {
+            name: findings.source.name().to_owned(),
+            first: errors.first()?.message.clone(),
+            errors,
+        })
+    }
+
+    /// The errors.
+    pub fn errors(&self) -> &[Finding] {
+        &self.errors
+    }
+}
+
+impl Diagnostic for FileErrors {
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        Some(Box::new(self.errors.iter().map(|error| error as &dyn Diagnostic)))
+    }
+}

@@ -1,0 +1,28 @@
+//! Input files of NUCARS, the vehicle dynamics program of the North American railways: reading, checking, showing.
+//!
+//! - [`source`]: texts and places in them,
+//! - [`tree`]: what the files say, typed, as typed, in the files' units,
+//! - [`read`]: text to tree, with all mistakes and their places,
+//! - [`write`]: tree to text,
+//! - [`check`]: what a tree lacks or contradicts, alone and together with the files it belongs to,
+//! - [`show`]: a system as tables,
+//! - [`builtin`]: the half-truck of Steets (2007), appendices A and B.
+//!
+//! The program's manual is not public. The grammar and the meaning of the values follow the files printed in R. Steets,
+//! "Three-dimensional multibody modeling of railway friction wedges", Virginia Tech 2007, appendices A and B, with what
+//! their comments and numbers tell.
+
+#![warn(missing_docs)]
+
+pub mod builtin;
+pub mod check;
+mod finding;
+mod lexer;
+mod number;
+pub mod read;
+pub mod show;
+pub mod source;
+pub mod tree;
+pub mod write;
+
+pub use finding::{FileErrors, Finding, Findings, Severity};

@@ -1,0 +1,269 @@
+//! Texts that were read, and places in them.
+
+use std::fmt;
+use std::ops::{Deref, Range};
+use std::sync::{Arc, OnceLock};
+
+use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
+use thiserror::Error;
+
+/// A piece of a text, in bytes of [`Source::text`]; texts are below 4 GiB.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Span {
+    /// First byte.
+    pub start: u32,
+    /// One after the last byte.
+    pub end: u32,
+}
+
+impl Span {
+    pub(crate) fn new(start: usize, end: usize) -> Self {
+        // Sources are shorter than u32::MAX, so nothing is cut off.
+        Span {
+            start: start as u32,
+            end: end as u32,
+        }
+    }
+
+    /// From the start of this piece to the end of the other one.
+    pub fn to(self, other: Span) -> Span {
+        Span {
+            start: self.start,
+            end: other.end.max(self.start),
+        }
+    }
+
+    /// As a range of indices.
+    pub fn range(self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
+}
+
+/// A value with the place it was read from.
+///
+/// Two of them are equal if their values are: places do not count, so that trees from differently laid out files can
+/// be compared.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Spanned<T> {
+    /// The value as typed, in the file's units.
+    pub value: T,
+    /// Where it stands.
+    pub span: Span,
+}
+
+impl<T> Spanned<T> {
+    /// A value at a place.
+    pub fn new(value: T, span: Span) -> Self {
+        Spanned { value, span }
+    }
+}
+
+impl<T: PartialEq> PartialEq for Spanned<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.value == other.value
+    }
+}
+
+impl<T> Deref for Spanned<T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        &self.value
+    }
+}
+
+impl<T> From<T> for Spanned<T> {
+    /// A value that was not read from a text.
+    fn from(value: T) -> Self {
+        Spanned::new(value, Span::default())
+    }
+}
+
+impl<T: fmt::Display> fmt::Display for Spanned<T> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.value.fmt(out)
+    }
+}
+
+/// The place of a record. All of them are equal, so that trees from differently laid out files can be compared.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct At(pub Span);
+
+impl PartialEq for At {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// Why a text cannot be read at all.
+#[derive(Clone, Debug, Error)]
+pub enum SourceError {
+    /// It is longer than places can say.
+    #[error("{name} has {length} bytes; files of 4 GiB and more are not read")]
+    TooLong {
+        /// The file.
+        name: String,
+        /// Its length.
+        length: usize,
+    },
+}
+
+/// A file's text.
+#[derive(Debug)]
+pub struct Source {
+    name: String,
+    text: String,
+    latin1: bool,
+    lines: OnceLock<Vec<u32>>,
+}
+
+impl Source {
+    /// The text of a file: UTF-8, with or without byte order mark, or else Latin-1. Lines end with `\n`, `\r\n` or `\r`.
+    ///
+    /// # Errors
+    /// Files of 4 GiB and more.
+    pub fn from_bytes(name: impl Into<String>, bytes: Vec<u8>) -> Result<Arc<Self>, SourceError> {
+        let name = name.into();
+        let (mut text, latin1) = match String::from_utf8(bytes) {
+            Ok(text) => (text, false),
+            Err(error) => (
+                error.as_bytes().iter().map(|byte| char::from(*byte)).collect(),
+                true,
+            ),
+        };
+        if text.starts_with('\u{feff}') {
+            text.drain(..'\u{feff}'.len_utf8());
+        }
+        if text.len() >= u32::MAX as usize {
+            return Err(SourceError::TooLong {
+                name,
+                length: text.len(),
+            });
+        }
+        if !text.contains('\n') && text.contains('\r') {
+            text = text.replace('\r', "\n");
+        }
+        Ok(Arc::new(Source {
+            name,
+            text,
+            latin1,
+            lines: OnceLock::new(),
+        }))
+    }
+
+    /// A text that is not from a file.
+    ///
+    /// # Errors
+    /// Texts of 4 GiB and more.
+    pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Result<Arc<Self>, SourceError> {
+        Source::from_bytes(name, text.into().into_bytes())
+    }
+
+    /// The file as the user named it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The text, without byte order mark.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Whether the file is no UTF-8 and was taken as Latin-1.
+    pub fn is_latin1(&self) -> bool {
+        self.latin1
+    }
+
+    /// The text of a piece; empty if it is not one of this text.
+    pub fn slice(&self, span: Span) -> &str {
+        self.text.get(span.range()).unwrap_or("")
+    }
+
+    /// Line and column of a byte, from 1; columns count characters.
+    pub fn line_and_column(&self, byte: u32) -> (usize, usize) {
+        let (line, start) = self.line_of(byte as usize);
+        let before = self.text.get(start..byte as usize).unwrap_or("");
+        (line + 1, before.chars().count() + 1)
+    }
+
+    fn lines(&self) -> &[u32] {
+        self.lines.get_or_init(|| {
+            let ends = self.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+            std::iter::once(0)
+                .chain(ends.map(|(at, _)| at as u32 + 1))
+                .collect()
+        })
+    }
+
+    /// The line of a byte, from 0, and where it starts.
+    fn line_of(&self, byte: usize) -> (usize, usize) {
+        let line = self
+            .lines()
+            .partition_point(|start| *start as usize <= byte)
+            .saturating_sub(1);
+        (line, self.lines().get(line).map_or(0, |start| *start as usize))
+    }
+}
+
+impl SourceCode for Source {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let end = span.offset().saturating_add(span.len());
+        if end > self.text.len() {
+            return Err(MietteError::OutOfBounds);
+        }
+        let first = self.line_of(span.offset()).0.saturating_sub(before);
+        // A very long line is not shown as a whole.
+        const WIDEST: usize = 2000;
+        let last = self.line_of(end).0 + after;
+        let start_of = |line: usize| {
+            self.lines()
+                .get(line)
+                .map_or(self.text.len(), |start| *start as usize)
+        };
+        let line_start = start_of(first);
+        let mut start = line_start.max(span.offset().saturating_sub(WIDEST));
+        let mut stop = start_of(last + 1).min(end.saturating_add(WIDEST));
+        while !self.text.is_char_boundary(start) {
+            start += 1;
+        }
+        while !self.text.is_char_boundary(stop) {
+            stop -= 1;
+        }
+        let (line, own) = self.line_of(start);
+        let contents = MietteSpanContents::new_named(
+            self.name.clone(),
+            &self.text.as_bytes()[start..stop],
+            (start, stop - start).into(),
+            line,
+            start - own,
+            self.line_of(stop.max(start)).0 - line + 1,
+        );
+        Ok(Box::new(contents))
+    }
+}
+
+/// A piece of a source.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// The text.
+    pub source: Arc<Source>,
+    /// The piece of it.
+    pub span: Span,
+}
+
+impl Place {
+    /// The text of the piece.
+    pub fn text(&self) -> &str {
+        self.source.slice(self.span)
+    }
+
+    /// Line and column of its start, from 1; columns count characters.
+    pub fn line_and_column(&self) -> (usize, usize) {
+        self.source.line_and_column(self.span.start)
+    }
+}
