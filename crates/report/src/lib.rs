@@ -5,6 +5,7 @@
 //! - [`summary`]: the file `summary.json`.
 //! - [`files`]: writing whole results, or nothing.
 //! - [`run_files`]: the files of a run.
+//! - [`table`]: tables of results, read back.
 //! - [`drawing`]: figures, their curves and axes, drawn as SVG; [`thin`] makes their curves small.
 //! - [`hysteresis`]: the wedge force over the bolster's displacement.
 
@@ -16,4 +17,5 @@ pub mod mat;
 pub mod mat5;
 pub mod run_files;
 pub mod summary;
+pub mod table;
 pub mod thin;
