@@ -9,6 +9,7 @@
 //! - [`drawing`]: figures, their curves and axes, drawn as SVG and PNG; [`thin`] makes their curves small.
 //! - [`figures`]: the report's figures.
 //! - [`run_files`]: the files of a run.
+//! - [`table`]: tables of results, read back.
 
 pub mod claims;
 pub mod csv;
@@ -21,4 +22,5 @@ pub mod page;
 pub mod run_files;
 pub mod sections;
 pub mod summary;
+pub mod table;
 pub mod thin;

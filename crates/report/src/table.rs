@@ -1,0 +1,352 @@
+//! Tables of results, read back: those of runs, and any CSV file of the same form.
+//!
+//! The form is that of [`csv`](crate::csv): a line of names, *what* then *unit* (`wedge_x_in`, `wedge_x_m`), then lines of
+//! numbers, one of the columns being `time_s`, which increases. Columns may be fewer, more, and in any order; a name without
+//! a known unit is a pure number. Lines that begin with `#` and empty lines do not count.
+//!
+//! Numbers are kept as written, so that nothing is lost; [`Column::si`] and [`Column::in_units`] convert.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use ::csv::{ReaderBuilder, Trim};
+use quantity::{Kind, System as Units, nearest};
+
+pub use error::TableError;
+use header::{Header, Place};
+
+mod error;
+mod header;
+
+/// A column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its name without unit, such as `wedge_x`.
+    pub name: String,
+    /// What kind of quantity it is. Where moments and energies are written alike and the name is none of ours, a moment.
+    pub kind: Kind,
+    /// The system of units of [`Column::written`].
+    pub units: Units,
+    /// The numbers as they stand in the file.
+    pub written: Vec<f64>,
+}
+
+impl Column {
+    /// The values in SI units.
+    #[must_use]
+    pub fn si(&self) -> Vec<f64> {
+        self.in_units(Units::Si)
+    }
+
+    /// The values in a system of units; in its own, the same bits as written.
+    #[must_use]
+    pub fn in_units(&self, units: Units) -> Vec<f64> {
+        if units == self.units {
+            return self.written.clone();
+        }
+        let (own, other) = (self.kind.from_si(self.units), self.kind.from_si(units));
+        self.written.iter().map(|value| value / own * other).collect()
+    }
+}
+
+/// A table of results.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// The file that it was read from.
+    pub file: PathBuf,
+    /// The units in which it was written.
+    pub units: Units,
+    columns: Vec<Column>,
+    time: usize,
+}
+
+impl Table {
+    /// Reads a result: a folder with a `result.csv`, such a file, or another CSV file of the same form.
+    ///
+    /// # Errors
+    /// There is no such result, it is no table, or the table is wrong: see [`TableError`].
+    pub fn read(path: &Path) -> Result<Self, TableError> {
+        let file = locate(path)?;
+        let bytes = fs::read(&file).map_err(|reason| TableError::Unreadable {
+            file: file.clone(),
+            reason,
+        })?;
+        Self::parse(&file, &bytes)
+    }
+
+    /// Understands the content of a file.
+    ///
+    /// # Errors
+    /// As [`Table::read`].
+    pub fn parse(file: &Path, bytes: &[u8]) -> Result<Self, TableError> {
+        let text = text_of(file, bytes)?;
+        let mut reader = ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .trim(Trim::All)
+            .comment(Some(b'#'))
+            .from_reader(text.as_bytes());
+        let foreign = || TableError::Foreign {
+            file: file.to_owned(),
+            what: "empty",
+        };
+        let mut rows = Rows {
+            file,
+            header: None,
+            columns: Vec::new(),
+            short: None,
+        };
+        for record in reader.records() {
+            // The text is UTF-8 and lengths may differ: what is left are errors of reading from memory, which has none.
+            let record = record.map_err(|error| TableError::Unreadable {
+                file: file.to_owned(),
+                reason: io::Error::other(error),
+            })?;
+            let cells: Vec<&str> = record.iter().collect();
+            if cells != [""] {
+                rows.add(record.position().map_or(0, |place| line_of(text, place)), &cells)?;
+            }
+        }
+        rows.finish().ok_or_else(foreign)?
+    }
+
+    /// All columns, in the order of the file.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// The times, s.
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        // Seconds in every system of units.
+        &self.columns[self.time].written
+    }
+
+    /// The column with this name, written with or without unit.
+    ///
+    /// # Errors
+    /// There is none; the error names those that are near.
+    pub fn column(&self, name: &str) -> Result<&Column, TableError> {
+        self.find(name).ok_or_else(|| {
+            let names = self.columns.iter().map(|column| column.name.as_str());
+            TableError::NoColumn {
+                file: self.file.clone(),
+                name: name.to_owned(),
+                advice: error::suggest(name, names),
+            }
+        })
+    }
+
+    /// The column with this name, if there is one.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<&Column> {
+        let full = |column: &Column, units| match column.kind.suffix(units) {
+            "" => false,
+            suffix => name.strip_suffix(suffix).and_then(|base| base.strip_suffix('_')) == Some(&column.name),
+        };
+        let by_name = self.columns.iter().find(|column| column.name == name);
+        by_name.or_else(|| {
+            let mut columns = self.columns.iter();
+            columns.find(|column| full(column, Units::Us) || full(column, Units::Si))
+        })
+    }
+}
+
+/// What has been read so far.
+struct Rows<'f> {
+    file: &'f Path,
+    header: Option<(Header, u64)>,
+    columns: Vec<Vec<f64>>,
+    /// A line with too few cells: cut off if no other follows.
+    short: Option<(u64, usize)>,
+}
+
+impl Rows<'_> {
+    fn add(&mut self, line: u64, cells: &[&str]) -> Result<(), TableError> {
+        let Some((header, _)) = &self.header else {
+            let place = Place {
+                file: self.file,
+                line,
+            };
+            let header = header::read(&place, cells)?;
+            self.columns = vec![Vec::new(); header.names.len()];
+            self.header = Some((header, line));
+            return Ok(());
+        };
+        let expected = header.names.len();
+        let ragged = |(line, found)| TableError::Ragged {
+            file: self.file.to_owned(),
+            line,
+            found,
+            expected,
+        };
+        if let Some(short) = self.short {
+            return Err(ragged(short));
+        }
+        if cells.len() > expected {
+            return Err(ragged((line, cells.len())));
+        }
+        if cells.len() < expected {
+            self.short = Some((line, cells.len()));
+            return Ok(());
+        }
+        for (index, cell) in cells.iter().enumerate() {
+            let name = || header.names[index].full.clone();
+            let value = match cell.parse::<f64>() {
+                Ok(value) if value.is_finite() => value,
+                _ => {
+                    return Err(TableError::NotANumber {
+                        file: self.file.to_owned(),
+                        line,
+                        column: index + 1,
+                        name: name(),
+                        text: (*cell).to_owned(),
+                    });
+                }
+            };
+            let before = self.columns[index].last().copied();
+            if let Some(before) = before.filter(|before| index == header.time && value <= *before) {
+                return Err(TableError::NotIncreasing {
+                    file: self.file.to_owned(),
+                    line,
+                    column: index + 1,
+                    name: name(),
+                    time: value,
+                    before,
+                });
+            }
+            self.columns[index].push(value);
+        }
+        Ok(())
+    }
+
+    /// The table; `None` if there was not even a line of names.
+    fn finish(self) -> Option<Result<Table, TableError>> {
+        let (header, _) = self.header?;
+        let file = self.file.to_owned();
+        if let Some((line, found)) = self.short {
+            return Some(Err(TableError::Truncated {
+                file,
+                line,
+                found,
+                expected: header.names.len(),
+            }));
+        }
+        if self.columns.iter().all(Vec::is_empty) {
+            return Some(Err(TableError::NoRows { file }));
+        }
+        let columns = header.names.into_iter().zip(self.columns);
+        Some(Ok(Table {
+            file,
+            units: header.units,
+            time: header.time,
+            columns: columns
+                .map(|(name, written)| Column {
+                    name: name.base,
+                    kind: name.kind,
+                    units: header.units,
+                    written,
+                })
+                .collect(),
+        }))
+    }
+}
+
+/// The line of a record. The reader's own count stands before the remarks and empty lines in front of the record.
+fn line_of(text: &str, place: &::csv::Position) -> u64 {
+    let rest = usize::try_from(place.byte())
+        .ok()
+        .and_then(|byte| text.get(byte..));
+    let before = rest.unwrap_or_default().lines();
+    let skipped = before.take_while(|line| line.is_empty() || line.starts_with('#'));
+    place.line() + skipped.count() as u64
+}
+
+/// The text of a file, unless it is something else.
+fn text_of<'b>(file: &Path, bytes: &'b [u8]) -> Result<&'b str, TableError> {
+    let foreign = |what| TableError::Foreign {
+        file: file.to_owned(),
+        what,
+    };
+    if bytes.starts_with(b"MATLAB 5.0 MAT-file") {
+        return Err(foreign("a MAT-file"));
+    }
+    let text = std::str::from_utf8(bytes).map_err(|_| foreign("no text"))?;
+    if text.contains('\0') {
+        return Err(foreign("no text"));
+    }
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    match text.trim_start().chars().next() {
+        None => Err(foreign("empty")),
+        Some('{' | '[') => Err(foreign("no table, but looks like JSON or TOML")),
+        Some('<') => Err(foreign("no table, but looks like a web page or a drawing")),
+        Some(_) => Ok(text),
+    }
+}
+
+/// The file of a result.
+fn locate(path: &Path) -> Result<PathBuf, TableError> {
+    if path.is_dir() {
+        let file = path.join(crate::csv::FILE_NAME);
+        if file.exists() {
+            return Ok(file);
+        }
+        let inside = results_below(path);
+        return Err(TableError::NoResult {
+            folder: path.to_owned(),
+            advice: match inside.as_slice() {
+                [] => "name the folder that `wedgelab run` has written, or a CSV file".to_owned(),
+                some => format!("there are results in {}", some.join(", ")),
+            },
+        });
+    }
+    if path.exists() {
+        return Ok(path.to_owned());
+    }
+    let name = path
+        .file_name()
+        .and_then(|name| name.to_str())
+        .unwrap_or_default();
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let beside = names_in(folder);
+    let advice = match nearest(name, beside.iter().map(String::as_str)) {
+        Some(near) => format!("did you mean {}?", path.with_file_name(near).display()),
+        None => "name the folder that `wedgelab run` has written, or a CSV file".to_owned(),
+    };
+    Err(TableError::NotFound {
+        path: path.to_owned(),
+        advice,
+    })
+}
+
+/// The first folders with results in a folder, or in its folder `runs`.
+fn results_below(folder: &Path) -> Vec<String> {
+    const MOST: usize = 3;
+    let mut found = Vec::new();
+    for inside in [folder.to_owned(), folder.join("runs")] {
+        for name in names_in(&inside) {
+            let result = inside.join(name);
+            if result.join(crate::csv::FILE_NAME).exists() && found.len() < MOST {
+                found.push(result.display().to_string());
+            }
+        }
+    }
+    found
+}
+
+/// The names in a folder, sorted; none if it cannot be read.
+fn names_in(folder: &Path) -> Vec<String> {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return Vec::new();
+    };
+    let mut names: Vec<String> = entries
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .collect();
+    names.sort();
+    names
+}

@@ -1,0 +1,196 @@
+//! What can be wrong with a table of results.
+
+use std::io;
+use std::path::PathBuf;
+
+use miette::Diagnostic;
+use quantity::nearest;
+use thiserror::Error;
+
+/// Why a table of results cannot be read, or has not what is wanted of it. Lines and columns count from one.
+#[derive(Debug, Error, Diagnostic)]
+pub enum TableError {
+    /// There is no such file or folder.
+    #[error("there is no result `{}`", .path.display())]
+    #[diagnostic(help("{advice}"))]
+    NotFound {
+        /// What was asked for.
+        path: PathBuf,
+        /// What may have been meant.
+        advice: String,
+    },
+    /// A folder without a result.
+    #[error("the folder `{}` holds no result.csv", .folder.display())]
+    #[diagnostic(help("{advice}"))]
+    NoResult {
+        /// The folder.
+        folder: PathBuf,
+        /// Where results may be.
+        advice: String,
+    },
+    /// The system does not let us read it.
+    #[error("cannot read `{}`: {reason}", .file.display())]
+    #[diagnostic(help("look for rights, and whether another program holds the file"))]
+    Unreadable {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        reason: io::Error,
+    },
+    /// Not a table of numbers as text at all.
+    #[error("`{}` is {what}; a table is expected: lines of numbers with `,` between them, below a line of names", .file.display())]
+    #[diagnostic(help(
+        "name a result.csv, the folder it is in, or another CSV file with columns such as time_s, wedge_x_in"
+    ))]
+    Foreign {
+        /// The file.
+        file: PathBuf,
+        /// What it seems to be.
+        what: &'static str,
+    },
+    /// The first line holds no names that columns may have.
+    #[error("`{}`, line {line}: {problem}", .file.display())]
+    #[diagnostic(help("{advice}"))]
+    Header {
+        /// The file.
+        file: PathBuf,
+        /// The line of names.
+        line: u64,
+        /// What was found.
+        problem: String,
+        /// What to write instead.
+        advice: String,
+    },
+    /// Two columns have the same name.
+    #[error("`{}`, line {line}: columns {first} and {second} are both `{name}`", .file.display())]
+    #[diagnostic(help("leave one of them out"))]
+    Duplicate {
+        /// The file.
+        file: PathBuf,
+        /// The line of names.
+        line: u64,
+        /// The name without unit.
+        name: String,
+        /// The first of the two.
+        first: usize,
+        /// The second.
+        second: usize,
+    },
+    /// Columns in US customary units and in SI units.
+    #[error("`{}`, line {line}: `{us}` is in US customary units and `{si}` in SI units", .file.display())]
+    #[diagnostic(help("a table is in one system of units: convert the columns of the other"))]
+    Mixed {
+        /// The file.
+        file: PathBuf,
+        /// The line of names.
+        line: u64,
+        /// The first column in US customary units.
+        us: String,
+        /// The first column in SI units.
+        si: String,
+    },
+    /// Names without numbers below.
+    #[error("`{}` has a line of names and no numbers below it", .file.display())]
+    #[diagnostic(help("the run that wrote it may have been stopped; run it again"))]
+    NoRows {
+        /// The file.
+        file: PathBuf,
+    },
+    /// The last line ends too early.
+    #[error("`{}`, line {line}: the last line has {found} of {expected} numbers: the file is cut off", .file.display())]
+    #[diagnostic(help("write or copy it again, or remove its last line"))]
+    Truncated {
+        /// The file.
+        file: PathBuf,
+        /// The line.
+        line: u64,
+        /// How many numbers it has.
+        found: usize,
+        /// How many there are to be.
+        expected: usize,
+    },
+    /// A line with too few or too many numbers.
+    #[error("`{}`, line {line}: {found} cells, where the line of names has {expected}", .file.display())]
+    #[diagnostic(help("every line has one number a column, `,` between them and a point as decimal sign"))]
+    Ragged {
+        /// The file.
+        file: PathBuf,
+        /// The line.
+        line: u64,
+        /// How many cells it has.
+        found: usize,
+        /// How many there are to be.
+        expected: usize,
+    },
+    /// A cell that is no finite number.
+    #[error("`{}`, line {line}, column {column} (`{name}`): \"{text}\" is not a finite number", .file.display())]
+    #[diagnostic(help("every cell below the names is a number such as -12.5 or 1.5e-3"))]
+    NotANumber {
+        /// The file.
+        file: PathBuf,
+        /// The line.
+        line: u64,
+        /// The column.
+        column: usize,
+        /// The column's name as in the file.
+        name: String,
+        /// What stands there.
+        text: String,
+    },
+    /// Time stands still or runs back.
+    #[error("`{}`, line {line}, column {column} (`{name}`): the time {time} s follows {before} s", .file.display())]
+    #[diagnostic(help(
+        "times increase from line to line: sort the lines, or remove those that repeat a time"
+    ))]
+    NotIncreasing {
+        /// The file.
+        file: PathBuf,
+        /// The line.
+        line: u64,
+        /// The column.
+        column: usize,
+        /// The column's name as in the file.
+        name: String,
+        /// The time, s.
+        time: f64,
+        /// The time of the line before, s.
+        before: f64,
+    },
+    /// A column that is wanted is not there.
+    #[error("`{}` has no column `{name}`", .file.display())]
+    #[diagnostic(help("{advice}"))]
+    NoColumn {
+        /// The file.
+        file: PathBuf,
+        /// The column wanted.
+        name: String,
+        /// What may have been meant.
+        advice: String,
+    },
+}
+
+/// "did you mean ...?" among the names of columns.
+pub(super) fn suggest<'n>(typed: &str, names: impl Iterator<Item = &'n str> + Clone) -> String {
+    const MOST: usize = 6;
+    if let Some(near) = nearest(typed, names.clone()) {
+        return format!("did you mean {near}?");
+    }
+    // Part of a name, or its words in another order.
+    let words: Vec<String> = typed.to_lowercase().split('_').map(str::to_owned).collect();
+    let has_all = |name: &&str| {
+        words
+            .iter()
+            .all(|word| !word.is_empty() && name.to_lowercase().contains(word))
+    };
+    let alike: Vec<&str> = names.clone().filter(has_all).collect();
+    let (list, beginning) = if alike.is_empty() {
+        (names.collect(), "its columns are")
+    } else {
+        (alike, "columns with these words are")
+    };
+    let shown = list.iter().take(MOST).copied().collect::<Vec<&str>>().join(", ");
+    match list.len().saturating_sub(MOST) {
+        0 => format!("{beginning} {shown}"),
+        more => format!("{beginning} {shown}, and {more} more"),
+    }
+}

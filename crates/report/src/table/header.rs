@@ -1,0 +1,202 @@
+//! Names of columns: what, then unit.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use quantity::{Kind, System as Units, nearest};
+use wedge::outputs::Outputs;
+use wedge::parameters::Damping;
+
+use super::error::TableError;
+
+/// A name taken apart.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Name {
+    /// As in the file.
+    pub full: String,
+    /// Without unit.
+    pub base: String,
+    pub kind: Kind,
+    /// `None` for units that both systems have, and for pure numbers.
+    pub units: Option<Units>,
+}
+
+/// The line of names, understood.
+pub(super) struct Header {
+    pub names: Vec<Name>,
+    pub units: Units,
+    /// Index of the time.
+    pub time: usize,
+}
+
+/// Where the line of names stands.
+pub(super) struct Place<'p> {
+    pub file: &'p Path,
+    pub line: u64,
+}
+
+impl Place<'_> {
+    fn error(&self, problem: impl Into<String>, advice: impl Into<String>) -> TableError {
+        TableError::Header {
+            file: self.file.to_owned(),
+            line: self.line,
+            problem: problem.into(),
+            advice: advice.into(),
+        }
+    }
+}
+
+/// Understands the line of names.
+pub(super) fn read(place: &Place<'_>, cells: &[&str]) -> Result<Header, TableError> {
+    if cells.iter().all(|cell| cell.parse::<f64>().is_ok()) {
+        return Err(place.error(
+            "numbers stand where the names of the columns are expected",
+            "write a first line of names with units, such as time_s,wedge_x_in,vertical_wedge_force_lbf",
+        ));
+    }
+    if let ([only], Some(sign)) = (cells, cells.first().and_then(|cell| cell.find([';', '\t']))) {
+        let sign = if only[sign..].starts_with(';') {
+            "`;`"
+        } else {
+            "a tab"
+        };
+        return Err(place.error(
+            format!("{sign} stands between the names of the columns; `,` is expected"),
+            "separate the columns by `,` and write decimal points",
+        ));
+    }
+    let known = known();
+    let mut names: Vec<Name> = Vec::with_capacity(cells.len());
+    for (index, cell) in cells.iter().enumerate() {
+        let name = understand(place, index, cell, &known)?;
+        if let Some(first) = names.iter().position(|other| other.base == name.base) {
+            // One quantity in two systems of units is rather a mixture.
+            mixture(place, names.iter().chain([&name]))?;
+            return Err(TableError::Duplicate {
+                file: place.file.to_owned(),
+                line: place.line,
+                name: name.base,
+                first: first + 1,
+                second: index + 1,
+            });
+        }
+        names.push(name);
+    }
+    let Some(time) = names.iter().position(|name| name.base == "time") else {
+        let near =
+            nearest("time_s", cells.iter().copied()).or_else(|| nearest("time", cells.iter().copied()));
+        let advice = match near {
+            Some(near) => format!("is `{near}` the time? Name it time_s, in seconds"),
+            None => "a table of results has a column time_s, in seconds".to_owned(),
+        };
+        return Err(place.error("there is no column `time_s`", advice));
+    };
+    let units = mixture(place, names.iter())?.unwrap_or_default();
+    Ok(Header { names, units, time })
+}
+
+/// The system of units of all names; an error if there are two.
+fn mixture<'n>(
+    place: &Place<'_>,
+    names: impl Iterator<Item = &'n Name> + Clone,
+) -> Result<Option<Units>, TableError> {
+    let first = |units| names.clone().find(|name| name.units == Some(units));
+    match (first(Units::Us), first(Units::Si)) {
+        (Some(us), Some(si)) => Err(TableError::Mixed {
+            file: place.file.to_owned(),
+            line: place.line,
+            us: us.full.clone(),
+            si: si.full.clone(),
+        }),
+        (Some(_), None) => Ok(Some(Units::Us)),
+        (None, Some(_)) => Ok(Some(Units::Si)),
+        (None, None) => Ok(None),
+    }
+}
+
+/// The columns that our results have, by name without unit.
+fn known() -> BTreeMap<String, Kind> {
+    // Their names and kinds are the same for every wedge.
+    let outputs = Outputs::new(&wedge::thesis::parameters(Damping::Variable, 0.0, 0.0));
+    let columns = outputs.columns().iter();
+    columns.map(|column| (column.name.clone(), column.kind)).collect()
+}
+
+fn understand(
+    place: &Place<'_>,
+    index: usize,
+    cell: &str,
+    known: &BTreeMap<String, Kind>,
+) -> Result<Name, TableError> {
+    if cell.is_empty() {
+        let problem = format!("column {} has no name", index + 1);
+        return Err(place.error(problem, "name it, with its unit, or leave it out"));
+    }
+    if let Some(kind) = known.get(cell) {
+        if !kind.suffix(Units::Us).is_empty() {
+            let example = |units| format!("{cell}_{}", kind.suffix(units));
+            return Err(place.error(
+                format!(
+                    "column {} (`{cell}`) has no unit; {} is expected",
+                    index + 1,
+                    kind.name()
+                ),
+                format!("write {} or {}", example(Units::Us), example(Units::Si)),
+            ));
+        }
+        return Ok(plain(cell, *kind));
+    }
+    let fits = |kind: &Kind, units: Units| {
+        let suffix = kind.suffix(units);
+        let base = cell.strip_suffix(suffix)?.strip_suffix('_')?;
+        (!suffix.is_empty() && !base.is_empty()).then_some((suffix.len(), base))
+    };
+    let all = Kind::ALL
+        .iter()
+        .flat_map(|kind| [(kind, Units::Us), (kind, Units::Si)]);
+    let endings: Vec<(Kind, Units, usize, &str)> = all
+        .filter_map(|(kind, units)| fits(kind, units).map(|(length, base)| (*kind, units, length, base)))
+        .collect();
+    let Some(longest) = endings.iter().map(|(_, _, length, _)| *length).max() else {
+        return Ok(plain(cell, Kind::Dimensionless));
+    };
+    let longest: Vec<_> = endings
+        .into_iter()
+        .filter(|(_, _, length, _)| *length == longest)
+        .collect();
+    let (first_kind, first_units, _, base) = longest[0];
+    let kind = match known.get(base) {
+        None => first_kind,
+        Some(own) if longest.iter().any(|(kind, ..)| kind == own) => *own,
+        Some(own) => {
+            let problem = format!(
+                "column {} (`{cell}`) is {}; {} is expected",
+                index + 1,
+                first_kind.name(),
+                own.name()
+            );
+            let example = |units| match own.suffix(units) {
+                "" => base.to_owned(),
+                suffix => format!("{base}_{suffix}"),
+            };
+            let advice = format!("write {} or {}", example(Units::Us), example(Units::Si));
+            return Err(place.error(problem, advice));
+        }
+    };
+    let both = kind.suffix(Units::Us) == kind.suffix(Units::Si);
+    Ok(Name {
+        full: cell.to_owned(),
+        base: base.to_owned(),
+        kind,
+        units: (!both).then_some(first_units),
+    })
+}
+
+fn plain(cell: &str, kind: Kind) -> Name {
+    Name {
+        full: cell.to_owned(),
+        base: cell.to_owned(),
+        kind,
+        units: None,
+    }
+}
