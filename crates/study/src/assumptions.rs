@@ -3,7 +3,7 @@
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
 use wedge::Wedge;
-use wedge::parameters::{Damping, FaceFriction, STANDARD_GRAVITY, Start};
+use wedge::parameters::{Damping, FaceFriction, STANDARD_GRAVITY, Start, Wear};
 
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
@@ -57,6 +57,15 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
         ),
         Start::Equilibrium => "The run starts in frictionless static equilibrium.".to_owned(),
     });
+    if p.wear != Wear::default() {
+        list.push(format!(
+            "The faces are worn by {:.4} in (column) and {:.4} in (slope), and still flat: a rigid wedge stands {:.4} in \
+             higher for it.",
+            p.wear.column / INCH,
+            p.wear.slope / INCH,
+            p.wedge_rise() / INCH
+        ));
+    }
     list.push("Friction holds a wedge where it came to rest, so the start matters for seconds.".to_owned());
     list.push(
         "The bolster turns about the centre of its pocket's slope unless a centre is named; the side frame about the \

@@ -4,6 +4,7 @@
 //! - Branch means run over the output times after the first half period with, for constant damping, |ż_b| > 0.9 of
 //!   its peak, and for variable damping |ż_b| > 0.25 of its peak and z_b < -0.3 of the amplitude.
 //! - Equivalent viscous damping is W/(π ω A²).
+//! - Equivalent stiffness and damping of a force are those of its first harmonic, see [`first_harmonic`].
 
 use mechanics::motion::Motion;
 use serde::{Deserialize, Serialize};
@@ -132,6 +133,89 @@ impl Extremes {
                 }),
         )
     }
+}
+
+/// A force's answer to a motion at one frequency, as of a spring and a dashpot beside each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstHarmonic {
+    /// In phase: force per displacement, N/m.
+    pub stiffness: f64,
+    /// Out of phase: force per velocity, N·s/m.
+    pub damping: f64,
+}
+
+/// Equivalent stiffness and damping of a force that resists a displacement: with the first harmonics z₁ and F₁ of
+/// displacement and force over whole cycles, `-F₁/z₁ = k + i ω c`.
+///
+/// A force is positive the way the displacement is. For a sine of amplitude A this gives `c = W/(π ω A²)` with the work W
+/// that the force takes up a cycle, whatever its course; for a linear spring and dashpot it gives back k and c.
+///
+/// `times` (s) grow; `window` is the begin and the end of whole cycles, within them. Integrals are taken by the
+/// trapezoidal rule on the given times, the values at the ends of the window being interpolated linearly: with N rows a
+/// cycle an error of the order 1/N² of the result, of a force that jumps 1/N.
+///
+/// `None` if the lengths differ, the window lies outside the times, or the displacement has no first harmonic.
+#[must_use]
+pub fn first_harmonic(
+    times: &[f64],
+    displacement: &[f64],
+    force: &[f64],
+    angular_frequency: f64,
+    window: (f64, f64),
+) -> Option<FirstHarmonic> {
+    let z = harmonic(times, displacement, angular_frequency, window)?;
+    let f = harmonic(times, force, angular_frequency, window)?;
+    let square = z[0] * z[0] + z[1] * z[1];
+    let mean = mean_square(displacement);
+    // Rounding is no motion.
+    if square.is_nan() || square <= 1e-24 * mean || angular_frequency <= 0.0 {
+        return None;
+    }
+    // -F₁/z₁ with z₁ = z[0] - i z[1] and F₁ likewise, in the convention e^{+iωt}.
+    Some(FirstHarmonic {
+        stiffness: -(f[0] * z[0] + f[1] * z[1]) / square,
+        damping: (f[1] * z[0] - f[0] * z[1]) / (square * angular_frequency),
+    })
+}
+
+/// Coefficients of cosine and sine of the first harmonic of `values` over a window of whole cycles; `None` if it is not within
+/// the times.
+#[must_use]
+pub fn harmonic(
+    times: &[f64],
+    values: &[f64],
+    angular_frequency: f64,
+    (start, end): (f64, f64),
+) -> Option<[f64; 2]> {
+    let slack = 1e-9 * (end - start);
+    let inside = times.first().is_some_and(|first| *first <= start + slack)
+        && times.last().is_some_and(|last| *last >= end - slack);
+    if times.len() != values.len() || !inside || end <= start {
+        return None;
+    }
+    // ∫ v cos, ∫ v sin, ∫ v, ∫ cos, ∫ sin: the last three take out the mean, which the rule would not do exactly.
+    let mut sums = [0.0; 5];
+    for (t, v) in times.windows(2).zip(values.windows(2)) {
+        let (from, to) = (t[0].max(start), t[1].min(end));
+        if to <= from {
+            continue;
+        }
+        for time in [from, to] {
+            let half = 0.5 * (to - from);
+            let value = v[0] + (v[1] - v[0]) * (time - t[0]) / (t[1] - t[0]);
+            let (sin, cos) = libm::sincos(angular_frequency * time);
+            for (sum, term) in sums.iter_mut().zip([value * cos, value * sin, value, cos, sin]) {
+                *sum += half * term;
+            }
+        }
+    }
+    let [cos, sin, value, one_cos, one_sin] = sums;
+    let mean = value / (end - start);
+    Some([cos - mean * one_cos, sin - mean * one_sin].map(|sum| 2.0 * sum / (end - start)))
+}
+
+fn mean_square(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64
 }
 
 /// Mean of a column over the rows of one branch; `None` where there are none.

@@ -95,6 +95,12 @@ pub struct Averages {
     pub energy_per_cycle: BTreeMap<String, Measure>,
     /// Equivalent viscous damping of the side-frame friction, W/(π ω A²).
     pub equivalent_damping: Option<Measure>,
+    /// Stiffness of the first harmonic of the vertical force of wedge and coil on the bolster.
+    #[serde(default)]
+    pub equivalent_stiffness: Option<Measure>,
+    /// Damping of the same first harmonic: of all that resists the bolster.
+    #[serde(default)]
+    pub equivalent_damping_on_bolster: Option<Measure>,
     /// Means over the branch in which the bolster goes up, by column.
     pub up: BTreeMap<String, Measure>,
     /// Means over the branch in which it goes down, by column.

@@ -87,8 +87,8 @@ fn constant_damping_has_its_own_values() {
 
 #[test]
 fn built_in_cases_are_the_defaults_with_toe_and_yaw() {
-    assert_eq!(builtin::names().len(), 12);
-    for name in builtin::names() {
+    assert_eq!(builtin::thesis_names().len(), 12);
+    for name in builtin::thesis_names() {
         let case = builtin::case(name).unwrap();
         assert_eq!(case.name, name);
         let damping = if name.starts_with("vd") {
@@ -108,6 +108,60 @@ fn built_in_cases_are_the_defaults_with_toe_and_yaw() {
         parameters.bolster.coordinates[5] = Motion::Constant(yaw);
         assert_eq!(case.parameters, parameters, "{name}");
     }
+}
+
+#[test]
+fn the_groups_of_built_in_cases() {
+    let names: Vec<&str> = builtin::names().collect();
+    let mut once = names.clone();
+    once.sort_unstable();
+    once.dedup();
+    assert_eq!(once.len(), names.len(), "names are given once");
+    let groups: Vec<&str> = builtin::groups().iter().map(|group| group.name).collect();
+    assert_eq!(
+        groups,
+        [
+            "thesis",
+            "warp",
+            "rig",
+            "sweep",
+            "twist_and_roll",
+            "yaw_and_sway",
+            "load",
+            "wear"
+        ]
+    );
+    assert_eq!(builtin::group("sweep").unwrap().cases.len(), 2 * 3 * 3);
+    assert_eq!(builtin::group("wear").unwrap().cases.len(), 2 * 4);
+    assert!(builtin::group("nothing").is_none() && builtin::group_of("nothing").is_none());
+    for group in builtin::groups() {
+        // Two sentences: what to look at.
+        let sentences = group.look_at.split_inclusive(". ").count();
+        assert!(
+            group.look_at.ends_with('.') && sentences == 2,
+            "{}: {}",
+            group.name,
+            group.look_at
+        );
+        for built_in in &group.cases {
+            assert_eq!(builtin::group_of(&built_in.name).unwrap().name, group.name);
+            let case = builtin::case(&built_in.name).unwrap();
+            assert_eq!((&case.name, &case.title), (&built_in.name, &built_in.title));
+            // Results of all cases can stand side by side, and on every system.
+            assert_eq!(case.simulation.output_units, System::Us);
+            assert_eq!(case.name, case.name.to_lowercase());
+        }
+    }
+    let (_, title) = builtin::list().find(|(name, _)| *name == "rig_constant").unwrap();
+    assert_eq!(title, builtin::case("rig_constant").unwrap().title);
+}
+
+#[test]
+fn wear_is_read() {
+    let case = parse("[wedge]\ncolumn_wear = \"0.1 in\"\nslope_wear = \"5 mm\"\n");
+    close(case.parameters.wear.column, 0.1 * INCH);
+    close(case.parameters.wear.slope, 0.005);
+    round_trip(&case);
 }
 
 /// Every number in the parameters, in the order of their fields.

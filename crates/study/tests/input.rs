@@ -143,6 +143,13 @@ fn values_out_of_range() {
     );
     check(
         "wedge",
+        r#"column_wear = "-0.1 in""#,
+        "`wedge.column_wear` is -0.1 in; it must be zero or greater",
+        "\"-0.1 in\"",
+        "in",
+    );
+    check(
+        "wedge",
         r#"weight = "0 lbf""#,
         "`wedge.weight` is 0 lbf; it must be greater than zero",
         "\"0 lbf\"",

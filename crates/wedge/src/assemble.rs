@@ -5,6 +5,7 @@
 //! - Column: plane through (x_A, 0, L + h2/2), normal (cos φ, 0, -sin φ) for toe-out φ.
 //! - Slope: plane through the pocket's centre (x_A + h1/2, 0, L + h2/2), normal (-cos θ, 0, -sin θ) in the bolster's axes.
 //!   The bolster turns about that centre unless another is named.
+//! - Worn faces: column and slope lie deeper by the depth of wear, along their normals.
 //! - Coil: its seat is the origin, on the side frame (variable damping) or on the bolster (constant damping).
 
 use std::f64::consts::PI;
@@ -176,12 +177,20 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
         corners(face_x + bottom, face_x),
         &parameters.slope_friction,
     );
+    let worn_column = along(parameters.wear.column, parameters.toe);
+    let worn_slope = along(parameters.wear.slope, PI - wedge.angle);
     let column_mount = Mount::new(
-        sub([face_x - shifts[0], 0.0, middle], side_frame_origin),
+        sub(
+            sub([face_x - shifts[0], 0.0, middle], worn_column),
+            side_frame_origin,
+        ),
         [0.0, parameters.toe, 0.0],
     );
     let slope_mount = Mount::new(
-        sub([pocket_center[0] + shifts[1], 0.0, middle], bolster_origin),
+        sub(
+            sub([pocket_center[0] + shifts[1], 0.0, middle], worn_slope),
+            bolster_origin,
+        ),
         [0.0, PI - wedge.angle, 0.0],
     );
 
@@ -227,6 +236,14 @@ fn neighbour(name: &str, motion: &NeighbourMotion, center: [f64; 3]) -> (Body, [
         motions: motion.coordinates.clone(),
     };
     (Body::prescribed(name, frame), origin)
+}
+
+/// A length along the normal of a surface that is pitched by this angle; nothing for nothing, to the last bit.
+fn along(length: f64, pitch: f64) -> [f64; 3] {
+    if length == 0.0 {
+        return [0.0; 3];
+    }
+    [length * libm::cos(pitch), 0.0, -length * libm::sin(pitch)]
 }
 
 fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -60,6 +60,16 @@ pub struct ControlCoil {
     pub pulls: bool,
 }
 
+/// How deep the faces are worn. What wedge and neighbour have lost is one depth: it opens the gap of their faces,
+/// measured along the normal of the neighbour's surface, which recedes by it and stays flat.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Wear {
+    /// Depth of wear of the column and the wedge's vertical face together, m.
+    pub column: f64,
+    /// Depth of wear of the pocket's slope and the wedge's slope face together, m.
+    pub slope: f64,
+}
+
 /// The normal contact law, per corner.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
@@ -117,6 +127,9 @@ pub struct Parameters {
     pub damping: Damping,
     /// The wedge.
     pub wedge: WedgeBody,
+    /// Wear of the faces.
+    #[serde(default)]
+    pub wear: Wear,
     /// The control coil.
     pub coil: ControlCoil,
     /// Normal contact.
@@ -178,6 +191,8 @@ impl Parameters {
             w.free.contains(&true),
             "at least one coordinate",
         )?;
+        not_negative("wedge.column_wear", self.wear.column)?;
+        not_negative("wedge.slope_wear", self.wear.slope)?;
         let c = &self.coil;
         match &c.law {
             CoilLaw::Linear { stiffness } => positive("control_coil.stiffness", *stiffness)?,
@@ -211,6 +226,18 @@ impl Parameters {
     #[must_use]
     pub fn column_face(&self) -> f64 {
         self.wedge.center_of_gravity[0] - self.bottom_length() / 3.0
+    }
+
+    /// How far a wedge with worn faces stands above an unworn one when both touch column and slope, bolster and side
+    /// frame being where they were, m: `(w_c cos θ + w_s cos φ) / sin(θ + φ)` with the depths of wear w_c and w_s.
+    ///
+    /// It follows from the two faces that both touch. The wedge's displacement (x, z) takes up the wear along both
+    /// normals: `x cos φ - z sin φ = -w_c` and `x cos θ + z sin θ = w_s`. Rigid faces; with elastic contacts the
+    /// rise is less by what the unworn wedge, under its greater coil force, is pressed in more.
+    #[must_use]
+    pub fn wedge_rise(&self) -> f64 {
+        let (angle, toe) = (self.wedge.angle, self.toe);
+        (self.wear.column * libm::cos(angle) + self.wear.slope * libm::cos(toe)) / libm::sin(angle + toe)
     }
 }
 

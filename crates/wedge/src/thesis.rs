@@ -5,7 +5,7 @@ use mechanics::friction::FrictionLaw;
 use mechanics::motion::Motion;
 
 use crate::parameters::{
-    Contact, ControlCoil, Damping, FaceFriction, NeighbourMotion, Parameters, STANDARD_GRAVITY, Start,
+    Contact, ControlCoil, Damping, FaceFriction, NeighbourMotion, Parameters, STANDARD_GRAVITY, Start, Wear,
     WedgeBody,
 };
 
@@ -46,6 +46,7 @@ pub fn parameters(damping: Damping, toe: f64, yaw: f64) -> Parameters {
             center_of_gravity: [-1.0734 * INCH, 0.0, 2.0417 * INCH],
             free: [true, false, true, false, true, true],
         },
+        wear: Wear::default(),
         coil: ControlCoil {
             law: CoilLaw::Linear {
                 stiffness: stiffness * POUND_FORCE / INCH,

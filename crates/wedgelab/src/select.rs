@@ -1,13 +1,15 @@
 //! Choosing built-in cases by name, beginning of a name, or pattern.
 
 use quantity::nearest;
-use study::case::builtin;
 
 use crate::failure::Message;
 
-/// The built-in cases that the texts choose, in the order of the list; all of them if there are no texts.
-pub fn select(texts: &[String]) -> Result<Vec<&'static str>, Message> {
-    let names: Vec<&'static str> = builtin::names().collect();
+/// Those of the names that the texts choose, in the order of the names; all of them if there are no texts.
+pub fn select(
+    texts: &[String],
+    names: impl Iterator<Item = &'static str>,
+) -> Result<Vec<&'static str>, Message> {
+    let names: Vec<&'static str> = names.collect();
     if texts.is_empty() {
         return Ok(names);
     }
@@ -33,7 +35,7 @@ fn matching(text: &str, names: &[&str]) -> Result<Vec<usize>, Message> {
         return if found.is_empty() {
             Err(Message::new(
                 format!("no built-in case fits `{text}`"),
-                format!("the built-in cases are {}", names.join(", ")),
+                several(names),
             ))
         } else {
             Ok(found)
@@ -50,19 +52,26 @@ fn matching(text: &str, names: &[&str]) -> Result<Vec<usize>, Message> {
             format!("there is no built-in case `{text}`"),
             match nearest(text, names.iter().copied()) {
                 Some(near) => format!("did you mean {near}? `wedgelab case` lists all"),
-                None => format!("the built-in cases are {}", names.join(", ")),
+                None => several(names),
             },
         )),
-        several => {
-            let several: Vec<&str> = several.iter().map(|index| names[*index]).collect();
+        found => {
+            let found: Vec<&str> = found.iter().map(|index| names[*index]).collect();
             Err(Message::new(
-                format!("`{text}` is the beginning of {} names", several.len()),
-                format!(
-                    "write '{text}*' for all of them, or one of {}",
-                    several.join(", ")
-                ),
+                format!("`{text}` is the beginning of {} names", found.len()),
+                format!("write '{text}*' for all of them, or one of {}", found.join(", ")),
             ))
         }
+    }
+}
+
+/// The names to choose from, as many as can be read.
+fn several(names: &[&str]) -> String {
+    const MOST: usize = 12;
+    let shown = names[..names.len().min(MOST)].join(", ");
+    match names.len() {
+        0..=MOST => format!("the built-in cases are {shown}"),
+        _ => format!("the built-in cases are {shown} and more; `wedgelab case` lists all"),
     }
 }
 
@@ -81,9 +90,11 @@ fn fits(pattern: &[u8], name: &[u8]) -> bool {
 mod tests {
     use super::*;
 
+    use study::case::builtin;
+
     fn chosen(texts: &[&str]) -> Result<Vec<&'static str>, String> {
         let texts: Vec<String> = texts.iter().map(|text| (*text).to_owned()).collect();
-        select(&texts).map_err(|message| message.to_string())
+        select(&texts, builtin::thesis_names()).map_err(|message| message.to_string())
     }
 
     #[test]

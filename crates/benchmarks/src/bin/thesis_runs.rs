@@ -25,7 +25,7 @@ fn main() -> ExitCode {
         "run", "up lbf", "down lbf", "lbf·in", "residual", "steps", "rejected", "ms"
     );
     let mut total = 0.0;
-    for name in builtin::names().filter(|name| name.contains(part)) {
+    for name in builtin::thesis_names().filter(|name| name.contains(part)) {
         let case = match builtin::case_with(name, &overrides) {
             Ok(case) => case,
             Err(error) => {

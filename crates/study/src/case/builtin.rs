@@ -1,82 +1,96 @@
-//! The twelve runs of the thesis's table 4-1.
+//! The built-in cases, in groups: the thesis's twelve runs, and cases beyond them.
 //!
-//! Their names carry the thesis's sign of the toe, in which -0.2 is toe *out*; eq. 5-1 has it the
-//! other way round. This file is the one place where the names are translated.
+//! Every case is the text of a case file, so that what runs is what `wedgelab case NAME` prints. A group has a title and
+//! says in two sentences what to look at in its results; families (sweeps, depths of wear) are one group each, their
+//! cases named by what changes.
+
+mod beyond;
+mod thesis;
 
 use super::problem::Problem;
 use super::{Case, CaseError};
 use quantity::nearest;
 use std::path::Path;
+use std::sync::LazyLock;
 
-struct Builtin {
-    name: &'static str,
-    damping: &'static str,
-    toe: &'static str,
-    yaw: &'static str,
+/// Cases that belong together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// Its name, such as `warp`.
+    pub name: &'static str,
+    /// One line for people.
+    pub title: &'static str,
+    /// Two sentences: what to look at in the results.
+    pub look_at: &'static str,
+    /// Its cases.
+    pub cases: Vec<BuiltIn>,
 }
 
-const fn run(name: &'static str, damping: &'static str, toe: &'static str, yaw: &'static str) -> Builtin {
-    Builtin {
-        name,
-        damping,
-        toe,
-        yaw,
+/// A built-in case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BuiltIn {
+    /// Its name.
+    pub name: String,
+    /// One line for people.
+    pub title: String,
+    /// Its case file.
+    text: String,
+}
+
+impl BuiltIn {
+    /// `body` is the case file without name and title.
+    fn new(name: String, title: String, body: &str) -> Self {
+        let text = format!("name = \"{name}\"\ntitle = \"{title}\"\n{body}");
+        Self { name, title, text }
     }
 }
 
-static BUILTIN: [Builtin; 12] = [
-    run("vdrun_toe_-0.2_psi_0", "variable", "0.2 deg out", "0 rad"),
-    run("vdrun_toe_0_psi_0", "variable", "0 deg", "0 rad"),
-    run("vdrun_toe_0.2_psi_0", "variable", "0.2 deg in", "0 rad"),
-    run("vdrun_toe_-0.2_psi_0.012", "variable", "0.2 deg out", "0.012 rad"),
-    run("vdrun_toe_0_psi_0.012", "variable", "0 deg", "0.012 rad"),
-    run("vdrun_toe_0.2_psi_0.012", "variable", "0.2 deg in", "0.012 rad"),
-    run("cdrun_toe_-0.2_psi_0", "constant", "0.2 deg out", "0 rad"),
-    run("cdrun_toe_0_psi_0", "constant", "0 deg", "0 rad"),
-    run("cdrun_toe_0.2_psi_0", "constant", "0.2 deg in", "0 rad"),
-    run("cdrun_toe_-0.2_psi_0.012", "constant", "0.2 deg out", "0.012 rad"),
-    run("cdrun_toe_0_psi_0.012", "constant", "0 deg", "0.012 rad"),
-    run("cdrun_toe_0.2_psi_0.012", "constant", "0.2 deg in", "0.012 rad"),
-];
+static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
+    let mut groups = vec![thesis::group()];
+    groups.extend(beyond::groups());
+    groups
+});
 
-impl Builtin {
-    fn title(&self) -> String {
-        let toe = match self.toe.split_once(" deg") {
-            Some((_, "")) | None => "no toe".to_string(),
-            Some((_, direction)) => format!("toe{direction}"),
-        };
-        let yaw = if self.yaw == "0 rad" { "not yawed" } else { "yawed" };
-        format!("{} damping, {toe}, {yaw}", self.damping)
-    }
+static CASES: LazyLock<Vec<&'static BuiltIn>> =
+    LazyLock::new(|| GROUPS.iter().flat_map(|group| &group.cases).collect());
 
-    /// The case file: what sets it apart from the others of its damping.
-    fn text(&self) -> String {
-        format!(
-            "name = \"{}\"\ntitle = \"{}\"\n[wedge]\ndamping = \"{}\"\n[side_frame]\ntoe = \"{}\"\n\
-             [bolster]\nyaw = \"{}\"\n",
-            self.name,
-            self.title(),
-            self.damping,
-            self.toe,
-            self.yaw
-        )
-    }
+/// The groups, the thesis's runs first.
+pub fn groups() -> &'static [Group] {
+    &GROUPS
 }
 
-/// The names of the built-in cases, variable damping first.
+/// The group of this name.
+pub fn group(name: &str) -> Option<&'static Group> {
+    groups().iter().find(|group| group.name == name)
+}
+
+/// The group that a built-in case belongs to.
+pub fn group_of(case: &str) -> Option<&'static Group> {
+    groups()
+        .iter()
+        .find(|group| group.cases.iter().any(|one| one.name == case))
+}
+
+/// The names of all built-in cases, the thesis's first.
 pub fn names() -> impl ExactSizeIterator<Item = &'static str> {
-    BUILTIN.iter().map(|builtin| builtin.name)
+    CASES.iter().map(|case| case.name.as_str())
 }
 
-/// Names and titles of the built-in cases.
-pub fn list() -> impl ExactSizeIterator<Item = (&'static str, String)> {
-    BUILTIN.iter().map(|builtin| (builtin.name, builtin.title()))
+/// The names of the thesis's twelve runs, variable damping first.
+pub fn thesis_names() -> impl ExactSizeIterator<Item = &'static str> {
+    let thesis = group(thesis::NAME).map_or(&[][..], |group| &group.cases);
+    thesis.iter().map(|case| case.name.as_str())
+}
+
+/// Names and titles of all built-in cases.
+pub fn list() -> impl ExactSizeIterator<Item = (&'static str, &'static str)> {
+    CASES.iter().map(|case| (case.name.as_str(), case.title.as_str()))
 }
 
 /// The built-in case of this name.
 ///
 /// # Errors
-/// There is none of this name; the help names the nearest, or all.
+/// There is none of this name; the help names the nearest, or the thesis's.
 pub fn case(name: &str) -> Result<Case, CaseError> {
     case_with(name, &[])
 }
@@ -86,14 +100,14 @@ pub fn case(name: &str) -> Result<Case, CaseError> {
 /// # Errors
 /// There is none of this name, or an override is wrong.
 pub fn case_with(name: &str, overrides: &[String]) -> Result<Case, CaseError> {
-    match BUILTIN.iter().find(|builtin| builtin.name == name) {
-        Some(builtin) => Case::parse(&format!("{name}.toml"), &builtin.text(), Path::new(""), overrides),
+    match CASES.iter().find(|case| case.name == name) {
+        Some(case) => Case::parse(&format!("{name}.toml"), &case.text, Path::new(""), overrides),
         None => {
             let help = match nearest(name, names()) {
                 Some(near) => format!("did you mean {near}?"),
                 None => format!(
-                    "the built-in cases are {}",
-                    names().collect::<Vec<_>>().join(", ")
+                    "`wedgelab case` lists all; the thesis's are {}",
+                    thesis_names().collect::<Vec<_>>().join(", ")
                 ),
             };
             Err(Problem::new(format!("there is no built-in case \"{name}\""))

@@ -18,6 +18,8 @@ width = "10.5 in"
 weight = "50 lbf"
 inertia = ["100 lb in^2", "100 lb in^2", "100 lb in^2"]
 center_of_gravity = ["-1.0734 in", "0 in", "2.0417 in"]
+column_wear = "0 in"
+slope_wear = "0 in"
 free_coordinates = ["x", "z", "pitch", "yaw"]
 [control_coil]
 damping = "1 lbf s/in"

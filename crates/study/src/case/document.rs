@@ -53,6 +53,10 @@ pub struct WedgeSection {
     pub inertia: [Quantity; 3],
     /// Centre of gravity from the wedge frame's origin: x, y, z.
     pub center_of_gravity: [Quantity; 3],
+    /// Depth of wear of the column and the wedge's vertical face together.
+    pub column_wear: Quantity,
+    /// Depth of wear of the pocket's slope and the wedge's slope face together.
+    pub slope_wear: Quantity,
     /// Coordinates that are free; the others are held.
     pub free_coordinates: Vec<Coordinate>,
 }

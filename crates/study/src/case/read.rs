@@ -22,6 +22,8 @@ const KEYS: &[(&str, &[&str])] = &[
             "weight",
             "inertia",
             "center_of_gravity",
+            "column_wear",
+            "slope_wear",
             "free_coordinates",
         ],
     ),
@@ -204,6 +206,8 @@ fn read_wedge(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<WedgeSecti
     let weight = s.quantity("weight", Kind::Force, Range::Positive, problems);
     let inertia = s.triple("inertia", Kind::Inertia, Range::Positive, problems);
     let center_of_gravity = s.triple("center_of_gravity", Kind::Length, Range::Any, problems);
+    let column_wear = s.quantity("column_wear", Kind::Length, Range::NotNegative, problems);
+    let slope_wear = s.quantity("slope_wear", Kind::Length, Range::NotNegative, problems);
     let free_coordinates = read_free_coordinates(s, problems);
     Some(WedgeSection {
         damping: damping?,
@@ -213,6 +217,8 @@ fn read_wedge(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<WedgeSecti
         weight: weight?,
         inertia: inertia?,
         center_of_gravity: center_of_gravity?,
+        column_wear: column_wear?,
+        slope_wear: slope_wear?,
         free_coordinates: free_coordinates?,
     })
 }

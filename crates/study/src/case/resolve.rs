@@ -11,7 +11,7 @@ use mechanics::motion::{Motion, RampProfile};
 use mechanics::spline::Spline;
 use quantity::{Quantity, STANDARD_GRAVITY};
 use wedge::parameters::{
-    Contact, ControlCoil, Damping, FaceFriction, NeighbourMotion, Parameters, Start, WedgeBody,
+    Contact, ControlCoil, Damping, FaceFriction, NeighbourMotion, Parameters, Start, Wear, WedgeBody,
 };
 
 /// What a document cannot be made into: the path of the value, and why.
@@ -28,6 +28,10 @@ pub(super) fn parameters(document: &typed::CaseDocument) -> Result<Parameters, U
             typed::Damping::Constant => Damping::Constant,
         },
         wedge: wedge(&document.wedge),
+        wear: Wear {
+            column: document.wedge.column_wear.to_si(),
+            slope: document.wedge.slope_wear.to_si(),
+        },
         coil: coil(&document.control_coil)?,
         contact: Contact {
             stiffness: document.contact.stiffness.to_si(),

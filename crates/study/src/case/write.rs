@@ -73,6 +73,16 @@ impl CaseDocument {
             "from the point above the coil. It is taken as the prism's centroid, which places \
              the faces",
         );
+        page.line(
+            "column_wear",
+            quantity(&wedge.column_wear),
+            "what column and wedge have lost there, together: the column lies deeper by it",
+        );
+        page.line(
+            "slope_wear",
+            quantity(&wedge.slope_wear),
+            "the same at the slope; a worn wedge rises. Begin with start = \"equilibrium\"",
+        );
         let free: Vec<String> = wedge.free_coordinates.iter().map(|c| text(c.name())).collect();
         page.line(
             "free_coordinates",

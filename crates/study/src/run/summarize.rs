@@ -9,7 +9,7 @@ use wedge::outputs::{CORNERS, FACES, Outputs};
 
 use super::{EVENT_CAP, Run};
 use crate::assumptions;
-use crate::metrics::{Cycle, Extremes, mean};
+use crate::metrics::{Cycle, Extremes, first_harmonic, mean};
 use crate::summary::{
     Averages, Events, FrictionSummary, LedgerSummary, Measure, SCHEMA, Solver, Stopped, Summary,
 };
@@ -121,8 +121,21 @@ fn averages(run: &Run) -> Averages {
             .columns()
             .iter()
             .position(|column| column.name == name);
-        index.map_or(&[][..], |index| &run.values[index])
+        index.map_or(&[][..], |index| run.values[index].as_slice())
     };
+    let on_bolster = cycle.window(duration).and_then(|(start, end, _)| {
+        first_harmonic(
+            &run.values[0],
+            column("bolster_vertical"),
+            column("net_force_on_bolster_z"),
+            cycle.angular_frequency,
+            (start, end),
+        )
+    });
+    if let Some(on_bolster) = on_bolster {
+        averages.equivalent_stiffness = Some(Measure::new(on_bolster.stiffness, Kind::Stiffness, units));
+        averages.equivalent_damping_on_bolster = Some(Measure::new(on_bolster.damping, Kind::Damping, units));
+    }
     let (times, positions, speeds) = (
         &run.values[0],
         column("bolster_vertical"),

@@ -14,10 +14,10 @@ pub const LBF_IN: f64 = LBF * INCH;
 
 /// The twelve runs of table 4-1.
 pub static TWELVE: LazyLock<BTreeMap<&'static str, RunResult>> = LazyLock::new(|| {
-    let cases: Vec<Case> = builtin::names()
+    let cases: Vec<Case> = builtin::thesis_names()
         .map(|name| builtin::case(name).unwrap())
         .collect();
-    builtin::names().zip(run_all(&cases, 2)).collect()
+    builtin::thesis_names().zip(run_all(&cases, 2)).collect()
 });
 
 /// One of them.

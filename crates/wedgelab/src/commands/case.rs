@@ -12,8 +12,8 @@ use crate::table::Table;
 
 /// List the built-in cases, or print one as a case file
 ///
-/// Without a name, lists the built-in cases with their titles. With one, prints that case as a complete, commented
-/// case file: change what you like, and run it with `wedgelab run`.
+/// Without a name, lists the built-in cases in groups, with their titles and what to look at in their results. With
+/// one, prints that case as a complete, commented case file: change what you like, and run it with `wedgelab run`.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -28,16 +28,42 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     let Some(name) = &arguments.name else {
-        let mut table = Table::new(2, &[("name", ""), ("title", "")]);
-        for (name, title) in builtin::list() {
-            table.row([name.to_owned(), title]);
+        for (index, group) in builtin::groups().iter().enumerate() {
+            let between = if index == 0 { "" } else { "\n" };
+            writeln!(out, "{between}{}: {}", group.name, group.title)?;
+            let mut table = Table::new(2, &[]);
+            for case in &group.cases {
+                table.row([format!("  {}", case.name), case.title.clone()]);
+            }
+            table.write(&mut out)?;
+            for line in lines(group.look_at, WIDTH) {
+                writeln!(out, "  {line}")?;
+            }
         }
-        table.write(&mut out)?;
         return Ok(ExitCode::SUCCESS);
     };
-    for name in select(std::slice::from_ref(name))? {
+    for name in select(std::slice::from_ref(name), builtin::names())? {
         let case = builtin::case(name)?;
         out.write_all(case.document.to_toml().as_bytes())?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Width of the sentences below a group.
+const WIDTH: usize = 110;
+
+/// A text in lines of at most so many signs, broken between words.
+fn lines(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.is_empty() => line.push_str(word),
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
 }

@@ -1,4 +1,4 @@
-//! `wedgelab reproduce`: all built-in cases.
+//! `wedgelab reproduce`: the thesis's twelve runs.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ use crate::failure::{FAILED, Failure, Message};
 use crate::progress::Progress;
 use crate::select::select;
 
-/// Run all built-in cases: the thesis's twelve runs
+/// Run the thesis's twelve runs
 ///
 /// Computes the twelve runs of Steets (2007), table 4-1: variable and constant damping, toe out, none and in, with and
 /// without yaw of the bolster. Writes the report index.html, its statements with verdicts claims.json, each figure as SVG and PNG, and for each run
@@ -56,7 +56,7 @@ struct Kept {
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let cases = select(&arguments.only)?
+    let cases = select(&arguments.only, builtin::thesis_names())?
         .into_iter()
         .map(builtin::case)
         .collect::<Result<Vec<Case>, _>>()?;
