@@ -45,9 +45,9 @@ pub(super) static CLAIMS: &[Claim] = &[
         holds: every([vd_out_yaw, vd_none_yaw, vd_in_yaw, cd_out_yaw, cd_none_yaw, cd_in_yaw], |run| {
             peak(run, lateral_force, settled) < 0.01 * peak(run, longitudinal_force, settled)
         }),
-        but: "The yawed slope pushes the wedge sideways, and its friction has a large lateral part as the wedge \
-              turns in the pocket; the model holds the wedge's lateral coordinate, and that restraint carries the \
-              force.",
+        but: "With yaw the slope's friction has a large lateral part, and its normal force a small one; the model \
+              holds the wedge's lateral coordinate, and that restraint carries what the column's friction does \
+              not.",
     },
     undecidable! {
         id: "7.1-moments-not-validated",
@@ -186,8 +186,8 @@ pub(super) static CLAIMS: &[Claim] = &[
             so_at_peak(run, side_frame_force, settled, column_sticks)
         }),
         but: "With one coefficient for rest and sliding, friction has no break-out peak: a stuck face never \
-              carries more than a sliding one, and the force has its peak while the wedge still creeps, at the \
-              reversal.",
+              carries more than a sliding one, and the force has its peak while the wedge still slides, slowly, \
+              just before the reversal.",
     },
     claim! {
         id: "7.1-largest-forces-stuck-constant",
@@ -201,7 +201,7 @@ pub(super) static CLAIMS: &[Claim] = &[
             so_at_peak(run, vertical_force, settled, column_sticks)
         }),
         but: "With one coefficient for rest and sliding, friction has no break-out peak: the force has its peak \
-              while the wedge slides, wherever the taper is narrowest.",
+              while the wedge slides, near the end of the stroke where it is wedged in deepest.",
     },
     undecidable! {
         id: "7.2-curved-slope",

@@ -207,7 +207,7 @@ pub(super) static CLAIMS: &[Claim] = &[
         runs: [cd_out],
         holds: at_peak(cd_out, longitudinal_force, settled, bolster_z) < -0.9 * amplitude(cd_out),
         but: "With toe out the gap is narrowest at the top: the normal force grows on the way up, and is largest \
-              just before the upper reversal.",
+              near the top.",
     },
     claim! {
         id: "6.1-longitudinal-toe-out-largest",
@@ -281,8 +281,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Constant,
         place: "section 6.1, figure 6-7, page 62",
         says: "Dissipation at the side frame is zero only while the wedge sticks (toe out).",
-        test: "where less than 0.02 % of the greatest rate is dissipated (a corner counts as stuck below 0.001 \
-               in/s, which is 0.05 % of the greatest speed), the column sticks at all times",
+        test: "where less than 0.02 % of the greatest rate is dissipated (a corner begins to stick at 0.001 in/s, \
+               0.05 % of the greatest speed), the column sticks at all times",
         runs: [cd_out],
         holds: share(cd_out, column_sticks, not_dissipating) == 1.0,
     },

@@ -230,7 +230,7 @@ pub(super) static CLAIMS: &[Claim] = &[
         runs: [cd_out_yaw],
         holds: at_peak(cd_out_yaw, longitudinal_force, settled, bolster_z) < -0.9 * amplitude(cd_out_yaw),
         but: "With toe out the gap is narrowest at the top: the normal force grows on the way up, and is largest \
-              just before the upper reversal.",
+              near the top.",
     },
     claim! {
         id: "6.2-longitudinal-toe-out-largest",
@@ -308,8 +308,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: ConstantYawed,
         place: "section 6.2, figure 6-16, page 71",
         says: "Dissipation at the side frame is zero only while the wedge sticks (toe out).",
-        test: "where less than 0.02 % of the greatest rate is dissipated (a corner counts as stuck below 0.001 \
-               in/s, which is 0.05 % of the greatest speed), the column sticks at all times",
+        test: "where less than 0.02 % of the greatest rate is dissipated (a corner begins to stick at 0.001 in/s, \
+               0.05 % of the greatest speed), the column sticks at all times",
         runs: [cd_out_yaw],
         holds: share(cd_out_yaw, column_sticks, not_dissipating) == 1.0,
     },

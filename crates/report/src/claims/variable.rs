@@ -42,9 +42,9 @@ pub(super) static CLAIMS: &[Claim] = &[
         says: "As the bolster goes up again (2.4 to 3.2 s), the wedge slides more smoothly than on its way down \
                (toe out).",
         test: "the side-frame dissipation is less rough (mean size of its second difference from row to row) going \
-               up than going down, over the branches (without the reversal)",
+               up than going down, by more than 10 %, over the branches (without the reversal)",
         runs: [vd_out],
-        holds: roughness(vd_out, dissipation, going_up) < roughness(vd_out, dissipation, going_down),
+        holds: roughness(vd_out, dissipation, going_up) < 0.9 * roughness(vd_out, dissipation, going_down),
         but: "Both ways are about equally rough: with toe out the wedge slides steadily down as well, so that \
               there is no stick-slip to be smoother than, and its corners ring a little when both faces slide on \
               the way up.",
@@ -138,9 +138,9 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "size of the mean vertical wedge force going up: toe in > no toe > toe out",
         runs: [vd_out, vd_none, vd_in],
         holds: descending([vd_in, vd_none, vd_out].map(|run| size(run, vertical_force, going_up))),
-        but: "Going up, a wedge with toe in comes into a gap that opens for it: friction on the slope then acts \
-              the other way than with toe out, and the column's normal force falls, so that toe in has the lowest \
-              force instead of the highest.",
+        but: "Going up, with the gap opening for it, a wedge with toe in sticks to the slope most of the way: the \
+              slope's friction stays well below the limit that it holds with toe out, and so does the column's \
+              normal force, which makes toe in the lowest.",
     },
     claim! {
         id: "5.1-smoother-contact-toe-out",
@@ -210,8 +210,9 @@ pub(super) static CLAIMS: &[Claim] = &[
                value) in the time after the first half period: some four a cycle",
         runs: [vd_out],
         holds: peaks(vd_out, longitudinal_force, settled) > 10.0,
-        but: "With toe out the wedge slides steadily on both faces, nothing excites the contacts, and the force \
-              follows the coil's; it rings without toe and with toe in, where the slope sticks.",
+        but: "With toe out the wedge slides steadily on both faces; the contacts ring only as the bolster lands on \
+              it and where it turns, in bursts too short for rows a hundredth of a second apart, as the thesis has \
+              them (rows 2 ms apart show some 17 peaks).",
     },
     claim! {
         id: "5.1-longitudinal-periodic",
@@ -240,8 +241,9 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "number of peaks (followed by falls of more than 2 % of the greatest value): toe in < no toe",
         runs: [vd_in, vd_none],
         holds: peaks(vd_in, longitudinal_force, settled) < peaks(vd_none, longitudinal_force, settled),
-        but: "With toe in the slope sticks as the bolster goes down, and the column's sliding excites the stiff \
-              contact at the lower edge to many more, but smaller, peaks than the slow swaying without toe has.",
+        but: "That is so in rows a hundredth of a second apart, as the thesis has them, which are too coarse for \
+              ringing above 100 Hz; in rows 2 ms apart no toe has more peaks than toe in (some 220 against 150), \
+              as claimed.",
     },
     claim! {
         id: "5.1-toe-constrains",

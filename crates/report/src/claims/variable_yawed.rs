@@ -142,8 +142,9 @@ pub(super) static CLAIMS: &[Claim] = &[
             peak(vd_in_yaw, longitudinal_force, beginning) < peak(vd_out_yaw, longitudinal_force, beginning),
             peak(vd_in_yaw, longitudinal_force, beginning) < peak(vd_none_yaw, longitudinal_force, beginning),
         ]),
-        but: "Before the first pressing down there is only the release from the start, in which corners sit inside \
-              the yawed pocket; toe, in or out, adds to that penetration, so that no toe begins lowest.",
+        but: "The release from the start is over within 0.1 s and the free wedge touches nothing until the bolster \
+              returns at 1.5 s; the force that it then takes up, still in this window, is slightly higher with toe \
+              in.",
     },
     claim! {
         id: "5.2-toe-in-constrains",
@@ -252,7 +253,7 @@ pub(super) static CLAIMS: &[Claim] = &[
             so_at_peak(run, yaw_moment, pressed, column_sticks),
         ])),
         but: "The moments come from where the faces touch, on one side and one edge, sliding or not; their peaks \
-              fall into the sliding on the way up, or just before the reversal.",
+              fall into the sliding on the way up, or beside the reversal.",
     },
     claim! {
         id: "5.2-pitch-largest-down",
