@@ -226,6 +226,13 @@ impl Partitioned {
         }
     }
 
+    /// The same, or none where the structure does not couple them.
+    #[must_use]
+    pub fn find_pair(&self, row: usize, column: usize) -> Option<usize> {
+        let same = |pair: &Pair| (pair.row, pair.column) == (row, column);
+        self.pairs.iter().position(same)
+    }
+
     /// Sets all derivatives to zero.
     pub fn clear(&mut self) {
         self.stiffness.fill(0.0);

@@ -1,0 +1,125 @@
+//! Static equilibrium by pseudo-transient continuation.
+
+use integrate::Problem;
+
+use super::{COORDINATES, Grip, System};
+use crate::system::NoEquilibrium;
+
+/// What friction does in a static equilibrium, where its force is not determined by the positions alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StaticFriction {
+    /// None: accumulators are relaxed to zero. The result depends on positions only, and is what a vehicle settles
+    /// to after much shaking. Directions that friction alone holds stay where they are.
+    #[default]
+    Without,
+    /// Accumulators follow the displacements from their present deflections, sticking up to their limits: the
+    /// result depends on the start.
+    Following,
+}
+
+/// Accelerations below this count as rest, m/s² or rad/s².
+const REST: f64 = 1e-7;
+/// The time by which rates of the deflections (m/s) are compared with accelerations, s.
+const SETTLING: f64 = 1e-3;
+const ITERATIONS: usize = 2000;
+
+impl System {
+    /// The state of rest near `x` at `time`, with all prescribed bodies where they are then, at rest. Quadratures stay as
+    /// they are.
+    ///
+    /// Implicit Euler steps from rest, of a length that grows as the accelerations fall: with long steps this is
+    /// Newton's method with the Jacobian of the integration.
+    ///
+    /// # Errors
+    /// The accelerations do not fall below 1e-7 (m/s², rad/s²).
+    pub fn equilibrium(
+        &mut self,
+        time: f64,
+        x: &[f64],
+        friction: StaticFriction,
+    ) -> Result<Vec<f64>, NoEquilibrium> {
+        let before = self.grip;
+        let moving: Vec<_> = self
+            .moved
+            .iter_mut()
+            .map(|m| (m.moves, m.motions.clone()))
+            .collect();
+        // the prescribed bodies held where they are
+        for moved in &mut self.moved {
+            for motion in moved.motions.iter_mut() {
+                let [value, ..] = motion.evaluate(time, self.reference);
+                *motion = crate::motion::Motion::Constant(value);
+            }
+        }
+        self.moved_at = f64::NAN;
+        if friction == StaticFriction::Without {
+            self.grip = Grip::Free;
+        }
+        let found = self.settle(time, x, friction);
+        self.grip = before;
+        for (moved, (moves, motions)) in self.moved.iter_mut().zip(moving) {
+            (moved.moves, moved.motions) = (moves, motions);
+        }
+        self.moved_at = f64::NAN;
+        found
+    }
+
+    fn settle(&mut self, time: f64, x: &[f64], friction: StaticFriction) -> Result<Vec<f64>, NoEquilibrium> {
+        let n = self.layout.speeds;
+        let states = 2 * n..2 * n + self.layout.internals;
+        let mut x = x.to_vec();
+        x[n..2 * n].fill(0.0);
+        if friction == StaticFriction::Without {
+            x[states.clone()].fill(0.0);
+        }
+        let mut dx = vec![0.0; x.len()];
+        let mut unused = vec![0.0; x.len()];
+        let mut trial = x.clone();
+        self.derivative(time, &x, &mut dx);
+        let size = |dx: &[f64]| {
+            let largest = |part: &[f64]| part.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+            largest(&dx[n..2 * n]).max(largest(&dx[states.clone()]) / SETTLING)
+        };
+        let mut residual = size(&dx);
+        let mut step = 1e-4;
+        for _ in 0..ITERATIONS {
+            if residual < REST {
+                return Ok(x);
+            }
+            unused.fill(0.0);
+            self.linearize(time, &x, &dx, &mut unused);
+            let mut change = dx.clone();
+            let mut next = f64::NAN;
+            if self.factor(1.0 / step).is_ok() {
+                self.solve(&mut change);
+                for i in (0..n).chain(states.clone()) {
+                    trial[i] = x[i] + change[i];
+                }
+                self.derivative(time, &trial, &mut dx);
+                next = size(&dx);
+            }
+            if next < 2.0 * residual {
+                step *= (residual / next).clamp(0.5, 10.0).max(1.2);
+                residual = next;
+                x.copy_from_slice(&trial);
+            } else {
+                step *= 0.25;
+                self.derivative(time, &x, &mut dx);
+            }
+        }
+        let worst = (0..n).fold(0, |w, i| if dx[n + i].abs() > dx[n + w].abs() { i } else { w });
+        let free = self.free.iter().rev().find(|free| free.offset <= worst);
+        let (body, coordinate) = free.map_or((String::new(), ""), |free| {
+            (
+                self.model.bodies[free.body].name.clone(),
+                COORDINATES[free.free[worst - free.offset]],
+            )
+        });
+        Err(NoEquilibrium {
+            iterations: ITERATIONS,
+            body,
+            coordinate,
+            acceleration: dx[n + worst],
+        })
+    }
+}

@@ -1,0 +1,330 @@
+//! Derivatives: every law once, with numbers that carry its own few derivatives, and the constant rows around them.
+//!
+//! An element answers with derivatives by its strokes, their rates and its deflections (2, 6 or 8 of them); with the rows J of its
+//! displacements they become `-Jᵀ (∂f/∂s) J` in the blocks of the two bodies.
+
+use integrate::partitioned::Partitioned;
+use integrate::scalar::Dual;
+
+use super::forces::{AxisLaw, SpatialLaw, deflection_at};
+use super::law::Grip;
+use super::place::Site;
+use super::{Axis, Spatial, System};
+
+/// Everything that derivatives are taken at, and where derivatives by time are gathered.
+struct Scene<'s> {
+    positions: &'s [[f64; 6]],
+    rates: &'s [[f64; 6]],
+    accelerations: &'s [[f64; 6]],
+    internal: &'s [f64],
+    grip: Grip,
+    jacobian: &'s mut Partitioned,
+    loads: &'s mut [[f64; 6]],
+    d_internal: &'s mut [f64],
+    d_quadratures: &'s mut [f64],
+}
+
+/// Derivatives of one quantity by strokes, rates and deflections.
+#[derive(Clone, Copy, Debug, Default)]
+struct Partial {
+    strokes: [f64; 3],
+    rates: [f64; 3],
+    deflection: [f64; 2],
+}
+
+impl Partial {
+    /// The derivatives of a number whose seeds are `N - 5` strokes, three rates, two deflections.
+    #[inline(always)]
+    fn of<const N: usize>(number: &Dual<N>) -> Self {
+        let d = &number.derivative;
+        let first = N - 5;
+        let mut partial = Self::default();
+        partial.strokes[..first].copy_from_slice(&d[..first]);
+        partial.rates.copy_from_slice(&d[first..first + 3]);
+        partial.deflection.copy_from_slice(&d[first + 3..]);
+        partial
+    }
+
+    /// The derivative by time, strokes and rates changing at these rates.
+    #[inline(always)]
+    fn in_time(&self, drive: &[f64; 3], drive_rate: &[f64; 3]) -> f64 {
+        let mut sum = 0.0;
+        for k in 0..3 {
+            sum += self.strokes[k] * drive[k] + self.rates[k] * drive_rate[k];
+        }
+        sum
+    }
+}
+
+/// Derivatives of all that an element does.
+struct Local {
+    force: [f64; 3],
+    forces: [Partial; 3],
+    deflection_rates: [Partial; 2],
+    powers: [Partial; 3],
+}
+
+impl System {
+    /// The Jacobian and the derivative by time at the state that [`System::place`] was called with.
+    pub(super) fn differentiate(&mut self, x: &[f64], df_dt: &mut [f64]) {
+        let [_, _, internal, _] = self.layout.split(x);
+        let [_, d_speeds, d_internal, d_quadratures] = self.layout.split_mut(df_dt);
+        self.jacobian.clear();
+        for free in &self.free {
+            self.loads[free.body] = [0.0; 6];
+        }
+        let mut scene = Scene {
+            positions: &self.positions,
+            rates: &self.rates,
+            accelerations: &self.accelerations,
+            internal,
+            grip: self.grip,
+            jacobian: &mut self.jacobian,
+            loads: &mut self.loads,
+            d_internal,
+            d_quadratures,
+        };
+        for spring in &self.springs {
+            scene.axis(spring);
+        }
+        for gap in &self.gaps {
+            scene.axis(gap);
+        }
+        for surface in &self.surfaces {
+            scene.spatial(surface);
+        }
+        for wedge in &self.wedges {
+            scene.spatial(wedge);
+        }
+        if self.moved.iter().any(|moved| moved.moves) {
+            for free in &self.free {
+                let load = &self.loads[free.body];
+                let target = &mut d_speeds[free.offset..free.offset + free.free.len()];
+                for (j, target) in target.iter_mut().enumerate() {
+                    *target = load[free.free[j]] / free.inertia[j];
+                }
+            }
+        }
+    }
+}
+
+impl Scene<'_> {
+    #[inline(always)]
+    fn axis<L: AxisLaw>(&mut self, axis: &Axis<L>) {
+        let site = &axis.site;
+        let ([stroke], [rate]) = (site.strokes(self.positions), site.strokes(self.rates));
+        let done = axis
+            .law
+            .act(Dual::<2>::variable(stroke, 0), Dual::<2>::variable(rate, 1));
+        let [stiffness, damping] = done.force.derivative;
+        for (i, row_end) in site.ends.iter().enumerate() {
+            for (j, column_end) in site.ends.iter().enumerate() {
+                if row_end.free.is_none() || column_end.free.is_none() {
+                    continue;
+                }
+                let sign = -row_end.sign * column_end.sign;
+                let (row, column) = (&site.rows[i][0], &site.rows[j][0]);
+                let (k, d) = self.jacobian.blocks_mut(site.pairs[i][j]);
+                if stiffness != 0.0 {
+                    row.add_product(column, sign * stiffness, column_end.size, k);
+                }
+                if damping != 0.0 {
+                    row.add_product(column, sign * damping, column_end.size, d);
+                }
+            }
+        }
+        let drive = if site.driven {
+            site.drive(self.rates)[0]
+        } else {
+            0.0
+        };
+        for (j, end) in site.ends.iter().enumerate() {
+            let rows = [
+                (site.quadratures[j][0], done.loss.derivative),
+                (
+                    site.works[j],
+                    done.force.derivative.map(|derivative| derivative * drive),
+                ),
+            ];
+            for (row, [by_stroke, by_rate]) in rows {
+                if let Some(row) = row {
+                    let (p_q, p_u) = self.jacobian.row_mut(row);
+                    site.rows[j][0].add(end.sign * by_stroke, p_q);
+                    site.rows[j][0].add(end.sign * by_rate, p_u);
+                }
+            }
+        }
+        if site.driven {
+            let [drive_rate] = site.drive(self.accelerations);
+            let in_time = |[by_stroke, by_rate]: [f64; 2]| by_stroke * drive + by_rate * drive_rate;
+            let force_rate = in_time(done.force.derivative);
+            site.push([force_rate], self.loads);
+            self.d_quadratures[0] += force_rate * drive + done.force.value * drive_rate;
+            if let Some(channel) = site.channels[0] {
+                self.d_quadratures[channel] += in_time(done.loss.derivative);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn spatial<L: SpatialLaw>(&mut self, element: &Spatial<L>) {
+        let local = if element.law.uses_all_strokes() {
+            self.local::<L, 8>(element)
+        } else {
+            self.local::<L, 6>(element)
+        };
+        self.add_forces(&element.site, &local);
+        self.add_powers(element, &local);
+        if let Some(internal) = element.internal {
+            self.add_deflections(element, internal / 2, &local);
+        }
+        if element.site.driven {
+            self.add_time(element, &local);
+        }
+    }
+
+    /// The law with its derivatives.
+    #[inline(always)]
+    fn local<L: SpatialLaw, const N: usize>(&self, element: &Spatial<L>) -> Local {
+        let site = &element.site;
+        let (strokes, rates) = (site.strokes(self.positions), site.strokes(self.rates));
+        let deflection = deflection_at(element.internal, self.internal);
+        let first = N - 5;
+        let seed = |values: [f64; 3], from: usize, count: usize| -> [Dual<N>; 3] {
+            let number = |k: usize| match k < count {
+                true => Dual::variable(values[k], from + k),
+                false => Dual::from(values[k]),
+            };
+            [number(0), number(1), number(2)]
+        };
+        let done = element.law.act(
+            seed(strokes, 0, first),
+            seed(rates, first, 3),
+            [
+                Dual::variable(deflection[0], first + 3),
+                Dual::variable(deflection[1], first + 4),
+            ],
+            self.grip,
+        );
+        Local {
+            force: done.force.map(|force| force.value),
+            forces: done.force.map(|force| Partial::of(&force)),
+            deflection_rates: done.rate.map(|rate| Partial::of(&rate)),
+            powers: done.powers.map(|power| Partial::of(&power)),
+        }
+    }
+
+    /// K and D of both bodies.
+    fn add_forces(&mut self, site: &Site<3, 3>, local: &Local) {
+        for (i, row_end) in site.ends.iter().enumerate() {
+            for (j, column_end) in site.ends.iter().enumerate() {
+                if row_end.free.is_none() || column_end.free.is_none() {
+                    continue;
+                }
+                let sign = -row_end.sign * column_end.sign;
+                let width = column_end.size;
+                let (k, d) = self.jacobian.blocks_mut(site.pairs[i][j]);
+                for (partial, row) in local.forces.iter().zip(&site.rows[i]) {
+                    for (b, column) in site.rows[j].iter().enumerate() {
+                        let (by_stroke, by_rate) = (partial.strokes[b], partial.rates[b]);
+                        if by_stroke != 0.0 {
+                            row.add_product(column, sign * by_stroke, width, k);
+                        }
+                        if by_rate != 0.0 {
+                            row.add_product(column, sign * by_rate, width, d);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Rows of the quadratures.
+    fn add_powers<L>(&mut self, element: &Spatial<L>, local: &Local) {
+        let site = &element.site;
+        let work = self.work(site, local);
+        for (j, end) in site.ends.iter().enumerate() {
+            let channels = site.quadratures[j].iter().zip(&local.powers);
+            for (row, power) in channels.chain([(&site.works[j], &work)]) {
+                let Some(row) = row else { continue };
+                let (p_q, p_u) = self.jacobian.row_mut(*row);
+                for (b, column) in site.rows[j].iter().enumerate() {
+                    column.add(end.sign * power.strokes[b], p_q);
+                    column.add(end.sign * power.rates[b], p_u);
+                }
+            }
+        }
+        let powers = local.powers.iter().chain([&work]);
+        for (row, power) in element.internal_rows.iter().zip(powers) {
+            if let Some(row) = row {
+                *self.jacobian.internal_row_mut(*row) = power.deflection;
+            }
+        }
+    }
+
+    /// Derivatives of the power of the prescribed motions.
+    #[inline(always)]
+    fn work(&self, site: &Site<3, 3>, local: &Local) -> Partial {
+        let mut work = Partial::default();
+        if site.driven {
+            let drive = site.drive(self.rates);
+            for (force, drive) in local.forces.iter().zip(drive) {
+                for k in 0..3 {
+                    work.strokes[k] += drive * force.strokes[k];
+                    work.rates[k] += drive * force.rates[k];
+                }
+                for e in 0..2 {
+                    work.deflection[e] += drive * force.deflection[e];
+                }
+            }
+        }
+        work
+    }
+
+    /// The pair of internal states: by itself, by the bodies, and forces by it.
+    fn add_deflections<L>(&mut self, element: &Spatial<L>, group: usize, local: &Local) {
+        let site = &element.site;
+        let [first, second] = local.deflection_rates.map(|rate| rate.deflection);
+        *self.jacobian.internal_mut(group) = [first[0], first[1], second[0], second[1]];
+        let mut side = 0;
+        for (j, end) in site.ends.iter().enumerate() {
+            if end.free.is_none() {
+                continue;
+            }
+            let n = end.size;
+            let [g_q, g_u, f_t] = self.jacobian.side_mut(group, side);
+            side += 1;
+            for (b, column) in site.rows[j].iter().enumerate() {
+                for (e, rate) in local.deflection_rates.iter().enumerate() {
+                    column.add(end.sign * rate.strokes[b], &mut g_q[e * n..][..n]);
+                    column.add(end.sign * rate.rates[b], &mut g_u[e * n..][..n]);
+                }
+                for e in 0..2 {
+                    let by_deflection = local.forces[b].deflection[e];
+                    column.add(-end.sign * by_deflection, &mut f_t[e * n..][..n]);
+                }
+            }
+        }
+    }
+
+    /// Derivatives by time.
+    fn add_time<L>(&mut self, element: &Spatial<L>, local: &Local) {
+        let site = &element.site;
+        let (drive, drive_rate) = (site.drive(self.rates), site.drive(self.accelerations));
+        let rates = local.forces.map(|force| force.in_time(&drive, &drive_rate));
+        site.push(rates, self.loads);
+        for k in 0..3 {
+            self.d_quadratures[0] += rates[k] * drive[k] + local.force[k] * drive_rate[k];
+        }
+        for (channel, power) in site.channels.iter().zip(&local.powers) {
+            if let Some(channel) = channel {
+                self.d_quadratures[*channel] += power.in_time(&drive, &drive_rate);
+            }
+        }
+        if let Some(at) = element.internal {
+            for (e, rate) in local.deflection_rates.iter().enumerate() {
+                self.d_internal[at + e] = rate.in_time(&drive, &drive_rate);
+            }
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! The laws of connections, one a file. Forces are in the sense of their strokes: extension positive.
+
+pub mod gap;
+pub mod spring;
+pub mod surface;
+pub mod wedge;
+
+use integrate::scalar::Real;
+use serde::{Deserialize, Serialize};
+
+use crate::friction::Friction as Slip;
+use crate::friction::bristle;
+
+/// How a friction element holds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Accumulator {
+    /// A bristle in series with the slider, two states, see [`crate::friction::bristle`].
+    Bristle {
+        /// Stiffness K_a, N/m.
+        stiffness: f64,
+        /// Damping C_a, N·s/m; it must be positive.
+        damping: f64,
+    },
+    /// Velocity times a damping, at most the friction limit: no state, creeps under a held load.
+    Viscous {
+        /// Damping LVB, N·s/m.
+        damping: f64,
+    },
+}
+
+impl Accumulator {
+    /// Number of its states.
+    #[must_use]
+    pub fn states(&self) -> usize {
+        match self {
+            Self::Bristle { .. } => 2,
+            Self::Viscous { .. } => 0,
+        }
+    }
+
+    /// Its stored energy, J.
+    #[must_use]
+    pub fn energy(&self, deflection: [f64; 2]) -> f64 {
+        match self {
+            Self::Bristle { stiffness, .. } => {
+                0.5 * stiffness * (deflection[0] * deflection[0] + deflection[1] * deflection[1])
+            }
+            Self::Viscous { .. } => 0.0,
+        }
+    }
+
+    /// The same with its bristle's damping multiplied.
+    pub(crate) fn with_damping(self, factor: f64) -> Self {
+        match self {
+            Self::Bristle { stiffness, damping } => Self::Bristle {
+                stiffness,
+                damping: damping * factor,
+            },
+            viscous => viscous,
+        }
+    }
+
+    /// The force that it would hold against, in the strokes' sense.
+    #[inline(always)]
+    pub(crate) fn trial<S: Real>(&self, velocity: [S; 2], deflection: [S; 2]) -> [S; 2] {
+        match self {
+            Self::Bristle { stiffness, damping } => {
+                [0, 1].map(|k| deflection[k] * *stiffness + velocity[k] * *damping)
+            }
+            Self::Viscous { damping } => velocity.map(|v| v * *damping),
+        }
+    }
+}
+
+/// How far friction takes part: as its law says, or in a special evaluation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Grip {
+    /// As the law says.
+    #[default]
+    Law,
+    /// Every closed element sticks.
+    Stuck,
+    /// No friction at all.
+    Free,
+}
+
+impl Grip {
+    /// The friction limit of an element with this normal force.
+    #[inline(always)]
+    pub fn limit<S: Real>(self, limit: S, normal: f64) -> S {
+        match self {
+            Self::Law => limit,
+            Self::Stuck if normal > 0.0 => S::from(f64::INFINITY),
+            Self::Stuck | Self::Free => S::zero(),
+        }
+    }
+}
+
+/// Friction of an accumulator.
+#[inline(always)]
+pub(crate) fn friction_of<S: Real>(
+    accumulator: &Accumulator,
+    limit: S,
+    grip: Grip,
+    velocity: [S; 2],
+    deflection: [S; 2],
+) -> Slip<S> {
+    match *accumulator {
+        Accumulator::Bristle { stiffness, damping } => {
+            bristle::friction(limit, stiffness, damping, velocity, deflection)
+        }
+        Accumulator::Viscous { damping } => {
+            let limit = if grip == Grip::Stuck { S::zero() } else { limit };
+            viscous(limit, damping, velocity)
+        }
+    }
+}
+
+/// `F = -min(LVB |v|, limit) v/|v|`.
+#[inline(always)]
+fn viscous<S: Real>(limit: S, damping: f64, velocity: [S; 2]) -> Slip<S> {
+    let square = velocity[0] * velocity[0] + velocity[1] * velocity[1];
+    let size = square.value().sqrt() * damping;
+    let holds = size <= limit.value();
+    let factor = if holds {
+        S::from(damping)
+    } else {
+        limit / square.sqrt()
+    };
+    Slip {
+        force: velocity.map(|v| -(v * factor)),
+        rate: [S::zero(); 2],
+        loss: square * factor,
+        sticks: holds,
+        load: if size > 0.0 { size / limit.value() } else { 0.0 },
+    }
+}
+
+/// A force on one coordinate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AxisForce<S> {
+    /// In the stroke's sense, N or N·m.
+    pub force: S,
+    /// Power that is neither stored nor given back, W.
+    pub loss: S,
+}
+
+impl<S: Real> AxisForce<S> {
+    #[inline(always)]
+    pub fn none() -> Self {
+        Self {
+            force: S::zero(),
+            loss: S::zero(),
+        }
+    }
+}
+
+/// What a friction element does in its three coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SpatialForce<S> {
+    /// In the strokes' sense, N.
+    pub force: [S; 3],
+    /// Rates of the deflections, m/s.
+    pub rate: [S; 2],
+    /// Powers of its channels, W.
+    pub powers: [S; 3],
+    /// What its friction does.
+    pub friction: Friction,
+}
+
+/// The friction of an element, for modes and outputs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Friction {
+    /// What presses: the normal force, or the coil force of a wedge, N.
+    pub normal: f64,
+    /// |T| / limit.
+    pub load: f64,
+    /// Force on body A in the two friction coordinates, N.
+    pub force: [f64; 2],
+}

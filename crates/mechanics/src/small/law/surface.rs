@@ -1,0 +1,101 @@
+//! Friction on a surface that a spring presses together (the comparison program's type 6.5).
+//!
+//! Equations: normal force `N = max(0, -K(s_n))` from a piecewise linear curve of the normal stroke (extension positive, so
+//! that the curve is negative where the surfaces press), with an optional damper that never pulls; in the two other
+//! coordinates a force accumulator with the limit `μN`, one circle for both (see [`crate::friction::bristle`]). Forces
+//! in the strokes' sense: the normal one is `-N`. Units: N, m, s.
+//!
+//! Energy: the integral of K, the accumulator's `K_a e²/2`, its losses, and those of the damper.
+//!
+//! Source: the form is read from published input files, the accumulator's name and numbers from the wedge elements
+//! beside it. Defect: under a held load it deflects by F/K_a. Limit: the limit of friction is taken from the spring's
+//! force, without the damper's.
+
+use integrate::scalar::Real;
+use serde::{Deserialize, Serialize};
+
+use super::{Accumulator, Friction, Grip, SpatialForce, friction_of};
+use crate::friction::Friction as Slip;
+use crate::small::curve::Curve;
+
+/// Friction on a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceFriction {
+    /// The normal coordinate and the two of the surface (0 to 2: x, y, z).
+    pub coordinates: [usize; 3],
+    /// Force by the normal stroke, N by m; negative where the surfaces press.
+    pub spring: Curve,
+    /// Force by the normal stroke's rate, N by m/s.
+    pub damper: Option<Curve>,
+    /// Coefficient of friction.
+    pub coefficient: f64,
+    /// The force accumulator.
+    pub accumulator: Accumulator,
+}
+
+/// The law, prepared.
+#[derive(Clone, Debug)]
+pub(crate) struct Surface {
+    normal: Curve,
+    damper: Option<Curve>,
+    coefficient: f64,
+    pub accumulator: Accumulator,
+}
+
+impl Surface {
+    pub fn new(law: &SurfaceFriction, damping: f64) -> Self {
+        Self {
+            normal: law.spring.scaled(-1.0, 0.0).clamped(0.0, f64::INFINITY),
+            damper: law.damper.clone().filter(|curve| !curve.is_zero()),
+            coefficient: law.coefficient,
+            accumulator: law.accumulator.with_damping(damping),
+        }
+    }
+
+    pub fn damps(&self) -> bool {
+        self.damper.is_some()
+    }
+
+    /// Friction at strokes and rates (normal, first, second) and deflections.
+    #[inline(always)]
+    pub fn evaluate<S: Real>(
+        &self,
+        strokes: [S; 3],
+        rates: [S; 3],
+        deflection: [S; 2],
+        grip: Grip,
+    ) -> SpatialForce<S> {
+        let normal = self.normal.evaluate(strokes[0]);
+        let mut push = normal;
+        if let Some(curve) = &self.damper {
+            if normal.value() > 0.0 {
+                push -= curve.evaluate(rates[0]);
+            }
+            if push.value() < 0.0 {
+                push = S::zero();
+            }
+        }
+        let slip: Slip<S> = friction_of(
+            &self.accumulator,
+            grip.limit(normal * self.coefficient, normal.value()),
+            grip,
+            [rates[1], rates[2]],
+            deflection,
+        );
+        SpatialForce {
+            force: [-push, -slip.force[0], -slip.force[1]],
+            rate: slip.rate,
+            powers: [slip.loss, (normal - push) * rates[0], S::zero()],
+            friction: Friction {
+                normal: normal.value(),
+                load: slip.load,
+                force: [slip.force[0].value(), slip.force[1].value()],
+            },
+        }
+    }
+
+    /// Energy of the normal spring, J; zero at zero stroke.
+    pub fn energy(&self, stroke: f64) -> f64 {
+        -self.normal.integral(stroke)
+    }
+}

@@ -1,0 +1,103 @@
+//! Modes of the friction elements: open, stick, slip; when they change.
+//!
+//! Modes are recorded, they do not change the forces. Thresholds with hysteresis keep rounding from counting as events:
+//! - an element closes where what presses it (normal force of a surface, coil force of a wedge) grows to
+//!   [`CLOSING_FORCE`], and opens where it falls to [`OPENING_FORCE`];
+//! - it starts to slip where the load |T|/limit of its accumulator rises to [`SLIP_LOAD`], and sticks again where it falls
+//!   to [`STICK_LOAD`], the values of bristles elsewhere in this program.
+
+use super::System;
+use super::forces::{SpatialLaw, deflection_at};
+use super::law::Friction;
+use super::{Grip, Spatial};
+use crate::system::{Mode, SLIP_LOAD, STICK_LOAD};
+
+/// An element closes at this normal (or coil) force, N.
+pub const CLOSING_FORCE: f64 = 2e-3;
+/// An element opens at this normal (or coil) force, N.
+pub const OPENING_FORCE: f64 = 1e-3;
+/// Bristles, in the tables of thresholds.
+const BRISTLE: usize = 1;
+
+impl Friction {
+    /// Positive while the mode lasts.
+    fn margin(&self, mode: Mode) -> f64 {
+        let stays_closed = (self.normal - OPENING_FORCE) / OPENING_FORCE;
+        // An element without force says nothing about friction; `min` passes over NaN.
+        let load = if self.normal > 0.0 { self.load } else { f64::NAN };
+        match mode {
+            Mode::Open => (CLOSING_FORCE - self.normal) / CLOSING_FORCE,
+            Mode::Stick => (SLIP_LOAD[BRISTLE] - load).min(stays_closed),
+            Mode::Slip => (load - STICK_LOAD[BRISTLE]).min(stays_closed),
+        }
+    }
+
+    /// The mode that follows one that must be left.
+    fn next(&self, mode: Mode) -> Mode {
+        match mode {
+            Mode::Open => self.closed(),
+            _ if self.normal <= OPENING_FORCE => Mode::Open,
+            Mode::Stick if self.load >= SLIP_LOAD[BRISTLE] => Mode::Slip,
+            Mode::Slip if self.load <= STICK_LOAD[BRISTLE] => Mode::Stick,
+            same => same,
+        }
+    }
+
+    fn closed(&self) -> Mode {
+        if self.load < SLIP_LOAD[BRISTLE] {
+            Mode::Stick
+        } else {
+            Mode::Slip
+        }
+    }
+
+    /// The mode without a history.
+    pub(super) fn mode(&self) -> Mode {
+        if self.normal > OPENING_FORCE {
+            self.closed()
+        } else {
+            Mode::Open
+        }
+    }
+}
+
+impl System {
+    fn friction<L: SpatialLaw>(&self, element: &Spatial<L>, internal: &[f64]) -> Friction {
+        let site = &element.site;
+        let (strokes, rates) = (site.strokes(&self.positions), site.strokes(&self.rates));
+        let deflection = deflection_at(element.internal, internal);
+        element.law.act(strokes, rates, deflection, Grip::Law).friction
+    }
+
+    /// Friction of every element with friction.
+    #[inline(always)]
+    fn frictions(&self, x: &[f64], mut each: impl FnMut(usize, Friction)) {
+        let [_, _, internal, _] = self.layout.split(x);
+        for surface in &self.surfaces {
+            each(surface.switch, self.friction(surface, internal));
+        }
+        for wedge in &self.wedges {
+            each(wedge.switch, self.friction(wedge, internal));
+        }
+    }
+
+    pub(super) fn find_modes(&self, x: &[f64], modes: &mut [u8]) {
+        self.frictions(x, |i, friction| modes[i] = friction.mode() as u8);
+    }
+
+    pub(super) fn mode_margins(&self, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+        self.frictions(x, |i, friction| {
+            margins[i] = friction.margin(Mode::from_number(modes[i]))
+        });
+    }
+
+    pub(super) fn follow_mode(&self, x: &[f64], index: usize, mode: u8) -> u8 {
+        let mut next = mode;
+        self.frictions(x, |i, friction| {
+            if i == index {
+                next = friction.next(Mode::from_number(mode)) as u8;
+            }
+        });
+        next
+    }
+}

@@ -1,0 +1,183 @@
+//! Natural vibrations about a state: undamped frequencies and shapes.
+//!
+//! `M q¨ + K q = 0` with K the derivative of all forces by the coordinates, every closed friction element sticking
+//! (its accumulator a spring). K is symmetric but for the wedges, whose friction ties forces to normal forces: then
+//! eigenvalues may be complex in principle (flutter), and are taken from the general matrix.
+
+use integrate::Problem;
+use nalgebra::{Complex, DMatrix, DVector};
+use thiserror::Error;
+
+use super::{Grip, System};
+
+/// One natural vibration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vibration {
+    /// Frequency, Hz; zero where the eigenvalue is not positive.
+    pub frequency: f64,
+    /// The eigenvalue λ of M⁻¹K, 1/s²: ω² of a vibration, negative where the state is unstable; real and imaginary part.
+    pub eigenvalue: [f64; 2],
+    /// Its shape in all free coordinates, in the order of the positions in the state vector (m, rad; real part), the
+    /// largest of the entries times the root of their inertia being 1.
+    pub shape: Vec<f64>,
+}
+
+/// All natural vibrations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vibrations {
+    /// By rising real part of the eigenvalue.
+    pub modes: Vec<Vibration>,
+    /// The largest entry of the antisymmetric part of `M^-½ K M^-½`, relative to its largest entry.
+    pub asymmetry: f64,
+}
+
+/// Eigenvalues could not be found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error(
+    "the eigenvalues of the linearized system were not found: its stiffness holds values that are not finite or too far apart"
+)]
+pub struct NoVibration;
+
+/// Below this asymmetry the stiffness counts as symmetric.
+const SYMMETRIC: f64 = 1e-9;
+
+impl System {
+    /// The stiffness matrix `-∂Q/∂q`, N/m and so on, row-major in the order of the positions, every closed
+    /// friction element sticking.
+    #[must_use]
+    pub fn stiffness(&mut self, time: f64, x: &[f64]) -> Vec<f64> {
+        let n = self.layout.speeds;
+        let states = self.layout.internals;
+        let grip = std::mem::replace(&mut self.grip, Grip::Stuck);
+        let mut dx = vec![0.0; x.len()];
+        let mut df_dt = vec![0.0; x.len()];
+        self.derivative(time, x, &mut dx);
+        self.linearize(time, x, &dx, &mut df_dt);
+        self.grip = grip;
+        let mut stiffness = vec![0.0; n * n];
+        let mut add = |row: usize, column: usize, value: f64| stiffness[row * n + column] += value;
+        for (i, row) in self.free.iter().enumerate() {
+            for (j, column) in self.free.iter().enumerate() {
+                let Some(pair) = self.jacobian.find_pair(i, j) else {
+                    continue;
+                };
+                let width = column.free.len();
+                let (k, _) = self.jacobian.blocks_mut(pair);
+                for (at, value) in k.iter().enumerate() {
+                    add(row.offset + at / width, column.offset + at % width, -value);
+                }
+            }
+        }
+        // An accumulator that sticks follows the bodies: e = G_u q, so that F e is a stiffness.
+        let ends = self.surfaces.iter().map(|e| (e.site.ends, e.internal));
+        let ends: Vec<_> = ends
+            .chain(self.wedges.iter().map(|e| (e.site.ends, e.internal)))
+            .collect();
+        for (ends, internal) in ends {
+            let Some(group) = internal.filter(|at| *at < states).map(|at| at / 2) else {
+                continue;
+            };
+            let free: Vec<usize> = ends.iter().filter_map(|end| end.free).collect();
+            for (row_side, &i) in free.iter().enumerate() {
+                for (column_side, &j) in free.iter().enumerate() {
+                    let (m, w) = (self.free[i].free.len(), self.free[j].free.len());
+                    let f_t = self.jacobian.side_mut(group, row_side)[2].to_vec();
+                    let [_, g_u, _] = self.jacobian.side_mut(group, column_side);
+                    for (r, c) in (0..m).flat_map(|r| (0..w).map(move |c| (r, c))) {
+                        let value = f_t[r] * g_u[c] + f_t[m + r] * g_u[w + c];
+                        add(self.free[i].offset + r, self.free[j].offset + c, -value);
+                    }
+                }
+            }
+        }
+        stiffness
+    }
+
+    /// The natural vibrations about a state, by rising frequency.
+    ///
+    /// # Errors
+    /// The eigenvalues are not found.
+    pub fn vibrations(&mut self, time: f64, x: &[f64]) -> Result<Vibrations, NoVibration> {
+        let n = self.layout.speeds;
+        let stiffness = self.stiffness(time, x);
+        let inertia: Vec<f64> = self
+            .free
+            .iter()
+            .flat_map(|free| free.inertia.iter().copied())
+            .collect();
+        let root = |i: usize| inertia[i].sqrt();
+        let matrix = DMatrix::from_fn(n, n, |i, j| stiffness[i * n + j] / (root(i) * root(j)));
+        let largest = matrix.amax();
+        if !largest.is_finite() {
+            return Err(NoVibration);
+        }
+        let asymmetry = (&matrix - matrix.transpose()).amax() * 0.5 / largest.max(f64::MIN_POSITIVE);
+        let pairs = if asymmetry < SYMMETRIC {
+            symmetric(&matrix)
+        } else {
+            general(&matrix).ok_or(NoVibration)?
+        };
+        let mut modes: Vec<Vibration> = pairs
+            .into_iter()
+            .map(|(value, shape)| {
+                let size = shape.amax();
+                let scaled = shape.iter().enumerate().map(|(i, y)| y / size / root(i));
+                Vibration {
+                    frequency: frequency(value),
+                    eigenvalue: [value.re, value.im],
+                    shape: scaled.collect(),
+                }
+            })
+            .collect();
+        modes.sort_by(|a, b| a.eigenvalue[0].total_cmp(&b.eigenvalue[0]));
+        Ok(Vibrations { modes, asymmetry })
+    }
+}
+
+/// The frequency of an eigenvalue, Hz.
+fn frequency(value: Complex<f64>) -> f64 {
+    value.sqrt().re / (2.0 * std::f64::consts::PI)
+}
+
+fn symmetric(matrix: &DMatrix<f64>) -> Vec<(Complex<f64>, DVector<f64>)> {
+    let even = (matrix + matrix.transpose()) * 0.5;
+    let solved = even.symmetric_eigen();
+    let columns = solved.eigenvectors.column_iter();
+    solved
+        .eigenvalues
+        .iter()
+        .zip(columns)
+        .map(|(value, column)| (Complex::new(*value, 0.0), column.into_owned()))
+        .collect()
+}
+
+/// Eigenvalues by the real Schur form, vectors by inverse iteration.
+fn general(matrix: &DMatrix<f64>) -> Option<Vec<(Complex<f64>, DVector<f64>)>> {
+    let n = matrix.nrows();
+    let schur = nalgebra::linalg::Schur::try_new(matrix.clone(), f64::EPSILON, 10_000)?;
+    let values = schur.complex_eigenvalues();
+    let largest = matrix.amax();
+    let mut found = Vec::with_capacity(n);
+    for (number, value) in values.iter().enumerate() {
+        let shifted = value + Complex::new(largest * 1e-13, 0.0);
+        let system = DMatrix::from_fn(n, n, |i, j| {
+            let own = Complex::new(matrix[(i, j)], 0.0);
+            if i == j { own - shifted } else { own }
+        });
+        let factors = system.lu();
+        // Start vectors differ, so that a repeated eigenvalue gives different shapes.
+        let mut vector = DVector::from_fn(n, |i, _| {
+            Complex::new(libm::cos((1 + i * (number + 2)) as f64), 0.0)
+        });
+        for _ in 0..4 {
+            vector = factors.solve(&vector)?;
+            let size = vector.iter().map(|v| v.norm()).fold(0.0, f64::max);
+            vector /= Complex::new(size, 0.0);
+        }
+        // turned so that its largest entry is real
+        let head = *vector.iter().max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+        let turn = head.conj() / Complex::new(head.norm(), 0.0);
+        found.push((*value, vector.map(|v| (v * turn).re)));
+    }
+    Some(found)
+}

@@ -1,0 +1,109 @@
+//! Small models for tests.
+
+use integrate::{Integrator, Method, Options as Settings, Problem};
+use mechanics::motion::Motion;
+use mechanics::small::{
+    Body, Connection, Law, Model, Observation, Options, SpringDamper, System, Wedge, WedgeState,
+};
+
+use crate::half_truck::{ALL, vertical};
+
+pub fn connection(a: usize, b: usize, point: [f64; 3], law: Law) -> Connection {
+    Connection {
+        name: "connection".to_owned(),
+        a,
+        b,
+        point,
+        law,
+    }
+}
+
+pub fn model(bodies: Vec<Body>, connections: Vec<Connection>) -> Model {
+    Model {
+        bodies,
+        connections,
+        gravity: 0.0,
+        options: Options::default(),
+    }
+}
+
+/// A spring on one coordinate.
+pub fn one(coordinate: usize, law: SpringDamper) -> Law {
+    Law::Springs(vec![(coordinate, law)])
+}
+
+/// One law between a free unit body (A) and the ground (B), at the body's centre.
+pub fn against_ground(law: Law, options: Options) -> System {
+    let body = Body::free("body", [0.0; 3], ALL, 1.0, [1.0; 3]);
+    let mut model = model(vec![body, Body::ground()], vec![connection(0, 1, [0.0; 3], law)]);
+    model.options = options;
+    System::new(model).unwrap()
+}
+
+/// What a law does at displacements and velocities of its body A (x, y, z).
+pub fn at(system: &mut System, place: [f64; 3], velocity: [f64; 3]) -> Observation {
+    at_deflection(system, place, velocity, [0.0; 2])
+}
+
+pub fn at_deflection(
+    system: &mut System,
+    place: [f64; 3],
+    velocity: [f64; 3],
+    deflection: [f64; 2],
+) -> Observation {
+    let mut x = system.initial_state();
+    x[..3].copy_from_slice(&place);
+    x[6..9].copy_from_slice(&velocity);
+    if let Some(at) = system.deflection_of(0) {
+        x[at..at + 2].copy_from_slice(&deflection);
+    }
+    system.observe(0.0, &x)
+}
+
+/// A wedge's inside at a stroke and velocity.
+pub fn wedge_at(wedge: &Wedge, options: &Options, z: f64, velocity: f64) -> WedgeState {
+    let mut system = against_ground(Law::Wedge(wedge.clone()), options.clone());
+    at(&mut system, [0.0, 0.0, z], [0.0, 0.0, velocity]).connections[0]
+        .wedge
+        .unwrap()
+}
+
+/// A law between a body that is moved up and down (A) and one so heavy that it stays (B).
+pub fn driven(law: Law, motion: Motion) -> System {
+    let mover = Body::prescribed("mover", [0.0; 3], vertical(motion));
+    let heavy = Body::free(
+        "heavy",
+        [0.0; 3],
+        [true, true, true, false, false, false],
+        1e15,
+        [1.0; 3],
+    );
+    System::new(model(vec![mover, heavy], vec![connection(0, 1, [0.0; 3], law)])).unwrap()
+}
+
+/// Integrates to `end`.
+pub fn run(system: &System, method: Method, tolerance: f64, x: &[f64], end: f64) -> Integrator<System> {
+    let settings = Settings {
+        method,
+        relative_tolerance: tolerance,
+        ..Settings::default()
+    };
+    let mut integrator = Integrator::new(system.clone(), settings, 0.0, x).unwrap();
+    while integrator.time() < end {
+        integrator.step_to(end).unwrap();
+    }
+    integrator
+}
+
+/// What is seen at the end of a run.
+pub fn seen(integrator: &Integrator<System>) -> Observation {
+    let mut twin = integrator.problem().clone();
+    twin.observe(integrator.time(), integrator.x())
+}
+
+/// The right-hand side.
+pub fn rates(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
+    let mut dx = vec![0.0; x.len()];
+    system.derivative(time, x, &mut dx);
+    dx
+}
