@@ -5,6 +5,7 @@
 
 pub mod assumptions;
 pub mod case;
+pub mod closed_form;
 pub mod metrics;
 pub mod result;
 pub mod run;

@@ -248,7 +248,7 @@ fn wear() -> Group {
     Group {
         name: "wear",
         title: "Wear of the faces: how far the wedge rises, and what damping is left",
-        look_at: "The wedge rises by (w_c cos θ + w_s cos φ)/sin(θ + φ), about three times the depth of wear where both faces \
+        look_at: "The wedge rises by (w_c cos θ + w_s cos φ)/sin(θ + φ), three to three and a half times the depth where both faces \
                   wear alike: its height tells the wear. The coil lengthens by as much, and the energy lost in a cycle \
                   falls about as its force does.",
         cases,
