@@ -1,6 +1,7 @@
 //! Files and figures of results.
 //!
 //! - [`claims`]: what the thesis says of its runs, with verdicts.
+//! - [`beyond`]: figures of the cases beyond the thesis, one a group.
 //! - [`csv`]: the table `result.csv`.
 //! - [`mat`]: the file `result.mat`, under the thesis's names; [`mat5`] is its format.
 //! - [`summary`]: the file `summary.json`.
@@ -12,6 +13,7 @@
 //! - [`table`]: tables of results, read back.
 
 pub mod claims;
+pub mod beyond;
 pub mod csv;
 pub mod drawing;
 pub mod figures;

@@ -6,6 +6,7 @@
 pub mod assumptions;
 pub mod case;
 pub mod cycles;
+pub mod closed_form;
 pub mod metrics;
 pub mod result;
 pub mod run;

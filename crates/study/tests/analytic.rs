@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
 use runs::{INCH, LBF, column};
 use study::case::{Case, builtin};
+use study::closed_form;
 use study::metrics::{Cycle, first_harmonic};
 use study::result::RunResult;
 use study::run::Run;
@@ -260,6 +261,45 @@ fn the_rig_test_as_built_in_stays_within_the_quasi_static_forces() {
         let most = (500..force.len()).map(share).fold(0.0, f64::max);
         assert!(most < 1.01, "{name}: {most}");
     }
+}
+
+/// The reference lines in the thesis's numbers, a massless wedge: the table of theory.md, W/(π ω A²), and the edge-loading limit of
+/// a nest of two wedges, 30.3 to 57.1 kip·in.
+#[test]
+fn reference_lines_in_numbers() {
+    let mut parameters = builtin::case("cdrun_toe_0_psi_0").unwrap().parameters;
+    parameters.gravity = 0.0;
+    let force = |direction| closed_form::vertical_wedge_force(&parameters, 0.01, direction).unwrap() / LBF;
+    assert!((force(Direction::Up) - 2174.4).abs() < 0.1);
+    assert!((force(Direction::Down) + 1153.1).abs() < 0.1);
+    let found = closed_form::first_harmonic(&parameters).unwrap();
+    assert!((found.damping / LBF_S_PER_IN - 1059.0).abs() < 0.5, "{found:?}");
+    assert!(found.stiffness.abs() < 1e-6 * found.damping);
+    let energy = closed_form::energy_per_cycle(&parameters).unwrap() / runs::LBF_IN;
+    assert!((energy - 6655.0).abs() < 0.5, "{energy}");
+    for (normal, nest) in [(2882.7, 30_300.0), (5435.9, 57_100.0)] {
+        let limit = 2.0 * closed_form::edge_loading_limit(&parameters, normal * LBF) / runs::LBF_IN;
+        assert!((limit - nest).abs() < 50.0, "{limit}");
+    }
+    // Below the free coil by 1 in, 0.5 in each way: K (1 + (f_down - f_up)/2), and (f_up + f_down) K h 2A a cycle.
+    let set =
+        [r#"bolster.vertical=[{ shape = "sine", amplitude = "0.5 in", frequency = "2 rad/s" }, "-1 in"]"#];
+    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
+    let mut parameters = builtin::case_with("vdrun_toe_0_psi_0", &set).unwrap().parameters;
+    parameters.gravity = 0.0;
+    let found = closed_form::first_harmonic(&parameters).unwrap();
+    assert!((found.stiffness / LBF_S_PER_IN / (3000.0 * (1.0 - 0.137_95)) - 1.0).abs() < 1e-4);
+    let damping = (0.6898 + 0.4139) * 3000.0 / (PI * 2.0 * 0.25);
+    assert!((found.damping / LBF_S_PER_IN / damping - 1.0).abs() < 1e-4);
+    // At 1 in each way the thesis's bolster lifts off: no straight lines.
+    let thesis = builtin::case("vdrun_toe_0_psi_0").unwrap().parameters;
+    assert_eq!(closed_form::first_harmonic(&thesis), None);
+    // Toe in jams on the way down at friction 0.4.
+    let jam = builtin::case("cdrun_toe_0.2_psi_0").unwrap().parameters;
+    assert_eq!(
+        closed_form::vertical_wedge_force(&jam, 0.0, Direction::Down),
+        None
+    );
 }
 
 /// The cases' wedges rise by the closed form, less what the contacts give under the smaller force of the coil.

@@ -1,6 +1,7 @@
 //! Choosing built-in cases by name, beginning of a name, or pattern.
 
 use quantity::nearest;
+use study::case::builtin;
 
 use crate::failure::Message;
 
@@ -48,6 +49,10 @@ fn matching(text: &str, names: &[&str]) -> Result<Vec<usize>, Message> {
     let beginning = having(&|name| !text.is_empty() && name.starts_with(text));
     match beginning.as_slice() {
         [_] => Ok(beginning),
+        [] if builtin::names().any(|name| name == text) => Err(Message::new(
+            format!("the built-in case `{text}` is not one of these"),
+            format!("`wedgelab run {text}` runs it"),
+        )),
         [] => Err(Message::new(
             format!("there is no built-in case `{text}`"),
             match nearest(text, names.iter().copied()) {
@@ -90,8 +95,6 @@ fn fits(pattern: &[u8], name: &[u8]) -> bool {
 mod tests {
     use super::*;
 
-    use study::case::builtin;
-
     fn chosen(texts: &[&str]) -> Result<Vec<&'static str>, String> {
         let texts: Vec<String> = texts.iter().map(|text| (*text).to_owned()).collect();
         select(&texts, builtin::thesis_names()).map_err(|message| message.to_string())
@@ -110,6 +113,11 @@ mod tests {
         assert_eq!(chosen(&["?drun_toe_0_psi_0"]).unwrap().len(), 2);
         assert!(chosen(&["vdrun"]).unwrap_err().contains("beginning of 6 names"));
         assert!(chosen(&["nothing"]).unwrap_err().contains("no built-in case"));
+        assert!(
+            chosen(&["rig_constant"])
+                .unwrap_err()
+                .contains("not one of these")
+        );
         assert!(chosen(&["x*"]).unwrap_err().contains("fits"));
         assert!(chosen(&[""]).is_err());
     }

@@ -95,6 +95,23 @@ fn the_list_of_cases() {
         "{}",
         output.out
     );
+    // In groups, each with what to look at.
+    for text in [
+        "thesis: The twelve runs of the thesis (table 4-1)\n",
+        "\n\nwarp: Warp test",
+        "\n  warp_friction_0.2 ",
+        "\n  sweep_variable_0.25in_0.5hz   variable damping, toe out, 0.25 in at 0.5 Hz\n",
+        "\n  The wedge rises by (w_c cos θ + w_s cos φ)/sin(θ + φ)",
+    ] {
+        assert!(output.out.contains(text), "{text}\n{}", output.out);
+    }
+    let printed = wedgelab(folder.path(), &["case", "rig_c"]);
+    assert_eq!(printed.code, Some(0));
+    assert!(
+        printed.out.starts_with("name = \"rig_constant\""),
+        "{}",
+        printed.out
+    );
     refused(
         folder.path(),
         &["case", "vdrun_toe_0_psi_1"],

@@ -109,9 +109,10 @@ start = "equilibrium"
     Group {
         name: "rig",
         title: "Rig test: a triangle at 0.1 Hz, as truck springs and snubbers are tested",
-        look_at: "Compare the loop with the straight lines of the quasi-static wedge: they are reached only at the ends of the \
-                  strokes, because the slope's friction must reverse too and the wedge slides there by hundredths of an \
-                  inch only. The width of the loop is the damping, its slope the stiffness that a rig would report.",
+        look_at: "The loop leans away from the straight lines of the quasi-static wedge and comes to them late in a stroke, if at \
+                  all: at each reversal the slope's friction must turn over too, and there the wedge slides by a hundredth \
+                  of an inch only. The area of the loop is the damping that a rig would report, its lean a stiffness \
+                  that no spring has.",
         cases: DAMPINGS.map(case).into(),
     }
 }
@@ -248,7 +249,7 @@ fn wear() -> Group {
     Group {
         name: "wear",
         title: "Wear of the faces: how far the wedge rises, and what damping is left",
-        look_at: "The wedge rises by (w_c cos θ + w_s cos φ)/sin(θ + φ), about three times the depth of wear where both faces \
+        look_at: "The wedge rises by (w_c cos θ + w_s cos φ)/sin(θ + φ), three to three and a half times the depth where both faces \
                   wear alike: its height tells the wear. The coil lengthens by as much, and the energy lost in a cycle \
                   falls about as its force does.",
         cases,

@@ -1,0 +1,407 @@
+//! Figures of the built-in cases beyond the thesis: one a group, from all runs of the group.
+//!
+//! Reference lines are those of the quasi-static wedge ([`study::closed_form`]), dashed or dotted, and are not drawn where it
+//! has none.
+
+use mechanics::quasi_static::Direction;
+use quantity::{Kind, System as Units};
+use study::case::{Case, builtin};
+use study::closed_form;
+use study::metrics::Cycle;
+use study::result::RunResult;
+use study::summary::Averages;
+use wedge::parameters::{Damping, Parameters};
+
+use crate::csv::converted;
+use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+
+/// A run of a group: its case, and what came out.
+pub type Ran = (Case, RunResult);
+
+/// Colour and line of the curves of a panel, in their order.
+const STYLES: [(Colour, Line); 4] = [
+    (Colour::Blue, Line::Solid),
+    (Colour::Vermillion, Line::DashDot),
+    (Colour::Green, Line::Dashed),
+    (Colour::Purple, Line::Dotted),
+];
+const DAMPINGS: [Damping; 2] = [Damping::Constant, Damping::Variable];
+
+/// The names of the groups that have a figure.
+pub const GROUPS: [&str; 7] = [
+    "warp",
+    "rig",
+    "sweep",
+    "twist_and_roll",
+    "yaw_and_sway",
+    "load",
+    "wear",
+];
+
+/// The name of a group's figure file.
+#[must_use]
+pub fn file_name(group: &str) -> String {
+    format!("{group}.svg")
+}
+
+/// The figure of a group from its runs (those that there are); `None` for a group without a figure, or without runs.
+/// All runs should have the same output units: those of the first are used.
+#[must_use]
+pub fn figure(group: &str, runs: &[Ran]) -> Option<Figure> {
+    let units = runs.first()?.1.summary.units;
+    let panels = match group {
+        "warp" => warp(runs, units),
+        "rig" => rig(runs, units),
+        "sweep" => sweep(runs, units),
+        "twist_and_roll" => histories(
+            runs,
+            units,
+            [
+                ("net_force_on_bolster_z", "vertical force on the bolster"),
+                ("net_moment_on_bolster_x", "roll moment on the bolster"),
+            ],
+        ),
+        "yaw_and_sway" => histories(
+            runs,
+            units,
+            [
+                ("net_force_on_side_frame_y", "lateral force on the side frame"),
+                ("net_moment_on_side_frame_z", "yaw moment on the side frame"),
+            ],
+        ),
+        "load" => load(runs, units),
+        "wear" => wear(runs, units),
+        _ => return None,
+    };
+    let about = builtin::group(group)?;
+    Some(sheet(about.title, about.look_at, panels))
+}
+
+/// Moment about the column's middle over the pocket's yaw, the last two periods; the limit N_c h3/2 of the last one.
+fn warp(runs: &[Ran], units: Units) -> Vec<Panel> {
+    let of = |(case, result): &Ran| -> Option<Panel> {
+        let times = result.column("time")?;
+        let yaw = result.column("bolster_yaw")?;
+        let moment = result.column("net_moment_on_side_frame_z")?;
+        let normal = result.column("longitudinal_wedge_force")?;
+        let end = *times.last()?;
+        let period = motion_period(case).unwrap_or(end);
+        let since = |time: f64| times.iter().position(|t| *t >= time - 1e-9 * end).unwrap_or(0);
+        let moment_at = |row: usize| (yaw[row], converted(moment[row], Kind::Moment, units));
+        let mut curves = vec![curve(
+            "moment",
+            STYLES[0],
+            (since(end - 2.0 * period)..times.len()).map(moment_at),
+        )];
+        for side in [1.0, -1.0] {
+            let rows = (since(end - period)..times.len()).filter(|row| side * moment[*row] > 0.0);
+            let limit = |row: usize| {
+                let limit = side * closed_form::edge_loading_limit(&case.parameters, normal[row]);
+                (yaw[row], converted(limit, Kind::Moment, units))
+            };
+            curves.push(curve(
+                "limit N_c h3/2",
+                (Colour::Black, Line::Dashed),
+                rows.map(limit),
+            ));
+        }
+        Some(panel(
+            case.title.rsplit("; ").next().unwrap_or(&case.title),
+            ("yaw of the pocket", Kind::Angle),
+            ("yaw moment on the side frame", Kind::Moment),
+            units,
+            curves,
+        ))
+    };
+    runs.iter().filter_map(of).collect()
+}
+
+/// Vertical wedge force over displacement, with the quasi-static wedge's two branches.
+fn rig(runs: &[Ran], units: Units) -> Vec<Panel> {
+    let of = |(case, result): &Ran| -> Option<Panel> {
+        let mut curves = vec![curve(
+            "dynamic wedge",
+            STYLES[0],
+            cycles(case, result, "vertical_wedge_force", units)?,
+        )];
+        curves.extend(branches(&case.parameters, units));
+        Some(force_panel(case.parameters.damping, units, curves))
+    };
+    runs.iter().filter_map(of).collect()
+}
+
+/// Equivalent damping and stiffness over frequency, a curve an amplitude, with the quasi-static ones.
+fn sweep(runs: &[Ran], units: Units) -> Vec<Panel> {
+    type Value = (
+        &'static str,
+        Kind,
+        fn(&Averages) -> Option<f64>,
+        fn(&Parameters) -> Option<f64>,
+    );
+    let values: [Value; 2] = [
+        (
+            "equivalent damping on the bolster",
+            Kind::Damping,
+            |averages| Some(averages.equivalent_damping_on_bolster.as_ref()?.value),
+            |parameters| Some(closed_form::first_harmonic(parameters)?.damping),
+        ),
+        (
+            "equivalent stiffness on the bolster",
+            Kind::Stiffness,
+            |averages| Some(averages.equivalent_stiffness.as_ref()?.value),
+            |parameters| Some(closed_form::first_harmonic(parameters)?.stiffness),
+        ),
+    ];
+    let mut panels = Vec::new();
+    for (title, kind, found, expected) in values {
+        for damping in DAMPINGS {
+            let mut lines: Vec<(f64, Vec<&Ran>)> = Vec::new();
+            for run in runs.iter().filter(|(case, _)| case.parameters.damping == damping) {
+                let Some(cycle) = Cycle::of(&run.0.parameters) else {
+                    continue;
+                };
+                match lines
+                    .iter_mut()
+                    .find(|(amplitude, _)| *amplitude == cycle.amplitude)
+                {
+                    Some((_, line)) => line.push(run),
+                    None => lines.push((cycle.amplitude, vec![run])),
+                }
+            }
+            let mut curves = Vec::new();
+            for (index, (amplitude, line)) in lines.iter().enumerate() {
+                let (colour, style) = STYLES[index % STYLES.len()];
+                let name = amplitude_name(*amplitude, units);
+                let points = line
+                    .iter()
+                    .filter_map(|(case, result)| Some((hertz(case)?, found(&result.summary.averages)?)));
+                curves.push(curve(&name, (colour, style), points));
+                let reference = line.iter().filter_map(|(case, _)| {
+                    Some((hertz(case)?, converted(expected(&case.parameters)?, kind, units)))
+                });
+                curves.push(curve(
+                    &format!("{name}, quasi-static"),
+                    (colour, Line::Dotted),
+                    reference,
+                ));
+            }
+            if !curves.is_empty() {
+                panels.push(Panel {
+                    x_label: "frequency (Hz)".to_owned(),
+                    ..panel(
+                        &format!("{} damping", damping_name(damping)),
+                        ("", Kind::Dimensionless),
+                        (title, kind),
+                        units,
+                        curves,
+                    )
+                });
+            }
+        }
+    }
+    panels
+}
+
+/// Two columns over time, a panel each, a curve a damping.
+fn histories(runs: &[Ran], units: Units, columns: [(&str, &str); 2]) -> Vec<Panel> {
+    let of = |(name, label): (&str, &str)| -> Option<Panel> {
+        let mut kind = None;
+        let mut curves = Vec::new();
+        for ((case, result), style) in runs.iter().zip(STYLES) {
+            let column = result.columns.iter().find(|column| column.name == name)?;
+            let values = result.column(name)?;
+            kind = Some(column.kind);
+            let points = result
+                .column("time")?
+                .iter()
+                .zip(values)
+                .map(|(time, value)| (*time, converted(*value, column.kind, units)));
+            let damping = damping_name(case.parameters.damping);
+            curves.push(curve(&format!("{damping} damping"), style, points));
+        }
+        Some(panel(label, ("time", Kind::Time), (label, kind?), units, curves))
+    };
+    columns.into_iter().filter_map(of).collect()
+}
+
+/// Loops about the bolster's heights, a panel a damping.
+fn load(runs: &[Ran], units: Units) -> Vec<Panel> {
+    let of = |damping: Damping| -> Option<Panel> {
+        let mut curves = Vec::new();
+        let runs = runs.iter().filter(|(case, _)| case.parameters.damping == damping);
+        for ((case, result), style) in runs.zip(STYLES) {
+            let middle = converted(Cycle::of(&case.parameters)?.middle, Kind::Length, units);
+            let points = cycles(case, result, "vertical_wedge_force", units)?;
+            let points = points.into_iter().map(|(z, force)| (z - middle, force));
+            let name = case.name.rsplit('_').next().unwrap_or(&case.name);
+            curves.push(curve(name, style, points));
+        }
+        (!curves.is_empty()).then(|| Panel {
+            x_label: format!(
+                "bolster's displacement from its mean height ({})",
+                Kind::Length.label(units)
+            ),
+            ..force_panel(damping, units, curves)
+        })
+    };
+    DAMPINGS.into_iter().filter_map(of).collect()
+}
+
+/// Wedge rise at the start, and energy a cycle, over the depth of wear.
+fn wear(runs: &[Ran], units: Units) -> Vec<Panel> {
+    let (mut rises, mut energies) = (Vec::new(), Vec::new());
+    for (damping, style) in DAMPINGS.into_iter().zip(STYLES) {
+        let runs: Vec<&Ran> = runs
+            .iter()
+            .filter(|(case, _)| case.parameters.damping == damping)
+            .collect();
+        let height = |run: &Ran| run.1.column("wedge_z").and_then(|z| z.first().copied());
+        let unworn = runs
+            .iter()
+            .find(|(case, _)| case.parameters.wedge_rise() == 0.0)
+            .and_then(|run| height(run));
+        let length = |value: f64| converted(value, Kind::Length, units);
+        let depth = |run: &Ran| length(run.0.parameters.wear.column);
+        let name = format!("{} damping", damping_name(damping));
+        let closed = format!("{name}, closed form");
+        let reference = (style.0, Line::Dotted);
+        if let Some(unworn) = unworn {
+            let points = runs
+                .iter()
+                .filter_map(|run| Some((depth(run), length(height(run)? - unworn))));
+            rises.push(curve(&name, style, points));
+        }
+        let points = runs
+            .iter()
+            .map(|run| (depth(run), length(run.0.parameters.wedge_rise())));
+        rises.push(curve(&closed, reference, points));
+        let points = runs.iter().filter_map(|run| {
+            let energy = run.1.summary.averages.energy_per_cycle.get("side_frame")?;
+            Some((depth(run), energy.value))
+        });
+        energies.push(curve(&name, style, points));
+        let points = runs.iter().filter_map(|run| {
+            let energy = closed_form::energy_per_cycle(&run.0.parameters)?;
+            Some((depth(run), converted(energy, Kind::Energy, units)))
+        });
+        energies.push(curve(&closed, reference, points));
+    }
+    let depth = ("depth of wear of each face", Kind::Length);
+    vec![
+        panel("wedge rise", depth, ("wedge rise", Kind::Length), units, rises),
+        panel(
+            "damping that is left",
+            depth,
+            ("energy lost per cycle", Kind::Energy),
+            units,
+            energies,
+        ),
+    ]
+}
+
+/// A column over the bolster's vertical displacement, without the first half period.
+fn cycles(case: &Case, result: &RunResult, name: &str, units: Units) -> Option<Vec<(f64, f64)>> {
+    let start = 0.5 * Cycle::of(&case.parameters)?.period();
+    let kind = result.columns.iter().find(|column| column.name == name)?.kind;
+    let displacement = result.column("bolster_vertical")?;
+    let rows = result
+        .column("time")?
+        .iter()
+        .zip(displacement.iter().zip(result.column(name)?));
+    let point =
+        |(z, value): (&f64, &f64)| (converted(*z, Kind::Length, units), converted(*value, kind, units));
+    Some(
+        rows.filter(|(time, _)| **time >= start)
+            .map(|(_, pair)| point(pair))
+            .collect(),
+    )
+}
+
+/// The quasi-static wedge's forces over the bolster's stroke: straight lines.
+fn branches(parameters: &Parameters, units: Units) -> Vec<Curve> {
+    let Some(cycle) = Cycle::of(parameters) else {
+        return Vec::new();
+    };
+    let ends = [cycle.middle - cycle.amplitude, cycle.middle + cycle.amplitude];
+    let line = |direction| {
+        let points = ends.iter().filter_map(|z| {
+            let force = closed_form::vertical_wedge_force(parameters, *z, direction)?;
+            Some((
+                converted(*z, Kind::Length, units),
+                converted(force, Kind::Force, units),
+            ))
+        });
+        curve("quasi-static wedge", (Colour::Black, Line::Dashed), points)
+    };
+    [Direction::Up, Direction::Down].map(line).into()
+}
+
+fn force_panel(damping: Damping, units: Units, curves: Vec<Curve>) -> Panel {
+    panel(
+        &format!("{} damping", damping_name(damping)),
+        ("bolster's vertical displacement", Kind::Length),
+        ("vertical wedge force", Kind::Force),
+        units,
+        curves,
+    )
+}
+
+/// The period of the bolster's yaw, s.
+fn motion_period(case: &Case) -> Option<f64> {
+    match &case.parameters.bolster.coordinates[5] {
+        mechanics::motion::Motion::Sine {
+            angular_frequency, ..
+        } => Some(2.0 * std::f64::consts::PI / angular_frequency.abs()),
+        _ => None,
+    }
+}
+
+fn hertz(case: &Case) -> Option<f64> {
+    Some(1.0 / Cycle::of(&case.parameters)?.period())
+}
+
+fn amplitude_name(amplitude: f64, units: Units) -> String {
+    let value = (converted(amplitude, Kind::Length, units) * 1e6).round() / 1e6;
+    format!("{value} {}", Kind::Length.label(units))
+}
+
+fn damping_name(damping: Damping) -> &'static str {
+    match damping {
+        Damping::Variable => "variable",
+        Damping::Constant => "constant",
+    }
+}
+
+// Everything that the drawing layer is told passes through these three.
+
+fn curve(label: &str, (colour, line): (Colour, Line), points: impl IntoIterator<Item = (f64, f64)>) -> Curve {
+    Curve {
+        label: label.to_owned(),
+        colour,
+        line,
+        points: points.into_iter().collect(),
+    }
+}
+
+fn panel(
+    title: &str,
+    (x, x_kind): (&str, Kind),
+    (y, y_kind): (&str, Kind),
+    units: Units,
+    curves: Vec<Curve>,
+) -> Panel {
+    Panel {
+        title: title.to_owned(),
+        x_label: format!("{x} ({})", x_kind.label(units)),
+        y_label: format!("{y} ({})", y_kind.label(units)),
+        curves,
+    }
+}
+
+fn sheet(title: &str, caption: &str, panels: Vec<Panel>) -> Figure {
+    Figure {
+        title: title.to_owned(),
+        caption: caption.to_owned(),
+        panels,
+    }
+}
