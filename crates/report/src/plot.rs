@@ -36,7 +36,8 @@ pub fn figure(table: &Table, label: &str, x: &str, ys: &[String]) -> Result<Figu
         y_label: match columns.as_slice() {
             [one] => overlay::axis(one, units),
             _ if unit.is_empty() => "value".to_owned(),
-            several => format!("{} and others ({unit})", overlay::words(&several[0].name)),
+            // The legend names them.
+            several => format!("{} ({unit})", bare(several[0].kind.name())),
         },
         curves: columns
             .into_iter()
@@ -44,16 +45,16 @@ pub fn figure(table: &Table, label: &str, x: &str, ys: &[String]) -> Result<Figu
             .collect(),
     });
     let names: Vec<String> = ys.iter().map(|y| overlay::words(y)).collect();
-    let title = format!(
-        "{label}: {} over {}",
-        names.join(", "),
-        overlay::words(&abscissa.name)
-    );
     let caption = format!(
         "{} of the result {label} over {}, all {} rows.",
         names.join(", "),
         overlay::words(&abscissa.name),
         abscissa.written.len()
     );
-    Ok(overlay::figure(title, caption, axes.collect()))
+    Ok(overlay::figure(label.to_owned(), caption, axes.collect()))
+}
+
+/// A kind's name without its article.
+fn bare(name: &str) -> &str {
+    name.split_once(' ').map_or(name, |(_, bare)| bare)
 }
