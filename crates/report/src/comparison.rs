@@ -17,6 +17,7 @@ use thiserror::Error;
 
 use crate::drawing::Figure;
 use crate::overlay::{self, Axes};
+use crate::plot;
 use crate::summary;
 use crate::table::{Column, Table, TableError};
 
@@ -202,10 +203,18 @@ impl Comparison {
     /// # Errors
     /// A column is missing: the entries are not those that were compared.
     pub fn figures(&self, entries: &[Entry]) -> Result<Vec<(String, Figure)>, ComparisonError> {
-        let mut figures = Vec::new();
+        let mut figures: Vec<(String, Figure)> = Vec::new();
+        let free = |file: &str, figures: &[(String, Figure)]| {
+            let taken = |other: &str| other.to_lowercase() == file.to_lowercase();
+            !taken(LOOP_FILE_NAME) && !figures.iter().any(|(other, _)| taken(other))
+        };
         for name in &self.columns {
             let title = format!("Comparison: {}", overlay::words(name));
-            figures.push((format!("{name}.svg"), self.overlay(entries, title, "time", name)?));
+            let mut file = format!("{}.svg", plot::file_name(name));
+            while !free(&file, &figures) {
+                file.insert(0, '_');
+            }
+            figures.push((file, self.overlay(entries, title, "time", name)?));
         }
         let [x, y] = LOOP;
         let all_have = entries.iter().all(|entry| entry.table.find(x).is_some());

@@ -54,6 +54,14 @@ pub fn figure(table: &Table, label: &str, x: &str, ys: &[String]) -> Result<Figu
     Ok(overlay::figure(label.to_owned(), caption, axes.collect()))
 }
 
+/// A column's name as the name of a file, without ending: of others' names only letters, digits, `_` and `-` are kept.
+#[must_use]
+pub fn file_name(column: &str) -> String {
+    let plain = |sign: char| sign.is_alphanumeric() || matches!(sign, '_' | '-');
+    let signs = column.chars();
+    signs.map(|sign| if plain(sign) { sign } else { '_' }).collect()
+}
+
 /// A kind's name without its article.
 fn bare(name: &str) -> &str {
     name.split_once(' ').map_or(name, |(_, bare)| bare)

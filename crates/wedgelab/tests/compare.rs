@@ -378,6 +378,32 @@ fn results_that_do_not_fit() {
     assert!(!out.contains("energy per cycle"), "{out}");
 }
 
+/// Names of others may hold what no file is to be named.
+#[test]
+fn odd_names_stay_in_the_folder() {
+    let folder = temporary();
+    let path = folder.path();
+    let text = "time_s,../up_m,.._up_m,\"a,b_m\",hysteresis_m\n0,1,2,3,4\n1,2,3,4,5\n";
+    fs::write(path.join("a.csv"), text).unwrap();
+    fs::write(path.join("b.csv"), text).unwrap();
+    done(path, &["compare", "a.csv", "b.csv"]);
+    assert_eq!(names(path), ["a.csv", "b.csv", "comparison"]);
+    assert_eq!(
+        names(&path.join("comparison")),
+        [
+            "____up.svg",
+            "___up.svg",
+            "_hysteresis.svg",
+            "a_b.svg",
+            "differences.csv"
+        ]
+    );
+    let table = fs::read_to_string(path.join("comparison/differences.csv")).unwrap();
+    assert!(table.contains("\n\"a,b\",m,b,a,0,"), "{table}");
+    done(path, &["plot", "a.csv", "--x", "../up", "--y", "a,b"]);
+    assert!(path.join("a_b_over____up.svg").exists());
+}
+
 #[test]
 fn plots() {
     let folder = temporary();

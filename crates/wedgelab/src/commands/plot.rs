@@ -53,7 +53,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let figure = plot::figure(&table, &label(&table.file), &x, &y)?;
     let file = match &arguments.out {
         Some(file) => file.clone(),
-        None => PathBuf::from(format!("{}_over_{x}.svg", y[0])),
+        None => {
+            let [x, y] = [&x, &y[0]].map(|name| plot::file_name(name));
+            PathBuf::from(format!("{y}_over_{x}.svg"))
+        }
     };
     let Some(name) = drawn(&file) else {
         let message = format!("`{}` is no name for a figure: figures are SVG", file.display());
