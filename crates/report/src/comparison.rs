@@ -5,21 +5,21 @@
 //! the row before). Means and root mean squares are over these times, each counting the same. Figures show every
 //! result at its own times.
 
-use std::fs;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
 
-use miette::Diagnostic;
-use quantity::{Kind, System as Units, nearest};
-use serde::Deserialize;
-use study::summary::Measure;
-use thiserror::Error;
+use quantity::{Kind, System as Units};
 
 use crate::drawing::Figure;
 use crate::overlay::{self, Axes};
 use crate::plot;
-use crate::summary;
-use crate::table::{Column, Table, TableError};
+use crate::table::{Column, Table};
+use choose::choose;
+use energies::energies;
+pub use error::ComparisonError;
+
+mod choose;
+mod energies;
+mod error;
 
 /// The columns that are compared if nothing else is asked for, as far as all results have them.
 pub const MAIN: [&str; 15] = [
@@ -46,52 +46,6 @@ pub const FILE_NAME: &str = "differences.csv";
 pub const LOOP_FILE_NAME: &str = "hysteresis.svg";
 
 const LOOP: [&str; 2] = ["bolster_vertical", "vertical_wedge_force"];
-
-/// Why results cannot be compared.
-#[derive(Debug, Error, Diagnostic)]
-pub enum ComparisonError {
-    /// A result has not the column.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Table(#[from] TableError),
-    /// No column but the time is in all of them.
-    #[error("`{}` and `{}` have no column in common but the time", .first.display(), .second.display())]
-    #[diagnostic(help("{advice}"))]
-    NothingInCommon {
-        /// The first result.
-        first: PathBuf,
-        /// The one that shares nothing with it, or with those in between.
-        second: PathBuf,
-        /// Names that are near each other.
-        advice: String,
-    },
-    /// Two columns of one name measure different things.
-    #[error("`{column}` is {own} in `{}` and {other} in `{}`", .first.display(), .second.display())]
-    #[diagnostic(help("rename one of the two, or leave the column out with --columns"))]
-    Kinds {
-        /// The column.
-        column: String,
-        /// The first result.
-        first: PathBuf,
-        /// What it is there.
-        own: &'static str,
-        /// The other.
-        second: PathBuf,
-        /// What it is there.
-        other: &'static str,
-    },
-    /// The time was asked for as a column.
-    #[error("columns are compared at the same times; the time itself cannot be compared")]
-    #[diagnostic(help("name other columns, such as vertical_wedge_force"))]
-    Time,
-    /// There are not two times within the span that all have.
-    #[error("the results have no span of time in common: {spans}")]
-    #[diagnostic(help("results are compared at equal times: run the cases over the same times"))]
-    NoCommonTime {
-        /// From when to when each of them goes.
-        spans: String,
-    },
-}
 
 /// A result with its name in figures and tables.
 #[derive(Clone, Debug)]
@@ -323,98 +277,6 @@ impl Comparison {
     }
 }
 
-/// The columns to compare, without units.
-fn choose(
-    first: &Entry,
-    others: &[Entry],
-    wanted: &[String],
-    notes: &mut Vec<String>,
-) -> Result<Vec<String>, ComparisonError> {
-    let clash = |own: &Column, other: &Entry| {
-        let theirs = other.table.find(&own.name)?;
-        (theirs.kind.dimension() != own.kind.dimension()).then(|| ComparisonError::Kinds {
-            column: own.name.clone(),
-            first: first.table.file.clone(),
-            own: own.kind.name(),
-            second: other.table.file.clone(),
-            other: theirs.kind.name(),
-        })
-    };
-    if !wanted.is_empty() {
-        let mut chosen: Vec<String> = Vec::new();
-        for name in wanted {
-            let own = first.table.column(name)?;
-            if own.name == "time" {
-                return Err(ComparisonError::Time);
-            }
-            for other in others {
-                other.table.column(&own.name)?;
-                if let Some(error) = clash(own, other) {
-                    return Err(error);
-                }
-            }
-            if !chosen.contains(&own.name) {
-                chosen.push(own.name.clone());
-            }
-        }
-        return Ok(chosen);
-    }
-    let mut common: Vec<&Column> = first
-        .table
-        .columns()
-        .iter()
-        .filter(|own| own.name != "time")
-        .collect();
-    for other in others {
-        let before = common.clone();
-        common.retain(|own| other.table.find(&own.name).is_some());
-        if common.is_empty() {
-            return Err(nothing_in_common(first, other, &before));
-        }
-        common.retain(|own| match clash(own, other) {
-            None => true,
-            Some(error) => {
-                notes.push(format!("{error}; it is left out."));
-                false
-            }
-        });
-    }
-    let main: Vec<String> = MAIN
-        .iter()
-        .filter(|name| common.iter().any(|own| own.name == **name))
-        .map(|name| (*name).to_owned())
-        .collect();
-    if main.is_empty() {
-        return Ok(common.into_iter().map(|own| own.name.clone()).collect());
-    }
-    Ok(main)
-}
-
-/// The error, with names that may be meant to be the same.
-fn nothing_in_common(first: &Entry, other: &Entry, own: &[&Column]) -> ComparisonError {
-    const MOST: usize = 3;
-    let theirs = || {
-        let names = other.table.columns().iter().map(|column| column.name.as_str());
-        names.filter(|name| *name != "time")
-    };
-    let near: Vec<String> = own
-        .iter()
-        .filter_map(|own| Some(format!("`{}` and `{}`", own.name, nearest(&own.name, theirs())?)))
-        .take(MOST)
-        .collect();
-    let advice = if near.is_empty() {
-        let list = theirs().take(MOST).collect::<Vec<&str>>().join(", ");
-        format!("the columns of the second are {list} ...; name them as docs/summary.md does")
-    } else {
-        format!("near each other are {}: give them the same name", near.join(", "))
-    };
-    ComparisonError::NothingInCommon {
-        first: first.table.file.clone(),
-        second: other.table.file.clone(),
-        advice,
-    }
-}
-
 /// First and last time of a table.
 fn ends(table: &Table) -> (f64, f64) {
     let times = table.times();
@@ -548,76 +410,4 @@ fn difference(
         mean: mean(other),
         mean_of_first: mean(first),
     }
-}
-
-/// What is wanted of a summary.
-#[derive(Deserialize)]
-struct SummaryPart {
-    averages: AveragesPart,
-}
-
-#[derive(Deserialize)]
-struct AveragesPart {
-    energy_per_cycle: std::collections::BTreeMap<String, Measure>,
-}
-
-/// Energies per cycle of the results whose summaries have them, as the first one's has.
-fn energies(entries: &[Entry], units: Units, notes: &mut Vec<String>) -> Vec<Energy> {
-    let mut read = entries
-        .iter()
-        .map(|entry| match summary_beside(&entry.table.file) {
-            Ok(found) => found.map(|part| part.averages.energy_per_cycle),
-            Err(error) => {
-                let label = &entry.label;
-                notes.push(format!(
-                    "The summary.json of {label} is left out, it cannot be read: {error}."
-                ));
-                None
-            }
-        });
-    let first = read.next().flatten().unwrap_or_default();
-    let others: Vec<_> = read.collect();
-    let mut energies = Vec::new();
-    for (place, own) in &first {
-        for (k, other) in others.iter().enumerate() {
-            let theirs = other.as_ref().and_then(|all| all.get(place));
-            if let (Some(first), Some(value)) =
-                (energy(own, units), theirs.and_then(|one| energy(one, units)))
-            {
-                energies.push(Energy {
-                    place: place.clone(),
-                    unit: Kind::Energy.label(units),
-                    result: k + 1,
-                    value,
-                    first,
-                });
-            }
-        }
-    }
-    energies
-}
-
-/// The summary beside a `result.csv`, if there is one.
-fn summary_beside(file: &Path) -> Result<Option<SummaryPart>, String> {
-    if file.file_name().is_none_or(|name| name != crate::csv::FILE_NAME) {
-        return Ok(None);
-    }
-    match fs::read(file.with_file_name(summary::FILE_NAME)) {
-        Ok(bytes) => serde_json::from_slice(&bytes)
-            .map(Some)
-            .map_err(|error| error.to_string()),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error.to_string()),
-    }
-}
-
-/// An energy in these units.
-fn energy(measure: &Measure, units: Units) -> Option<f64> {
-    let own = [Units::Us, Units::Si]
-        .into_iter()
-        .find(|own| Kind::Energy.label(*own) == measure.unit)?;
-    if own == units {
-        return Some(measure.value);
-    }
-    Some(measure.value / Kind::Energy.from_si(own) * Kind::Energy.from_si(units))
 }
