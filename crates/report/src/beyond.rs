@@ -395,6 +395,7 @@ fn panel(
         x_label: format!("{x} ({})", x_kind.label(units)),
         y_label: format!("{y} ({})", y_kind.label(units)),
         curves,
+        ..Panel::default()
     }
 }
 
@@ -402,6 +403,8 @@ fn sheet(title: &str, caption: &str, panels: Vec<Panel>) -> Figure {
     Figure {
         title: title.to_owned(),
         caption: caption.to_owned(),
+        columns: if panels.len() > 3 { 2 } else { 0 },
         panels,
+        ..Figure::default()
     }
 }

@@ -11,16 +11,20 @@
 //! - [`figures`]: the report's figures.
 //! - [`run_files`]: the files of a run.
 //! - [`table`]: tables of results, read back.
+//! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
 
-pub mod claims;
 pub mod beyond;
+pub mod claims;
+pub mod comparison;
 pub mod csv;
 pub mod drawing;
 pub mod figures;
 pub mod files;
 pub mod mat;
 pub mod mat5;
+mod overlay;
 pub mod page;
+pub mod plot;
 pub mod run_files;
 pub mod sections;
 pub mod summary;

@@ -4,6 +4,9 @@
 //! element a variable. Everything is little-endian; every part begins at a multiple of 8 bytes. The header carries no
 //! date, so that the same variables make the same file.
 //!
+//! Own code, because the crate at hand (`matrw` 0.1) puts the hour of writing into the header, so that the same run would never
+//! make the same file, and brings five dependencies for what are two kinds of variables here.
+//!
 //! Limits: names and matrices below 4 GiB; no complex numbers, no structures, no compression. MATLAB (5 and later),
 //! Octave and SciPy read it.
 

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use quantity::System as Units;
 use report::files::{FileError, Folder, check_all};
-use report::{csv, run_files};
+use report::{csv, mat, run_files};
 use study::case::{Case, builtin};
 use study::result::RunResult;
 use study::run::Run;
@@ -87,6 +87,37 @@ fn the_table_reads_back_to_the_same_bits() {
     }
     assert_eq!(rows, result.rows());
     assert_eq!(rows, 6);
+}
+
+/// The MAT-file is in the thesis's units whatever the case's, and carries no date.
+#[test]
+fn the_mat_file_depends_on_the_run_alone() {
+    let [us, si] = ["us", "si"].map(|units| {
+        let (case, result) = short(units);
+        let mut bytes = Vec::new();
+        mat::write(&case, &result, &mut bytes).unwrap();
+        bytes
+    });
+    assert!(us == si);
+    assert!(us.starts_with(b"MATLAB 5.0 MAT-file, wedgelab "));
+    // Thirteen matrices of six rows, and a text.
+    let mut names = Vec::new();
+    let mut place = 128;
+    while place < us.len() {
+        let word = |at: usize| u32::from_le_bytes(us[at..at + 4].try_into().unwrap()) as usize;
+        assert_eq!((word(place), place % 8), (14, 0));
+        let length = word(place + 44);
+        names.push(String::from_utf8(us[place + 48..place + 48 + length].to_vec()).unwrap());
+        if names.last().is_some_and(|name| name != "about") {
+            assert_eq!(word(place + 32), 6, "{names:?}");
+        }
+        place += 8 + word(place + 4);
+    }
+    assert_eq!(place, us.len());
+    assert_eq!(
+        (names.len(), names[1].as_str(), names[13].as_str()),
+        (14, "y", "about")
+    );
 }
 
 #[test]

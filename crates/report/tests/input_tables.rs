@@ -305,6 +305,23 @@ fn numbers_that_are_wrong() {
     }
 }
 
+/// A file that was cut anywhere is read as far as it goes or refused, and never panics.
+#[test]
+fn files_cut_anywhere() {
+    let text = "time_s,wedge_x_in,\"odd, \u{e4}_lbf\"\n0,1.25,-2\n0.1,2.5,3e-7\n";
+    for cut in 0..text.len() {
+        match Table::parse(Path::new("a.csv"), &text.as_bytes()[..cut]) {
+            Ok(table) => assert!(table.times().len() <= 2 && table.columns().len() == 3, "{cut}"),
+            Err(error) => assert!(!error.to_string().is_empty()),
+        }
+        let mut changed = text.as_bytes().to_vec();
+        for byte in [b',', b'"', b'\n', 0, 0xff] {
+            changed[cut] = byte;
+            let _ = Table::parse(Path::new("a.csv"), &changed);
+        }
+    }
+}
+
 #[test]
 fn results_that_are_not_there() {
     let temporary = tempfile::tempdir().unwrap();

@@ -5,8 +5,8 @@
 
 pub mod assumptions;
 pub mod case;
-pub mod cycles;
 pub mod closed_form;
+pub mod cycles;
 pub mod metrics;
 pub mod result;
 pub mod run;

@@ -4,7 +4,9 @@ use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
 use miette::{Diagnostic, MietteHandlerOpts, Report};
+use report::comparison::ComparisonError;
 use report::files::FileError;
+use report::table::TableError;
 use study::case::CaseError;
 use thiserror::Error;
 
@@ -46,6 +48,18 @@ impl From<CaseError> for Failure {
 impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
         Self::Failed(error.into())
+    }
+}
+
+impl From<TableError> for Failure {
+    fn from(error: TableError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
+impl From<ComparisonError> for Failure {
+    fn from(error: ComparisonError) -> Self {
+        Self::Input(error.into())
     }
 }
 

@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{case, quasi_static, reproduce, run};
+use commands::{case, compare, plot, quasi_static, reproduce, run};
 use failure::Failure;
 
 /// A laboratory for railway friction wedges.
@@ -30,6 +30,7 @@ Begin with:
   wedgelab case                      the built-in cases
   wedgelab case NAME > my.toml       a complete case file to change ...
   wedgelab run my.toml               ... and to run
+  wedgelab compare RESULT RESULT     differences and overlay figures
 
 Exit codes: 0 done; 1 a run could not finish or files could not be written; 2 the input is wrong."
 )]
@@ -42,6 +43,8 @@ struct Cli {
 enum Command {
     Reproduce(reproduce::Arguments),
     Run(run::Arguments),
+    Compare(compare::Arguments),
+    Plot(plot::Arguments),
     Case(case::Arguments),
     QuasiStatic(quasi_static::Arguments),
 }
@@ -51,6 +54,8 @@ impl Cli {
         match self.command {
             Command::Reproduce(arguments) => reproduce::execute(&arguments),
             Command::Run(arguments) => run::execute(&arguments),
+            Command::Compare(arguments) => compare::execute(&arguments),
+            Command::Plot(arguments) => plot::execute(&arguments),
             Command::Case(arguments) => case::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
         }

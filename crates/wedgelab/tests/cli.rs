@@ -72,6 +72,8 @@ fn help_shows_examples() {
         (vec!["reproduce", "--help"], "Examples:"),
         (vec!["run", "--help"], "--set friction.column=0.3"),
         (vec!["case", "--help"], "> a.toml"),
+        (vec!["compare", "--help"], "other_program.csv"),
+        (vec!["plot", "--help"], "--out loop.svg"),
         (vec!["quasi-static", "--help"], "0.2 deg out"),
         (vec!["--version"], env!("CARGO_PKG_VERSION")),
     ] {

@@ -1,6 +1,8 @@
 //! The commands, one file each: arguments and what they do.
 
 pub mod case;
+pub mod compare;
+pub mod plot;
 pub mod quasi_static;
 pub mod reproduce;
 pub mod run;

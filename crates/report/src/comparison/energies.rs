@@ -1,0 +1,85 @@
+//! Energies per cycle, from the summaries beside the results.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use quantity::{Kind, System as Units};
+use serde::Deserialize;
+use study::summary::Measure;
+
+use super::{Energy, Entry};
+use crate::{csv, summary};
+
+/// What is wanted of a summary.
+#[derive(Deserialize)]
+struct SummaryPart {
+    averages: AveragesPart,
+}
+
+#[derive(Deserialize)]
+struct AveragesPart {
+    energy_per_cycle: BTreeMap<String, Measure>,
+}
+
+/// Energies per cycle of the results whose summaries have them, as the first one's has.
+pub(super) fn energies(entries: &[Entry], units: Units, notes: &mut Vec<String>) -> Vec<Energy> {
+    let mut read = entries
+        .iter()
+        .map(|entry| match summary_beside(&entry.table.file) {
+            Ok(found) => found.map(|part| part.averages.energy_per_cycle),
+            Err(error) => {
+                let label = &entry.label;
+                notes.push(format!(
+                    "The summary.json of {label} is left out, it cannot be read: {error}."
+                ));
+                None
+            }
+        });
+    let first = read.next().flatten().unwrap_or_default();
+    let others: Vec<_> = read.collect();
+    let mut energies = Vec::new();
+    for (place, own) in &first {
+        for (k, other) in others.iter().enumerate() {
+            let theirs = other.as_ref().and_then(|all| all.get(place));
+            if let (Some(first), Some(value)) =
+                (energy(own, units), theirs.and_then(|one| energy(one, units)))
+            {
+                energies.push(Energy {
+                    place: place.clone(),
+                    unit: Kind::Energy.label(units),
+                    result: k + 1,
+                    value,
+                    first,
+                });
+            }
+        }
+    }
+    energies
+}
+
+/// The summary beside a `result.csv`, if there is one.
+fn summary_beside(file: &Path) -> Result<Option<SummaryPart>, String> {
+    if file.file_name().is_none_or(|name| name != csv::FILE_NAME) {
+        return Ok(None);
+    }
+    match fs::read(file.with_file_name(summary::FILE_NAME)) {
+        Ok(bytes) => serde_json::from_slice(&bytes)
+            .map(Some)
+            .map_err(|error| error.to_string()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// An energy in these units.
+fn energy(measure: &Measure, units: Units) -> Option<f64> {
+    let own = [Units::Us, Units::Si]
+        .into_iter()
+        .find(|own| Kind::Energy.label(*own) == measure.unit)?;
+    if own == units {
+        return Some(measure.value);
+    }
+    Some(measure.value / Kind::Energy.from_si(own) * Kind::Energy.from_si(units))
+}

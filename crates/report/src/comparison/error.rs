@@ -1,0 +1,54 @@
+//! Why results cannot be compared.
+
+use std::path::PathBuf;
+
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::table::TableError;
+
+/// Why results cannot be compared.
+#[derive(Debug, Error, Diagnostic)]
+pub enum ComparisonError {
+    /// A result has not the column.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Table(#[from] TableError),
+    /// No column but the time is in all of them.
+    #[error("`{}` and `{}` have no column in common but the time", .first.display(), .second.display())]
+    #[diagnostic(help("{advice}"))]
+    NothingInCommon {
+        /// The first result.
+        first: PathBuf,
+        /// The one that shares nothing with it, or with those in between.
+        second: PathBuf,
+        /// Names that are near each other.
+        advice: String,
+    },
+    /// Two columns of one name measure different things.
+    #[error("`{column}` is {own} in `{}` and {other} in `{}`", .first.display(), .second.display())]
+    #[diagnostic(help("rename one of the two, or leave the column out with --columns"))]
+    Kinds {
+        /// The column.
+        column: String,
+        /// The first result.
+        first: PathBuf,
+        /// What it is there.
+        own: &'static str,
+        /// The other.
+        second: PathBuf,
+        /// What it is there.
+        other: &'static str,
+    },
+    /// The time was asked for as a column.
+    #[error("columns are compared at the same times; the time itself cannot be compared")]
+    #[diagnostic(help("name other columns, such as vertical_wedge_force"))]
+    Time,
+    /// There are not two times within the span that all have.
+    #[error("the results have no span of time in common: {spans}")]
+    #[diagnostic(help("results are compared at equal times: run the cases over the same times"))]
+    NoCommonTime {
+        /// From when to when each of them goes.
+        spans: String,
+    },
+}

@@ -1,0 +1,77 @@
+//! Figures of columns: the one place where columns of tables become curves of the drawing layer.
+
+use quantity::System as Units;
+
+use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::table::Column;
+
+/// Axes with curves, each a name with its points.
+pub(crate) struct Axes {
+    pub x_label: String,
+    pub y_label: String,
+    pub curves: Vec<(String, Vec<(f64, f64)>)>,
+}
+
+/// The name of a column with its unit, as an axis shows it: `wedge x (in)`.
+pub(crate) fn axis(column: &Column, units: Units) -> String {
+    let name = words(&column.name);
+    match column.kind.label(units) {
+        "" => name,
+        unit => format!("{name} ({unit})"),
+    }
+}
+
+/// A column's name in words.
+pub(crate) fn words(name: &str) -> String {
+    name.replace('_', " ")
+}
+
+/// A figure of these axes; curves of the same name look the same everywhere.
+pub(crate) fn figure(title: String, caption: String, axes: Vec<Axes>) -> Figure {
+    let mut names: Vec<String> = Vec::new();
+    for (name, _) in axes.iter().flat_map(|axes| &axes.curves) {
+        if !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+    let panel = |axes: Axes| {
+        let curve = |(label, points): (String, Vec<(f64, f64)>)| {
+            let place = names.iter().position(|name| *name == label).unwrap_or_default();
+            let (colour, line) = look(place);
+            Curve {
+                label,
+                colour,
+                line,
+                points,
+            }
+        };
+        Panel {
+            title: String::new(),
+            x_label: axes.x_label,
+            y_label: axes.y_label,
+            curves: axes.curves.into_iter().map(curve).collect(),
+            ..Panel::default()
+        }
+    };
+    Figure {
+        title,
+        caption,
+        panels: axes.into_iter().map(panel).collect(),
+        ..Figure::default()
+    }
+}
+
+/// Colour and line of the curve at this place; 28 differ.
+fn look(place: usize) -> (Colour, Line) {
+    const COLOURS: [Colour; 7] = [
+        Colour::Black,
+        Colour::Vermillion,
+        Colour::Blue,
+        Colour::Green,
+        Colour::Purple,
+        Colour::Orange,
+        Colour::Sky,
+    ];
+    const LINES: [Line; 4] = [Line::Solid, Line::Dashed, Line::DashDot, Line::Dotted];
+    (COLOURS[place % COLOURS.len()], LINES[place % LINES.len()])
+}

@@ -1,0 +1,248 @@
+//! `wedgelab compare`: results beside each other.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use report::comparison::{Comparison, Entry, FILE_NAME};
+use report::files::Folder;
+use report::table::Table as Results;
+
+use crate::failure::{Failure, Message};
+use crate::table::Table;
+
+/// Compare results: overlay figures and a table of differences
+///
+/// Compares results with the first of them: those of runs (the folder or its result.csv) and other CSV files with columns of
+/// the same names, such as time_s, wedge_x_in. Other units are converted and other times interpolated; both are said.
+/// Prints the differences, and writes them as differences.csv with a figure for each column and the hysteresis loops.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab compare reproduction/runs/vdrun_toe_0_psi_0.012 softer
+  wedgelab compare my_run other_program.csv --columns wedge_z vertical_wedge_force --out check
+
+Without --columns the main columns that all results have are compared.")]
+pub struct Arguments {
+    /// Results: folders of runs, or CSV files; the first one is what the others are compared with
+    #[arg(required = true, num_args = 2.., value_name = "RESULT")]
+    results: Vec<PathBuf>,
+    /// Folder to write into
+    #[arg(long, value_name = "DIR", default_value = "comparison")]
+    out: PathBuf,
+    /// Compare only these columns, named with or without unit
+    #[arg(long, value_name = "NAME", num_args = 1..)]
+    columns: Vec<String>,
+    /// Overwrite existing results
+    #[arg(long)]
+    force: bool,
+}
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let entries = read(&arguments.results)?;
+    let comparison = Comparison::of(&entries, &arguments.columns)?;
+    let figures = comparison.figures(&entries)?;
+    let mut names: Vec<&str> = vec![FILE_NAME];
+    names.extend(figures.iter().map(|(name, _)| name.as_str()));
+    let folder = Folder::check(&arguments.out, &names, arguments.force)
+        .map_err(|error| Failure::Input(error.into()))?;
+    folder.write(|files| {
+        files.add(FILE_NAME, |out| comparison.write(&entries, out))?;
+        for (name, figure) in &figures {
+            files.add(name, |out| out.write_all(figure.to_svg().as_bytes()))?;
+        }
+        Ok(())
+    })?;
+
+    let mut out = io::stdout().lock();
+    let first = &entries[0].label;
+    writeln!(
+        out,
+        "Differences from {first}, in its units, at its {} times from {} s to {} s.\n",
+        comparison.rows, comparison.span.0, comparison.span.1
+    )?;
+    differences(&comparison, &entries).write(&mut out)?;
+    if !comparison.energies.is_empty() {
+        writeln!(out)?;
+        energies(&comparison, &entries).write(&mut out)?;
+    }
+    writeln!(
+        out,
+        "\nLargest: the difference that is largest in size, result less {first}, and its time. RMS: root mean square of the\n\
+         difference. Percentages are of the range (greatest less least value) of {first}."
+    )?;
+    for note in &comparison.notes {
+        writeln!(out, "{note}")?;
+    }
+    writeln!(
+        out,
+        "\nWritten into {}: {}.",
+        folder.path().display(),
+        names.join(", ")
+    )?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Reads the results and gives them names that differ.
+fn read(paths: &[PathBuf]) -> Result<Vec<Entry>, Failure> {
+    let mut entries: Vec<Entry> = Vec::new();
+    for path in paths {
+        let table = Results::read(path)?;
+        if entries.iter().any(|entry| entry.table.file == table.file) {
+            let message = format!("`{}` is named twice", path.display());
+            return Err(Message::new(message, "name two different results").into());
+        }
+        entries.push(Entry {
+            label: label(&table.file),
+            table,
+        });
+    }
+    let shared = |label: &String| entries.iter().filter(|entry| entry.label == *label).count() > 1;
+    let labels: Vec<String> = entries
+        .iter()
+        .zip(paths)
+        .map(|(entry, path)| {
+            if shared(&entry.label) {
+                path.display().to_string()
+            } else {
+                entry.label.clone()
+            }
+        })
+        .collect();
+    for (entry, label) in entries.iter_mut().zip(labels) {
+        entry.label = label;
+    }
+    Ok(entries)
+}
+
+/// The name of a result: its folder's, or that of a file without ending.
+pub fn label(file: &Path) -> String {
+    let own = file.file_stem();
+    let folder = file.parent().and_then(Path::file_name);
+    let name = if file
+        .file_name()
+        .is_some_and(|name| name == report::csv::FILE_NAME)
+    {
+        folder.or(own)
+    } else {
+        own
+    };
+    name.map_or_else(
+        || file.display().to_string(),
+        |name| name.to_string_lossy().into_owned(),
+    )
+}
+
+fn differences(comparison: &Comparison, entries: &[Entry]) -> Table {
+    let first = &entries[0].label;
+    let mut table = Table::new(
+        3,
+        &[
+            ("column", ""),
+            ("unit", ""),
+            ("result", ""),
+            ("largest", ""),
+            ("at", "s"),
+            ("of range", "%"),
+            ("RMS", ""),
+            ("of range", "%"),
+            ("mean", ""),
+            ("mean of", first),
+        ],
+    );
+    let percent = |value: f64, range: f64| {
+        let part = 100.0 * value.abs() / range;
+        if part.is_finite() {
+            format!("{part:.2}")
+        } else {
+            "-".to_owned()
+        }
+    };
+    for one in &comparison.differences {
+        table.row([
+            one.column.clone(),
+            one.unit.to_owned(),
+            entries[one.result].label.clone(),
+            number(one.largest),
+            format!("{:.3}", one.time),
+            percent(one.largest, one.range),
+            number(one.root_mean_square),
+            percent(one.root_mean_square, one.range),
+            number(one.mean),
+            number(one.mean_of_first),
+        ]);
+    }
+    table
+}
+
+fn energies(comparison: &Comparison, entries: &[Entry]) -> Table {
+    let first = &entries[0].label;
+    let mut table = Table::new(
+        3,
+        &[
+            ("friction energy per cycle", ""),
+            ("unit", ""),
+            ("result", ""),
+            ("energy", ""),
+            ("that of", first),
+            ("difference", "%"),
+        ],
+    );
+    for one in &comparison.energies {
+        let part = 100.0 * (one.value - one.first) / one.first;
+        table.row([
+            one.place.replace('_', " "),
+            one.unit.to_owned(),
+            entries[one.result].label.clone(),
+            number(one.value),
+            number(one.first),
+            if part.is_finite() {
+                format!("{part:+.2}")
+            } else {
+                "-".to_owned()
+            },
+        ]);
+    }
+    table
+}
+
+/// Four digits, whatever the size.
+fn number(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e6).contains(&size) {
+        let decimals = (3 - size.log10().floor() as i32).clamp(0, 6) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (12345.678, "12346"),
+            (-1.23456, "-1.235"),
+            (0.0123456, "0.01235"),
+            (1.5e-7, "1.500e-7"),
+            (3.2e9, "3.200e9"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn results_are_named_by_their_folders() {
+        assert_eq!(label(Path::new("runs/soft/result.csv")), "soft");
+        assert_eq!(label(Path::new("result.csv")), "result");
+        assert_eq!(label(Path::new("rig/day_2.csv")), "day_2");
+    }
+}

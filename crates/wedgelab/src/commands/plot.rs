@@ -1,0 +1,82 @@
+//! `wedgelab plot`: any column over any other.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use report::files::Folder;
+use report::plot;
+use report::table::Table;
+
+use super::compare::label;
+use crate::failure::{Failure, Message};
+
+/// Draw any column of a result over any other
+///
+/// Takes the result of a run (its folder or its result.csv) or another CSV file with columns such as time_s, wedge_x_in, and
+/// writes an SVG file. Several columns with one unit share their axes; each unit has its own.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab plot my_run --x time --y wedge_z
+  wedgelab plot my_run --x bolster_vertical --y vertical_wedge_force --out loop.svg
+  wedgelab plot my_run --x time --y column_upper_left_gap column_lower_left_gap")]
+pub struct Arguments {
+    /// Result: the folder of a run, or a CSV file
+    result: PathBuf,
+    /// Column along the horizontal axis, named with or without unit
+    #[arg(long, value_name = "NAME")]
+    x: String,
+    /// Columns along the vertical axis
+    #[arg(long, value_name = "NAME", num_args = 1.., required = true)]
+    y: Vec<String>,
+    /// File to write, ending in .svg [default: Y_over_X.svg]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Overwrite an existing file
+    #[arg(long)]
+    force: bool,
+}
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let table = Table::read(&arguments.result)?;
+    let x = table.column(&arguments.x)?.name.clone();
+    let mut y: Vec<String> = Vec::new();
+    for name in &arguments.y {
+        let name = &table.column(name)?.name;
+        if !y.contains(name) {
+            y.push(name.clone());
+        }
+    }
+    let figure = plot::figure(&table, &label(&table.file), &x, &y)?;
+    let file = match &arguments.out {
+        Some(file) => file.clone(),
+        None => {
+            let [x, y] = [&x, &y[0]].map(|name| plot::file_name(name));
+            PathBuf::from(format!("{y}_over_{x}.svg"))
+        }
+    };
+    let Some(name) = drawn(&file) else {
+        let message = format!("`{}` is no name for a figure: figures are SVG", file.display());
+        let advice = format!("write --out {}", file.with_extension("svg").display());
+        return Err(Message::new(message, advice).into());
+    };
+    let folder = match file.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let folder =
+        Folder::check(folder, &[name], arguments.force).map_err(|error| Failure::Input(error.into()))?;
+    folder.write(|files| files.add(name, |out| out.write_all(figure.to_svg().as_bytes())))?;
+    writeln!(io::stdout().lock(), "Written: {}.", file.display())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The name of a file that can be drawn.
+fn drawn(file: &Path) -> Option<&str> {
+    let ending = file.extension()?.to_str()?;
+    let name = file.file_name()?.to_str()?;
+    ending.eq_ignore_ascii_case("svg").then_some(name)
+}
