@@ -6,6 +6,7 @@
 //! - [`write`]: tree to text,
 //! - [`check`]: what a tree lacks or contradicts, alone and together with the files it belongs to,
 //! - [`show`]: a system as tables,
+//! - [`files`]: finding the files that a run names,
 //! - [`builtin`]: the half-truck of Steets (2007), appendices A and B.
 //!
 //! The program's manual is not public. The grammar and the meaning of the values follow the files printed in R. Steets,
@@ -16,6 +17,7 @@
 
 pub mod builtin;
 pub mod check;
+pub mod files;
 mod finding;
 mod lexer;
 mod number;

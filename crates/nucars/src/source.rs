@@ -225,7 +225,12 @@ impl SourceCode for Source {
                 .get(line)
                 .map_or(self.text.len(), |start| *start as usize)
         };
-        let line_start = start_of(first);
+        // Without lines before it the caller asks for the place of the span itself.
+        let line_start = if before == 0 {
+            span.offset()
+        } else {
+            start_of(first)
+        };
         let mut start = line_start.max(span.offset().saturating_sub(WIDEST));
         let mut stop = start_of(last + 1).min(end.saturating_add(WIDEST));
         while !self.text.is_char_boundary(start) {
@@ -240,7 +245,7 @@ impl SourceCode for Source {
             &self.text.as_bytes()[start..stop],
             (start, stop - start).into(),
             line,
-            start - own,
+            self.text[own..start].chars().count(),
             self.line_of(stop.max(start)).0 - line + 1,
         );
         Ok(Box::new(contents))

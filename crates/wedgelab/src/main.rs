@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{case, quasi_static, reproduce, run};
+use commands::{case, nucars, quasi_static, reproduce, run};
 use failure::Failure;
 
 /// A laboratory for railway friction wedges.
@@ -44,6 +44,7 @@ enum Command {
     Run(run::Arguments),
     Case(case::Arguments),
     QuasiStatic(quasi_static::Arguments),
+    Nucars(nucars::Arguments),
 }
 
 impl Cli {
@@ -53,6 +54,7 @@ impl Cli {
             Command::Run(arguments) => run::execute(&arguments),
             Command::Case(arguments) => case::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
+            Command::Nucars(arguments) => nucars::execute(&arguments),
         }
     }
 }

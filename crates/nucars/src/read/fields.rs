@@ -200,11 +200,20 @@ impl<'a, 'f> Fields<'a, 'f> {
             self.accept(token);
             return Ok(Spanned::new(value, token.span));
         }
+        self.bad = true;
+        if self.findings.is_full() {
+            // Spares the messages nobody sees.
+            self.findings.skip();
+            return self.instead(token, instead);
+        }
         let message = format!("`{}` is not {expected}", short(text));
         let label = format!("expected the {what} of {}", self.name());
         let help = self.advice(text, expected);
         self.error("value", token.span, message, &label, help);
-        self.bad = true;
+        self.instead(token, instead)
+    }
+
+    fn instead<T>(&mut self, token: Token, instead: T) -> Result<Spanned<T>, Stop> {
         if token.kind == TokenKind::Word {
             self.accept(token);
             Ok(Spanned::new(instead, token.span))

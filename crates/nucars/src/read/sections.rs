@@ -3,7 +3,7 @@
 use quantity::nearest;
 
 use super::FileKind;
-use crate::finding::Findings;
+use crate::finding::{Findings, Severity};
 use crate::lexer::Cursor;
 use crate::source::{Source, Span, Spanned};
 use crate::tree::{RawSection, Title};
@@ -212,7 +212,7 @@ pub fn look_for_hidden(source: &Source, sections: &[Section], kind: FileKind, fi
             .count();
         let line = at - blank;
         let begins = line == 0 || bytes[line - 1] == b'\n';
-        if blank > 0 && begins && findings.list().len() < 20 {
+        if blank > 0 && begins && !findings.is_full_of(Severity::Warning) {
             findings.warning(
                 "hidden-keyword",
                 Span::new(at, at + 1),
