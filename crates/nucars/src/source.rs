@@ -118,13 +118,13 @@ pub struct Source {
 }
 
 impl Source {
-    /// The text of a file: UTF-8, with or without byte order mark, or else Latin-1. Lines end with `\n`, `\r\n` or `\r`.
+    /// The text of a file: UTF-8, with or without byte order mark, UTF-16 with one, or else Latin-1. Lines end with `\n`, `\r\n` or `\r`.
     ///
     /// # Errors
     /// Files of 4 GiB and more.
     pub fn from_bytes(name: impl Into<String>, bytes: Vec<u8>) -> Result<Arc<Self>, SourceError> {
         let name = name.into();
-        let (mut text, latin1) = match String::from_utf8(bytes) {
+        let (mut text, latin1) = match utf16(&bytes).map_or_else(|| String::from_utf8(bytes), Ok) {
             Ok(text) => (text, false),
             Err(error) => (
                 error.as_bytes().iter().map(|byte| char::from(*byte)).collect(),
@@ -203,6 +203,17 @@ impl Source {
             .saturating_sub(1);
         (line, self.lines().get(line).map_or(0, |start| *start as usize))
     }
+}
+
+/// The text of UTF-16 with a byte order mark.
+fn utf16(bytes: &[u8]) -> Option<String> {
+    let unit: fn([u8; 2]) -> u16 = match bytes {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ => return None,
+    };
+    let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+    char::decode_utf16(units).collect::<Result<String, _>>().ok()
 }
 
 impl SourceCode for Source {

@@ -153,9 +153,9 @@ fn the_constant_case_is_in_balance_and_the_variable_one_is_not() {
 
 #[test]
 fn a_commanded_yaw_does_not_arrive() {
-    let read = read_system(&builtin::source(CONSTANT).unwrap().unwrap());
+    let read = read_system(&builtin::source(CONSTANT).unwrap());
     let with = |name: &str| {
-        let input = read_input(&builtin::source(name).unwrap().unwrap());
+        let input = read_input(&builtin::source(name).unwrap());
         check::system_with_input(&read, &input.tree)
     };
     assert_eq!(with(VERTICAL).list().len(), 0);
