@@ -3,7 +3,7 @@
 //! - [`source`]: texts and places in them,
 //! - [`tree`]: what the files say, typed, as typed, in the files' units,
 //! - [`read`]: text to tree, with all mistakes and their places,
-//! - [`write`]: tree to text,
+//! - [`mod@write`]: tree to text,
 //! - [`check`]: what a tree lacks or contradicts, alone and together with the files it belongs to,
 //! - [`show`]: a system as tables,
 //! - [`files`]: finding the files that a run names,

@@ -638,7 +638,14 @@ fn hidden_and_foreign_sections_are_told() {
     ));
     assert_eq!(read.tree.other.len(), 2);
     let none = system("just a text\n").findings;
-    assert!(has(&none, Severity::Error, 0, &["no keyword"]), "{}", list(&none));
+    assert!(has(&none, Severity::Error, 1, &["no keyword"]), "{}", list(&none));
+    let empty = system(" \n\t").findings;
+    assert!(
+        has(&empty, Severity::Error, 1, &["the file is empty"]),
+        "{}",
+        list(&empty)
+    );
+    assert_eq!([none.list().len(), empty.list().len()], [1, 1]);
 }
 
 #[test]

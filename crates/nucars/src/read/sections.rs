@@ -107,7 +107,8 @@ pub fn required<'a>(
     findings: &mut Findings,
 ) -> Option<&'a Section> {
     let found = only(sections, keyword, findings);
-    if found.is_none() {
+    // A file without any keyword has one mistake, not one for each.
+    if found.is_none() && !sections.is_empty() {
         let off = sections.iter().find(|section| section.is(keyword));
         let place = off.map_or_else(
             || {
@@ -196,7 +197,10 @@ pub fn look_for_hidden(source: &Source, sections: &[Section], kind: FileKind, fi
         findings.error(
             "no-sections",
             Span::default(),
-            "there is no keyword in the file".to_owned(),
+            match source.text().trim() {
+                "" => "the file is empty".to_owned(),
+                _ => "there is no keyword in the file".to_owned(),
+            },
             format!(
                 "a {kind} has lines such as `\\{}`, with the `\\` in the first column",
                 kind.keywords()[0]
@@ -241,6 +245,9 @@ pub fn lines(source: &Source, span: Span) -> Vec<Spanned<String>> {
 /// The title section: its first line is the title, the others are notes.
 pub fn title(sections: &[Section], keyword: &str, source: &Source, findings: &mut Findings) -> Title {
     let Some(section) = only(sections, keyword, findings) else {
+        if sections.is_empty() {
+            return Title::default();
+        }
         let place = sections
             .first()
             .map_or(Span::default(), |first| first.keyword.span);
