@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use crate::source::{Source, SourceError};
+use crate::source::Source;
 
 macro_rules! files {
     ($($name:literal),* $(,)?) => {
@@ -44,9 +44,7 @@ pub fn text(name: &str) -> Option<&'static str> {
 }
 
 /// The file of this name, ready to be read.
-///
-/// # Errors
-/// None happen: the files are short.
-pub fn source(name: &str) -> Option<Result<Arc<Source>, SourceError>> {
-    text(name).map(|text| Source::from_text(name, text))
+pub fn source(name: &str) -> Option<Arc<Source>> {
+    // Only files of 4 GiB are refused.
+    Source::from_text(name, text(name)?).ok()
 }

@@ -107,7 +107,7 @@ impl std::error::Error for Finding {}
 
 impl Diagnostic for Finding {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        Some(Box::new(self.code))
+        Some(Box::new(format!("nucars::{}", self.code)))
     }
 
     fn severity(&self) -> Option<miette::Severity> {
@@ -138,7 +138,7 @@ impl Diagnostic for Finding {
     }
 }
 
-/// How many findings of a file are kept; a file that is none of ours would have one in every line.
+/// How many findings of a severity are kept for a file; a file that is none of ours would have one in every line.
 const MOST: usize = 100;
 
 /// Findings of one file.
@@ -146,6 +146,8 @@ const MOST: usize = 100;
 pub struct Findings {
     source: Arc<Source>,
     list: Vec<Finding>,
+    /// How many of each severity are in the list.
+    kept: [usize; 3],
     not_kept: usize,
 }
 
@@ -154,13 +156,24 @@ impl Findings {
         Findings {
             source: Arc::clone(source),
             list: Vec::new(),
+            kept: [0; 3],
             not_kept: 0,
         }
     }
 
-    /// Whether no more are kept.
+    /// Counts one that is not kept.
+    pub(crate) fn skip(&mut self) {
+        self.not_kept += 1;
+    }
+
+    /// Whether no more errors are kept.
     pub(crate) fn is_full(&self) -> bool {
-        self.list.len() >= MOST
+        self.is_full_of(Severity::Error)
+    }
+
+    /// Whether no more of this severity are kept.
+    pub(crate) fn is_full_of(&self, severity: Severity) -> bool {
+        self.kept[severity as usize] >= MOST
     }
 
     pub(crate) fn source(&self) -> &Arc<Source> {
@@ -176,10 +189,11 @@ impl Findings {
         message: impl Into<String>,
         with: impl FnOnce(Finding) -> Finding,
     ) {
-        if self.list.len() >= MOST {
+        if self.is_full_of(severity) {
             self.not_kept += 1;
             return;
         }
+        self.kept[severity as usize] += 1;
         let finding = Finding::new(severity, code, &self.source, span, message);
         self.list.push(with(finding));
     }
@@ -216,25 +230,32 @@ impl Findings {
         self.not_kept += other.not_kept;
         for finding in other.list {
             let span = finding.place.span;
-            let known = |had: &Finding| had.severity == Severity::Error && had.place.span == span;
+            let known = |had: &Finding| {
+                had.place.span == span && (had.severity == Severity::Error || had.message == finding.message)
+            };
             if self.list.iter().any(known) {
                 continue;
             }
-            if self.list.len() >= MOST {
+            if self.is_full_of(finding.severity) {
                 self.not_kept += 1;
             } else {
+                self.kept[finding.severity as usize] += 1;
                 self.list.push(finding);
             }
         }
     }
 
-    /// The findings in the order of the text.
-    pub fn sorted(mut self) -> Self {
+    /// Puts them into the order of the text.
+    pub(crate) fn sort(&mut self) {
         self.list.sort_by_key(|finding| finding.place.span.start);
+    }
+
+    pub(crate) fn sorted(mut self) -> Self {
+        self.sort();
         self
     }
 
-    /// The findings; at most a hundred are kept.
+    /// The findings; of each severity at most a hundred are kept.
     pub fn list(&self) -> &[Finding] {
         &self.list
     }
@@ -246,10 +267,7 @@ impl Findings {
 
     /// How many of this severity are kept.
     pub fn count(&self, severity: Severity) -> usize {
-        self.list
-            .iter()
-            .filter(|finding| finding.severity == severity)
-            .count()
+        self.kept[severity as usize]
     }
 
     /// Whether the file cannot be used.

@@ -118,13 +118,13 @@ pub struct Source {
 }
 
 impl Source {
-    /// The text of a file: UTF-8, with or without byte order mark, or else Latin-1. Lines end with `\n`, `\r\n` or `\r`.
+    /// The text of a file: UTF-8, with or without byte order mark, UTF-16 with one, or else Latin-1. Lines end with `\n`, `\r\n` or `\r`.
     ///
     /// # Errors
     /// Files of 4 GiB and more.
     pub fn from_bytes(name: impl Into<String>, bytes: Vec<u8>) -> Result<Arc<Self>, SourceError> {
         let name = name.into();
-        let (mut text, latin1) = match String::from_utf8(bytes) {
+        let (mut text, latin1) = match utf16(&bytes).map_or_else(|| String::from_utf8(bytes), Ok) {
             Ok(text) => (text, false),
             Err(error) => (
                 error.as_bytes().iter().map(|byte| char::from(*byte)).collect(),
@@ -205,6 +205,17 @@ impl Source {
     }
 }
 
+/// The text of UTF-16 with a byte order mark.
+fn utf16(bytes: &[u8]) -> Option<String> {
+    let unit: fn([u8; 2]) -> u16 = match bytes {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ => return None,
+    };
+    let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+    char::decode_utf16(units).collect::<Result<String, _>>().ok()
+}
+
 impl SourceCode for Source {
     fn read_span<'a>(
         &'a self,
@@ -225,7 +236,12 @@ impl SourceCode for Source {
                 .get(line)
                 .map_or(self.text.len(), |start| *start as usize)
         };
-        let line_start = start_of(first);
+        // Without lines before it the caller asks for the place of the span itself.
+        let line_start = if before == 0 {
+            span.offset()
+        } else {
+            start_of(first)
+        };
         let mut start = line_start.max(span.offset().saturating_sub(WIDEST));
         let mut stop = start_of(last + 1).min(end.saturating_add(WIDEST));
         while !self.text.is_char_boundary(start) {
@@ -240,7 +256,7 @@ impl SourceCode for Source {
             &self.text.as_bytes()[start..stop],
             (start, stop - start).into(),
             line,
-            start - own,
+            self.text[own..start].chars().count(),
             self.line_of(stop.max(start)).0 - line + 1,
         );
         Ok(Box::new(contents))

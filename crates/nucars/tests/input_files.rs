@@ -15,31 +15,25 @@ const SYSTEMS: [&str; 4] = [
 ];
 
 fn system(name: &str) -> Read<SystemFile> {
-    read_system(&builtin::source(name).unwrap().unwrap())
+    read_system(&builtin::source(name).unwrap())
 }
 
 fn input(name: &str) -> InputFile {
-    read_input(&builtin::source(name).unwrap().unwrap())
-        .strict()
-        .unwrap()
+    read_input(&builtin::source(name).unwrap()).strict().unwrap()
 }
 
 fn data(name: &str) -> DataFile {
-    read_data(&builtin::source(name).unwrap().unwrap())
-        .strict()
-        .unwrap()
+    read_data(&builtin::source(name).unwrap()).strict().unwrap()
 }
 
 fn run(name: &str) -> RunFile {
-    read_run(&builtin::source(name).unwrap().unwrap())
-        .strict()
-        .unwrap()
+    read_run(&builtin::source(name).unwrap()).strict().unwrap()
 }
 
 #[test]
 fn all_files_are_read_without_errors() {
     for name in builtin::names() {
-        let source = builtin::source(name).unwrap().unwrap();
+        let source = builtin::source(name).unwrap();
         let kind = FileKind::of(&source).unwrap();
         let findings = match read(&source, kind) {
             AnyFile::System(read) => read.findings,
@@ -223,7 +217,7 @@ fn functions_have_the_slopes_and_zeros_of_the_thesis() {
 #[test]
 fn written_and_read_again_is_the_same() {
     for name in builtin::names() {
-        let source = builtin::source(name).unwrap().unwrap();
+        let source = builtin::source(name).unwrap();
         let again = |text: String| Source::from_text(name, text).unwrap();
         match read(&source, FileKind::of(&source).unwrap()) {
             AnyFile::System(read) => {
@@ -315,4 +309,76 @@ fn other_bytes_read_the_same() {
         assert_eq!(read.tree.body(1).unwrap().name.value, " Half Car+Träger");
         assert!(read.tree.connections == plain.connections);
     }
+}
+
+#[test]
+fn utf_16_is_read() {
+    for big in [false, true] {
+        let marked = format!("\u{feff}{}", builtin::text(SYSTEMS[0]).unwrap());
+        let bytes = |unit: u16| {
+            if big {
+                unit.to_be_bytes()
+            } else {
+                unit.to_le_bytes()
+            }
+        };
+        let bytes = marked.encode_utf16().flat_map(bytes).collect();
+        let read = read_system(&Source::from_bytes(SYSTEMS[0], bytes).unwrap());
+        assert!(read.strict().unwrap() == system(SYSTEMS[0]).tree);
+    }
+}
+
+/// The text with other line breaks where Fortran's list-directed input allows them.
+#[test]
+fn records_wrap_over_lines() {
+    let changes = [
+        // A connection over three lines, one of them a comment.
+        (
+            "117 'Ld L Bol-SF LPY'  1.1  1  3   -35.0    39.5    18.0   3 1 5 6 8 9 10",
+            "117 'Ld L Bol-SF LPY'\n 1.1  1  3   -35.0    39.5 ! x, y\n! and so on\n    18.0   3 1 5 6\n8 9 10",
+        ),
+        // A body in one.
+        (
+            "    -35.0      0.0     83.0\n    6 1 2 3",
+            "    -35.0,0.0,83.0  6 1 2 3",
+        ),
+        // A characteristic over two, in the middle of its numbers.
+        ("3.7022E3  1.0E6  1.0E3  0.40", "3.7022E3\n  1.0E6  1.0E3  0.40"),
+        // A function with a value in each line, and in one line.
+        (
+            "  13   3            0.0          0.0       6.40E7",
+            "  13   3\n 0.0\n\n0.0\n  6.40D7",
+        ),
+        (
+            "0.0      2.55E05      8.95E05\n                    0.0",
+            "0.0      2.55E05      8.95E05     0.0",
+        ),
+    ];
+    let mut text = builtin::text(SYSTEMS[0]).unwrap().to_owned();
+    for (old, new) in changes {
+        assert!(text.contains(old), "{old}");
+        text = text.replacen(old, new, 1);
+    }
+    let read = read_system(&Source::from_text("wrapped.sys", text).unwrap());
+    assert!(read.strict().unwrap() == system(SYSTEMS[0]).tree);
+}
+
+#[test]
+fn values_may_stand_in_the_line_of_their_keyword() {
+    let name = "bolst_wedge_sf_bolst-vert-displ_69_var.run";
+    let text = builtin::text(name).unwrap();
+    let joined = [
+        "SYSTEM FILE",
+        "DATA FILE",
+        "INPUT FILE",
+        "CONTROL CONSTANTS",
+        "STEPPING CONSTANTS",
+    ]
+    .iter()
+    .fold(text.to_owned(), |text, keyword| {
+        text.replace(&format!("{keyword}\n"), &format!("{keyword}  "))
+    });
+    assert_eq!(joined.lines().count() + 5, text.lines().count());
+    let read = read_run(&Source::from_text(name, joined).unwrap());
+    assert!(read.strict().unwrap() == run(name));
 }

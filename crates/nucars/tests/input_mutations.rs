@@ -122,16 +122,13 @@ fn placed(findings: &Findings, source: &Source, name: &str) {
     }
 }
 
-/// Reads, checks, shows; writes and reads again what has no errors.
-fn survives(bytes: Vec<u8>, kind: FileKind, name: &str) {
+/// Reads, checks, shows; writes and reads again what has no errors, and says whether that was so.
+fn survives(bytes: Vec<u8>, kind: FileKind, name: &str) -> bool {
     let source = Source::from_bytes(name, bytes).unwrap();
     let again = |text: String| Source::from_text(name, text).unwrap();
-    let system = read_system(
-        &builtin::source("Bolst_wedge_sf_68_constant.sys")
-            .unwrap()
-            .unwrap(),
-    );
-    let input = read_input(&builtin::source("bolst_displ_input36.inp").unwrap().unwrap());
+    let system = read_system(&builtin::source("Bolst_wedge_sf_68_constant.sys").unwrap());
+    let input = read_input(&builtin::source("bolst_displ_input36.inp").unwrap());
+    let has_errors;
     match read(&source, kind) {
         AnyFile::System(read) => {
             placed(&check::system(&read), &source, name);
@@ -144,7 +141,8 @@ fn survives(bytes: Vec<u8>, kind: FileKind, name: &str) {
                     table.title
                 );
             }
-            if !read.findings.has_errors() {
+            has_errors = read.findings.has_errors();
+            if !has_errors {
                 let second = read_system(&again(write::write_system(&read.tree)));
                 assert!(second.strict().unwrap() == read.tree, "{name}: {}", source.text());
             }
@@ -157,7 +155,8 @@ fn survives(bytes: Vec<u8>, kind: FileKind, name: &str) {
                 name,
             );
             placed(&read.findings, &source, name);
-            if !read.findings.has_errors() {
+            has_errors = read.findings.has_errors();
+            if !has_errors {
                 let second = read_input(&again(write::write_input(&read.tree)));
                 assert!(second.strict().unwrap() == read.tree, "{name}: {}", source.text());
             }
@@ -166,7 +165,8 @@ fn survives(bytes: Vec<u8>, kind: FileKind, name: &str) {
             placed(&check::data(&read), &source, name);
             placed(&check::data_of_system(&read, &system.tree), &source, name);
             placed(&read.findings, &source, name);
-            if !read.findings.has_errors() {
+            has_errors = read.findings.has_errors();
+            if !has_errors {
                 let second = read_data(&again(write::write_data(&read.tree)));
                 assert!(second.strict().unwrap() == read.tree, "{name}: {}", source.text());
             }
@@ -175,24 +175,29 @@ fn survives(bytes: Vec<u8>, kind: FileKind, name: &str) {
             placed(&check::run(&read), &source, name);
             placed(&check::run_with_input(&read, &input.tree), &source, name);
             placed(&read.findings, &source, name);
-            if !read.findings.has_errors() {
+            has_errors = read.findings.has_errors();
+            if !has_errors {
                 let second = read_run(&again(write::write_run(&read.tree)));
                 assert!(second.strict().unwrap() == read.tree, "{name}: {}", source.text());
             }
         }
     }
+    !has_errors
 }
 
 #[test]
 fn mutants_of_the_printed_files() {
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let mut sound = 0;
     for name in builtin::names() {
         let text = builtin::text(name).unwrap();
         let kind = FileKind::of(&Source::from_text(name, text).unwrap()).unwrap();
         for _ in 0..250 {
-            survives(mutated(text.as_bytes(), &mut random), kind, name);
+            sound += usize::from(survives(mutated(text.as_bytes(), &mut random), kind, name));
         }
     }
+    // Of 4000 mutants many are broken, and many are files with other numbers.
+    assert!((500..3500).contains(&sound), "{sound}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{case, compare, plot, quasi_static, reproduce, run};
+use commands::{case, compare, nucars, plot, quasi_static, reproduce, run};
 use failure::Failure;
 
 /// A laboratory for railway friction wedges.
@@ -47,6 +47,7 @@ enum Command {
     Plot(plot::Arguments),
     Case(case::Arguments),
     QuasiStatic(quasi_static::Arguments),
+    Nucars(nucars::Arguments),
 }
 
 impl Cli {
@@ -58,6 +59,7 @@ impl Cli {
             Command::Plot(arguments) => plot::execute(&arguments),
             Command::Case(arguments) => case::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
+            Command::Nucars(arguments) => nucars::execute(&arguments),
         }
     }
 }

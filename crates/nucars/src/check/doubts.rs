@@ -38,7 +38,7 @@ fn shared_by_turns(file: &SystemFile, findings: &mut Findings) {
         let Some([straight, turning]) = uses.get(&*characteristic.id) else {
             continue;
         };
-        if straight.is_empty() || turning.is_empty() || findings.is_full() {
+        if straight.is_empty() || turning.is_empty() || findings.is_full_of(Severity::Warning) {
             continue;
         }
         let numbers = |list: &[u32]| super::some_of(list.iter().copied());
@@ -115,7 +115,7 @@ fn copied_stops(file: &SystemFile, findings: &mut Findings) {
             findings.add(Severity::Warning, "copied-stop", place, message, dress);
         }
         same_end.push(function);
-        if findings.is_full() {
+        if findings.is_full_of(Severity::Warning) {
             return;
         }
     }
@@ -167,7 +167,7 @@ fn jamming(file: &SystemFile, findings: &mut Findings) {
         let (slope, column) = (**slope_friction, **column_friction);
         let margin = (sin - slope * cos) * (cos_face + column * sin_face)
             + (sin_face - column * cos_face) * (cos + slope * sin);
-        if margin <= 0.0 && !findings.is_full() {
+        if margin <= 0.0 && !findings.is_full_of(Severity::Warning) {
             findings.warning(
                 "jam",
                 place,

@@ -162,7 +162,7 @@ fn list(connections: &[u32]) -> String {
 /// Warns of turns that the displacement springs forbid.
 pub(super) fn check(file: &SystemFile, findings: &mut Findings) {
     for drive in drives(file) {
-        if drive.holding <= MUCH * drive.stiffness || findings.is_full() {
+        if drive.holding <= MUCH * drive.stiffness || findings.is_full_of(Severity::Warning) {
             continue;
         }
         let axis = drive.axis.name();
@@ -187,7 +187,7 @@ pub(super) fn check(file: &SystemFile, findings: &mut Findings) {
 /// Warns of turns that an input file commands and that do not arrive.
 pub(super) fn check_with_input(file: &SystemFile, input: &InputFile, findings: &mut Findings) {
     for drive in drives(file) {
-        if drive.holding <= MUCH * drive.stiffness || findings.is_full() {
+        if drive.holding <= MUCH * drive.stiffness || findings.is_full_of(Severity::Warning) {
             continue;
         }
         let Some(body) = file.input_body(drive.input_body) else {

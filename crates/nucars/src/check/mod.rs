@@ -23,16 +23,22 @@ pub use balance::{Balance, GRAVITY, vertical_balance};
 pub use data::{data, data_of_system};
 pub use drives::{Drive, drives};
 pub use input::input;
-pub use run::{run, run_with_input};
+pub use run::{run, run_with_input, run_without_file};
 pub use system::{system, system_with_input};
 
 impl<T> Read<T> {
     /// Adds findings about the same file, without those that follow from an error in the same value.
     #[must_use]
     pub fn with(mut self, more: Findings) -> Self {
-        self.findings.join(more);
-        self.findings = self.findings.sorted();
+        self.add(more);
         self
+    }
+
+    /// Adds findings about the same file, without those that are known already or follow from an error in the same
+    /// value.
+    pub fn add(&mut self, more: Findings) {
+        self.findings.join(more);
+        self.findings.sort();
     }
 }
 

@@ -172,7 +172,7 @@ fn characteristics_of_connections(file: &SystemFile, findings: &mut Findings) {
         return;
     }
     for characteristic in file.characteristics.iter().filter(|one| !used.contains(&*one.id)) {
-        if findings.is_full() {
+        if findings.is_full_of(Severity::Warning) {
             return;
         }
         findings.warning(
@@ -218,7 +218,7 @@ fn functions_of_characteristics(file: &SystemFile, findings: &mut Findings) {
         .iter()
         .filter(|one| !used.contains(&*one.id))
     {
-        if findings.is_full() {
+        if findings.is_full_of(Severity::Warning) {
             return;
         }
         findings.warning(

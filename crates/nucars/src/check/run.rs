@@ -1,7 +1,9 @@
 //! Checks of run files.
 
-use crate::finding::Findings;
-use crate::read::Read;
+use crate::files::NotFound;
+use crate::finding::{Finding, Findings, Severity};
+use crate::read::{FileKind, Read};
+use crate::source::Spanned;
 use crate::tree::{Argument, InputFile, RunFile};
 
 /// Checks a run file's numbers.
@@ -58,7 +60,7 @@ pub fn run_with_input(read: &Read<RunFile>, input: &InputFile) -> Findings {
         return findings;
     };
     for history in &input.histories {
-        if findings.is_full() {
+        if findings.is_full_of(Severity::Warning) {
             break;
         }
         let Some(last) = history.segments.last() else {
@@ -85,6 +87,38 @@ pub fn run_with_input(read: &Read<RunFile>, input: &InputFile) -> Findings {
                 "make it a function of time: 1 as the third number of the history",
             ),
         }
+    }
+    findings
+}
+
+impl RunFile {
+    /// The name it gives to its file of this kind.
+    pub fn names(&self, kind: FileKind) -> Option<&Spanned<String>> {
+        match kind {
+            FileKind::System => self.system.as_ref(),
+            FileKind::Data => self.data.as_ref(),
+            FileKind::Input => self.input.as_ref(),
+            FileKind::Run => None,
+        }
+    }
+}
+
+/// The mistake of a run that names a file which is not there; `option` names it instead.
+pub fn run_without_file(read: &Read<RunFile>, kind: FileKind, missing: &NotFound, option: &str) -> Findings {
+    let mut findings = Findings::new(&read.source);
+    if let Some(name) = read.tree.names(kind) {
+        let mut help = match (&missing.nearest, missing.alike.as_slice()) {
+            (Some(near), []) => format!("did you mean '{near}'? "),
+            (Some(near), alike) if alike.len() <= 5 => {
+                format!("did you mean '{near}'? There are also {}. ", alike.join(", "))
+            }
+            (Some(near), _) => format!("did you mean '{near}'? "),
+            (None, _) => String::new(),
+        };
+        help += &format!("{option} takes another file without changing the run");
+        let dress = |finding: Finding| finding.label("not found").help(help);
+        let message = format!("the {kind} is missing: {missing}");
+        findings.add(Severity::Error, "missing-file", name.span, message, dress);
     }
     findings
 }

@@ -22,6 +22,8 @@ pub enum Wrap {
 /// Takes values from a section.
 pub struct Fields<'a, 'f> {
     pub cursor: Cursor<'a>,
+    /// Behind the token that was looked at last.
+    ahead: Cursor<'a>,
     pub findings: &'f mut Findings,
     text: &'a str,
     wrap: Wrap,
@@ -42,6 +44,7 @@ impl<'a, 'f> Fields<'a, 'f> {
         Fields {
             end: cursor.here(),
             cursor,
+            ahead: cursor,
             findings,
             text,
             wrap,
@@ -123,7 +126,8 @@ impl<'a, 'f> Fields<'a, 'f> {
 
     /// The token that is the next value.
     fn take(&mut self, what: &str) -> Result<Token, Stop> {
-        let Some(token) = self.cursor.peek() else {
+        self.ahead = self.cursor;
+        let Some(token) = self.ahead.next() else {
             let message = format!("{} ends before its {what}", self.name());
             let end = if self.start.is_some() {
                 self.end
@@ -173,8 +177,9 @@ impl<'a, 'f> Fields<'a, 'f> {
         }
     }
 
+    /// Goes behind the token that was looked at.
     fn accept(&mut self, token: Token) {
-        self.cursor.next();
+        self.cursor = self.ahead;
         self.start.get_or_insert(token.span);
         self.end = token.span;
         self.lacking = self.lacking.saturating_sub(1);
@@ -200,11 +205,20 @@ impl<'a, 'f> Fields<'a, 'f> {
             self.accept(token);
             return Ok(Spanned::new(value, token.span));
         }
+        self.bad = true;
+        if self.findings.is_full() {
+            // Spares the messages nobody sees.
+            self.findings.skip();
+            return self.instead(token, instead);
+        }
         let message = format!("`{}` is not {expected}", short(text));
         let label = format!("expected the {what} of {}", self.name());
         let help = self.advice(text, expected);
         self.error("value", token.span, message, &label, help);
-        self.bad = true;
+        self.instead(token, instead)
+    }
+
+    fn instead<T>(&mut self, token: Token, instead: T) -> Result<Spanned<T>, Stop> {
         if token.kind == TokenKind::Word {
             self.accept(token);
             Ok(Spanned::new(instead, token.span))

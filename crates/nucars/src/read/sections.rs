@@ -3,7 +3,7 @@
 use quantity::nearest;
 
 use super::FileKind;
-use crate::finding::Findings;
+use crate::finding::{Findings, Severity};
 use crate::lexer::Cursor;
 use crate::source::{Source, Span, Spanned};
 use crate::tree::{RawSection, Title};
@@ -107,7 +107,8 @@ pub fn required<'a>(
     findings: &mut Findings,
 ) -> Option<&'a Section> {
     let found = only(sections, keyword, findings);
-    if found.is_none() {
+    // A file without any keyword has one mistake, not one for each.
+    if found.is_none() && !sections.is_empty() {
         let off = sections.iter().find(|section| section.is(keyword));
         let place = off.map_or_else(
             || {
@@ -196,7 +197,10 @@ pub fn look_for_hidden(source: &Source, sections: &[Section], kind: FileKind, fi
         findings.error(
             "no-sections",
             Span::default(),
-            "there is no keyword in the file".to_owned(),
+            match source.text().trim() {
+                "" => "the file is empty".to_owned(),
+                _ => "there is no keyword in the file".to_owned(),
+            },
             format!(
                 "a {kind} has lines such as `\\{}`, with the `\\` in the first column",
                 kind.keywords()[0]
@@ -212,7 +216,7 @@ pub fn look_for_hidden(source: &Source, sections: &[Section], kind: FileKind, fi
             .count();
         let line = at - blank;
         let begins = line == 0 || bytes[line - 1] == b'\n';
-        if blank > 0 && begins && findings.list().len() < 20 {
+        if blank > 0 && begins && !findings.is_full_of(Severity::Warning) {
             findings.warning(
                 "hidden-keyword",
                 Span::new(at, at + 1),
@@ -241,6 +245,9 @@ pub fn lines(source: &Source, span: Span) -> Vec<Spanned<String>> {
 /// The title section: its first line is the title, the others are notes.
 pub fn title(sections: &[Section], keyword: &str, source: &Source, findings: &mut Findings) -> Title {
     let Some(section) = only(sections, keyword, findings) else {
+        if sections.is_empty() {
+            return Title::default();
+        }
         let place = sections
             .first()
             .map_or(Span::default(), |first| first.keyword.span);

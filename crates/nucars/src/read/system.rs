@@ -102,14 +102,9 @@ fn counted<T>(
     let mut lost = false;
     let mut seen: u32 = 0;
     while count_is_bad || seen < *count {
-        if !begins_named(&mut fields.cursor.clone(), fields.text()) {
-            let ends = fields
-                .cursor
-                .peek()
-                .is_none_or(|token| !begins_like_a_record(&fields, token.span.start));
-            if ends {
-                break;
-            }
+        let next = fields.cursor.peek();
+        if next.is_none_or(|token| !begins_like_a_record(&fields, token.span.start)) {
+            break;
         }
         seen += 1;
         fields.begin(one, seen, 1);

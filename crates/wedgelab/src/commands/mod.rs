@@ -2,6 +2,7 @@
 
 pub mod case;
 pub mod compare;
+pub mod nucars;
 pub mod plot;
 pub mod quasi_static;
 pub mod reproduce;

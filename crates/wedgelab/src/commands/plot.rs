@@ -15,7 +15,7 @@ use crate::failure::{Failure, Message};
 /// Draw any column of a result over any other
 ///
 /// Takes the result of a run (its folder or its result.csv) or another CSV file with columns such as time_s, wedge_x_in, and
-/// writes an SVG file. Several columns with one unit share their axes; each unit has its own.
+/// writes an SVG or PNG file. Several columns with one unit share their axes; each unit has its own.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -31,7 +31,7 @@ pub struct Arguments {
     /// Columns along the vertical axis
     #[arg(long, value_name = "NAME", num_args = 1.., required = true)]
     y: Vec<String>,
-    /// File to write, ending in .svg [default: Y_over_X.svg]
+    /// File to write, ending in .svg or .png [default: Y_over_X.svg]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Overwrite an existing file
@@ -58,8 +58,11 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             PathBuf::from(format!("{y}_over_{x}.svg"))
         }
     };
-    let Some(name) = drawn(&file) else {
-        let message = format!("`{}` is no name for a figure: figures are SVG", file.display());
+    let Some((name, picture)) = drawn(&file) else {
+        let message = format!(
+            "`{}` is no name for a figure: figures are SVG or PNG",
+            file.display()
+        );
         let advice = format!("write --out {}", file.with_extension("svg").display());
         return Err(Message::new(message, advice).into());
     };
@@ -69,14 +72,24 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     let folder =
         Folder::check(folder, &[name], arguments.force).map_err(|error| Failure::Input(error.into()))?;
-    folder.write(|files| files.add(name, |out| out.write_all(figure.to_svg().as_bytes())))?;
+    let bytes = if picture {
+        let png = figure.to_png();
+        png.map_err(|reason| Failure::Failed(Message::new(format!("cannot draw: {reason}"), "").into()))?
+    } else {
+        figure.to_svg().into_bytes()
+    };
+    folder.write(|files| files.add(name, |out| out.write_all(&bytes)))?;
     writeln!(io::stdout().lock(), "Written: {}.", file.display())?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// The name of a file that can be drawn.
-fn drawn(file: &Path) -> Option<&str> {
-    let ending = file.extension()?.to_str()?;
+/// The name of a file that can be drawn, and whether it is a picture (PNG) rather than a drawing (SVG).
+fn drawn(file: &Path) -> Option<(&str, bool)> {
+    let ending = file.extension()?.to_str()?.to_ascii_lowercase();
     let name = file.file_name()?.to_str()?;
-    ending.eq_ignore_ascii_case("svg").then_some(name)
+    match ending.as_str() {
+        "svg" => Some((name, false)),
+        "png" => Some((name, true)),
+        _ => None,
+    }
 }
