@@ -58,8 +58,29 @@ pub enum Motion {
     },
     /// A cubic spline (C²) through tabulated points.
     Table(Spline),
+    /// Peaks `amplitude · exp(-|t - c| / decay)` around the middles c of periods of `spacing`, the first of which begins at zero.
+    Cusps {
+        /// Height of the peaks (m or rad).
+        amplitude: f64,
+        /// Time in which a peak falls to 1/e (s).
+        decay: f64,
+        /// Time from peak to peak (s).
+        spacing: f64,
+    },
+    /// Motions one after the other, each from its own start. Before the first one its value at its start is held; values
+    /// may jump.
+    Sequence(Vec<Piece>),
     /// The sum of motions.
     Sum(Vec<Motion>),
+}
+
+/// A piece of a [`Motion::Sequence`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Piece {
+    /// When it begins (s); the motion's own time begins there too.
+    pub start: f64,
+    /// The motion.
+    pub motion: Motion,
 }
 
 /// The shape of a ramp.
@@ -70,6 +91,8 @@ pub enum RampProfile {
     Smooth,
     /// Constant rate; the rate jumps at both ends.
     Linear,
+    /// `(1 - cos πs) / 2`: the rate is zero at both ends, the acceleration jumps.
+    HalfCosine,
 }
 
 /// Value, first and second derivative by time.
@@ -134,6 +157,16 @@ impl Motion {
                 }
                 let s = (time - *start) * (1.0 / duration);
                 match profile {
+                    RampProfile::HalfCosine => {
+                        let w = std::f64::consts::PI / duration;
+                        let (sine, cosine) = (s * std::f64::consts::PI).sin_cos();
+                        let half = 0.5 * amplitude;
+                        [
+                            (S::from(1.0) - cosine) * half,
+                            sine * (half * w),
+                            cosine * (half * w * w),
+                        ]
+                    }
                     RampProfile::Linear => [s * *amplitude, S::from(amplitude / duration), S::zero()],
                     RampProfile::Smooth => {
                         let s2 = s * s;
@@ -147,6 +180,30 @@ impl Motion {
                 }
             }
             Self::Table(spline) => spline.evaluate(time),
+            Self::Cusps {
+                amplitude,
+                decay,
+                spacing,
+            } => {
+                let middle = ((reference / spacing).floor() + 0.5) * spacing;
+                let sign = if reference < middle { 1.0 } else { -1.0 };
+                let value = ((time - middle) * (sign / decay)).exp() * *amplitude;
+                [value, value * (sign / decay), value * (1.0 / (decay * decay))]
+            }
+            Self::Sequence(pieces) => {
+                let number = pieces.partition_point(|piece| piece.start <= reference);
+                match (
+                    number.checked_sub(1).and_then(|number| pieces.get(number)),
+                    pieces.first(),
+                ) {
+                    (Some(piece), _) => piece.motion.evaluate(time - piece.start, reference - piece.start),
+                    (None, Some(first)) => {
+                        let [value, ..] = first.motion.evaluate(0.0, 0.0);
+                        [S::from(value), S::zero(), S::zero()]
+                    }
+                    (None, None) => [S::zero(); 3],
+                }
+            }
             Self::Sum(motions) => {
                 let mut sum = [S::zero(); 3];
                 for motion in motions {
@@ -182,11 +239,55 @@ impl Motion {
             Self::Ramp { start, duration, .. } => [*start, start + duration]
                 .into_iter()
                 .find(|corner| *corner > time),
+            Self::Cusps { spacing, .. } => {
+                let mut n = (2.0 * time / spacing).floor();
+                loop {
+                    n += 1.0;
+                    let corner = 0.5 * n * spacing;
+                    if corner > time {
+                        return Some(corner);
+                    }
+                }
+            }
+            Self::Sequence(pieces) => {
+                let number = pieces.partition_point(|piece| piece.start <= time);
+                let next = pieces.get(number).map(|piece| piece.start);
+                let own = number
+                    .checked_sub(1)
+                    .and_then(|number| pieces.get(number))
+                    .and_then(|piece| {
+                        let within = piece.motion.next_break(time - piece.start)?;
+                        Some(within + piece.start).filter(|corner| *corner > time)
+                    });
+                [next, own].into_iter().flatten().min_by(f64::total_cmp)
+            }
             Self::Sum(motions) => motions
                 .iter()
                 .filter_map(|motion| motion.next_break(time))
                 .min_by(f64::total_cmp),
             Self::Constant(_) | Self::Sine { .. } | Self::Table(_) => None,
+        }
+    }
+
+    /// The motion times a factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mut scaled = self.clone();
+        scaled.scale(factor);
+        scaled
+    }
+
+    fn scale(&mut self, factor: f64) {
+        match self {
+            Self::Constant(amplitude)
+            | Self::Sine { amplitude, .. }
+            | Self::Triangle { amplitude, .. }
+            | Self::SweptSine { amplitude, .. }
+            | Self::Ramp { amplitude, .. }
+            | Self::Cusps { amplitude, .. } => *amplitude *= factor,
+            Self::Table(spline) => *spline = spline.scaled(factor),
+            Self::Sequence(pieces) => pieces.iter_mut().for_each(|piece| piece.motion.scale(factor)),
+            Self::Sum(motions) => motions.iter_mut().for_each(|motion| motion.scale(factor)),
         }
     }
 
@@ -196,6 +297,11 @@ impl Motion {
         match self {
             Self::Constant(_) => true,
             Self::Sum(motions) => motions.iter().all(Self::is_constant),
+            Self::Sequence(pieces) => match pieces.as_slice() {
+                [] => true,
+                [only] => only.motion.is_constant(),
+                _ => false,
+            },
             _ => false,
         }
     }

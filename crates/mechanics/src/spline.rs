@@ -105,6 +105,17 @@ impl Spline {
         self.abscissae.iter().copied().zip(self.ordinates.iter().copied())
     }
 
+    /// The spline with all ordinates times a factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let times = |values: &[f64]| values.iter().map(|value| value * factor).collect();
+        Self {
+            abscissae: self.abscissae.clone(),
+            ordinates: times(&self.ordinates),
+            curvatures: times(&self.curvatures),
+        }
+    }
+
     /// Value, first and second derivative.
     #[must_use]
     pub fn evaluate<S: Real>(&self, x: S) -> [S; 3] {

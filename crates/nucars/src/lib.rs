@@ -7,6 +7,7 @@
 //! - [`check`]: what a tree lacks or contradicts, alone and together with the files it belongs to,
 //! - [`show`]: a system as tables,
 //! - [`files`]: finding the files that a run names,
+//! - [`truck`]: a system and its inputs as a model that can be run,
 //! - [`builtin`]: the half-truck of Steets (2007), appendices A and B.
 //!
 //! The program's manual is not public. The grammar and the meaning of the values follow the files printed in R. Steets,
@@ -45,6 +46,7 @@ pub mod read;
 pub mod show;
 pub mod source;
 pub mod tree;
+pub mod truck;
 pub mod write;
 
 pub use finding::{FileErrors, Finding, Findings, Severity};

@@ -1,0 +1,479 @@
+//! The model of a system file.
+
+use std::collections::HashMap;
+
+use mechanics::motion::Motion;
+use mechanics::small::{
+    Accumulator, Body, Column, Connection, Curve, CurveError, GapDamper, Law, Model, SpringDamper,
+    SurfaceFriction, Wedge,
+};
+use thiserror::Error;
+
+use super::choices::Choices;
+use super::convert::{DEGREE, INCH, INERTIA, MASS, POUND, factors};
+use super::history::motion;
+use super::yaw::intended_yaw;
+use crate::source::Spanned;
+use crate::tree::{self, Dof, Element, InputFile, SystemFile, Toe};
+
+/// Standard gravity, m/s², which is the files' 386.09 in/s².
+const GRAVITY: f64 = 9.806_65;
+
+/// Why files make no model. Checking the files ([`check`](crate::check)) tells most of these with their places.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum BuildError {
+    /// A reference leads nowhere.
+    #[error("{by} refers to {what} {number}, which is not there; `wedgelab nucars check` shows where")]
+    Missing {
+        /// What refers to it.
+        by: String,
+        /// What kind of thing is missing.
+        what: &'static str,
+        /// Its number.
+        number: u32,
+    },
+    /// A characteristic does not serve the element that names it.
+    #[error("characteristic {number} has the values of another type than {by}")]
+    WrongCharacteristic {
+        /// What refers to it.
+        by: String,
+        /// Its number.
+        number: u32,
+    },
+    /// A flexible freedom.
+    #[error("{by} has the flexible degree of freedom {dof}; bodies are rigid here")]
+    Flexible {
+        /// The body or connection.
+        by: String,
+        /// The freedom.
+        dof: Dof,
+    },
+    /// A function makes no curve.
+    #[error("function {number}: {error}")]
+    Function {
+        /// Its number.
+        number: u32,
+        /// Why.
+        error: CurveError,
+    },
+    /// Something needs a speed along the track.
+    #[error("{what}, which needs a speed along the track: give one with --speed")]
+    NoSpeed {
+        /// What needs it.
+        what: String,
+    },
+}
+
+/// A model with the numbers that the files give to its parts.
+#[derive(Clone, Debug)]
+pub struct Truck {
+    /// The model.
+    pub model: Model,
+    /// For each of the model's bodies its number in the file; 0 is the ground.
+    pub bodies: Vec<u32>,
+    /// For each of the model's connections its number in the file.
+    pub connections: Vec<u32>,
+    /// Numbers of connections that were left out for the intended yaw.
+    pub left_out: Vec<u32>,
+}
+
+impl Truck {
+    /// The model of a system file; without an input file its input bodies rest.
+    ///
+    /// # Errors
+    /// [`BuildError`]: what a check of the files would have told with its place.
+    pub fn new(
+        system: &SystemFile,
+        input: Option<&InputFile>,
+        choices: &Choices,
+    ) -> Result<Self, BuildError> {
+        let mut bodies = vec![Body::ground()];
+        let mut numbers = vec![0];
+        for body in &system.bodies {
+            bodies.push(free_body(body)?);
+            numbers.push(*body.id);
+        }
+        for body in &system.input_bodies {
+            bodies.push(input_body(body, input, choices)?);
+            numbers.push(*body.id);
+        }
+        let places: HashMap<u32, usize> = numbers.iter().copied().zip(0..).collect();
+        let mut connections = Vec::new();
+        for own in &system.connections {
+            let by = || format!("connection {}", own.id);
+            let body = |number: u32| {
+                places.get(&number).copied().ok_or_else(|| BuildError::Missing {
+                    by: by(),
+                    what: "body",
+                    number,
+                })
+            };
+            connections.push(Connection {
+                name: own.name.trim().to_owned(),
+                a: body(*own.body_a)?,
+                b: body(*own.body_b)?,
+                point: point(&own.position),
+                law: Laws { system, by: by() }.law(&own.element)?,
+            });
+        }
+        let mut ids: Vec<u32> = system.connections.iter().map(|own| *own.id).collect();
+        let mut model = Model {
+            bodies,
+            connections,
+            gravity: GRAVITY,
+            options: choices.elements.clone(),
+        };
+        let dropped = intended_yaw(&mut model, choices.yaw);
+        let left_out: Vec<u32> = dropped.iter().map(|number| ids[*number]).collect();
+        ids.retain(|id| !left_out.contains(id));
+        Ok(Self {
+            model,
+            bodies: numbers,
+            connections: ids,
+            left_out,
+        })
+    }
+
+    /// The place in the model of the body with this number in the file.
+    #[must_use]
+    pub fn body(&self, number: u32) -> Option<usize> {
+        self.bodies.iter().position(|own| *own == number)
+    }
+
+    /// The place in the model of the connection with this number in the file.
+    #[must_use]
+    pub fn connection(&self, number: u32) -> Option<usize> {
+        self.connections.iter().position(|own| *own == number)
+    }
+
+    /// The places of the friction wedges in the model.
+    pub fn wedges(&self) -> impl Iterator<Item = usize> + '_ {
+        let all = self.model.connections.iter().enumerate();
+        all.filter_map(|(place, connection)| matches!(connection.law, Law::Wedge(_)).then_some(place))
+    }
+}
+
+fn point(position: &[Spanned<f64>; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| *position[k] * INCH)
+}
+
+/// The coordinate (0 to 5) of a degree of freedom.
+fn coordinate(dof: Dof, by: &str) -> Result<usize, BuildError> {
+    if dof.kind.is_flexible() {
+        return Err(BuildError::Flexible {
+            by: by.to_owned(),
+            dof,
+        });
+    }
+    Ok(dof.kind as usize)
+}
+
+fn free_body(body: &tree::Body) -> Result<Body, BuildError> {
+    let by = format!("body {}", body.id);
+    let mut free = [false; 6];
+    for dof in &body.dofs {
+        free[coordinate(**dof, &by)?] = true;
+    }
+    let inertia = [0, 1, 2].map(|k| *body.inertia[k] * INERTIA);
+    Ok(Body::free(
+        body.name.trim(),
+        point(&body.position),
+        free,
+        *body.mass * MASS,
+        inertia,
+    ))
+}
+
+fn input_body(
+    body: &tree::InputBody,
+    input: Option<&InputFile>,
+    choices: &Choices,
+) -> Result<Body, BuildError> {
+    let by = format!("input body {}", body.id);
+    let position = point(&body.position);
+    let mut motions: [Motion; 6] = std::array::from_fn(|_| Motion::Constant(0.0));
+    // The first axle is at x = 0; what lies behind it comes there later.
+    let delay = if *body.lag {
+        let speed = choices.speed.ok_or(BuildError::NoSpeed {
+            what: format!("{by} has a lag"),
+        })?;
+        -position[0] / speed
+    } else {
+        0.0
+    };
+    for (dof, number) in body.dofs.iter().zip(&body.histories) {
+        let coordinate = coordinate(**dof, &by)?;
+        let Some(input) = input else { continue };
+        let history = input.history(**number).ok_or_else(|| BuildError::Missing {
+            by: by.clone(),
+            what: "history",
+            number: **number,
+        })?;
+        let (factor, _) = factors(coordinate);
+        motions[coordinate] = motion(history, choices, factor, delay)?;
+    }
+    Ok(Body::prescribed(body.name.trim(), position, motions))
+}
+
+/// The laws of one connection.
+struct Laws<'s> {
+    system: &'s SystemFile,
+    by: String,
+}
+
+impl Laws<'_> {
+    fn characteristic(&self, number: u32) -> Result<&tree::Law, BuildError> {
+        let found = self
+            .system
+            .characteristic(number)
+            .ok_or_else(|| BuildError::Missing {
+                by: self.by.clone(),
+                what: "characteristic",
+                number,
+            })?;
+        Ok(&found.law)
+    }
+
+    /// A function with its abscissae and ordinates times factors; none if its number is 0.
+    fn curve(&self, number: u32, (x, y): (f64, f64)) -> Result<Option<Curve>, BuildError> {
+        if number == 0 {
+            return Ok(None);
+        }
+        let function = self.system.function(number).ok_or_else(|| BuildError::Missing {
+            by: self.by.clone(),
+            what: "function",
+            number,
+        })?;
+        let points = function.points().map(|(own_x, own_y)| [own_x * x, own_y * y]);
+        Curve::mirrored_from_origin(points.collect())
+            .map(Some)
+            .map_err(|error| BuildError::Function { number, error })
+    }
+
+    fn wrong(&self, number: u32) -> BuildError {
+        BuildError::WrongCharacteristic {
+            by: self.by.clone(),
+            number,
+        }
+    }
+
+    fn law(&self, element: &Element) -> Result<Law, BuildError> {
+        Ok(match element {
+            Element::Parallel(single) => {
+                Law::Springs(vec![self.spring(*single.dof, *single.characteristic)?])
+            }
+            Element::ParallelGroup(group) | Element::CoilGroup(group) => Law::Springs(
+                group
+                    .dofs
+                    .iter()
+                    .zip(&group.characteristics)
+                    .map(|(dof, number)| self.spring(**dof, **number))
+                    .collect::<Result<_, _>>()?,
+            ),
+            Element::Gap(single) => self.gap(*single.dof, *single.characteristic)?,
+            Element::SurfaceFriction(triple) => self.surface(triple)?,
+            Element::ViscousWedge(pair) | Element::ViscousToeWedge(pair) | Element::StickSlipWedge(pair) => {
+                Law::Wedge(self.wedge(*pair.characteristic)?)
+            }
+            Element::StickSlipWedge3d(triple) => Law::Wedge(self.wedge(*triple.characteristic)?),
+        })
+    }
+
+    fn spring(&self, dof: Dof, number: u32) -> Result<(usize, SpringDamper), BuildError> {
+        let coordinate = coordinate(dof, &self.by)?;
+        let tree::Law::Limits {
+            stiffness,
+            damping,
+            extension,
+            compression,
+        } = self.characteristic(number)?
+        else {
+            return Err(self.wrong(number));
+        };
+        let factors = factors(coordinate);
+        Ok((
+            coordinate,
+            SpringDamper {
+                spring: self.curve(**stiffness, factors)?,
+                damper: self.curve(**damping, factors)?,
+                compression_limit: **compression * factors.1,
+                extension_limit: **extension * factors.1,
+            },
+        ))
+    }
+
+    fn gap(&self, dof: Dof, number: u32) -> Result<Law, BuildError> {
+        let coordinate = coordinate(dof, &self.by)?;
+        let tree::Law::Gap {
+            stiffness,
+            damping,
+            high,
+            low,
+        } = self.characteristic(number)?
+        else {
+            return Err(self.wrong(number));
+        };
+        let factors = factors(coordinate);
+        let gap = GapDamper {
+            spring: self.curve(**stiffness, factors)?,
+            damper: self.curve(**damping, factors)?,
+            low: **low * factors.0,
+            high: **high * factors.0,
+        };
+        Ok(Law::Gap(coordinate, gap))
+    }
+
+    fn surface(&self, triple: &tree::Triple) -> Result<Law, BuildError> {
+        let number = *triple.characteristic;
+        let tree::Law::SurfaceFriction {
+            normal,
+            damping,
+            stiffness,
+            bristle_damping,
+            friction,
+        } = self.characteristic(number)?
+        else {
+            return Err(self.wrong(number));
+        };
+        let mut coordinates = [0; 3];
+        for (place, dof) in coordinates.iter_mut().zip(&triple.dofs) {
+            *place = coordinate(**dof, &self.by)?;
+        }
+        let both = (INCH, POUND);
+        Ok(Law::Surface(SurfaceFriction {
+            coordinates,
+            spring: self
+                .curve(**normal, both)?
+                .unwrap_or_else(|| Curve::constant(0.0)),
+            damper: self.curve(**damping, both)?,
+            coefficient: **friction,
+            accumulator: bristle(**stiffness, **bristle_damping),
+        }))
+    }
+
+    fn wedge(&self, number: u32) -> Result<Wedge, BuildError> {
+        let both = (INCH, POUND);
+        let coil = |number: u32| Ok(self.curve(number, both)?.unwrap_or_else(|| Curve::constant(0.0)));
+        Ok(match self.characteristic(number)? {
+            tree::Law::ViscousWedge {
+                coil: function,
+                angle,
+                force,
+                viscosity,
+                friction,
+                ..
+            } => Wedge {
+                angle: **angle * DEGREE,
+                coil: coil(**function)?,
+                preload: **force * POUND,
+                coil_in_bolster: **function == 0,
+                column: Column::Plain { toe_out: true },
+                slope_friction: **friction,
+                column_friction: **friction,
+                accumulator: viscous(**viscosity),
+                normal_limit: f64::INFINITY,
+            },
+            tree::Law::ViscousToeWedge {
+                coil: function,
+                angle,
+                force,
+                viscosity,
+                slope_friction,
+                column_friction,
+                toe,
+                ..
+            } => Wedge {
+                angle: **angle * DEGREE,
+                coil: coil(**function)?,
+                preload: **force * POUND,
+                coil_in_bolster: **function == 0,
+                column: Column::Plain {
+                    toe_out: **toe == Toe::Out,
+                },
+                slope_friction: **slope_friction,
+                column_friction: **column_friction,
+                accumulator: viscous(**viscosity),
+                normal_limit: f64::INFINITY,
+            },
+            tree::Law::StickSlipWedge {
+                coil: function,
+                angle,
+                force,
+                stiffness,
+                bristle_damping,
+                slope_friction,
+                column_friction,
+                toe,
+                normal_limit,
+                ..
+            } => Wedge {
+                angle: **angle * DEGREE,
+                coil: coil(**function)?,
+                preload: **force * POUND,
+                coil_in_bolster: **function == 0,
+                column: Column::Plain {
+                    toe_out: **toe == Toe::Out,
+                },
+                slope_friction: **slope_friction,
+                column_friction: **column_friction,
+                accumulator: bristle(**stiffness, **bristle_damping),
+                normal_limit: **normal_limit * POUND,
+            },
+            tree::Law::StickSlipWedge3d {
+                coil: function,
+                face,
+                angle,
+                variable,
+                stiffness,
+                bristle_damping,
+                slope_friction,
+                column_friction,
+                direction,
+                normal_limit,
+            } => Wedge {
+                angle: **angle * DEGREE,
+                coil: coil(**function)?,
+                preload: 0.0,
+                coil_in_bolster: !**variable,
+                column: Column::Profile {
+                    depth: self.profile(**face)?,
+                    direction: **direction,
+                },
+                slope_friction: **slope_friction,
+                column_friction: **column_friction,
+                accumulator: bristle(**stiffness, **bristle_damping),
+                normal_limit: **normal_limit * POUND,
+            },
+            _ => return Err(self.wrong(number)),
+        })
+    }
+
+    /// The depth of a column face over the vertical stroke, both lengths. A face is never mirrored.
+    fn profile(&self, number: u32) -> Result<Curve, BuildError> {
+        if number == 0 {
+            return Ok(Curve::constant(0.0));
+        }
+        let function = self.system.function(number).ok_or_else(|| BuildError::Missing {
+            by: self.by.clone(),
+            what: "function",
+            number,
+        })?;
+        let points = function
+            .points()
+            .map(|(stroke, depth)| [stroke * INCH, depth * INCH]);
+        Curve::new(points.collect()).map_err(|error| BuildError::Function { number, error })
+    }
+}
+
+fn bristle(stiffness: f64, damping: f64) -> Accumulator {
+    Accumulator::Bristle {
+        stiffness: stiffness * POUND / INCH,
+        damping: damping * POUND / INCH,
+    }
+}
+
+fn viscous(damping: f64) -> Accumulator {
+    Accumulator::Viscous {
+        damping: damping * POUND / INCH,
+    }
+}

@@ -1,0 +1,129 @@
+//! Runs of the half-truck of the comparison program's files.
+//!
+//! [`catalog`] lists the thesis's runs. [`TruckCase`] is a model made from files with what a run needs besides, [`run`](run::run) runs it, [`requests`] holds what a
+//! data file asks for, and [`TruckResult`] what came out.
+
+pub mod catalog;
+pub mod requests;
+pub mod run;
+mod table;
+
+use std::collections::BTreeMap;
+
+use integrate::Statistics;
+use mechanics::output::Column;
+use nucars::truck::Truck;
+use quantity::System as Units;
+use serde::{Deserialize, Serialize};
+
+use crate::summary::{Measure, Stopped};
+use requests::Request;
+
+/// How a run begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TruckStart {
+    /// At rest in the drawn layout.
+    #[default]
+    Drawn,
+    /// At rest in static equilibrium without friction, the input bodies where they are at time zero.
+    Equilibrium,
+}
+
+/// A run to be made.
+#[derive(Clone, Debug)]
+pub struct TruckCase {
+    /// Its name: results go into a folder of that name.
+    pub name: String,
+    /// One line for people.
+    pub title: String,
+    /// The model.
+    pub truck: Truck,
+    /// What it rests on, in words.
+    pub assumptions: Vec<String>,
+    /// What is written besides time, wedges and energies.
+    pub requests: Vec<Request>,
+    /// How it begins.
+    pub start: TruckStart,
+    /// How long it is, s.
+    pub duration: f64,
+    /// Time between two rows, s.
+    pub interval: f64,
+    /// Relative tolerance of the integrator.
+    pub relative_tolerance: f64,
+    /// Units of the results.
+    pub units: Units,
+}
+
+/// What came out of a run.
+#[derive(Clone, Debug)]
+pub struct TruckResult {
+    /// The columns of the table.
+    pub columns: Vec<Column>,
+    /// The values (SI), one vector a column.
+    pub values: Vec<Vec<f64>>,
+    /// The summary.
+    pub summary: TruckSummary,
+}
+
+impl TruckResult {
+    /// The values (SI) of the column with this name (without unit).
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let index = self.columns.iter().position(|column| column.name == name)?;
+        Some(&self.values[index])
+    }
+}
+
+/// The schema's name and version.
+pub const SCHEMA: &str = "wedgelab.truck/1";
+
+/// The summary of a half-truck's run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TruckSummary {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Version of the program that wrote it.
+    pub program: String,
+    /// The case's name.
+    pub name: String,
+    /// The case's title.
+    pub title: String,
+    /// Units of the numbers.
+    pub units: Units,
+    /// Whether the run came to its end.
+    pub complete: bool,
+    /// Why and when it stopped, if it did not.
+    pub stopped: Option<Stopped>,
+    /// Number of rows.
+    pub rows: usize,
+    /// Each wedge, by its number in the file.
+    pub wedges: BTreeMap<String, WedgeSummary>,
+    /// Largest displacements (without sign) of the free bodies, by `body_NUMBER_COORDINATE`.
+    pub largest_displacements: BTreeMap<String, Measure>,
+    /// Entries of the energy ledger at the end.
+    pub ledger: BTreeMap<String, Measure>,
+    /// Largest residual of the ledger at any output time, over the largest work done by the input bodies.
+    pub largest_relative_residual: f64,
+    /// Steps and calls of the integrator.
+    pub statistics: Statistics,
+    /// Its relative tolerance.
+    pub relative_tolerance: f64,
+    /// What the numbers rest on.
+    pub assumptions: Vec<String>,
+}
+
+/// A wedge's averages.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct WedgeSummary {
+    /// Friction energy at the column per cycle of the vertical input, over whole cycles after the first half period.
+    pub energy_per_cycle: Option<Measure>,
+    /// Mean of the column's friction on the side frame (positive up) while the bolster goes up.
+    pub up: Option<Measure>,
+    /// The same while it goes down.
+    pub down: Option<Measure>,
+    /// Largest normal force of the column.
+    pub largest_normal_force: Option<Measure>,
+    /// Share of the output times at which it is jammed.
+    pub jammed: f64,
+}

@@ -1,0 +1,231 @@
+//! Running a half-truck.
+
+use std::collections::BTreeMap;
+
+use integrate::{Integrator, Options, SetupError};
+use mechanics::motion::Motion;
+use mechanics::small::{COORDINATES, Kind as BodyKind, ModelError, StaticFriction, System};
+use mechanics::system::NoEquilibrium;
+use quantity::Kind;
+use thiserror::Error;
+
+use super::table::{Table, input_motion};
+use super::{SCHEMA, TruckCase, TruckResult, TruckStart, TruckSummary, WedgeSummary};
+use crate::metrics::{Cycle, mean};
+use crate::run::MAXIMUM_STEPS;
+use crate::summary::{Measure, Stopped};
+
+/// Why a run cannot begin.
+#[derive(Debug, Error)]
+pub enum TruckError {
+    /// The files make no system.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// There is no equilibrium to start from.
+    #[error("no static equilibrium was found to start from: {0}")]
+    Equilibrium(#[from] NoEquilibrium),
+    /// The integrator cannot be set up.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+}
+
+/// The state at the start.
+///
+/// # Errors
+/// There is no equilibrium.
+pub fn start(system: &mut System, start: TruckStart) -> Result<Vec<f64>, NoEquilibrium> {
+    let drawn = system.initial_state();
+    match start {
+        TruckStart::Drawn => Ok(drawn),
+        TruckStart::Equilibrium => system.equilibrium(0.0, &drawn, StaticFriction::Without),
+    }
+}
+
+/// Runs a half-truck to its end; a run that cannot go on gives an incomplete result with the reason.
+///
+/// # Errors
+/// The run cannot begin.
+pub fn run(case: &TruckCase, mut progress: impl FnMut(f64)) -> Result<TruckResult, TruckError> {
+    let mut system = System::new(case.truck.model.clone())?;
+    let x = start(&mut system, case.start)?;
+    let start_energy = system.observe(0.0, &x).energies.total();
+    let table = Table::new(&case.truck, &system, &case.requests, start_energy);
+    let options = Options {
+        relative_tolerance: case.relative_tolerance,
+        maximum_steps: MAXIMUM_STEPS,
+        ..Options::default()
+    };
+    let mut integrator = Integrator::new(system.clone(), options, 0.0, &x)?;
+    let mut values = vec![Vec::new(); table.columns.len()];
+    table.read(&system.observe(0.0, &x), &mut values);
+    let count = (case.duration / case.interval * (1.0 + 1e-12)).floor() as u64;
+    let mut row = 1;
+    let mut buffer = x;
+    let mut stopped = None;
+    while row <= count {
+        if let Err(error) = integrator.step_to(case.duration) {
+            stopped = Some(Stopped {
+                time: integrator.time(),
+                reason: error.to_string(),
+                contacts: BTreeMap::new(),
+            });
+            break;
+        }
+        system.segment_like(integrator.problem());
+        while row <= count {
+            let time = (row as f64 * case.interval).min(case.duration);
+            if time > integrator.time() {
+                break;
+            }
+            integrator.interpolate(time, &mut buffer);
+            table.read(&system.observe(time, &buffer), &mut values);
+            row += 1;
+        }
+        progress(integrator.time());
+    }
+    let mut result = TruckResult {
+        columns: table.columns,
+        values,
+        summary: TruckSummary {
+            schema: SCHEMA.to_owned(),
+            program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
+            name: case.name.clone(),
+            title: case.title.clone(),
+            units: case.units,
+            complete: stopped.is_none(),
+            stopped,
+            rows: 0,
+            wedges: BTreeMap::new(),
+            largest_displacements: BTreeMap::new(),
+            ledger: BTreeMap::new(),
+            largest_relative_residual: 0.0,
+            statistics: integrator.statistics().clone(),
+            relative_tolerance: case.relative_tolerance,
+            assumptions: case.assumptions.clone(),
+        },
+    };
+    summarize(case, &system, &mut result);
+    Ok(result)
+}
+
+/// The cycle of the vertical input, if it is one sine.
+fn cycle(case: &TruckCase) -> Option<Cycle> {
+    match input_motion(&case.truck.model)? {
+        Motion::Sine {
+            amplitude,
+            angular_frequency,
+            ..
+        } => Some(Cycle {
+            amplitude: amplitude.abs(),
+            angular_frequency: angular_frequency.abs(),
+            peak_speed: (amplitude * angular_frequency).abs(),
+            middle: 0.0,
+        }),
+        _ => None,
+    }
+}
+
+fn summarize(case: &TruckCase, system: &System, result: &mut TruckResult) {
+    let units = case.units;
+    let times = result.column("time").unwrap_or_default().to_vec();
+    let mut wedges = BTreeMap::new();
+    for place in case.truck.wedges() {
+        let number = case.truck.connections[place];
+        wedges.insert(number.to_string(), wedge(case, result, &times, place, number));
+    }
+    let mut largest = BTreeMap::new();
+    for (place, number) in case.truck.bodies.iter().enumerate() {
+        let BodyKind::Free { free, .. } = &case.truck.model.bodies[place].kind else {
+            continue;
+        };
+        for (coordinate, name) in COORDINATES.iter().enumerate().filter(|(k, _)| free[*k]) {
+            let column = format!("body_{number}_{name}");
+            let Some(values) = result.column(&column) else {
+                continue;
+            };
+            let most = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+            let kind = if coordinate < 3 { Kind::Length } else { Kind::Angle };
+            largest.insert(column, Measure::new(most, kind, units));
+        }
+    }
+    let mut ledger = BTreeMap::new();
+    let names = [
+        "kinetic_energy",
+        "gravity_energy",
+        "spring_energy",
+        "coil_energy",
+        "accumulator_energy",
+        "ledger_residual",
+    ];
+    let channels = system.channels().iter().map(|channel| channel.name());
+    for name in names.into_iter().chain(channels) {
+        if let Some(last) = result.column(name).and_then(<[f64]>::last) {
+            ledger.insert(name.to_owned(), Measure::new(*last, Kind::Energy, units));
+        }
+    }
+    let most = |name: &str| {
+        let values = result.column(name).unwrap_or_default();
+        values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+    };
+    let (residual, work) = (most("ledger_residual"), most("input_work"));
+    let summary = &mut result.summary;
+    summary.rows = times.len();
+    summary.wedges = wedges;
+    summary.largest_displacements = largest;
+    summary.ledger = ledger;
+    summary.largest_relative_residual = if work > 0.0 { residual / work } else { 0.0 };
+}
+
+fn wedge(case: &TruckCase, result: &TruckResult, times: &[f64], place: usize, number: u32) -> WedgeSummary {
+    use mechanics::small::Law;
+    use wedge::parameters::Damping;
+
+    let units = case.units;
+    let column = |what: &str| {
+        let values = result.column(&format!("wedge_{number}_{what}"));
+        values.unwrap_or_default()
+    };
+    let jammed = column("jammed");
+    let normal = column("column_normal_force");
+    let mut summary = WedgeSummary {
+        jammed: jammed.iter().sum::<f64>() / jammed.len().max(1) as f64,
+        largest_normal_force: normal
+            .iter()
+            .copied()
+            .max_by(f64::total_cmp)
+            .map(|most| Measure::new(most, Kind::Force, units)),
+        ..WedgeSummary::default()
+    };
+    let (Some(cycle), Law::Wedge(law)) = (cycle(case), &case.truck.model.connections[place].law) else {
+        return summary;
+    };
+    let damping = if law.coil_in_bolster {
+        Damping::Constant
+    } else {
+        Damping::Variable
+    };
+    let (friction, stroke) = (column("column_friction"), column("stroke"));
+    if let Some((start, end, cycles)) = cycle.window(times.last().copied().unwrap_or_default()) {
+        let rows = times.partition_point(|time| *time < start)..times.partition_point(|time| *time <= end);
+        let energy: f64 = rows
+            .clone()
+            .skip(1)
+            .map(|row| 0.5 * (friction[row] + friction[row - 1]) * (stroke[row] - stroke[row - 1]))
+            .sum();
+        summary.energy_per_cycle = Some(Measure::new(energy / f64::from(cycles), Kind::Energy, units));
+    }
+    let (input, rate) = (
+        result.column("input_vertical").unwrap_or_default(),
+        result.column("input_vertical_rate").unwrap_or_default(),
+    );
+    let mut branches = [Vec::new(), Vec::new()];
+    for (row, time) in times.iter().enumerate() {
+        if let Some(up) = cycle.branch(damping, *time, input[row], rate[row]) {
+            branches[usize::from(up)].push(row);
+        }
+    }
+    let average = |rows: &[usize]| mean(friction, rows).map(|value| Measure::new(value, Kind::Force, units));
+    summary.down = average(&branches[0]);
+    summary.up = average(&branches[1]);
+    summary
+}

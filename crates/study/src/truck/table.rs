@@ -1,0 +1,327 @@
+//! The columns of a half-truck's results.
+//!
+//! Always there: time, the vertical input, every wedge, the bodies' displacements, the energies. Forces of connections are those of the files: positive in
+//! extension, on body A they act against the stroke.
+
+use mechanics::motion::Motion;
+use mechanics::output::Column;
+use mechanics::small::{COORDINATES, Kind as BodyKind, Model, Observation, System};
+use mechanics::system::Mode;
+use nucars::tree::{DofQuantity, ElementQuantity};
+use nucars::truck::Truck;
+use quantity::Kind;
+
+use super::requests::Request;
+
+type Value = Box<dyn Fn(&Observation) -> f64 + Send + Sync>;
+
+/// The table: descriptions and how values are taken from an observation.
+pub(super) struct Table {
+    pub columns: Vec<Column>,
+    values: Vec<Value>,
+}
+
+impl Table {
+    pub fn new(truck: &Truck, system: &System, requests: &[Request], start_energy: f64) -> Self {
+        let mut table = Self {
+            columns: Vec::new(),
+            values: Vec::new(),
+        };
+        table.add("time", Kind::Time, "time", |seen| seen.time);
+        if let Some(body) = input_body(&truck.model) {
+            let text = "vertical displacement of the input body that drives the bolster";
+            table.add("input_vertical", Kind::Length, text, move |seen| {
+                seen.bodies[body].coordinates[2]
+            });
+            let text = "its velocity";
+            table.add("input_vertical_rate", Kind::Speed, text, move |seen| {
+                seen.bodies[body].speeds[2]
+            });
+        }
+        for place in truck.wedges() {
+            table.wedge(place, truck.connections[place], &truck.model);
+        }
+        for (body, own) in truck.model.bodies.iter().enumerate() {
+            let BodyKind::Free { free, .. } = &own.kind else {
+                continue;
+            };
+            for coordinate in (0..6).filter(|k| free[*k]) {
+                let displacement = Request::Body {
+                    quantity: DofQuantity::Displacement,
+                    body,
+                    coordinate,
+                };
+                table.request(&displacement, truck);
+            }
+        }
+        for request in requests {
+            table.request(request, truck);
+        }
+        table.energies(system, start_energy);
+        // A data file may ask twice for the same.
+        let mut seen = std::collections::BTreeSet::new();
+        let keep: Vec<bool> = table
+            .columns
+            .iter()
+            .map(|column| seen.insert(column.name.clone()))
+            .collect();
+        let mut kept = keep.iter();
+        table.columns.retain(|_| kept.next().is_some_and(|keep| *keep));
+        let mut kept = keep.iter();
+        table.values.retain(|_| kept.next().is_some_and(|keep| *keep));
+        table
+    }
+
+    /// Appends the values at one instant to the columns' values.
+    pub fn read(&self, seen: &Observation, values: &mut [Vec<f64>]) {
+        for (value, column) in self.values.iter().zip(values) {
+            column.push(value(seen));
+        }
+    }
+
+    fn add(
+        &mut self,
+        name: impl Into<String>,
+        kind: Kind,
+        text: impl Into<String>,
+        value: impl Fn(&Observation) -> f64 + Send + Sync + 'static,
+    ) {
+        self.columns.push(Column {
+            name: name.into(),
+            kind,
+            frame: "x forward, y left, z up",
+            reference: "",
+            text: text.into(),
+        });
+        self.values.push(Box::new(value));
+    }
+
+    fn wedge(&mut self, place: usize, number: u32, model: &Model) {
+        let wedge = format!("wedge_{number}");
+        let inside = move |seen: &Observation| seen.connections[place].wedge.unwrap_or_default();
+        self.add(
+            format!("{wedge}_column_friction"),
+            Kind::Force,
+            "friction of the column on the side frame, positive up",
+            move |seen| -inside(seen).column_friction,
+        );
+        self.add(
+            format!("{wedge}_column_normal_force"),
+            Kind::Force,
+            "normal force of the column",
+            move |seen| inside(seen).column_normal,
+        );
+        self.add(
+            format!("{wedge}_coil_force"),
+            Kind::Force,
+            "force of the control coil, positive pushing",
+            move |seen| inside(seen).coil_force,
+        );
+        self.add(
+            format!("{wedge}_vertical_force"),
+            Kind::Force,
+            "vertical force on the side frame, positive up: friction and inclined normal force, and the coil where it \
+             stands on the side frame",
+            move |seen| seen.connections[place].forces[0],
+        );
+        let coordinates = model.connections[place].law.coordinates();
+        if let Some(component) = coordinates.iter().position(|own| *own == 0) {
+            self.add(
+                format!("{wedge}_longitudinal_force"),
+                Kind::Force,
+                "force of the column across it",
+                move |seen| seen.connections[place].forces[component].abs(),
+            );
+        }
+        self.add(
+            format!("{wedge}_stroke"),
+            Kind::Length,
+            "vertical displacement of the bolster against the side frame",
+            move |seen| seen.connections[place].strokes[0],
+        );
+        self.add(
+            format!("{wedge}_stroke_rate"),
+            Kind::Speed,
+            "its rate",
+            move |seen| seen.connections[place].velocities[0],
+        );
+        self.add(
+            format!("{wedge}_friction_power"),
+            Kind::Power,
+            "power of the column's vertical friction, negative where energy is lost",
+            move |seen| inside(seen).column_friction * seen.connections[place].velocities[0],
+        );
+        self.add(
+            format!("{wedge}_rise"),
+            Kind::Length,
+            "rise of the wedge in its pocket",
+            move |seen| inside(seen).rise,
+        );
+        self.add(
+            format!("{wedge}_jammed"),
+            Kind::Count,
+            "1 where no steady sliding exists and only the limit holds the normal force",
+            move |seen| f64::from(u8::from(inside(seen).jammed)),
+        );
+        self.add(
+            format!("{wedge}_state"),
+            Kind::Count,
+            "state of its friction: 0 open, 1 stick, 2 slip",
+            move |seen| f64::from(seen.connections[place].mode.unwrap_or(Mode::Open) as u8),
+        );
+    }
+
+    fn request(&mut self, request: &Request, truck: &Truck) {
+        match request {
+            Request::Body {
+                quantity,
+                body,
+                coordinate,
+            } => {
+                let (body, coordinate) = (*body, *coordinate);
+                let stem = format!("body_{}_{}", truck.bodies[body], COORDINATES[coordinate]);
+                let turns = coordinate >= 3;
+                let kinds = |a, b| if turns { b } else { a };
+                match quantity {
+                    DofQuantity::Displacement => self.add(
+                        stem,
+                        kinds(Kind::Length, Kind::Angle),
+                        "displacement of the centre of gravity, or angle",
+                        move |seen| seen.bodies[body].coordinates[coordinate],
+                    ),
+                    DofQuantity::Velocity => self.add(
+                        format!("{stem}_rate"),
+                        kinds(Kind::Speed, Kind::AngularSpeed),
+                        "its rate",
+                        move |seen| seen.bodies[body].speeds[coordinate],
+                    ),
+                    DofQuantity::Acceleration => self.add(
+                        format!("{stem}_acceleration"),
+                        Kind::Acceleration,
+                        "its acceleration",
+                        move |seen| seen.bodies[body].accelerations[coordinate],
+                    ),
+                    DofQuantity::Force => {
+                        let inertia = match &truck.model.bodies[body].kind {
+                            BodyKind::Free { inertia, .. } if turns => inertia[coordinate - 3],
+                            BodyKind::Free { mass, .. } => *mass,
+                            BodyKind::Prescribed { .. } => 0.0,
+                        };
+                        self.add(
+                            format!("{stem}_force"),
+                            kinds(Kind::Force, Kind::Moment),
+                            "sum of all forces or moments: inertia times acceleration",
+                            move |seen| inertia * seen.bodies[body].accelerations[coordinate],
+                        );
+                    }
+                }
+            }
+            Request::Connection {
+                quantity,
+                connection,
+                component,
+            } => {
+                let (connection, component) = (*connection, *component);
+                let coordinate = truck.model.connections[connection].law.coordinates()[component];
+                let kinds = |a, b| if coordinate >= 3 { b } else { a };
+                let place = format!("{}_{}", truck.connections[connection], component + 1);
+                match quantity {
+                    ElementQuantity::Force => self.add(
+                        format!("force_{place}"),
+                        kinds(Kind::Force, Kind::Moment),
+                        "force or moment of a connection, extension positive",
+                        move |seen| seen.connections[connection].forces[component],
+                    ),
+                    ElementQuantity::Stroke => self.add(
+                        format!("stroke_{place}"),
+                        kinds(Kind::Length, Kind::Angle),
+                        "stroke of a connection, extension positive",
+                        move |seen| seen.connections[connection].strokes[component],
+                    ),
+                    ElementQuantity::Velocity => self.add(
+                        format!("velocity_{place}"),
+                        kinds(Kind::Speed, Kind::AngularSpeed),
+                        "rate of a connection's stroke",
+                        move |seen| seen.connections[connection].velocities[component],
+                    ),
+                }
+            }
+            Request::Sum { name, terms } => {
+                let number = 1 + self
+                    .columns
+                    .iter()
+                    .filter(|own| own.name.starts_with("sum_"))
+                    .count();
+                let terms = terms.clone();
+                self.add(format!("sum_{number}"), Kind::Force, name.clone(), move |seen| {
+                    terms
+                        .iter()
+                        .map(|(connection, component, factor)| {
+                            factor * seen.connections[*connection].forces[*component]
+                        })
+                        .sum()
+                });
+            }
+        }
+    }
+
+    fn energies(&mut self, system: &System, start_energy: f64) {
+        type Stored = fn(&Observation) -> f64;
+        let stored: [(&str, Stored, &str); 5] = [
+            ("kinetic_energy", |seen| seen.energies.kinetic, "kinetic energy"),
+            (
+                "gravity_energy",
+                |seen| seen.energies.gravity,
+                "potential energy of the weights",
+            ),
+            (
+                "spring_energy",
+                |seen| seen.energies.springs,
+                "energy of the springs",
+            ),
+            (
+                "coil_energy",
+                |seen| seen.energies.coils,
+                "energy of the wedges' coils",
+            ),
+            (
+                "accumulator_energy",
+                |seen| seen.energies.accumulators,
+                "energy of the force accumulators",
+            ),
+        ];
+        for (name, value, text) in stored {
+            self.add(name, Kind::Energy, text, value);
+        }
+        for (number, channel) in system.channels().iter().enumerate() {
+            self.add(
+                channel.name(),
+                Kind::Energy,
+                "work or loss since the start",
+                move |seen| seen.quadratures[number],
+            );
+        }
+        self.add(
+            "ledger_residual",
+            Kind::Energy,
+            "work less stored energy and losses",
+            move |seen| -seen.residual(start_energy),
+        );
+    }
+}
+
+/// The first prescribed body that moves up and down.
+pub(super) fn input_body(model: &Model) -> Option<usize> {
+    model.bodies.iter().position(|body| match &body.kind {
+        BodyKind::Prescribed { motions } => !motions[2].is_constant(),
+        BodyKind::Free { .. } => false,
+    })
+}
+
+/// Its vertical motion.
+pub(super) fn input_motion(model: &Model) -> Option<&Motion> {
+    match &model.bodies[input_body(model)?].kind {
+        BodyKind::Prescribed { motions } => Some(&motions[2]),
+        BodyKind::Free { .. } => None,
+    }
+}
