@@ -70,6 +70,8 @@ pub enum RampProfile {
     Smooth,
     /// Constant rate; the rate jumps at both ends.
     Linear,
+    /// `(1 - cos πs)/2`: the rate is zero at both ends, the acceleration jumps there.
+    HalfCosine,
 }
 
 /// Value, first and second derivative by time.
@@ -135,6 +137,16 @@ impl Motion {
                 let s = (time - *start) * (1.0 / duration);
                 match profile {
                     RampProfile::Linear => [s * *amplitude, S::from(amplitude / duration), S::zero()],
+                    RampProfile::HalfCosine => {
+                        let w = std::f64::consts::PI / duration;
+                        let (sine, cosine) = (s * std::f64::consts::PI).sin_cos();
+                        let half = 0.5 * amplitude;
+                        [
+                            (S::from(1.0) - cosine) * half,
+                            sine * (half * w),
+                            cosine * (half * w * w),
+                        ]
+                    }
                     RampProfile::Smooth => {
                         let s2 = s * s;
                         let one = S::from(1.0);
