@@ -157,6 +157,7 @@ impl Motion {
                 }
                 let s = (time - *start) * (1.0 / duration);
                 match profile {
+                    RampProfile::Linear => [s * *amplitude, S::from(amplitude / duration), S::zero()],
                     RampProfile::HalfCosine => {
                         let w = std::f64::consts::PI / duration;
                         let (sine, cosine) = (s * std::f64::consts::PI).sin_cos();
@@ -167,7 +168,6 @@ impl Motion {
                             cosine * (half * w * w),
                         ]
                     }
-                    RampProfile::Linear => [s * *amplitude, S::from(amplitude / duration), S::zero()],
                     RampProfile::Smooth => {
                         let s2 = s * s;
                         let one = S::from(1.0);

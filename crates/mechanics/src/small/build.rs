@@ -136,7 +136,7 @@ pub(super) fn build(model: Model) -> System {
         switches,
         channels,
         layout,
-        grip: super::law::Grip::Law,
+        grips: super::Grips::default(),
         moved_at: f64::NAN,
         reference: 0.0,
         positions: nowhere.clone(),

@@ -2,7 +2,7 @@
 
 use integrate::Problem;
 
-use super::{COORDINATES, Grip, System};
+use super::{COORDINATES, Grip, Grips, System};
 use crate::system::NoEquilibrium;
 
 /// What friction does in a static equilibrium, where its force is not determined by the positions alone.
@@ -38,7 +38,7 @@ impl System {
         x: &[f64],
         friction: StaticFriction,
     ) -> Result<Vec<f64>, NoEquilibrium> {
-        let before = self.grip;
+        let before = self.grips;
         let moving: Vec<_> = self
             .moved
             .iter_mut()
@@ -53,10 +53,13 @@ impl System {
         }
         self.moved_at = f64::NAN;
         if friction == StaticFriction::Without {
-            self.grip = Grip::Free;
+            self.grips = Grips {
+                surfaces: Grip::Free,
+                wedges: Grip::Free,
+            };
         }
         let found = self.settle(time, x, friction);
-        self.grip = before;
+        self.grips = before;
         for (moved, (moves, motions)) in self.moved.iter_mut().zip(moving) {
             (moved.moves, moved.motions) = (moves, motions);
         }

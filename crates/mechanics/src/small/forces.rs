@@ -100,10 +100,26 @@ impl System {
             push_axis(gap, places, loads, powers);
         }
         for surface in &self.surfaces {
-            push_spatial(surface, places, self.grip, internal, d_internal, loads, powers);
+            push_spatial(
+                surface,
+                places,
+                self.grips.surfaces,
+                internal,
+                d_internal,
+                loads,
+                powers,
+            );
         }
         for wedge in &self.wedges {
-            push_spatial(wedge, places, self.grip, internal, d_internal, loads, powers);
+            push_spatial(
+                wedge,
+                places,
+                self.grips.wedges,
+                internal,
+                d_internal,
+                loads,
+                powers,
+            );
         }
         for free in &self.free {
             let load = &self.loads[free.body];

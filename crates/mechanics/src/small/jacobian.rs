@@ -17,7 +17,6 @@ struct Scene<'s> {
     rates: &'s [[f64; 6]],
     accelerations: &'s [[f64; 6]],
     internal: &'s [f64],
-    grip: Grip,
     jacobian: &'s mut Partitioned,
     loads: &'s mut [[f64; 6]],
     d_internal: &'s mut [f64],
@@ -78,7 +77,6 @@ impl System {
             rates: &self.rates,
             accelerations: &self.accelerations,
             internal,
-            grip: self.grip,
             jacobian: &mut self.jacobian,
             loads: &mut self.loads,
             d_internal,
@@ -91,10 +89,10 @@ impl System {
             scene.axis(gap);
         }
         for surface in &self.surfaces {
-            scene.spatial(surface);
+            scene.spatial(surface, self.grips.surfaces);
         }
         for wedge in &self.wedges {
-            scene.spatial(wedge);
+            scene.spatial(wedge, self.grips.wedges);
         }
         if self.moved.iter().any(|moved| moved.moves) {
             for free in &self.free {
@@ -167,11 +165,11 @@ impl Scene<'_> {
     }
 
     #[inline(always)]
-    fn spatial<L: SpatialLaw>(&mut self, element: &Spatial<L>) {
+    fn spatial<L: SpatialLaw>(&mut self, element: &Spatial<L>, grip: Grip) {
         let local = if element.law.uses_all_strokes() {
-            self.local::<L, 8>(element)
+            self.local::<L, 8>(element, grip)
         } else {
-            self.local::<L, 6>(element)
+            self.local::<L, 6>(element, grip)
         };
         self.add_forces(&element.site, &local);
         self.add_powers(element, &local);
@@ -185,7 +183,7 @@ impl Scene<'_> {
 
     /// The law with its derivatives.
     #[inline(always)]
-    fn local<L: SpatialLaw, const N: usize>(&self, element: &Spatial<L>) -> Local {
+    fn local<L: SpatialLaw, const N: usize>(&self, element: &Spatial<L>, grip: Grip) -> Local {
         let site = &element.site;
         let (strokes, rates) = (site.strokes(self.positions), site.strokes(self.rates));
         let deflection = deflection_at(element.internal, self.internal);
@@ -204,7 +202,7 @@ impl Scene<'_> {
                 Dual::variable(deflection[0], first + 3),
                 Dual::variable(deflection[1], first + 4),
             ],
-            self.grip,
+            grip,
         );
         Local {
             force: done.force.map(|force| force.value),

@@ -10,6 +10,19 @@
 //! A [`Model`] is plain data; [`System::new`] checks it and makes a problem for the integrator, with exact derivatives
 //! from the same lines as the forces, an energy ledger, static equilibrium and natural vibrations.
 //!
+//! How connections of the comparison program's files become [`Law`]s (its tables give ordinates first; read with
+//! [`Curve::mirrored_from_origin`] as `[abscissa, ordinate]`; no table: none, or zero):
+//!
+//! | type | law |
+//! |---|---|
+//! | 1, 1.1, 1.3 | [`Law::Springs`], one [`SpringDamper`] a coordinate, with its two limits |
+//! | 1.2 | [`Law::Gap`] |
+//! | 6.3 | [`Law::Wedge`], [`Column::Plain`] toe out, [`Accumulator::Viscous`], both coefficients the same |
+//! | 6.7 | the same with two coefficients and a toe direction |
+//! | 6.5 | [`Law::Surface`] with [`Accumulator::Bristle`], coordinates 2, 0, 1 |
+//! | 6.8 | [`Law::Wedge`], [`Column::Plain`], [`Accumulator::Bristle`]; a constant force is `preload` with a zero `coil`, and stands in the bolster |
+//! | 6.9 | [`Law::Wedge`], [`Column::Profile`], [`Accumulator::Bristle`], no `preload` |
+//!
 //! State vector `(q, u, s, w)`: free coordinates of all free bodies, their rates, deflections of the force
 //! accumulators (two an element), quadratures (work of the prescribed motions, every loss). SI units.
 
@@ -48,7 +61,7 @@ pub use model::{Body, COORDINATES, Connection, Kind, Law, Model, ModelError};
 pub use modes::{CLOSING_FORCE, OPENING_FORCE};
 pub use observe::{BodyState, ConnectionState, Energies, Observation};
 pub use options::{Branch, GapTension, NegativeRise, Options};
-pub use vibration::{NoVibration, Vibration, Vibrations};
+pub use vibration::{Held, NoVibration, Vibration, Vibrations};
 
 /// A body that forces move.
 #[derive(Clone, Debug)]
@@ -93,6 +106,13 @@ struct Spatial<L> {
     internal_rows: [Option<usize>; 4],
     /// Its number among the switches.
     switch: usize,
+}
+
+/// What friction does in each kind of element.
+#[derive(Clone, Copy, Debug, Default)]
+struct Grips {
+    surfaces: Grip,
+    wedges: Grip,
 }
 
 /// What a quadrature integrates; all in J.
@@ -150,7 +170,8 @@ pub struct System {
     channels: Vec<ChannelKind>,
     layout: Layout,
     scales: Vec<f64>,
-    grip: Grip,
+    /// What friction does in surfaces and in wedges.
+    grips: Grips,
     /// The time at which the prescribed bodies were placed.
     moved_at: f64,
     /// A time inside the present smooth piece of the motions.

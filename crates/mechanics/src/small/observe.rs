@@ -169,7 +169,7 @@ impl System {
         }
         for surface in &self.surfaces {
             let state = &mut all[surface.site.connection];
-            self.fill(surface, internal, state);
+            self.fill(surface, self.grips.surfaces, internal, state);
             let spring = surface.law.energy(state.strokes[0]);
             let held = surface
                 .law
@@ -181,7 +181,7 @@ impl System {
         }
         for wedge in &self.wedges {
             let state = &mut all[wedge.site.connection];
-            self.fill(wedge, internal, state);
+            self.fill(wedge, self.grips.wedges, internal, state);
             let (strokes, rates) = (
                 wedge.site.strokes(&self.positions),
                 wedge.site.strokes(&self.rates),
@@ -190,7 +190,9 @@ impl System {
             let mut inside = WedgeState::default();
             wedge
                 .law
-                .evaluate_with(strokes, rates, deflection, self.grip, |seen| inside = seen);
+                .evaluate_with(strokes, rates, deflection, self.grips.wedges, |seen| {
+                    inside = seen
+                });
             let coil = wedge.law.energy(inside.coil_stroke);
             let held = wedge.law.accumulator.energy(deflection);
             state.wedge = Some(inside);
@@ -204,12 +206,18 @@ impl System {
     }
 
     /// Strokes, rates, forces and mode of a friction element.
-    fn fill<L: SpatialLaw>(&self, element: &Spatial<L>, internal: &[f64], state: &mut ConnectionState) {
+    fn fill<L: SpatialLaw>(
+        &self,
+        element: &Spatial<L>,
+        grip: Grip,
+        internal: &[f64],
+        state: &mut ConnectionState,
+    ) {
         let site = &element.site;
         let (strokes, rates) = (site.strokes(&self.positions), site.strokes(&self.rates));
         let deflection = deflection_at(element.internal, internal);
-        let done = element.law.act(strokes, rates, deflection, self.grip);
-        let law_says = match self.grip {
+        let done = element.law.act(strokes, rates, deflection, grip);
+        let law_says = match grip {
             Grip::Law => done.friction,
             _ => element.law.act(strokes, rates, deflection, Grip::Law).friction,
         };

@@ -49,7 +49,8 @@ pub struct Options {
     /// By what the branch is chosen. Default: by the friction force.
     pub branch: Branch,
     /// Whether the rate of the wedge's rise enters the slip velocity on the column. Default: no, it is the vertical
-    /// stroke's rate.
+    /// stroke's rate. With it longitudinal swinging moves the column's friction, and the slope's, which follows it, can
+    /// excite the swinging.
     pub rise_in_slip: bool,
     /// Negative rise. Default: the coil's curve goes on.
     pub negative_rise: NegativeRise,

@@ -1,14 +1,36 @@
 //! Natural vibrations about a state: undamped frequencies and shapes.
 //!
-//! `M q¨ + K q = 0` with K the derivative of all forces by the coordinates, every closed friction element sticking
-//! (its accumulator a spring). K is symmetric but for the wedges, whose friction ties forces to normal forces: then
+//! `M q¨ + K q = 0` with K the derivative of all forces by the coordinates; which friction elements stick (their accumulators
+//! then are springs) is a question ([`Held`]). On a kink of a curve the piece of the larger strokes counts. K is symmetric but for the wedges, whose friction ties forces to normal forces: then
 //! eigenvalues may be complex in principle (flutter), and are taken from the general matrix.
 
 use integrate::Problem;
 use nalgebra::{Complex, DMatrix, DVector};
 use thiserror::Error;
 
-use super::{Grip, System};
+use super::{Grip, Grips, System};
+
+/// Which closed friction elements stick in a vibration; the others have no friction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Held {
+    /// All: small vibrations about a state of rest.
+    #[default]
+    All,
+    /// Surfaces, not wedges: vibrations while the wedges slide.
+    Surfaces,
+    /// None.
+    Nothing,
+}
+
+impl Held {
+    fn grips(self) -> Grips {
+        let grip = |sticks: bool| if sticks { Grip::Stuck } else { Grip::Free };
+        Grips {
+            surfaces: grip(self != Self::Nothing),
+            wedges: grip(self == Self::All),
+        }
+    }
+}
 
 /// One natural vibration.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,18 +64,17 @@ pub struct NoVibration;
 const SYMMETRIC: f64 = 1e-9;
 
 impl System {
-    /// The stiffness matrix `-∂Q/∂q`, N/m and so on, row-major in the order of the positions, every closed
-    /// friction element sticking.
+    /// The stiffness matrix `-∂Q/∂q`, N/m and so on, row-major in the order of the positions.
     #[must_use]
-    pub fn stiffness(&mut self, time: f64, x: &[f64]) -> Vec<f64> {
+    pub fn stiffness(&mut self, time: f64, x: &[f64], held: Held) -> Vec<f64> {
         let n = self.layout.speeds;
         let states = self.layout.internals;
-        let grip = std::mem::replace(&mut self.grip, Grip::Stuck);
+        let grips = std::mem::replace(&mut self.grips, held.grips());
         let mut dx = vec![0.0; x.len()];
         let mut df_dt = vec![0.0; x.len()];
         self.derivative(time, x, &mut dx);
         self.linearize(time, x, &dx, &mut df_dt);
-        self.grip = grip;
+        self.grips = grips;
         let mut stiffness = vec![0.0; n * n];
         let mut add = |row: usize, column: usize, value: f64| stiffness[row * n + column] += value;
         for (i, row) in self.free.iter().enumerate() {
@@ -97,9 +118,9 @@ impl System {
     ///
     /// # Errors
     /// The eigenvalues are not found.
-    pub fn vibrations(&mut self, time: f64, x: &[f64]) -> Result<Vibrations, NoVibration> {
+    pub fn vibrations(&mut self, time: f64, x: &[f64], held: Held) -> Result<Vibrations, NoVibration> {
         let n = self.layout.speeds;
-        let stiffness = self.stiffness(time, x);
+        let stiffness = self.stiffness(time, x, held);
         let inertia: Vec<f64> = self
             .free
             .iter()
@@ -136,7 +157,11 @@ impl System {
 
 /// The frequency of an eigenvalue, Hz.
 fn frequency(value: Complex<f64>) -> f64 {
-    value.sqrt().re / (2.0 * std::f64::consts::PI)
+    if value.im == 0.0 {
+        return value.re.max(0.0).sqrt() / (2.0 * std::f64::consts::PI);
+    }
+    let size = (value.re * value.re + value.im * value.im).sqrt();
+    (0.5 * (size + value.re)).max(0.0).sqrt() / (2.0 * std::f64::consts::PI)
 }
 
 fn symmetric(matrix: &DMatrix<f64>) -> Vec<(Complex<f64>, DVector<f64>)> {

@@ -69,6 +69,7 @@ fn motions_and_their_derivatives() {
         swept(),
         smooth,
         ramp(RampProfile::Linear),
+        ramp(RampProfile::HalfCosine),
         sum,
     ];
     let mut random = Random(1);
@@ -154,6 +155,9 @@ fn swept_sine_is_exact_in_phase() {
 #[test]
 fn ramps() {
     let smooth = ramp(RampProfile::Smooth);
+    let cosine = ramp(RampProfile::HalfCosine);
+    close(at(&cosine, 0.5 + 1.25 / 3.0)[0], -0.7 * 0.25, 1e-15);
+    assert_eq!([at(&cosine, 0.4)[0], at(&cosine, 1.8)[0]], [0.0, -0.7]);
     let linear = ramp(RampProfile::Linear);
     for motion in [&smooth, &linear] {
         assert_eq!(at(motion, 0.4999), [0.0; 3]);

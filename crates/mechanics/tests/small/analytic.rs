@@ -1,5 +1,7 @@
 //! Laws against their closed forms.
 
+use std::f64::consts::PI;
+
 use mechanics::quasi_static::{Direction, QuasiStaticWedge};
 use mechanics::small::{
     Accumulator, Branch, Column, Curve, GapDamper, Law, Options, SpringDamper, SurfaceFriction, System,
@@ -316,7 +318,10 @@ fn a_sticking_wedge_is_balanced() {
                 -1.0
             },
         };
-        let law = wedge(random.between(-1.0, 1.0) > 0.0, column);
+        let mut law = wedge(random.between(-1.0, 1.0) > 0.0, column);
+        law.slope_friction = random.between(0.05, 0.45);
+        law.column_friction = random.between(0.05, 0.45);
+        let (slope_friction, friction) = (law.slope_friction, law.column_friction);
         let mut system = against_ground(Law::Wedge(law.clone()), Options::default());
         let deflection = [
             random.between(-0.003, 0.003) * INCH,
@@ -332,7 +337,12 @@ fn a_sticking_wedge_is_balanced() {
         let w = connection.wedge.unwrap();
         let (s, c) = law.angle.sin_cos();
         let (p_s, p_c) = toe.sin_cos();
-        let slope = w.mobilised * if toe < 0.0 { 0.4 } else { -0.4 };
+        let slope = w.mobilised
+            * if toe < 0.0 {
+                slope_friction
+            } else {
+                -slope_friction
+            };
         let size = w.coil_force;
         close(
             w.column_friction,
@@ -341,7 +351,7 @@ fn a_sticking_wedge_is_balanced() {
         );
         close(
             w.column_friction,
-            0.4 * w.mobilised * w.column_normal,
+            friction * w.mobilised * w.column_normal,
             1e-9 * size,
         );
         let across = w.column_normal * p_c + w.column_friction * p_s;
@@ -364,6 +374,36 @@ fn a_sticking_wedge_is_balanced() {
         );
     }
     assert!(stuck > 50, "{stuck}");
+}
+
+/// Sticking and slipping meet: forces do not jump at the limit, in whatever direction, jammed or not.
+#[test]
+fn sticking_and_slipping_meet_at_the_limit() {
+    let mut random = Random(8);
+    let mut jams = 0;
+    for _ in 0..200 {
+        let mut law = wedge(false, straight(random.between(-1.0, 1.0), 1.0));
+        law.slope_friction = random.between(0.25, 0.45);
+        law.column_friction = random.between(0.25, 0.45);
+        let mut system = against_ground(Law::Wedge(law), Options::default());
+        let (s, c) = random.between(-PI, PI).sin_cos();
+        let mut at = |size: f64| {
+            let deflection = [size * s, size * c];
+            at_deflection(&mut system, [0.0, 0.0, -0.5 * INCH], [0.0; 3], deflection).connections[0].clone()
+        };
+        // any deflection in this direction tells the limit
+        let limit = at(1e-6).wedge.unwrap();
+        jams += usize::from(limit.jammed);
+        let size = limit.friction_limit / (1e6 * LBF_PER_INCH);
+        let (below, above) = (at(size * (1.0 - 1e-10)), at(size * (1.0 + 1e-10)));
+        assert_eq!((below.mode, above.mode), (Some(Mode::Stick), Some(Mode::Slip)));
+        for k in 0..3 {
+            close(below.forces[k], above.forces[k], 1e-6 * limit.friction_limit);
+        }
+        let normals = [below, above].map(|state| state.wedge.unwrap().column_normal);
+        close(normals[0], normals[1], 1e-6 * normals[1]);
+    }
+    assert!(jams > 10, "{jams}");
 }
 
 /// Longitudinal motion opens or closes the gap; the wedge rises and its coil with it.

@@ -141,6 +141,24 @@ fn the_half_trucks_ledger_closes() {
     }
 }
 
+/// Corners of the motion, where the velocities of dampers jump, are stepped on.
+#[test]
+fn the_ledger_closes_across_breaks() {
+    let mut model = body_on_wedges(true, 0.2, Options::default());
+    model.bodies[2] = Body::prescribed(
+        "input",
+        [0.0; 3],
+        vertical(Motion::Triangle {
+            amplitude: INCH,
+            angular_frequency: 6.0,
+        }),
+    );
+    let system = System::new(model).unwrap();
+    let (residual, seen) = residual(&system, 1e-8, 1.2);
+    assert!(residual.abs() < 1e-6, "{residual:e}");
+    assert!(seen.quadratures[1] > 0.0);
+}
+
 /// A ledger from which any one entry is left out does not close: so the ones above say something.
 #[test]
 fn a_ledger_without_one_entry_fails() {

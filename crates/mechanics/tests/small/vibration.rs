@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use mechanics::small::{Accumulator, Body, Column, Curve, Law, SpringDamper, SurfaceFriction, System};
+use mechanics::small::{
+    Accumulator, Body, Column, Curve, Held, Law, SpringDamper, StaticFriction, SurfaceFriction, System,
+};
 
 use crate::half_truck::{ALL, LBF_PER_INCH, straight, wedge};
 use crate::models::{connection, model};
@@ -28,7 +30,7 @@ fn a_chain_of_two_masses() {
     ];
     let mut system = System::new(model(bodies, connections)).unwrap();
     let x = system.initial_state();
-    let found = system.vibrations(0.0, &x).unwrap();
+    let found = system.vibrations(0.0, &x, Held::All).unwrap();
     assert_eq!(found.asymmetry, 0.0);
     for (mode, sign) in found.modes.iter().zip([-1.0, 1.0]) {
         let expected = (k / m * 0.5 * (3.0 + sign * 5f64.sqrt())).sqrt() / (2.0 * PI);
@@ -68,7 +70,7 @@ fn a_body_on_four_springs() {
     }
     let mut system = System::new(model(bodies, connections)).unwrap();
     let x = system.initial_state();
-    let found = system.vibrations(0.0, &x).unwrap();
+    let found = system.vibrations(0.0, &x, Held::All).unwrap();
     let mut expected: Vec<f64> = vec![
         4.0 * k / m,
         4.0 * k * lever[1] * lever[1] / inertia[0],
@@ -103,7 +105,7 @@ fn a_body_on_wedges() {
     let mut system = build(&|_| Column::Plain { toe_out: true });
     let mut x = system.initial_state();
     x[2] = -0.01;
-    let found = system.vibrations(0.0, &x).unwrap();
+    let found = system.vibrations(0.0, &x, Held::All).unwrap();
     let heave = 2.0 * (3000.0 + 1e6) * LBF_PER_INCH / mass;
     let close = |a: f64, b: f64| (a - b).abs() < 1e-9 * b;
     assert!(
@@ -116,9 +118,9 @@ fn a_body_on_wedges() {
     let at = system.deflection_of(0).unwrap();
     x[at] = 1e-4;
     x[0] = 0.002;
-    let found = system.vibrations(0.0, &x).unwrap();
+    let found = system.vibrations(0.0, &x, Held::All).unwrap();
     assert!(found.asymmetry > 1e-6);
-    let stiffness = system.stiffness(0.0, &x);
+    let stiffness = system.stiffness(0.0, &x, Held::All);
     let n = 6;
     let inertia: Vec<f64> = [[mass; 3], inertia].concat();
     for mode in &found.modes {
@@ -164,7 +166,7 @@ fn stiffness_is_minus_the_derivative_of_forces() {
     for value in &mut x[..n] {
         *value = random.between(-1e-4, 1e-4);
     }
-    let stiffness = system.stiffness(0.0, &x);
+    let stiffness = system.stiffness(0.0, &x, Held::All);
     let h = 1e-7;
     for j in 0..n {
         let mut force = |d: f64| {
@@ -189,4 +191,34 @@ fn stiffness_is_minus_the_derivative_of_forces() {
             );
         }
     }
+}
+
+/// The half-truck's heave while its wedges slide: bolster and side frames in phase across, two masses on inputs, nests with coils,
+/// bearings. With stuck wedges their accumulators stiffen it.
+#[test]
+fn heave_of_the_half_truck() {
+    let mut system = System::new(crate::half_truck::model(false, false)).unwrap();
+    let x = system.initial_state();
+    let rest = system.equilibrium(0.0, &x, StaticFriction::Without).unwrap();
+    let (inputs, nests, bearings) = (3e6, 36e3, 8.0 * 15691.0 / 0.031382);
+    let (m1, m2) = (319.175, 2.0 * 2.98);
+    let heave = |nests: f64| {
+        let (a, d) = ((inputs + nests) / m1, (nests + bearings) / m2);
+        let coupling = nests * nests / (m1 * m2);
+        let low = 0.5 * (a + d) - (0.25 * (a - d) * (a - d) + coupling).sqrt();
+        low.sqrt() / (2.0 * PI)
+    };
+    for (held, expected) in [
+        (Held::Nothing, heave(nests)),
+        (Held::Surfaces, heave(nests)),
+        (Held::All, heave(nests + 4e6)),
+    ] {
+        let found = system.vibrations(0.0, &rest, held).unwrap();
+        let near = found.modes.iter().map(|mode| (mode.frequency - expected).abs());
+        assert!(
+            near.fold(f64::INFINITY, f64::min) < 1e-6 * expected,
+            "{expected} Hz: {found:?}"
+        );
+    }
+    assert!((heave(nests) - 15.52).abs() < 5e-3);
 }

@@ -22,14 +22,17 @@
 //! Without a profile f_x = 0, and a given inclination enters N only. Units: N, m, s, rad.
 //!
 //! Energy. Stored: the coil's, the accumulator's. Lost: the accumulator's losses (column); the power of the slope's
-//! friction, `-α x N_s r˙ / cos θ`, which is not always positive, because it is scaled with a force that rebounds
-//! elastically. Taking the profile at the bolster's height instead of the wedge's, the slip velocity without the rise, and
-//! capping N leave the wedge's constraint forces with a small power (1e-5 of the rest at a toe of 0.2°); it is integrated from its
-//! own forces and velocities and is a ledger entry of its own.
+//! friction, `-α x N_s r˙ / cos θ`, which may be negative, because its direction is that of the column's friction and not that of its
+//! own slip. Taking the profile at the bolster's height instead of the wedge's, the slip velocity without the rise, capping N and
+//! stopping the rise leave the wedge's constraint forces with a small power (tan φ / tan θ of the column's: 0.6 % at 0.2°, all
+//! but 1e-4 of it by the slip velocity); it is integrated from its own forces and velocities and is a ledger entry of its own.
 //!
 //! Source: names of the parameters and signs from published input files and their comments; the law itself is derived,
-//! choices are listed in [`crate::small::Options`]. Defects: no mass, no moments, no lift-off ringing; where `μ_c x N(x)`
-//! is not monotonic (steep angles with high friction) sticking and slipping disagree about N at the limit.
+//! choices are listed in [`crate::small::Options`]. Defects: no mass, no moments, no lift-off ringing. The slope's friction is no slider of
+//! its own: where the bolster swings along x it can feed energy (a negative slope entry in the ledger tells), above all jammed (toe
+//! in with much friction: a half-truck with yaw then chatters at hundreds of hertz) and with
+//! [`crate::small::Options::rise_in_slip`]. Where `μ_c x N(x)` is not monotonic (steep angles with high friction) sticking and
+//! slipping disagree about N at the limit. Without friction of the column the slope has none either.
 
 use integrate::scalar::Real;
 use serde::{Deserialize, Serialize};
