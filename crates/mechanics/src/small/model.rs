@@ -1,6 +1,5 @@
 //! The description of a system with small displacements. Plain data, SI units; axes x forward, y left, z up.
 
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::law::Accumulator;
@@ -15,7 +14,7 @@ use crate::motion::Motion;
 pub const COORDINATES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 
 /// Bodies and the connections between them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// All bodies.
     pub bodies: Vec<Body>,
@@ -28,7 +27,7 @@ pub struct Model {
 }
 
 /// A body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// Its name, for messages and outputs; names need not differ.
     pub name: String,
@@ -39,8 +38,7 @@ pub struct Body {
 }
 
 /// What moves a body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Kind {
     /// Forces.
     Free {
@@ -98,7 +96,7 @@ impl Body {
 ///
 /// Its stroke in a coordinate is the displacement of the point on body A less that on body B: extension positive. A force f in the
 /// stroke's sense acts as -f on body A and as +f on body B.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Connection {
     /// Its name, for messages and outputs; names need not differ.
     pub name: String,
@@ -113,8 +111,7 @@ pub struct Connection {
 }
 
 /// The law of a connection.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Law {
     /// Springs with dampers on single coordinates (0 to 5), independent of each other: types 1, 1.1, 1.3.
     Springs(Vec<(usize, SpringDamper)>),

@@ -35,7 +35,6 @@
 //! slipping disagree about N at the limit. Without friction of the column the slope has none either.
 
 use integrate::scalar::Real;
-use serde::{Deserialize, Serialize};
 
 use super::{Accumulator, Friction, Grip, SpatialForce, friction_of};
 use crate::friction::Friction as Slip;
@@ -43,8 +42,7 @@ use crate::small::curve::Curve;
 use crate::small::options::{Branch, NegativeRise, Options};
 
 /// The column that the wedge slides on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Column {
     /// A toe that is only a direction (types 6.3, 6.7, 6.8): vertical and lateral forces.
     Plain {
@@ -61,7 +59,7 @@ pub enum Column {
 }
 
 /// A massless friction wedge. Body A of its connection is the bolster, body B the side frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Wedge {
     /// Wedge angle θ from the vertical, rad, between 0 and π/2.
     pub angle: f64,
