@@ -7,7 +7,7 @@ use super::law::gap::GapDamper;
 use super::law::spring::SpringDamper;
 use super::law::surface::SurfaceFriction;
 use super::law::wedge::{Column, Wedge};
-use super::options::Options;
+use super::options::{Branch, Options, SlopeDirection};
 use crate::motion::Motion;
 
 /// Names of the coordinates: translations (m), rotations (rad) about x, y, z.
@@ -285,7 +285,17 @@ impl Model {
         )?;
         let positive = damping > 0.0 && damping.is_finite();
         option("accumulator_damping", damping, positive, "be positive and finite")?;
-        if let super::options::Branch::Velocity { reference_speed } = options.branch {
+        let speeds = [
+            match options.branch {
+                Branch::Velocity { reference_speed } => reference_speed,
+                Branch::FrictionForce => 1.0,
+            },
+            match options.slope {
+                SlopeDirection::OwnSlip { reference_speed } => reference_speed,
+                SlopeDirection::Toe => 1.0,
+            },
+        ];
+        for reference_speed in speeds {
             let positive = reference_speed > 0.0 && reference_speed.is_finite();
             option(
                 "reference_speed",
