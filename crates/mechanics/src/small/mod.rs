@@ -60,7 +60,7 @@ pub use law::wedge::{Column, Wedge, WedgeState};
 pub use model::{Body, COORDINATES, Connection, Kind, Law, Model, ModelError};
 pub use modes::{CLOSING_FORCE, OPENING_FORCE};
 pub use observe::{BodyState, ConnectionState, Energies, Observation};
-pub use options::{Branch, GapTension, NegativeRise, Options};
+pub use options::{Branch, GapTension, NegativeRise, Options, SlopeDirection};
 pub use vibration::{Held, NoVibration, Vibration, Vibrations};
 
 /// A body that forces move.

@@ -1,6 +1,5 @@
 //! The description of a system with small displacements. Plain data, SI units; axes x forward, y left, z up.
 
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::law::Accumulator;
@@ -8,14 +7,14 @@ use super::law::gap::GapDamper;
 use super::law::spring::SpringDamper;
 use super::law::surface::SurfaceFriction;
 use super::law::wedge::{Column, Wedge};
-use super::options::Options;
+use super::options::{Branch, Options, SlopeDirection};
 use crate::motion::Motion;
 
 /// Names of the coordinates: translations (m), rotations (rad) about x, y, z.
 pub const COORDINATES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 
 /// Bodies and the connections between them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// All bodies.
     pub bodies: Vec<Body>,
@@ -28,7 +27,7 @@ pub struct Model {
 }
 
 /// A body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// Its name, for messages and outputs; names need not differ.
     pub name: String,
@@ -39,8 +38,7 @@ pub struct Body {
 }
 
 /// What moves a body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Kind {
     /// Forces.
     Free {
@@ -98,7 +96,7 @@ impl Body {
 ///
 /// Its stroke in a coordinate is the displacement of the point on body A less that on body B: extension positive. A force f in the
 /// stroke's sense acts as -f on body A and as +f on body B.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Connection {
     /// Its name, for messages and outputs; names need not differ.
     pub name: String,
@@ -113,8 +111,7 @@ pub struct Connection {
 }
 
 /// The law of a connection.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Law {
     /// Springs with dampers on single coordinates (0 to 5), independent of each other: types 1, 1.1, 1.3.
     Springs(Vec<(usize, SpringDamper)>),
@@ -288,7 +285,17 @@ impl Model {
         )?;
         let positive = damping > 0.0 && damping.is_finite();
         option("accumulator_damping", damping, positive, "be positive and finite")?;
-        if let super::options::Branch::Velocity { reference_speed } = options.branch {
+        let speeds = [
+            match options.branch {
+                Branch::Velocity { reference_speed } => reference_speed,
+                Branch::FrictionForce => 1.0,
+            },
+            match options.slope {
+                SlopeDirection::OwnSlip { reference_speed } => reference_speed,
+                SlopeDirection::Toe => 1.0,
+            },
+        ];
+        for reference_speed in speeds {
             let positive = reference_speed > 0.0 && reference_speed.is_finite();
             option(
                 "reference_speed",

@@ -18,6 +18,21 @@ pub enum Branch {
     },
 }
 
+/// By what the direction of a profile wedge's slope friction is chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SlopeDirection {
+    /// By the toe: it follows the column's friction, mobilised by the same fraction. It may feed energy where the
+    /// bolster swings longitudinally.
+    Toe,
+    /// By the wedge's slip on the slope, smoothed by `tanh(slip / reference_speed)`: it never feeds energy, creeps under a
+    /// held load, and vanishes where there is neither toe nor longitudinal motion.
+    OwnSlip {
+        /// Reference speed, m/s.
+        reference_speed: f64,
+    },
+}
+
 /// What becomes of a wedge that the bolster pushes back beyond its drawn place (negative rise).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -48,6 +63,8 @@ pub struct Options {
     pub plain_toe_angle: f64,
     /// By what the branch is chosen. Default: by the friction force.
     pub branch: Branch,
+    /// The direction of slope friction of wedges with a profile. Default: by the toe.
+    pub slope: SlopeDirection,
     /// Whether the rate of the wedge's rise enters the slip velocity on the column. Default: no, it is the vertical
     /// stroke's rate. With it longitudinal swinging moves the column's friction, and the slope's, which follows it, can
     /// excite the swinging.
@@ -66,6 +83,7 @@ impl Default for Options {
         Self {
             plain_toe_angle: 0.0,
             branch: Branch::FrictionForce,
+            slope: SlopeDirection::Toe,
             rise_in_slip: false,
             negative_rise: NegativeRise::Extend,
             accumulator_damping: 1.0,
@@ -75,10 +93,9 @@ impl Default for Options {
 }
 
 /// Decisions that are no option.
-const FIXED: [&str; 12] = [
+const FIXED: [&str; 11] = [
     "small displacements: levers of the drawn layout, no gyroscopic terms, no geometric stiffness of weights",
-    "wedge: quasi-static balance of a massless wedge; the toe's sign decides which way the slope slips, also under yaw",
-    "wedge: while it sticks both friction coefficients are scaled by the mobilised fraction",
+    "wedge: quasi-static balance of a massless wedge",
     "wedge: vertical and lateral friction share one circle, the normal force being taken at the fraction Fz/|F|",
     "wedge: the column's normal force is capped by its limit, also where no steady sliding exists (the wedge is then \
      reported as jammed)",
@@ -108,6 +125,16 @@ impl Options {
             }
             Branch::Velocity { reference_speed } => {
                 format!("wedge: the branch follows the vertical velocity over {reference_speed} m/s")
+            }
+        });
+        lines.push(match self.slope {
+            SlopeDirection::Toe => {
+                "wedge: the toe's sign decides which way the slope slips, also under yaw; while the wedge sticks both friction \
+                 coefficients are scaled by the mobilised fraction"
+                    .to_owned()
+            }
+            SlopeDirection::OwnSlip { reference_speed } => {
+                format!("wedge: slope friction acts against the slip on the slope, over {reference_speed} m/s")
             }
         });
         lines.push(

@@ -141,6 +141,45 @@ fn the_half_trucks_ledger_closes() {
     }
 }
 
+/// By its own slip slope friction never gives energy back; by the toe it may, where the bolster also moves longitudinally.
+#[test]
+fn slope_friction_by_its_own_slip_only_loses() {
+    let own = Options {
+        slope: mechanics::small::SlopeDirection::OwnSlip {
+            reference_speed: 1e-5,
+        },
+        ..Options::default()
+    };
+    let mut least = Vec::new();
+    for options in [own, Options::default()] {
+        let system = System::new(body_on_wedges(true, -0.2, options)).unwrap();
+        let slope = system
+            .channels()
+            .iter()
+            .position(|kind| *kind == ChannelKind::SlopeFriction)
+            .unwrap();
+        let x = system.initial_state();
+        let start = system.clone().observe(0.0, &x).energies.total();
+        let settings = integrate::Options {
+            relative_tolerance: 1e-8,
+            ..integrate::Options::default()
+        };
+        let mut integrator = integrate::Integrator::new(system.clone(), settings, 0.0, &x).unwrap();
+        let at = integrator.x().len() - system.channels().len() + slope;
+        let mut smallest = f64::INFINITY;
+        while integrator.time() < 1.2 {
+            integrator.step_to(1.2).unwrap();
+            smallest = (integrator.x()[at] - integrator.previous_x()[at]).min(smallest);
+        }
+        let seen = seen(&integrator);
+        let size: f64 = seen.quadratures.iter().map(|w| w.abs()).sum();
+        assert!(seen.residual(start).abs() < 1e-6 * size);
+        least.push(smallest);
+    }
+    // one step, J
+    assert!(least[0] > -1e-6 && least[1] < -1e-3, "{least:?}");
+}
+
 /// Corners of the motion, where the velocities of dampers jump, are stepped on.
 #[test]
 fn the_ledger_closes_across_breaks() {

@@ -221,6 +221,7 @@ fn agrees_with_differences_for_other_options() {
     let options = Options {
         plain_toe_angle: 0.01,
         branch: Branch::Velocity { reference_speed: 0.3 },
+        slope: mechanics::small::SlopeDirection::Toe,
         rise_in_slip: true,
         negative_rise: NegativeRise::Stop,
         accumulator_damping: 0.7,
@@ -229,6 +230,7 @@ fn agrees_with_differences_for_other_options() {
     assert!(compare(&everything(options, BRISTLE), 2).columns > 1000);
     let options = Options {
         rise_in_slip: true,
+        slope: mechanics::small::SlopeDirection::OwnSlip { reference_speed: 0.3 },
         ..Options::default()
     };
     assert!(compare(&everything(options, BRISTLE), 3).columns > 1000);

@@ -15,3 +15,4 @@ mod jacobian;
 mod limits;
 mod loops;
 mod vibration;
+mod wedges;

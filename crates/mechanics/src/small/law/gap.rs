@@ -13,14 +13,13 @@
 //! only, not that of a neighbouring connection.
 
 use integrate::scalar::Real;
-use serde::{Deserialize, Serialize};
 
 use super::AxisForce;
 use crate::small::curve::Curve;
 use crate::small::options::{GapTension, Options};
 
 /// A spring and a damper that act outside a gap.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct GapDamper {
     /// Force by stroke.
     pub spring: Option<Curve>,

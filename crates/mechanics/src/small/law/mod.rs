@@ -6,14 +6,12 @@ pub mod surface;
 pub mod wedge;
 
 use integrate::scalar::Real;
-use serde::{Deserialize, Serialize};
 
 use crate::friction::Friction as Slip;
 use crate::friction::bristle;
 
 /// How a friction element holds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Accumulator {
     /// A bristle in series with the slider, two states, see [`crate::friction::bristle`].
     Bristle {

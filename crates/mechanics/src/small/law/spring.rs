@@ -12,13 +12,12 @@
 //! are independent of each other; a coil's shear does not roll it.
 
 use integrate::scalar::Real;
-use serde::{Deserialize, Serialize};
 
 use super::AxisForce;
 use crate::small::curve::Curve;
 
 /// A spring and a damper in parallel.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SpringDamper {
     /// Force by stroke.
     pub spring: Option<Curve>,

@@ -12,14 +12,13 @@
 //! force, without the damper's.
 
 use integrate::scalar::Real;
-use serde::{Deserialize, Serialize};
 
 use super::{Accumulator, Friction, Grip, SpatialForce, friction_of};
 use crate::friction::Friction as Slip;
 use crate::small::curve::Curve;
 
 /// Friction on a surface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceFriction {
     /// The normal coordinate and the two of the surface (0 to 2: x, y, z).
     pub coordinates: [usize; 3],

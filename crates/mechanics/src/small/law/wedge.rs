@@ -31,20 +31,18 @@
 //! choices are listed in [`crate::small::Options`]. Defects: no mass, no moments, no lift-off ringing. The slope's friction is no slider of
 //! its own: where the bolster swings along x it can feed energy (a negative slope entry in the ledger tells), above all jammed (toe
 //! in with much friction: a half-truck with yaw then chatters at hundreds of hertz) and with
-//! [`crate::small::Options::rise_in_slip`]. Where `μ_c x N(x)` is not monotonic (steep angles with high friction) sticking and
-//! slipping disagree about N at the limit. Without friction of the column the slope has none either.
+//! [`crate::small::Options::rise_in_slip`]; [`SlopeDirection::OwnSlip`] is the remedy, with `-μ_s tanh(slip/v0)` in place of `α x`. Where `μ_c x N(x)` is not monotonic (steep angles with high friction) sticking and
+//! slipping disagree about N at the limit.
 
 use integrate::scalar::Real;
-use serde::{Deserialize, Serialize};
 
 use super::{Accumulator, Friction, Grip, SpatialForce, friction_of};
 use crate::friction::Friction as Slip;
 use crate::small::curve::Curve;
-use crate::small::options::{Branch, NegativeRise, Options};
+use crate::small::options::{Branch, NegativeRise, Options, SlopeDirection};
 
 /// The column that the wedge slides on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Column {
     /// A toe that is only a direction (types 6.3, 6.7, 6.8): vertical and lateral forces.
     Plain {
@@ -61,7 +59,7 @@ pub enum Column {
 }
 
 /// A massless friction wedge. Body A of its connection is the bolster, body B the side frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Wedge {
     /// Wedge angle θ from the vertical, rad, between 0 and π/2.
     pub angle: f64,
@@ -112,6 +110,18 @@ pub(crate) struct WedgeLaw {
     branch: Branch,
     rise_in_slip: bool,
     stops: bool,
+    slope_friction: f64,
+    /// Reference speed, where the slope follows its own slip.
+    own_slip: Option<f64>,
+}
+
+/// What happens at the column, and the slope's coefficient (signed: positive up the slope).
+struct Contact<S> {
+    slip: Slip<S>,
+    x: S,
+    slope: S,
+    normal: S,
+    inside: WedgeState,
 }
 
 /// What a wedge does beyond its forces on the bodies, N and m.
@@ -184,6 +194,11 @@ impl WedgeLaw {
             branch: options.branch,
             rise_in_slip: options.rise_in_slip,
             stops: options.negative_rise == NegativeRise::Stop,
+            slope_friction: law.slope_friction,
+            own_slip: match options.slope {
+                SlopeDirection::Toe => None,
+                SlopeDirection::OwnSlip { reference_speed } => Some(reference_speed),
+            },
         }
     }
 
@@ -192,13 +207,14 @@ impl WedgeLaw {
         self.profile.is_some()
     }
 
-    /// The column's normal force at the signed fraction `x`, and whether it is the cap.
+    /// The column's normal force at the signed fraction `x` with the slope's friction coefficient `slope` (signed:
+    /// positive up the slope), and whether it is the cap.
     #[inline(always)]
-    fn normal<S: Real>(&self, face: &Face, coil: S, x: S) -> (S, bool) {
+    fn normal<S: Real>(&self, face: &Face, coil: S, x: S, slope: S) -> (S, bool) {
         let [s, c] = face.sum;
-        let both = face.alpha + self.friction;
-        let divisor = x * (-both * c) - x * x * (face.alpha * self.friction * s) + s;
-        let dividend = coil * (x * (face.alpha * self.sine) + self.cosine);
+        let column = x * self.friction;
+        let divisor = (slope + column) * -c - slope * column * s + s;
+        let dividend = coil * (slope * self.sine + self.cosine);
         if divisor.value() <= 0.0 || dividend.value() > self.limit * divisor.value() {
             (S::from(self.limit), true)
         } else {
@@ -206,20 +222,26 @@ impl WedgeLaw {
         }
     }
 
-    /// The signed fraction that holds the friction `ratio · coil force`.
+    /// The signed fraction that holds the friction `ratio · coil force`; `own` is the slope's coefficient if it does not
+    /// follow the column.
     #[inline(always)]
-    fn fraction<S: Real>(&self, face: &Face, ratio: S) -> S {
+    fn fraction<S: Real>(&self, face: &Face, ratio: S, own: Option<S>) -> S {
         let [s, c] = face.sum;
         let (alpha, friction) = (face.alpha, self.friction);
-        let linear = ratio * ((alpha + friction) * c) + friction * self.cosine;
-        let quadratic = -(ratio * (alpha * friction * s) + friction * alpha * self.sine);
-        let root = linear * linear - quadratic * ratio * (4.0 * s);
-        let root = if root.value() > 0.0 {
-            root.sqrt()
+        let x = if let Some(slope) = own {
+            let divisor = (slope * self.sine + self.cosine) + ratio * (slope * s + c);
+            ratio * (slope * -c + s) / (divisor * friction)
         } else {
-            S::zero()
+            let linear = ratio * ((alpha + friction) * c) + friction * self.cosine;
+            let quadratic = -(ratio * (alpha * friction * s) + friction * alpha * self.sine);
+            let root = linear * linear - quadratic * ratio * (4.0 * s);
+            let root = if root.value() > 0.0 {
+                root.sqrt()
+            } else {
+                S::zero()
+            };
+            ratio * (2.0 * s) / (linear + root)
         };
-        let x = ratio * (2.0 * s) / (linear + root);
         if x.value().abs() <= 1.0 {
             x
         } else {
@@ -274,7 +296,20 @@ impl WedgeLaw {
             along = rates[0] * (1.0 / face.cosine) + rise_rate * face.cosine;
         }
         let velocity = [along, rates[2]];
-        let (slip, x, normal, inside) = self.column(face, coil, velocity, deflection, grip);
+        // up the slope, against the wedge's own slip
+        let own = match self.own_slip {
+            Some(speed) if direction != 0.0 && grip != Grip::Free => {
+                Some((rise_rate * (1.0 / (self.cosine * speed))).tanh() * -self.slope_friction)
+            }
+            _ => None,
+        };
+        let Contact {
+            slip,
+            x,
+            slope,
+            normal,
+            inside,
+        } = self.column(face, coil, own, velocity, deflection, grip);
         // friction on the wedge along the column, up
         let up = slip.force[0];
         let (p_cos, p_sin) = (face.cosine, face.sine);
@@ -286,7 +321,6 @@ impl WedgeLaw {
             let across = normal * p_cos + up * p_sin;
             let along_column = up * p_cos - normal * p_sin;
             force = [-(carried + along_column), across * direction, -slip.force[1]];
-            let slope = x * face.alpha;
             if coil.value() > 0.0 {
                 slope_normal = across / (slope * self.sine + self.cosine);
                 powers[1] = -(slope * slope_normal * rise_rate * (1.0 / self.cosine));
@@ -296,7 +330,7 @@ impl WedgeLaw {
                 powers[2] = (unbalanced + normal * p_sin) * rise_rate - up * mismatch - across * pressed;
             }
         } else if coil.value() > 0.0 {
-            slope_normal = (normal * p_cos + up * p_sin) / (x * (face.alpha * self.sine) + self.cosine);
+            slope_normal = (normal * p_cos + up * p_sin) / (slope * self.sine + self.cosine);
         }
         report(WedgeState {
             coil_force: coil.value(),
@@ -321,21 +355,33 @@ impl WedgeLaw {
         }
     }
 
-    /// The column's friction, the mobilised fraction, the normal force.
+    /// The column's friction and what goes with it; `own` is the slope's coefficient if it does not follow the column.
     #[inline(always)]
     fn column<S: Real>(
         &self,
         face: &Face,
         coil: S,
+        own: Option<S>,
         velocity: [S; 2],
         deflection: [S; 2],
         grip: Grip,
-    ) -> (Slip<S>, S, S, WedgeState) {
+    ) -> Contact<S> {
         let zero = S::zero();
+        let slope_at = |x: S| own.unwrap_or(x * face.alpha);
+        let at = |slip: Slip<S>, x: S, inside: WedgeState| {
+            let slope = slope_at(x);
+            let normal = self.normal(face, coil, x, slope).0;
+            Contact {
+                slip,
+                x,
+                slope,
+                normal,
+                inside,
+            }
+        };
         if coil.value() <= 0.0 || grip == Grip::Free {
             let slip = friction_of(&self.accumulator, zero, grip, velocity, deflection);
-            let normal = self.normal(face, coil, zero).0;
-            return (slip, zero, normal, WedgeState::default());
+            return at(slip, zero, WedgeState::default());
         }
         let trial = self.accumulator.trial(velocity, deflection);
         let square = trial[0] * trial[0] + trial[1] * trial[1];
@@ -346,7 +392,8 @@ impl WedgeLaw {
         };
         let direction = if size > 0.0 { -trial[0].value() / size } else { 0.0 };
         let x = by_velocity.map_or(direction, S::value);
-        let (normal, jammed) = self.normal(face, coil.value(), x);
+        let slope = own.map_or(x * face.alpha, S::value);
+        let (normal, jammed) = self.normal(face, coil.value(), x, slope);
         let limit = normal * self.friction;
         let inside = WedgeState {
             friction_limit: limit,
@@ -358,25 +405,15 @@ impl WedgeLaw {
             let slip = friction_of(&self.accumulator, held, grip, velocity, deflection);
             let x = match by_velocity {
                 Some(x) => x,
-                None if self.friction > 0.0 => self.fraction(face, slip.force[0] / coil),
+                None if self.friction > 0.0 => self.fraction(face, slip.force[0] / coil, own),
                 None => zero,
             };
-            return (slip, x, self.normal(face, coil, x).0, inside);
+            return at(slip, x, inside);
         }
         let x = by_velocity.unwrap_or_else(|| -(trial[0] / square.sqrt()));
-        let normal = self.normal(face, coil, x).0;
-        let slip = friction_of(
-            &self.accumulator,
-            normal * self.friction,
-            grip,
-            velocity,
-            deflection,
-        );
-        if self.friction > 0.0 {
-            (slip, x, normal, inside)
-        } else {
-            (slip, zero, self.normal(face, coil, zero).0, inside)
-        }
+        let held = self.normal(face, coil, x, slope_at(x)).0 * self.friction;
+        let slip = friction_of(&self.accumulator, held, grip, velocity, deflection);
+        at(slip, if self.friction > 0.0 { x } else { zero }, inside)
     }
 
     /// Energy of the coil, J; zero at zero stroke of the coil.
