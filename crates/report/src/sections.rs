@@ -1,7 +1,9 @@
 //! How the report is divided: which figures belong together, and what is said before them.
 
+use study::case::builtin;
 use wedge::parameters::Damping;
 
+use crate::beyond;
 use crate::figures::{self, Exhibit, Outcome, damping_name};
 use crate::page::{Drawn, Section};
 
@@ -54,6 +56,33 @@ pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
         folded: true,
     }));
     plans.retain(|plan| !plan.exhibits.is_empty());
+    plans
+}
+
+/// The sections of the cases beyond the thesis, one a group, each with what to look at.
+#[must_use]
+pub fn beyond(outcomes: &[Outcome]) -> Vec<Plan> {
+    let group_of = |outcome: &Outcome| builtin::group_of(&outcome.0.name).map(|group| group.name);
+    let mut plans = Vec::new();
+    for runs in outcomes.chunk_by(|a, b| group_of(a) == group_of(b)) {
+        let Some(group) = runs.first().and_then(|(case, _)| builtin::group_of(&case.name)) else {
+            continue;
+        };
+        let Some(figure) = beyond::figure(group.name, runs) else {
+            continue;
+        };
+        plans.push(Plan {
+            id: format!("beyond-{}", group.name.replace('_', "-")),
+            title: group.title.to_owned(),
+            intro: group.look_at.to_owned(),
+            exhibits: vec![Exhibit {
+                name: format!("beyond_{}", group.name),
+                thesis: String::new(),
+                figure,
+            }],
+            folded: false,
+        });
+    }
     plans
 }
 

@@ -444,7 +444,9 @@ fn plots() {
     refused(path, &call("new/both.svg"), &["new/both.svg", "--force"]);
     done(path, &[&call("new/both.svg")[..], &["--force"]].concat());
 
-    refused(path, &call("both.png"), &["`both.png`", "--out both.svg"]);
+    refused(path, &call("both.pdf"), &["`both.pdf`", "--out both.svg"]);
+    done(path, &call("both.png"));
+    assert!(fs::read(path.join("both.png")).unwrap().starts_with(b"\x89PNG"));
     refused(path, &call("both"), &["--out both.svg"]);
     for (x, y, texts) in [
         ("tme", "wedge_z", ["no column `tme`", "did you mean time?"]),

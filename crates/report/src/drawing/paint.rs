@@ -16,7 +16,7 @@ use crate::thin::{thin, window};
 
 /// Width of a figure of one row, and of a single panel, pixels.
 const SHEET_WIDTH: f64 = 960.0;
-const PANEL_WIDTH: f64 = 620.0;
+const PANEL_WIDTH: f64 = 720.0;
 const PANEL_HEIGHT: f64 = 380.0;
 /// Height of a row with names as ordinates.
 const NAME_HEIGHT: f64 = 24.0;
@@ -191,7 +191,7 @@ pub(super) fn scene(figure: &Figure) -> Scene {
         .with_plots(plots)
         .with_layouts(layouts)
         .with_title(figure.title.as_str())
-        .with_title_size(TITLE_SIZE)
+        .with_title_size(title_size(&figure.title, cell_width * columns as f64))
         .with_cell_size(cell_width, PANEL_HEIGHT);
     for (panel, (row, _, _)) in figure.panels.iter().zip(&places) {
         if !panel.y_names.is_empty() {
@@ -206,6 +206,12 @@ pub(super) fn scene(figure: &Figure) -> Scene {
     }
     add_legend(&mut scene, &figure.legend());
     scene
+}
+
+/// The size at which a title fits into a width, pixels.
+fn title_size(title: &str, width: f64) -> u32 {
+    let letters = title.chars().count().max(1) as f64;
+    ((width / (0.56 * letters)) as u32).clamp(11, TITLE_SIZE)
 }
 
 /// Rounds a drawn line to a tenth of a pixel and leaves out what then lies on a straight line between its neighbours.

@@ -43,8 +43,10 @@ pub struct Section {
 /// What the page tells.
 #[derive(Clone, Copy, Debug)]
 pub struct Contents<'c> {
-    /// The runs.
+    /// The runs of the thesis.
     pub outcomes: &'c [Outcome],
+    /// Those beyond it.
+    pub beyond: &'c [Outcome],
     /// The thesis's statements and what was found.
     pub claims: &'c Claims,
     /// The figures.
@@ -56,7 +58,9 @@ pub struct Contents<'c> {
 pub fn render(contents: &Contents<'_>) -> String {
     let program = contents
         .outcomes
-        .first()
+        .iter()
+        .chain(contents.beyond)
+        .next()
         .map_or(String::new(), |(_, result)| result.summary.program.clone());
     let (open, folded): (Vec<&Section>, Vec<&Section>) =
         contents.sections.iter().partition(|section| !section.folded);
@@ -80,7 +84,7 @@ pub fn render(contents: &Contents<'_>) -> String {
                 }
                 nav aria-label="Contents" {
                     ul {
-                        li { a href="#runs" { "Runs" } }
+                        @if !contents.outcomes.is_empty() { li { a href="#runs" { "Runs" } } }
                         @if !contents.claims.claims.is_empty() {
                             li { a href="#claims" { "The thesis's statements, one by one" } }
                         }
@@ -114,8 +118,8 @@ pub fn render(contents: &Contents<'_>) -> String {
                             }
                         }
                     }
-                    (runs::assumptions(contents.outcomes))
-                    (runs::files(contents.outcomes))
+                    (runs::assumptions(contents))
+                    (runs::files(contents))
                 }
             }
         }

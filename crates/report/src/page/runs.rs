@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 use study::summary::{Measure, Summary};
 
-use super::FIGURES;
+use super::{Contents, FIGURES};
 use crate::figures::{Outcome, toe_style, yaw};
 use crate::run_files;
 
@@ -16,6 +16,9 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
     let cell = |measure: Option<&Measure>| {
         measure.map_or("–".to_owned(), |measure| format!("{:.1}", measure.value))
     };
+    if outcomes.is_empty() {
+        return html! {};
+    }
     html! {
         section {
             h2 id="runs" { "Runs" }
@@ -87,9 +90,10 @@ fn equivalent(summary: &Summary) -> Option<&Measure> {
 }
 
 /// The assumptions: those of all runs, then those of some.
-pub(super) fn assumptions(outcomes: &[Outcome]) -> Markup {
+pub(super) fn assumptions(contents: &Contents<'_>) -> Markup {
+    let outcomes: Vec<&Outcome> = contents.outcomes.iter().chain(contents.beyond).collect();
     let mut texts: Vec<(&str, Vec<&str>)> = Vec::new();
-    for (case, result) in outcomes {
+    for (case, result) in outcomes.iter().copied() {
         for text in &result.summary.assumptions {
             match texts.iter_mut().find(|(own, _)| *own == text.as_str()) {
                 Some((_, runs)) => runs.push(&case.name),
@@ -122,7 +126,7 @@ pub(super) fn assumptions(outcomes: &[Outcome]) -> Markup {
 }
 
 /// Where the data are.
-pub(super) fn files(outcomes: &[Outcome]) -> Markup {
+pub(super) fn files(contents: &Contents<'_>) -> Markup {
     html! {
         section {
             h2 id="files" { "Files" }
@@ -134,7 +138,7 @@ pub(super) fn files(outcomes: &[Outcome]) -> Markup {
                 table {
                     thead { tr { th scope="col" { "run" } th scope="col" { "files" } } }
                     tbody {
-                        @for (case, _) in outcomes {
+                        @for (case, _) in contents.outcomes.iter().chain(contents.beyond) {
                             tr {
                                 th scope="row" { (case.name) }
                                 td {

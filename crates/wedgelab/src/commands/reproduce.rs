@@ -1,4 +1,4 @@
-//! `wedgelab reproduce`: the thesis's twelve runs.
+//! `wedgelab reproduce`: all built-in cases, told in a report.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -19,11 +19,12 @@ use crate::failure::{FAILED, Failure, Message};
 use crate::progress::Progress;
 use crate::select::select;
 
-/// Run the thesis's twelve runs
+/// Run all built-in cases and tell them in a report
 ///
-/// Computes the twelve runs of Steets (2007), table 4-1: variable and constant damping, toe out, none and in, with and
-/// without yaw of the bolster. Writes the report index.html, its statements with verdicts claims.json, each figure as SVG and PNG, and for each run
-/// runs/NAME/result.csv, result.mat, case.toml and summary.json; prints a table of the runs.
+/// Computes the twelve runs of Steets (2007), table 4-1 (variable and constant damping, toe out, none and in, with and
+/// without yaw of the bolster), and the cases beyond the thesis. Writes the report index.html, its statements with verdicts
+/// claims.json, each figure as SVG and PNG, and for each run runs/NAME/result.csv, result.mat, case.toml and
+/// summary.json; prints a table of the runs.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -56,7 +57,7 @@ struct Kept {
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let cases = select(&arguments.only, builtin::thesis_names())?
+    let cases = select(&arguments.only, builtin::names())?
         .into_iter()
         .map(builtin::case)
         .collect::<Result<Vec<Case>, _>>()?;
@@ -112,7 +113,13 @@ fn keep(case: Case, folder: &Folder, progress: &Progress) -> Result<Kept, Failur
 
 /// Draws all figures and writes them and the page; gives the number of figures.
 fn tell(outcomes: &[Outcome], places: &Places) -> Result<usize, Failure> {
-    let plans = sections::thesis(outcomes);
+    let thesis = builtin::thesis_names().collect::<Vec<_>>();
+    // The thesis's runs come first in the list of cases.
+    let first_beyond = outcomes.partition_point(|(case, _)| thesis.contains(&case.name.as_str()));
+    let (outcomes, beyond) = outcomes.split_at(first_beyond);
+    let mut plans = sections::thesis(outcomes);
+    let run_by_run = plans.partition_point(|plan| !plan.folded);
+    plans.splice(run_by_run..run_by_run, sections::beyond(beyond));
     let exhibits: Vec<&Exhibit> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
     let drawings: Vec<(String, Vec<u8>)> = exhibits
         .par_iter()
@@ -143,6 +150,7 @@ fn tell(outcomes: &[Outcome], places: &Places) -> Result<usize, Failure> {
     let verdicts = Claims::of(claims::evaluate(&evidence));
     let page = page::render(&Contents {
         outcomes,
+        beyond,
         claims: &verdicts,
         sections: &sections,
     });
