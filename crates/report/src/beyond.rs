@@ -38,10 +38,14 @@ pub const GROUPS: [&str; 7] = [
     "wear",
 ];
 
-/// The name of a group's figure file.
+/// Whether a figure of a group may need this column: the others need not be kept.
 #[must_use]
-pub fn file_name(group: &str) -> String {
-    format!("{group}.svg")
+pub fn needs(column: &str) -> bool {
+    const ALSO: [&str; 3] = ["time", "vertical_wedge_force", "longitudinal_wedge_force"];
+    let begins = ["net_", "bolster_", "wedge_"]
+        .iter()
+        .any(|start| column.starts_with(start));
+    ALSO.contains(&column) || begins && !column.ends_with("_rate")
 }
 
 /// The figure of a group from its runs (those that there are); `None` for a group without a figure, or without runs.

@@ -23,6 +23,15 @@ impl RunResult {
         self.values.first().map_or(0, Vec::len)
     }
 
+    /// Forgets the columns that are not wanted, by their names without unit.
+    pub fn keep_columns(&mut self, wanted: impl Fn(&str) -> bool) {
+        let keep: Vec<bool> = self.columns.iter().map(|column| wanted(&column.name)).collect();
+        let mut kept = keep.iter();
+        self.columns.retain(|_| kept.next().is_some_and(|keep| *keep));
+        let mut kept = keep.iter();
+        self.values.retain(|_| kept.next().is_some_and(|keep| *keep));
+    }
+
     /// The values (SI) of the column with this name (without unit).
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {

@@ -11,7 +11,7 @@ use report::claims::{self, Claims, Evidence};
 use report::figures::{Exhibit, Outcome};
 use report::files::{Folder, check_all};
 use report::page::{self, Contents};
-use report::{run_files, sections};
+use report::{beyond, run_files, sections};
 use study::case::{Case, builtin};
 
 use crate::execute::{TABLE_NOTE, execute as execute_case, incomplete, table};
@@ -104,22 +104,28 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 fn keep(case: Case, folder: &Folder, progress: &Progress) -> Result<Kept, Failure> {
-    let done = execute_case(&case, folder, progress)?;
+    let mut done = execute_case(&case, folder, progress)?;
+    if !is_of_thesis(&case) {
+        done.result.keep_columns(beyond::needs);
+    }
     Ok(Kept {
         wall: done.wall,
         outcome: (case, done.result),
     })
 }
 
+fn is_of_thesis(case: &Case) -> bool {
+    builtin::thesis_names().any(|name| name == case.name)
+}
+
 /// Draws all figures and writes them and the page; gives the number of figures.
 fn tell(outcomes: &[Outcome], places: &Places) -> Result<usize, Failure> {
-    let thesis = builtin::thesis_names().collect::<Vec<_>>();
     // The thesis's runs come first in the list of cases.
-    let first_beyond = outcomes.partition_point(|(case, _)| thesis.contains(&case.name.as_str()));
-    let (outcomes, beyond) = outcomes.split_at(first_beyond);
+    let first_beyond = outcomes.partition_point(|(case, _)| is_of_thesis(case));
+    let (outcomes, others) = outcomes.split_at(first_beyond);
     let mut plans = sections::thesis(outcomes);
     let run_by_run = plans.partition_point(|plan| !plan.folded);
-    plans.splice(run_by_run..run_by_run, sections::beyond(beyond));
+    plans.splice(run_by_run..run_by_run, sections::beyond(others));
     let exhibits: Vec<&Exhibit> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
     let drawings: Vec<(String, Vec<u8>)> = exhibits
         .par_iter()
@@ -150,7 +156,7 @@ fn tell(outcomes: &[Outcome], places: &Places) -> Result<usize, Failure> {
     let verdicts = Claims::of(claims::evaluate(&evidence));
     let page = page::render(&Contents {
         outcomes,
-        beyond,
+        beyond: others,
         claims: &verdicts,
         sections: &sections,
     });
