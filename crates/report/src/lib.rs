@@ -7,6 +7,7 @@
 //! - [`sections`], [`page`]: the report as one page.
 //! - [`drawing`]: figures, their curves and axes, drawn as SVG and PNG; [`thin`] makes their curves small.
 //! - [`figures`]: the report's figures.
+//! - [`view`]: the data of the page's interactive part.
 //! - [`run_files`]: the files of a run.
 
 pub mod csv;
@@ -20,3 +21,4 @@ pub mod run_files;
 pub mod sections;
 pub mod summary;
 pub mod thin;
+pub mod view;
