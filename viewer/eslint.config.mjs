@@ -2,7 +2,7 @@ import js from "@eslint/js";
 import tseslint from "typescript-eslint";
 
 export default tseslint.config(
-  { ignores: ["dist/", "build/", "node_modules/"] },
+  { ignores: ["dist/", "node_modules/"] },
   js.configs.recommended,
   {
     files: ["src/**/*.ts", "test/unit/**/*.ts"],
@@ -22,7 +22,7 @@ export default tseslint.config(
     files: ["scripts/**/*.mjs", "test/browser/**/*.mjs", "*.mjs"],
     languageOptions: {
       globals: { process: "readonly", console: "readonly", Buffer: "readonly", URL: "readonly", performance: "readonly",
-        document: "readonly", window: "readonly", HTMLElement: "readonly", requestAnimationFrame: "readonly", location: "readonly" },
+        Event: "readonly", Image: "readonly", document: "readonly", window: "readonly" },
     },
   },
 );

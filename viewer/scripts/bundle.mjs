@@ -34,6 +34,10 @@ for (const file of outputFiles) {
   // The files stand in elements of a page, which these would end.
   const text = file.text.replaceAll(/<\/(script|style)/gi, "<\\/$1").replaceAll("<!--", "<\\!--");
   const whole = name.endsWith(".js") ? head + text : text;
-  await writeFile(join(out, name), whole);
+  const place = join(out, name);
+  // Cargo builds again what has a new date.
+  if (whole !== (await readFile(place, "utf8").catch(() => undefined))) {
+    await writeFile(place, whole);
+  }
   console.log(`${name}: ${(Buffer.byteLength(whole) / 1024).toFixed(0)} kB`);
 }

@@ -7,7 +7,7 @@ import { build } from "esbuild";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
 const tests = (await readdir(join(root, "test/unit"))).filter((name) => name.endsWith(".test.ts"));
-const outdir = join(root, "build/unit");
+const outdir = join(root, "node_modules/.cache/wedgelab-unit");
 await build({
   absWorkingDir: root,
   entryPoints: tests.map((name) => join("test/unit", name)),

@@ -22,6 +22,22 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
+const SPACE = "http://www.w3.org/2000/svg";
+
+/** A small picture of one path on a field of 16 by 16. */
+export function icon(path: string): SVGSVGElement {
+  const picture = document.createElementNS(SPACE, "svg");
+  picture.setAttribute("viewBox", "0 0 16 16");
+  picture.setAttribute("width", "16");
+  picture.setAttribute("height", "16");
+  picture.setAttribute("aria-hidden", "true");
+  const line = document.createElementNS(SPACE, "path");
+  line.setAttribute("d", path);
+  line.setAttribute("fill", "currentColor");
+  picture.append(line);
+  return picture;
+}
+
 /** A list to choose from. */
 export function select(
   attributes: Attributes,

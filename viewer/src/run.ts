@@ -2,7 +2,7 @@
 
 import { Clock, SPEEDS } from "./clock.js";
 import type { RunData } from "./data.js";
-import { element, select } from "./dom.js";
+import { element, icon, select } from "./dom.js";
 import { keyboard } from "./keyboard.js";
 import { RunPlot } from "./plots/run-plot.js";
 import type { Range } from "./plots/curves.js";
@@ -14,6 +14,10 @@ import { digits, type Units } from "./units.js";
 
 export const FACTORS = [1, 2, 5, 10, 20, 50];
 const PLOTS = 3;
+const PLAY = "M3 1v14l11-7z";
+const PAUSE = "M3 1h3.5v14H3zM9.5 1H13v14H9.5z";
+const START = "M2 1h2.5v14H2zM14 1v14L5 8z";
+const FILL = "M1 1h5v2H3v3H1zM10 1h5v5h-2V3h-3zM1 10h2v3h3v2H1zM13 10h2v5h-5v-2h3z";
 
 export class RunView {
   readonly root = element("div", { class: "wl-run", tabindex: "0", role: "group" });
@@ -23,6 +27,7 @@ export class RunView {
   private readonly scene: SceneView | undefined;
   private readonly stage = element("div", { class: "wl-stage" });
   private readonly told = element("p", { class: "wl-told" });
+  private readonly key = element("div", { class: "wl-key" });
   private readonly bar = element("span", { class: "wl-bar" });
   private readonly barText = element("span");
   private readonly triad = element("div", { class: "wl-triad", "aria-hidden": "true" });
@@ -45,9 +50,9 @@ export class RunView {
     this.clock = new Clock(run.start, run.end);
     this.window = new Store<Range>([run.start, run.end]);
     this.root.setAttribute("aria-label", `Animation and plots of ${run.run.name}`);
-    const button = (text: string, label: string, act: () => void): HTMLButtonElement =>
+    const button = (text: string | Node, label: string, act: () => void): HTMLButtonElement =>
       element("button", { type: "button", "aria-label": label, title: label, onclick: act }, text);
-    this.playButton = button("▶", "play (space)", () => this.clock.play());
+    this.playButton = button("", "play or pause (space)", () => this.clock.play());
     this.scrubber = element("input", {
       type: "range",
       class: "wl-scrubber",
@@ -57,8 +62,10 @@ export class RunView {
       step: "any",
       value: run.start,
       oninput: () => {
+        // Stopping the clock moves the scrubber back to its time.
+        const time = Number(this.scrubber.value);
         this.clock.play(false);
-        this.clock.set(Number(this.scrubber.value));
+        this.clock.set(time);
       },
     });
     this.speedList = select(
@@ -90,12 +97,12 @@ export class RunView {
       },
     );
     const views = VIEWS.map(({ id, name }, k) => button(name, `view: ${name} (${k + 1})`, () => this.scene?.look(id)));
-    const fill = button("⛶", "fill the window (F)", () => this.fill());
+    const fill = button(icon(FILL), "fill the window (F)", () => this.fill());
     this.root.append(
       element(
         "div",
         { class: "wl-controls" },
-        button("⏮", "to the start (Home)", () => this.clock.set(run.start)),
+        button(icon(START), "to the start (Home)", () => this.clock.set(run.start)),
         this.playButton,
         this.scrubber,
         this.timeText,
@@ -106,7 +113,8 @@ export class RunView {
     );
     const stage = element("div", { class: "wl-scene" }, this.stage);
     if (this.scene) {
-      stage.append(element("div", { class: "wl-views" }, ...views, this.factorList, arrows));
+      stage.prepend(this.told);
+      stage.append(this.key, element("div", { class: "wl-views" }, ...views, this.factorList, arrows));
     }
     this.plots = Array.from({ length: PLOTS }, (_, k) => k)
       .filter((k) => k < run.run.plots.length)
@@ -121,12 +129,13 @@ export class RunView {
       units.watch(() => this.show()),
       keyboard(this.root, this),
     );
+    this.show();
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.stage);
     const frame = (now: number): void => {
       this.request = requestAnimationFrame(frame);
       this.clock.frame(now);
-      if (this.scene?.render()) {
+      if (this.scene?.render(now)) {
         this.drawn(now);
       }
     };
@@ -214,9 +223,7 @@ export class RunView {
       mark.style.background = style;
       return element("span", {}, mark, text);
     };
-    const legend = element(
-      "div",
-      { class: "wl-key" },
+    this.key.append(
       element("span", {}, this.bar, this.barText),
       colour("normal force", NORMAL, "wl-stroke"),
       colour("friction", FRICTION, "wl-stroke"),
@@ -224,7 +231,7 @@ export class RunView {
     );
     this.bar.style.background = "#1b1b1b";
     this.barText.title = `Arrows longer than ${LONGEST} times this bar are cut.`;
-    this.stage.append(scene.canvas, this.told, this.triad, legend);
+    this.stage.append(scene.canvas, this.triad);
     scene.controls.addEventListener("change", () => this.overlay());
     // The wheel scrolls the page until the view is clicked or Ctrl is held.
     scene.canvas.addEventListener(
@@ -256,13 +263,16 @@ export class RunView {
   private show(): void {
     const { clock, scene, run } = this;
     const { time, playing } = clock;
-    this.playButton.textContent = playing ? "⏸" : "▶";
+    const state = this.root.dataset;
+    if (state.playing !== String(playing)) {
+      this.playButton.replaceChildren(icon(playing ? PAUSE : PLAY));
+      this.frames = [];
+    }
     this.scrubber.value = String(time);
     this.scrubber.setAttribute("aria-valuetext", `${time.toFixed(2)} s`);
     this.timeText.textContent = `${time.toFixed(2)} s`;
     this.speedList.value = String(clock.speed);
     this.loopBox.checked = clock.loop;
-    const state = this.root.dataset;
     state.time = time.toFixed(4);
     state.playing = String(playing);
     state.units = this.units.value.system;
@@ -293,7 +303,7 @@ export class RunView {
     this.told.textContent =
       scene.factor === 1
         ? "To scale."
-        : `Angles and gaps exaggerated ${scene.factor}×; gaps beyond ${units.text(limit, "length")} as drawn grow to scale. Travel is to scale.`;
+        : `Angles and gaps ${scene.factor}× exaggerated (gaps to ${(limit * units.factor("length")).toPrecision(2)} ${units.label("length")} as drawn, beyond that to scale); travel to scale.`;
     const shown = round(scene.scaleForce * units.factor("force"));
     const metres = (scene.arrow * scene.arrowFactor * shown) / (scene.scaleForce * units.factor("force"));
     this.bar.style.width = `${Math.min(200, metres * scene.pixels).toFixed(0)}px`;
@@ -302,8 +312,11 @@ export class RunView {
     this.triad.replaceChildren(triad(scene.axes()));
   }
 
-  /** Counts frames drawn in the last two seconds. */
+  /** Counts frames drawn in the last two seconds of playing. */
   private drawn(now: number): void {
+    if (!this.clock.playing) {
+      return;
+    }
     this.frames.push(now);
     while ((this.frames[0] ?? now) < now - 2000) {
       this.frames.shift();

@@ -35,7 +35,8 @@ export function digits(value: number): string {
   if (!Number.isFinite(value)) {
     return "–";
   }
-  const size = Math.abs(value);
+  // Rounded first: 999.99 has no decimals.
+  const size = Math.abs(Number(value.toPrecision(4)));
   let text: string;
   if (size === 0) {
     text = "0";

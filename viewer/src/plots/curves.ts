@@ -128,7 +128,7 @@ export const AXIS: Pick<uPlot.Axis, "stroke" | "font" | "labelFont" | "labelSize
   stroke: "#333",
   font: "12px system-ui, sans-serif",
   labelFont: "12px system-ui, sans-serif",
-  labelSize: 20,
+  labelSize: 24,
   labelGap: 0,
   grid: { stroke: "#e4e4e4", width: 1 },
   ticks: { stroke: "#8c8c8c", width: 1, size: 4 },
@@ -148,5 +148,5 @@ export function tickTexts(_plot: uPlot, splits: number[]): string[] {
 /** Room for ticks: by the longest text. */
 export function tickRoom(_plot: uPlot, texts: string[] | null): number {
   const letters = Math.max(3, ...(texts ?? []).map((text) => text.length));
-  return 12 + 7 * letters;
+  return 12 + 7.6 * letters;
 }

@@ -67,7 +67,7 @@ export class Dot {
 
   constructor(radius: number) {
     this.mesh = new Mesh(new SphereGeometry(radius, 12, 8), Dot.materials[0]);
-    this.mesh.renderOrder = 11;
+    this.mesh.renderOrder = 9;
   }
 
   show(place: Vector3, state: number): void {

@@ -12,8 +12,8 @@ export interface NamedView {
 export const VIEWS: NamedView[] = [
   { id: "oblique", name: "Oblique", from: new Vector3(0.45, -1, 0.28) },
   { id: "side", name: "Side", from: new Vector3(0, -1, 0) },
-  { id: "column", name: "From the column", from: new Vector3(-1, 0, 0) },
-  { id: "slope", name: "From the slope", from: new Vector3(1, 0, 0.25) },
+  { id: "column", name: "Column", from: new Vector3(-1, 0, 0) },
+  { id: "slope", name: "Slope", from: new Vector3(1, 0, 0.25) },
   // Not quite from above: there the camera would not know which way is up.
   { id: "top", name: "Top", from: new Vector3(0, -0.001, 1) },
 ];

@@ -3,9 +3,7 @@
 import {
   Box3,
   Color,
-  DirectionalLight,
   Group,
-  HemisphereLight,
   Mesh,
   type Object3D,
   PerspectiveCamera,
@@ -61,6 +59,21 @@ const FIELD = 26;
 /** Arrows longer than this many times the scale's force are cut. */
 export const LONGEST = 2.5;
 
+/** Milliseconds of rest before a fine picture. */
+const REST = 250;
+
+/** Whether WebGL is computed without a graphics processor. */
+function drawsInSoftware(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  if (!context) {
+    return false;
+  }
+  const info = context.getExtension("WEBGL_debug_renderer_info");
+  const name = String(context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER));
+  context.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
 export class SceneView {
   readonly canvas: HTMLCanvasElement;
   readonly controls: OrbitControls;
@@ -78,18 +91,20 @@ export class SceneView {
   private readonly sprung: Sprung[] = [];
   private readonly ball: Sphere;
   private stale = true;
+  private readonly software: boolean;
+  private density = 1;
+  private fine = false;
+  private lastDrawn = 0;
 
   constructor(
     private readonly data: SceneData,
     run: RunData,
   ) {
     this.factor = data.factor;
-    this.renderer = new WebGLRenderer({ antialias: true, powerPreference: "low-power", preserveDrawingBuffer: true });
+    this.software = drawsInSoftware();
+    this.renderer = new WebGLRenderer({ antialias: !this.software, powerPreference: "low-power" });
     this.canvas = this.renderer.domElement;
     this.scene.background = new Color(0xf7f9fb);
-    const sun = new DirectionalLight(0xffffff, 1.6);
-    sun.position.set(1, -2, 2.5);
-    this.scene.add(sun, new HemisphereLight(0xffffff, 0x9aa2aa, 1.7));
 
     const bodies = new Map<string, Group>();
     for (const body of data.bodies) {
@@ -162,7 +177,9 @@ export class SceneView {
   }
 
   resize(width: number, height: number, density: number): void {
-    this.renderer.setPixelRatio(Math.min(2, density));
+    this.density = this.software ? 1 : Math.min(2, density);
+    this.fine = false;
+    this.renderer.setPixelRatio(this.density);
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / Math.max(1, height);
     this.camera.updateProjectionMatrix();
@@ -181,6 +198,7 @@ export class SceneView {
     this.controls.target.copy(this.ball.center);
     this.camera.position.copy(view.from).normalize().multiplyScalar(distance).add(this.ball.center);
     this.controls.update();
+    this.camera.updateMatrixWorld();
     this.refresh();
   }
 
@@ -193,6 +211,7 @@ export class SceneView {
     arm.applyAxisAngle(sideways, -Math.max(-1.5 - level, Math.min(1.5 - level, up)));
     this.camera.position.copy(this.controls.target).add(arm.multiplyScalar(nearer));
     this.controls.update();
+    this.camera.updateMatrixWorld();
     this.refresh();
   }
 
@@ -239,14 +258,24 @@ export class SceneView {
     this.stale = true;
   }
 
-  /** Draws if something changed; says whether it did. */
-  render(): boolean {
-    if (!this.stale) {
+  /**
+   * Draws if something changed; says whether it did. Without a graphics processor it draws coarsely what moves, and finely
+   * what has rested for a moment.
+   */
+  render(now: number): boolean {
+    const { stale } = this;
+    if (stale) {
+      this.lastDrawn = now;
+    } else if (!this.software || this.fine || now - this.lastDrawn < REST) {
       return false;
     }
     this.stale = false;
+    if (this.software && this.fine === stale) {
+      this.fine = !stale;
+      this.renderer.setPixelRatio(this.fine ? 2 : this.density);
+    }
     this.renderer.render(this.scene, this.camera);
-    return true;
+    return stale;
   }
 
   /** The contacts whose normal force is seen. */
