@@ -5,6 +5,7 @@
 mod bench;
 mod shell;
 mod test;
+mod viewer;
 
 use std::env;
 use std::process::ExitCode;
@@ -28,6 +29,11 @@ const COMMANDS: &[Command] = &[
         name: "bench",
         about: "run the benchmarks (`cargo bench --workspace`)",
         run: bench::run,
+    },
+    Command {
+        name: "viewer",
+        about: "bundle the interactive part of the report's page (needs Node.js)",
+        run: viewer::run,
     },
 ];
 

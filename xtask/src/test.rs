@@ -5,6 +5,7 @@ mod floors;
 mod octave;
 mod page;
 mod prose;
+mod viewer;
 
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -52,6 +53,12 @@ const CHECKS: &[Check] = &[
         floors::check,
     ),
     Check::new("prose", "no file points outside the repository", prose::check),
+    // Before everything that compiles: what is compiled after it holds the viewer.
+    Check::new(
+        "viewer",
+        "the interactive page: types, lints, tests in a browser (needs Node.js; installs Chromium)",
+        viewer::check,
+    ),
     Check::new("clippy", "no lint warns", clippy),
     Check::new(
         "test",

@@ -9,6 +9,7 @@
 //! - [`sections`], [`page`]: the report as one page.
 //! - [`drawing`]: figures, their curves and axes, drawn as SVG and PNG; [`thin`] makes their curves small.
 //! - [`figures`]: the report's figures.
+//! - [`view`]: the data of the page's interactive part.
 //! - [`run_files`]: the files of a run.
 //! - [`table`]: tables of results, read back.
 //! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
@@ -30,3 +31,4 @@ pub mod sections;
 pub mod summary;
 pub mod table;
 pub mod thin;
+pub mod view;

@@ -20,6 +20,8 @@ pub struct Plan {
     pub exhibits: Vec<Exhibit>,
     /// Whether it begins folded.
     pub folded: bool,
+    /// The run that it is about, if it is about one.
+    pub run: Option<String>,
 }
 
 /// The sections of the report on these runs of the thesis's kind.
@@ -31,6 +33,7 @@ pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
         intro: "What goes into the runs.".to_owned(),
         exhibits: figures::model::exhibits(outcomes),
         folded: false,
+        run: None,
     }];
     for chapter in figures::thesis::chapters(outcomes) {
         let (damping, yawed) = (chapter.damping, chapter.yawed);
@@ -46,6 +49,7 @@ pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
             intro: intro(damping, yawed).to_owned(),
             exhibits: chapter.exhibits,
             folded: false,
+            run: None,
         });
     }
     plans.extend(outcomes.iter().map(|outcome| Plan {
@@ -54,6 +58,7 @@ pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
         intro: String::new(),
         exhibits: figures::run::exhibits(outcome),
         folded: true,
+        run: Some(outcome.0.name.clone()),
     }));
     plans.retain(|plan| !plan.exhibits.is_empty());
     plans
@@ -81,6 +86,7 @@ pub fn beyond(outcomes: &[Outcome]) -> Vec<Plan> {
                 figure,
             }],
             folded: false,
+            run: None,
         });
     }
     plans
@@ -113,6 +119,7 @@ pub fn drawn(plan: &Plan, svgs: impl IntoIterator<Item = String>) -> Section {
         title: plan.title.clone(),
         intro: plan.intro.clone(),
         folded: plan.folded,
+        run: plan.run.clone(),
         figures: plan
             .exhibits
             .iter()

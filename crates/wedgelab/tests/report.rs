@@ -58,10 +58,23 @@ fn every_link_leads_somewhere() {
     }
 }
 
+/// The page without what stands in its scripts, which name addresses in their licences and messages. That they fetch
+/// nothing is watched in a browser (`cargo xtask test --only viewer`).
+fn markup() -> String {
+    let page = page();
+    let mut pieces = page.split("<script");
+    let first = pieces.next().unwrap_or_default().to_owned();
+    pieces.fold(first, |markup, piece| {
+        let (_, rest) = piece.split_once("</script>").unwrap();
+        markup + rest
+    })
+}
+
 #[test]
 fn the_page_needs_nothing_else() {
-    let page = page();
+    let page = markup();
     assert!(values(&page, "src").is_empty());
+    assert!(!self::page().contains("<script src"));
     for foreign in ["http:", "https:", "<link", "@import", "url("] {
         let found = page
             .replace("http://www.w3.org/2000/svg", "")
@@ -100,4 +113,20 @@ fn every_figure_is_there_twice_and_has_its_caption() {
 /// Whether a picture is more than a blank page: a blank one of this size packs into a few kilobytes.
 fn has_ink(png: &[u8]) -> bool {
     png.len() > 8_000
+}
+
+#[test]
+fn a_static_page_says_what_it_lacks() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
+        .args(["reproduce", "--quiet", "--only", "cdrun_toe_0_psi_0", "--out"])
+        .arg(folder.path())
+        .output()
+        .unwrap();
+    let told = String::from_utf8(output.stdout).unwrap();
+    let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
+    // Built with the viewer or without it, page and message agree.
+    let interactive = page.contains("id=\"wedgelab-view\"");
+    assert_eq!(interactive, report::page::Viewer::embedded().is_some());
+    assert_eq!(told.contains("cargo xtask viewer"), !interactive, "{told}");
 }

@@ -34,7 +34,9 @@ pub(super) const CLIP: &str = "clip-";
 const FONT: &str = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 
 impl Line {
-    fn dashes(self) -> Option<&'static str> {
+    /// Lengths of dashes and gaps by turns, as SVG writes them; none for a solid line.
+    #[must_use]
+    pub fn dashes(self) -> Option<&'static str> {
         match self {
             Self::Solid | Self::Bar => None,
             Self::Dashed => Some("9 4"),
@@ -43,7 +45,9 @@ impl Line {
         }
     }
 
-    fn width(self) -> f64 {
+    /// Its width in pixels.
+    #[must_use]
+    pub fn width(self) -> f64 {
         if self == Self::Bar { BAR } else { STROKE }
     }
 }

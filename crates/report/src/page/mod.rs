@@ -2,12 +2,14 @@
 
 mod claims;
 mod runs;
+mod viewer;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::claims::Claims;
 use crate::drawing::Figure;
 use crate::figures::{Exhibit, Outcome};
+pub use viewer::{MISSING, Viewer};
 
 /// The page's file name.
 pub const FILE_NAME: &str = "index.html";
@@ -38,6 +40,8 @@ pub struct Section {
     pub figures: Vec<Drawn>,
     /// Whether it begins folded.
     pub folded: bool,
+    /// The run that it is about, if it is about one.
+    pub run: Option<String>,
 }
 
 /// What the page tells.
@@ -51,6 +55,8 @@ pub struct Contents<'c> {
     pub claims: &'c Claims,
     /// The figures.
     pub sections: &'c [Section],
+    /// The page's interactive part with its data, JSON of [`crate::view::View`]; without it the page is static.
+    pub interactive: Option<(Viewer, &'c str)>,
 }
 
 /// The page as HTML.
@@ -72,6 +78,7 @@ pub fn render(contents: &Contents<'_>) -> String {
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { "Friction wedge: the runs of Steets (2007)" }
                 style { (PreEscaped(STYLE)) }
+                @if let Some((viewer, _)) = contents.interactive { style { (PreEscaped(viewer.style)) } }
             }
             body {
                 header {
@@ -111,7 +118,7 @@ pub fn render(contents: &Contents<'_>) -> String {
                                  corners, how much of the contact sticks, and the power that wears the faces."
                             }
                             @for section in &folded {
-                                details id=(anchor(&section.id)) {
+                                details id=(anchor(&section.id)) data-run=[section.run.as_deref()] {
                                     summary { (section.title) }
                                     (body(section))
                                 }
@@ -120,6 +127,10 @@ pub fn render(contents: &Contents<'_>) -> String {
                     }
                     (runs::assumptions(contents))
                     (runs::files(contents))
+                }
+                @if let Some((viewer, data)) = contents.interactive {
+                    script type="application/json" id="wedgelab-view" { (PreEscaped(data)) }
+                    script { (PreEscaped(viewer.script)) }
                 }
             }
         }
@@ -138,7 +149,7 @@ fn shown(drawn: &Drawn) -> Markup {
     let exhibit = &drawn.exhibit;
     let name = exhibit.name.as_str();
     html! {
-        figure id=(anchor(name)) {
+        figure id=(anchor(name)) data-figure=(name) {
             (PreEscaped(inline(&Figure::named(&drawn.svg, &anchor(name)), &exhibit.figure.title)))
             figcaption {
                 @if !exhibit.thesis.is_empty() { strong { "Thesis, " (exhibit.thesis) ". " } }

@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use report::claims::{self, Claims, Evidence};
 use report::figures::{Exhibit, Outcome};
 use report::files::{Folder, check_all};
-use report::page::{self, Contents};
+use report::page::{self, Contents, Viewer};
+use report::view::View;
 use report::{beyond, run_files, sections};
 use study::case::{Case, builtin};
 
@@ -92,6 +93,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         page::FIGURES,
         run_files::NAMES.join(", "),
     )?;
+    if Viewer::embedded().is_none() {
+        writeln!(out, "{}", page::MISSING)?;
+    }
     out.flush()?;
     let mut code = ExitCode::SUCCESS;
     for ((_, result), folder) in outcomes.iter().zip(&places.runs) {
@@ -147,6 +151,16 @@ fn tell(outcomes: &[Outcome], places: &Places) -> Result<usize, Failure> {
         Ok(())
     })?;
     let count = exhibits.len();
+    let interactive = Viewer::embedded()
+        .map(|viewer| {
+            let view = View::new(outcomes, exhibits.iter().copied()).to_json();
+            view.map(|view| (viewer, view))
+        })
+        .transpose()
+        .map_err(|error| {
+            let message = format!("cannot write the page's data: {error}");
+            Failure::Failed(Message::new(message, "").into())
+        })?;
     let mut svgs = drawings.into_iter().map(|(svg, _)| svg);
     let sections: Vec<page::Section> = plans
         .iter()
@@ -159,6 +173,9 @@ fn tell(outcomes: &[Outcome], places: &Places) -> Result<usize, Failure> {
         beyond: others,
         claims: &verdicts,
         sections: &sections,
+        interactive: interactive
+            .as_ref()
+            .map(|(viewer, view)| (*viewer, view.as_str())),
     });
     places.sheets.write(|files| {
         files.add(page::FILE_NAME, |out| out.write_all(page.as_bytes()))?;

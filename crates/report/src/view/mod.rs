@@ -1,0 +1,111 @@
+//! The data of the interactive page: `wedgelab.view/1`, described in `docs/view.md`.
+//!
+//! - [`data`]: numbers as text, each list once.
+//! - [`chart`]: figures as curves instead of drawings.
+//! - [`run`]: a run's columns, and which belong in one plot.
+//! - [`scene`]: what a run looks like: bodies, solids, coils, contacts.
+//!
+//! All numbers are in SI units; how they are shown in either system stands with them.
+
+pub mod chart;
+pub mod data;
+pub mod run;
+pub mod scene;
+
+use std::collections::BTreeMap;
+
+use quantity::{Kind, System as Units};
+use serde::Serialize;
+
+use crate::figures::{Exhibit, Outcome};
+use data::Data;
+
+/// The name and version of what is written.
+pub const SCHEMA: &str = "wedgelab.view/1";
+
+/// How a kind of quantity is shown.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Shown {
+    /// Its US customary unit; empty for pure numbers.
+    pub us: &'static str,
+    /// Its SI unit.
+    pub si: &'static str,
+    /// The factor from SI to US customary.
+    pub us_from_si: f64,
+}
+
+/// The whole document.
+#[derive(Clone, Debug, Serialize)]
+pub struct View {
+    /// [`SCHEMA`].
+    pub schema: &'static str,
+    /// The system of units that is shown first: `us` or `si`.
+    pub units: &'static str,
+    /// How each kind of quantity is shown.
+    pub quantities: BTreeMap<String, Shown>,
+    /// Lists of numbers: little-endian 32-bit floating point as base64. All others name them by their place.
+    pub data: Vec<String>,
+    /// The figures by name.
+    pub figures: BTreeMap<String, chart::Chart>,
+    /// The runs.
+    pub runs: Vec<run::RunView>,
+}
+
+impl View {
+    /// The document of these runs and figures.
+    #[must_use]
+    pub fn new<'e>(outcomes: &[Outcome], exhibits: impl IntoIterator<Item = &'e Exhibit>) -> Self {
+        let units = outcomes
+            .first()
+            .map_or(Units::Us, |(_, result)| result.summary.units);
+        let mut data = Data::default();
+        let runs = outcomes
+            .iter()
+            .map(|outcome| run::RunView::new(outcome, &mut data))
+            .collect();
+        let figures = exhibits
+            .into_iter()
+            .map(|exhibit| {
+                let chart = chart::Chart::new(&exhibit.figure, units, &mut data);
+                (exhibit.name.clone(), chart)
+            })
+            .collect();
+        Self {
+            schema: SCHEMA,
+            units: units.name(),
+            quantities: quantities(),
+            data: data.into_texts(),
+            figures,
+            runs,
+        }
+    }
+
+    /// The document as JSON that may stand in a `script` element: no `<` in it.
+    ///
+    /// # Errors
+    /// What the writer of JSON says.
+    pub fn to_json(&self) -> Result<String, serde_json::Error> {
+        Ok(serde_json::to_string(self)?.replace('<', "\\u003c"))
+    }
+}
+
+/// A kind's name in the document.
+#[must_use]
+pub fn kind_name(kind: Kind) -> String {
+    match serde_json::to_value(kind) {
+        Ok(serde_json::Value::String(name)) => name,
+        _ => String::new(),
+    }
+}
+
+fn quantities() -> BTreeMap<String, Shown> {
+    let shown = |kind: Kind| Shown {
+        us: kind.label(Units::Us),
+        si: kind.label(Units::Si),
+        us_from_si: kind.from_si(Units::Us),
+    };
+    Kind::ALL
+        .into_iter()
+        .map(|kind| (kind_name(kind), shown(kind)))
+        .collect()
+}

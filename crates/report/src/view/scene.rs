@@ -1,0 +1,384 @@
+//! What a run looks like: bodies that move as columns say, solids and coils on them, contacts between them.
+//!
+//! The scene knows no wedge: any number of bodies, solids, coils and contacts make one.
+//!
+//! Where a viewer exaggerates displacements by a factor f: a body's place is its `position`, plus its `steady` columns to
+//! scale, plus f times what its displacements have more than these (up to `limit`, and to scale beyond it); its angles
+//! and those of a solid's mount are multiplied by f. Gaps of touching faces then grow by f, since a sum of small
+//! displacements is linear.
+
+use mechanics::vector::Vector;
+use serde::Serialize;
+use study::result::RunResult;
+use wedge::outputs::{CORNERS, FACES};
+use wedge::parameters::{Damping, Parameters};
+use wedge::{BOLSTER, COLUMN, SIDE_FRAME, SLOPE, WEDGE, Wedge};
+
+/// How much displacements are exaggerated at first.
+const FACTOR: f64 = 10.0;
+
+/// Bodies, solids, coils and contacts; m, rad; x longitudinal, y lateral, z up.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Scene {
+    /// How much displacements are exaggerated at first.
+    pub factor: f64,
+    /// The exaggerated size (m) beyond which displacements grow to scale.
+    pub limit: f64,
+    /// What moves.
+    pub bodies: Vec<SceneBody>,
+    /// What is seen of it.
+    pub solids: Vec<Solid>,
+    /// Coils between bodies.
+    pub coils: Vec<SceneCoil>,
+    /// Corners of solids at surfaces of others.
+    pub contacts: Vec<SceneContact>,
+}
+
+/// A body: R = Ry(pitch) Rz(yaw) Rx(roll).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SceneBody {
+    /// Its name.
+    pub id: String,
+    /// Its origin in the nominal position.
+    pub position: [f64; 3],
+    /// The columns of its displacements x, y, z and its angles roll, pitch, yaw.
+    pub coordinates: [Option<String>; 6],
+    /// The columns of the parts of x, y, z that are never exaggerated.
+    pub steady: [Option<String>; 3],
+}
+
+/// Where something sits on its body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Place {
+    /// From the body's origin, body axes.
+    pub position: [f64; 3],
+    /// Roll, pitch, yaw relative to the body.
+    pub angles: [f64; 3],
+}
+
+/// What a solid is, for its colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// A friction wedge.
+    Wedge,
+    /// A column of a side frame.
+    Column,
+    /// A pocket of a bolster.
+    Pocket,
+    /// Where a coil stands.
+    Seat,
+    /// Any other body.
+    Body,
+}
+
+/// A solid of flat faces.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Solid {
+    /// Its name in the scene.
+    pub id: String,
+    /// Its name for people.
+    pub name: String,
+    /// What it is.
+    pub role: Role,
+    /// Its body.
+    pub body: String,
+    /// Where it sits.
+    pub mount: Place,
+    /// Its corners in the mount's axes.
+    pub vertices: Vec<[f64; 3]>,
+    /// Its faces, anticlockwise seen from outside: places in `vertices`.
+    pub triangles: Vec<[usize; 3]>,
+}
+
+/// An end of a coil.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct End {
+    /// The body.
+    pub body: String,
+    /// The point, body axes.
+    pub point: [f64; 3],
+}
+
+/// A coil.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SceneCoil {
+    /// Its name.
+    pub name: String,
+    /// Its seat.
+    pub from: End,
+    /// Its other end.
+    pub to: End,
+    /// Length in the nominal position.
+    pub nominal_length: f64,
+    /// Free length.
+    pub free_length: f64,
+    /// Radius, for the eye: cases have none.
+    pub radius: f64,
+    /// Number of turns, for the eye.
+    pub turns: f64,
+    /// The column of its force.
+    pub force: Option<String>,
+    /// The column of its length.
+    pub length: Option<String>,
+}
+
+/// A point of a body at a surface of a solid.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SceneContact {
+    /// Its name, as in columns.
+    pub id: String,
+    /// Its name for people.
+    pub name: String,
+    /// The body that has the point.
+    pub body: String,
+    /// The point, body axes.
+    pub point: [f64; 3],
+    /// The solid that has the surface.
+    pub on: String,
+    /// The surface's normal towards the point, in the axes of that solid's mount.
+    pub normal: [f64; 3],
+    /// The column of the normal force on the body of the point.
+    pub normal_force: String,
+    /// The columns of the friction force on it, fixed axes.
+    pub friction: [String; 3],
+    /// The column of the state: 0 open, 1 stick, 2 slip.
+    pub state: String,
+    /// The column of the gap.
+    pub gap: String,
+}
+
+impl Scene {
+    /// The columns that it needs.
+    pub fn columns(&self) -> impl Iterator<Item = &String> {
+        let bodies = self
+            .bodies
+            .iter()
+            .flat_map(|body| body.coordinates.iter().chain(&body.steady).flatten());
+        let coils = self
+            .coils
+            .iter()
+            .flat_map(|coil| coil.force.iter().chain(&coil.length));
+        let contacts = self.contacts.iter().flat_map(|contact| {
+            [&contact.normal_force, &contact.state, &contact.gap]
+                .into_iter()
+                .chain(&contact.friction)
+        });
+        bodies.chain(coils).chain(contacts)
+    }
+}
+
+/// The scene of a stand-alone wedge; none if the parameters make no wedge.
+#[must_use]
+pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene> {
+    let wedge = Wedge::new(parameters.clone()).ok()?;
+    let system = &wedge.system;
+    let (height, width, bottom) = (
+        parameters.wedge.height,
+        parameters.wedge.width,
+        parameters.bottom_length(),
+    );
+    let travel = ["wedge_z", "bolster_vertical"]
+        .into_iter()
+        .filter_map(|name| result.column(name))
+        .flatten()
+        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    let origin = |body: usize| system.bodies()[body].frame.origin;
+    let own = |names: [&str; 6]| names.map(|name| Some(name.to_owned()));
+    let neighbour = |name: &str| {
+        ["longitudinal", "lateral", "vertical", "roll", "pitch", "yaw"]
+            .map(|what| Some(format!("{name}_{what}")))
+    };
+    let travels = [None, None, Some("wedge_z".to_owned())];
+    let bodies = vec![
+        SceneBody {
+            id: "side_frame".to_owned(),
+            position: origin(SIDE_FRAME),
+            coordinates: neighbour("side_frame"),
+            steady: [None, None, None],
+        },
+        SceneBody {
+            id: "bolster".to_owned(),
+            position: origin(BOLSTER),
+            coordinates: neighbour("bolster"),
+            steady: travels.clone(),
+        },
+        SceneBody {
+            id: "wedge".to_owned(),
+            position: origin(WEDGE),
+            coordinates: own([
+                "wedge_x",
+                "wedge_y",
+                "wedge_z",
+                "wedge_roll",
+                "wedge_pitch",
+                "wedge_yaw",
+            ]),
+            steady: travels,
+        },
+    ];
+
+    let face_x = parameters.column_face();
+    let wedge_solid = Solid {
+        mount: Place::default(),
+        ..extruded(
+            ("wedge", "wedge", Role::Wedge, "wedge"),
+            &[[face_x, 0.0], [face_x + bottom, 0.0], [face_x, height]],
+            width,
+        )
+    };
+    let half = 0.5 * height + travel + 0.1 * height;
+    let column = Solid {
+        mount: Place {
+            position: system.faces()[COLUMN].mount.origin.0,
+            angles: [0.0, parameters.toe, 0.0],
+        },
+        ..extruded(
+            ("column", "column of the side frame", Role::Column, "side_frame"),
+            &[
+                [-0.2 * height, -half],
+                [0.0, -half],
+                [0.0, half],
+                [-0.2 * height, half],
+            ],
+            1.1 * width,
+        )
+    };
+    let slope = &system.faces()[SLOPE].mount;
+    let normal: Vector<f64> = slope.rotation.apply(Vector([1.0, 0.0, 0.0]));
+    // Down along the slope, in the plane of x and z; the surface goes on a little beyond the wedge.
+    let down = [-normal.0[2], normal.0[0]];
+    let reach = 0.6 * height / parameters.wedge.angle.cos();
+    let (top, low) = (
+        [-reach * down[0], -reach * down[1]],
+        [reach * down[0], reach * down[1]],
+    );
+    let back = low[0] + 0.3 * height;
+    let pocket = Solid {
+        mount: Place {
+            position: slope.origin.0,
+            angles: [0.0; 3],
+        },
+        ..extruded(
+            ("pocket", "pocket of the bolster", Role::Pocket, "bolster"),
+            &[top, low, [back, low[1]], [back, top[1]]],
+            1.1 * width,
+        )
+    };
+    let seat_body = match parameters.damping {
+        Damping::Variable => "side_frame",
+        Damping::Constant => "bolster",
+    };
+    let control = &system.coils()[0];
+    let radius = 0.4 * bottom;
+    let seat = Solid {
+        mount: Place {
+            position: control.mount.origin.0,
+            angles: [0.0; 3],
+        },
+        ..extruded(
+            ("seat", "seat of the coil", Role::Seat, seat_body),
+            &[
+                [-1.4 * radius, -0.06 * height],
+                [1.4 * radius, -0.06 * height],
+                [1.4 * radius, 0.0],
+                [-1.4 * radius, 0.0],
+            ],
+            2.8 * radius,
+        )
+    };
+    let coil = SceneCoil {
+        name: "control coil".to_owned(),
+        from: End {
+            body: seat_body.to_owned(),
+            point: control.mount.origin.0,
+        },
+        to: End {
+            body: "wedge".to_owned(),
+            point: control.element.end.0,
+        },
+        nominal_length: parameters.coil.nominal_length,
+        free_length: parameters.coil.free_length,
+        radius,
+        turns: 6.0,
+        force: Some("coil_force".to_owned()),
+        length: Some("coil_length".to_owned()),
+    };
+    let mut contacts = Vec::new();
+    for (face, (on, normal)) in [("column", [1.0, 0.0, 0.0]), ("pocket", normal.0)]
+        .into_iter()
+        .enumerate()
+    {
+        let points = &system.faces()[face].element.points;
+        for (point, corner) in points.iter().zip(CORNERS) {
+            let id = format!("{}_{corner}", FACES[face]);
+            contacts.push(SceneContact {
+                name: format!("{}, {}", FACES[face], corner.replace('_', " ")),
+                body: "wedge".to_owned(),
+                point: point.position.0,
+                on: on.to_owned(),
+                normal,
+                normal_force: format!("{id}_normal_force"),
+                friction: ["x", "y", "z"].map(|axis| format!("{id}_friction_force_{axis}")),
+                state: format!("{id}_state"),
+                gap: format!("{id}_gap"),
+                id,
+            });
+        }
+    }
+    Some(Scene {
+        factor: FACTOR,
+        limit: 0.15 * height,
+        bodies,
+        solids: vec![column, pocket, seat, wedge_solid],
+        coils: vec![coil],
+        contacts,
+    })
+}
+
+/// A convex outline in the plane of x and z, anticlockwise with x to the right and z up, drawn out to both sides along y.
+fn extruded((id, name, role, body): (&str, &str, Role, &str), outline: &[[f64; 2]], width: f64) -> Solid {
+    let count = outline.len();
+    let side = |y: f64| outline.iter().map(move |[x, z]| [*x, y, *z]);
+    let mut triangles = Vec::new();
+    for i in 1..count.saturating_sub(1) {
+        triangles.push([0, i, i + 1]);
+        triangles.push([count, count + i + 1, count + i]);
+    }
+    for i in 0..count {
+        let next = (i + 1) % count;
+        triangles.push([i, count + i, count + next]);
+        triangles.push([i, count + next, next]);
+    }
+    Solid {
+        id: id.to_owned(),
+        name: name.to_owned(),
+        role,
+        body: body.to_owned(),
+        mount: Place::default(),
+        vertices: side(-0.5 * width).chain(side(0.5 * width)).collect(),
+        triangles,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The volume by the divergence theorem: positive if all faces look outwards.
+    #[test]
+    fn solids_are_closed_and_look_outwards() {
+        let outline = [[0.0, 0.0], [3.0, 0.0], [0.0, 5.0]];
+        let solid = extruded(("a", "a", Role::Body, "b"), &outline, 2.0);
+        let six_volumes: f64 = solid
+            .triangles
+            .iter()
+            .map(|corners| {
+                let [a, b, c] = corners.map(|corner| Vector(solid.vertices[corner]));
+                let cross: Vector<f64> = b.cross(c);
+                a.dot::<f64, f64>(cross)
+            })
+            .sum();
+        assert!((six_volumes / 6.0 - 15.0).abs() < 1e-12, "{six_volumes}");
+    }
+}

@@ -1,0 +1,273 @@
+//! The data of the interactive page: what the table holds, and a scene that moves as the mechanics does.
+
+#![allow(clippy::unwrap_used)]
+
+use std::collections::BTreeMap;
+
+use quantity::System as Units;
+use report::figures::Outcome;
+use report::page::{self, Contents, Viewer};
+use report::sections;
+use report::view::View;
+use serde_json::Value;
+use study::case::builtin;
+use study::run::Run;
+
+/// A run to its end, which figures need, or a short one.
+fn outcome(name: &str, set: &[&str]) -> Outcome {
+    let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
+    let case = builtin::case_with(name, &set).unwrap();
+    let result = Run::new(&case).unwrap().finish(|_| ());
+    (case, result)
+}
+
+/// The document as another program reads it.
+fn document(outcomes: &[Outcome]) -> Value {
+    let plans = sections::thesis(outcomes);
+    let exhibits: Vec<_> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
+    let json = View::new(outcomes, exhibits).to_json().unwrap();
+    assert!(!json.contains('<'), "it stands in a script element");
+    serde_json::from_str(&json).unwrap()
+}
+
+/// Base64 by hand: little-endian 32-bit numbers.
+fn decode(text: &str) -> Vec<f32> {
+    let alphabet = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let digits: Vec<u32> = text
+        .bytes()
+        .filter(|letter| *letter != b'=')
+        .map(|letter| alphabet.iter().position(|own| *own == letter).unwrap() as u32)
+        .collect();
+    let mut bytes = Vec::new();
+    for group in digits.chunks(4) {
+        let bits = group
+            .iter()
+            .enumerate()
+            .fold(0, |bits, (k, digit)| bits | digit << (18 - 6 * k));
+        bytes.extend_from_slice(&bits.to_be_bytes()[1..group.len()]);
+    }
+    bytes
+        .chunks_exact(4)
+        .map(|four| f32::from_le_bytes(four.try_into().unwrap()))
+        .collect()
+}
+
+fn list(document: &Value, place: &Value) -> Vec<f32> {
+    let place = place.as_u64().unwrap() as usize;
+    decode(document["data"][place].as_str().unwrap())
+}
+
+/// A run's columns, constant ones filled up.
+fn columns(document: &Value, run: &Value) -> BTreeMap<String, Vec<f64>> {
+    let rows = list(document, &run["time"]).len();
+    let object = run["columns"].as_object().unwrap();
+    object
+        .iter()
+        .map(|(name, column)| {
+            let values = match column["value"].as_f64() {
+                Some(value) => vec![value; rows],
+                None => list(document, &column["data"])
+                    .into_iter()
+                    .map(f64::from)
+                    .collect(),
+            };
+            (name.clone(), values)
+        })
+        .collect()
+}
+
+#[test]
+fn columns_are_those_of_the_result() {
+    let outcomes = [
+        outcome("vdrun_toe_0.2_psi_0.012", &["simulation.duration=0.5 s"]),
+        outcome("cdrun_toe_0_psi_0", &["simulation.duration=0.5 s"]),
+    ];
+    let document = document(&outcomes);
+    assert_eq!(document["schema"], "wedgelab.view/1");
+    for ((case, result), run) in outcomes.iter().zip(document["runs"].as_array().unwrap()) {
+        assert_eq!(run["name"], case.name.as_str());
+        let columns = columns(&document, run);
+        assert!(columns.len() >= 60, "{}", columns.len());
+        for (name, values) in &columns {
+            let own = result.column(name).unwrap();
+            assert_eq!(values.len(), own.len());
+            for (found, wanted) in values.iter().zip(own) {
+                let near = (found - wanted).abs() <= 1e-7 * wanted.abs() + 1e-37;
+                assert!(near, "{name}: {found} is not {wanted}");
+            }
+        }
+        for plot in run["plots"].as_array().unwrap() {
+            for curve in plot["curves"].as_array().unwrap() {
+                assert!(columns.contains_key(curve[0].as_str().unwrap()), "{curve}");
+            }
+        }
+    }
+}
+
+type Triple = [f64; 3];
+
+fn triple(value: &Value) -> Triple {
+    std::array::from_fn(|k| value[k].as_f64().unwrap())
+}
+
+fn plus(a: Triple, b: Triple) -> Triple {
+    std::array::from_fn(|k| a[k] + b[k])
+}
+
+/// Ry(pitch) Rz(yaw) Rx(roll) v, one turn after the other.
+fn turned([roll, pitch, yaw]: Triple, [x, y, z]: Triple) -> Triple {
+    let (s, c) = roll.sin_cos();
+    let (y, z) = (c * y - s * z, s * y + c * z);
+    let (s, c) = yaw.sin_cos();
+    let (x, y) = (c * x - s * y, s * x + c * y);
+    let (s, c) = pitch.sin_cos();
+    [c * x + s * z, y, -s * x + c * z]
+}
+
+fn find<'v>(list: &'v Value, id: &Value) -> &'v Value {
+    let list = list.as_array().unwrap();
+    list.iter().find(|own| own["id"] == *id).unwrap()
+}
+
+/// Bodies placed by their columns, solids by their mounts, points and normals of contacts: together they must give the
+/// gaps that the mechanics computed.
+#[test]
+fn the_scene_has_the_gaps_of_the_result() {
+    for (name, set) in [
+        ("vdrun_toe_-0.2_psi_0", &["simulation.duration=1 s"][..]),
+        ("vdrun_toe_0.2_psi_0.012", &["simulation.duration=1 s"]),
+        ("cdrun_toe_0.2_psi_0.012", &["simulation.duration=0.5 s"]),
+        (
+            "cdrun_toe_0_psi_0",
+            &[
+                "simulation.duration=0.5 s",
+                "simulation.start=touching",
+                "bolster.yaw=0.3 deg",
+                "bolster.roll=0.2 deg",
+            ],
+        ),
+    ] {
+        let outcomes = [outcome(name, set)];
+        let document = document(&outcomes);
+        let run = &document["runs"][0];
+        let scene = &run["scene"];
+        let columns = columns(&document, run);
+        let pose = |body: &Value, row: usize| -> (Triple, Triple) {
+            let at = |k: usize| {
+                let name = body["coordinates"][k].as_str().unwrap();
+                columns[name][row]
+            };
+            let place = plus(triple(&body["position"]), [at(0), at(1), at(2)]);
+            (place, [at(3), at(4), at(5)])
+        };
+        let contacts = scene["contacts"].as_array().unwrap();
+        assert_eq!(contacts.len(), 8);
+        for contact in contacts {
+            let gaps = &columns[contact["gap"].as_str().unwrap()];
+            let body = find(&scene["bodies"], &contact["body"]);
+            let solid = find(&scene["solids"], &contact["on"]);
+            let under = find(&scene["bodies"], &solid["body"]);
+            for row in (0..gaps.len()).step_by(7) {
+                let (place, angles) = pose(body, row);
+                let point = plus(place, turned(angles, triple(&contact["point"])));
+                let (place, angles) = pose(under, row);
+                let mount = plus(place, turned(angles, triple(&solid["mount"]["position"])));
+                let normal = turned(
+                    angles,
+                    turned(triple(&solid["mount"]["angles"]), triple(&contact["normal"])),
+                );
+                let gap: f64 = (0..3).map(|k| (point[k] - mount[k]) * normal[k]).sum();
+                // Columns have seven digits.
+                let near = (gap - gaps[row]).abs() < 2e-7;
+                assert!(
+                    near,
+                    "{name}, {}, row {row}: {gap} is not {}",
+                    contact["id"], gaps[row]
+                );
+            }
+        }
+    }
+}
+
+/// The points of contact are corners of the wedge's solid, and the surfaces are faces of theirs.
+#[test]
+fn contacts_are_corners_and_faces_of_solids() {
+    let outcomes = [outcome("vdrun_toe_0.2_psi_0", &["simulation.duration=0.1 s"])];
+    let document = document(&outcomes);
+    let scene = &document["runs"][0]["scene"];
+    let vertices = |id: &Value| -> Vec<Triple> {
+        let solid = find(&scene["solids"], id);
+        solid["vertices"].as_array().unwrap().iter().map(triple).collect()
+    };
+    let wedge = vertices(&Value::from("wedge"));
+    for contact in scene["contacts"].as_array().unwrap() {
+        let point = triple(&contact["point"]);
+        let distance = |vertex: &Triple| -> f64 { (0..3).map(|k| (vertex[k] - point[k]).powi(2)).sum() };
+        assert!(wedge.iter().any(|vertex| distance(vertex) < 1e-20), "{point:?}");
+        let normal = triple(&contact["normal"]);
+        let heights: Vec<f64> = vertices(&contact["on"])
+            .iter()
+            .map(|vertex| (0..3).map(|k| vertex[k] * normal[k]).sum())
+            .collect();
+        let on_face = heights.iter().filter(|height| height.abs() < 1e-12).count();
+        assert_eq!(on_face, 4, "{heights:?}");
+        assert!(
+            heights.iter().all(|height| *height < 1e-12),
+            "the solid lies behind its surface"
+        );
+    }
+}
+
+#[test]
+fn figures_hold_their_curves_in_si() {
+    let outcomes = [outcome("cdrun_toe_0_psi_0", &[])];
+    let document = document(&outcomes);
+    let (_, result) = &outcomes[0];
+    let figure = &document["figures"]["cdrun_toe_0_psi_0_corner_forces"];
+    let panel = &figure["panels"][0];
+    assert_eq!(panel["x"]["quantity"], "time");
+    assert_eq!(panel["y"]["quantity"], "force");
+    assert_eq!(panel["y"]["name"], "force");
+    let curve = &panel["curves"][0];
+    assert_eq!(curve["label"], "lower right");
+    let found = list(&document, &curve["y"]);
+    let wanted = result.column("column_lower_right_normal_force").unwrap();
+    assert_eq!(found.len(), wanted.len());
+    for (found, wanted) in found.iter().zip(wanted) {
+        assert!((f64::from(*found) - wanted).abs() <= 1e-6 * wanted.abs() + 1e-9);
+    }
+    let force = &document["quantities"]["force"];
+    assert_eq!(
+        (&force["us"], &force["si"]),
+        (&Value::from("lbf"), &Value::from("N"))
+    );
+    let factor = force["us_from_si"].as_f64().unwrap();
+    assert!((factor * 4.448_221_615_260_5 - 1.0).abs() < 1e-14);
+}
+
+#[test]
+fn the_page_takes_viewer_and_data_or_does_without() {
+    let outcomes = [outcome("cdrun_toe_0_psi_0", &["simulation.duration=0.1 s"])];
+    let view = View::new(&outcomes, []).to_json().unwrap();
+    let viewer = Viewer {
+        script: "start()",
+        style: ".a{}",
+    };
+    let page = |interactive| {
+        page::render(&Contents {
+            outcomes: &outcomes,
+            sections: &[],
+            interactive,
+        })
+    };
+    let with = page(Some((viewer, view.as_str())));
+    for part in [
+        "<script>start()</script>",
+        "<style>.a{}</style>",
+        "<script type=\"application/json\" id=\"wedgelab-view\">{\"schema\":\"wedgelab.view/1\"",
+    ] {
+        assert!(with.contains(part), "{part}");
+    }
+    assert!(!page(None).contains("<script"));
+    assert_eq!(outcomes[0].1.summary.units, Units::Us);
+}

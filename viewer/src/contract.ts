@@ -1,0 +1,132 @@
+// The document `wedgelab.view/1` that the page holds (docs/view.md). All numbers are SI.
+
+export const SCHEMA = "wedgelab.view/1";
+
+export type System = "us" | "si";
+export type Triple = [number, number, number];
+
+export interface Quantity {
+  us: string;
+  si: string;
+  us_from_si: number;
+}
+
+export interface Axis {
+  name: string;
+  quantity: string | null;
+}
+
+export interface ChartCurve {
+  label: string;
+  colour: string;
+  width: number;
+  dashes: number[];
+  x: number;
+  y: number;
+}
+
+export interface ChartPanel {
+  title: string;
+  x: Axis;
+  y: Axis;
+  x_window: [number, number] | null;
+  y_names: string[];
+  marks: [number, number, string][];
+  span: number;
+  curves: ChartCurve[];
+}
+
+export interface Chart {
+  title: string;
+  columns: number;
+  common_axes: boolean;
+  panels: ChartPanel[];
+}
+
+export interface Column {
+  text: string;
+  quantity: string;
+  data?: number;
+  value?: number;
+}
+
+export interface PlotChoice {
+  title: string;
+  curves: [string, string][];
+}
+
+export interface Body {
+  id: string;
+  position: Triple;
+  coordinates: (string | null)[];
+  steady: (string | null)[];
+}
+
+export type Role = "wedge" | "column" | "pocket" | "seat" | "body";
+
+export interface Solid {
+  id: string;
+  name: string;
+  role: Role;
+  body: string;
+  mount: { position: Triple; angles: Triple };
+  vertices: Triple[];
+  triangles: Triple[];
+}
+
+export interface End {
+  body: string;
+  point: Triple;
+}
+
+export interface Coil {
+  name: string;
+  from: End;
+  to: End;
+  nominal_length: number;
+  free_length: number;
+  radius: number;
+  turns: number;
+  force: string | null;
+  length: string | null;
+}
+
+export interface Contact {
+  id: string;
+  name: string;
+  body: string;
+  point: Triple;
+  on: string;
+  normal: Triple;
+  normal_force: string;
+  friction: [string, string, string];
+  state: string;
+  gap: string;
+}
+
+export interface SceneData {
+  factor: number;
+  limit: number;
+  bodies: Body[];
+  solids: Solid[];
+  coils: Coil[];
+  contacts: Contact[];
+}
+
+export interface Run {
+  name: string;
+  title: string;
+  time: number;
+  columns: Record<string, Column>;
+  plots: PlotChoice[];
+  scene: SceneData | null;
+}
+
+export interface ViewDocument {
+  schema: string;
+  units: System;
+  quantities: Record<string, Quantity>;
+  data: string[];
+  figures: Record<string, Chart>;
+  runs: Run[];
+}

@@ -1,0 +1,112 @@
+// The document's lists of numbers, decoded when they are first asked for.
+
+import type { Run, ViewDocument } from "./contract.js";
+import { SCHEMA } from "./contract.js";
+
+/** Little-endian 32-bit numbers as base64. */
+export function decode(text: string): Float32Array {
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const view = new DataView(bytes.buffer);
+  return Float32Array.from({ length: bytes.length >> 2 }, (_, i) => view.getFloat32(4 * i, true));
+}
+
+export class Data {
+  private readonly decoded = new Map<number, Float32Array>();
+
+  constructor(readonly document: ViewDocument) {
+    if (document.schema !== SCHEMA) {
+      throw new Error(`the page's data are ${document.schema}; this viewer reads ${SCHEMA}`);
+    }
+  }
+
+  list(place: number): Float32Array {
+    const there = this.decoded.get(place);
+    if (there) {
+      return there;
+    }
+    const list = decode(this.document.data[place] ?? "");
+    this.decoded.set(place, list);
+    return list;
+  }
+
+  run(name: string): RunData | undefined {
+    const run = this.document.runs.find((own) => own.name === name);
+    return run && new RunData(run, this);
+  }
+}
+
+/** A place between two output times. */
+export interface Instant {
+  time: number;
+  row: number;
+  share: number;
+}
+
+/** A run's columns by name. */
+export class RunData {
+  readonly times: Float32Array;
+
+  constructor(
+    readonly run: Run,
+    private readonly data: Data,
+  ) {
+    this.times = data.list(run.time);
+  }
+
+  get end(): number {
+    return this.times[this.times.length - 1] ?? 0;
+  }
+
+  get start(): number {
+    return this.times[0] ?? 0;
+  }
+
+  /** All values; a constant column is filled up. */
+  values(name: string): Float32Array {
+    const column = this.run.columns[name];
+    if (column?.data !== undefined) {
+      return this.data.list(column.data);
+    }
+    return new Float32Array(this.times.length).fill(column?.value ?? NaN);
+  }
+
+  quantity(name: string): string {
+    return this.run.columns[name]?.quantity ?? "dimensionless";
+  }
+
+  /** Finds a time between the rows. */
+  at(time: number): Instant {
+    const times = this.times;
+    let low = 0;
+    let high = times.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if ((times[middle] ?? 0) <= time) {
+        low = middle;
+      } else {
+        high = middle;
+      }
+    }
+    const from = times[low] ?? 0;
+    const to = times[high] ?? from;
+    const share = to > from ? Math.min(1, Math.max(0, (time - from) / (to - from))) : 0;
+    return { time, row: low, share };
+  }
+
+  /** A function that gives a column's value: straight between rows, or that of the row before. */
+  reader(name: string | null, steps = false): (at: Instant) => number {
+    const column = name === null ? undefined : this.run.columns[name];
+    if (column?.data === undefined) {
+      const value = column?.value ?? 0;
+      return () => value;
+    }
+    const values = this.data.list(column.data);
+    return ({ row, share }) => {
+      const from = values[row] ?? 0;
+      if (steps) {
+        return share < 1 ? from : (values[row + 1] ?? from);
+      }
+      return from + share * ((values[row + 1] ?? from) - from);
+    };
+  }
+}

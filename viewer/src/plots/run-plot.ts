@@ -1,0 +1,183 @@
+// A plot of a run's columns over time, with a playhead on the run's clock.
+
+import uPlot from "uplot";
+
+import type { Clock } from "../clock.js";
+import type { Instant, RunData } from "../data.js";
+import { element, select } from "../dom.js";
+import type { Store } from "../store.js";
+import { digits, type Units } from "../units.js";
+import { around, AXIS, extremes, scaled, tickRoom, tickTexts, wheelZoom, type Range } from "./curves.js";
+import { swatch } from "./figure.js";
+
+/** Colours (Okabe and Ito, 2008) and lines, as in the static figures. */
+const STYLES: [string, number[]][] = [
+  ["#0072B2", []],
+  ["#000000", [9, 4]],
+  ["#D55E00", [10, 3, 2, 3]],
+  ["#009E73", [2, 3]],
+];
+
+export class RunPlot {
+  readonly root = element("div", { class: "wl-plot" });
+  private readonly body = element("div", { class: "wl-plot-body" });
+  private readonly legend = element("div", { class: "wl-legend" });
+  private readonly playhead = element("div", { class: "wl-playhead" });
+  private readonly hidden = new Set<string>();
+  private plot: uPlot | undefined;
+  private values: { show: (text: string) => void; read: (at: Instant) => number }[] = [];
+  private readonly stops: (() => void)[];
+  private readonly observer: ResizeObserver;
+
+  constructor(
+    private readonly run: RunData,
+    private readonly clock: Clock,
+    private readonly units: Store<Units>,
+    /** The part of the run that all its plots show. */
+    private readonly window: Store<Range>,
+    private choice: number,
+  ) {
+    const options = run.run.plots.map(({ title }, k): [string, string] => [String(k), title]);
+    const chooser = select({ "aria-label": "What this plot shows", class: "wl-choice" }, options, String(choice), (chosen) => {
+      this.choice = Number(chosen);
+      this.hidden.clear();
+      this.build(units.value);
+    });
+    this.root.append(element("div", { class: "wl-plot-head" }, chooser, this.legend), this.body);
+    this.stops = [
+      units.watch((now) => this.build(now)),
+      window.watch(([min, max]) => this.plot?.setScale("x", { min, max })),
+      clock.watch(() => this.show()),
+    ];
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(this.body);
+  }
+
+  dispose(): void {
+    for (const stop of this.stops) {
+      stop();
+    }
+    this.observer.disconnect();
+    this.plot?.destroy();
+    this.root.remove();
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.body;
+    if (this.plot && width > 0 && (width !== this.plot.width || height !== this.plot.height)) {
+      this.plot.setSize({ width, height });
+      this.show();
+    }
+  }
+
+  private build(units: Units): void {
+    this.plot?.destroy();
+    const chosen = this.run.run.plots[this.choice];
+    const curves = (chosen?.curves ?? []).filter(([name]) => name in this.run.run.columns);
+    const quantity = curves[0] ? this.run.quantity(curves[0][0]) : "dimensionless";
+    const columns = curves.map(([name]) => scaled(this.run.values(name), units.factor(quantity)));
+    const times = Float64Array.from(this.run.times);
+    const range = (): Range => {
+      const shown = columns.filter((_, k) => !this.hidden.has(curves[k]?.[0] ?? ""));
+      return around(...extremes(shown.map((y) => ({ x: times, y })), "y", this.window.value));
+    };
+    const options: uPlot.Options = {
+      width: Math.max(200, this.body.clientWidth),
+      height: Math.max(120, this.body.clientHeight),
+      legend: { show: false },
+      padding: [8, 12, 0, 0],
+      cursor: { drag: { x: false, y: false }, points: { show: false }, x: false, y: false },
+      scales: { x: { time: false, auto: false }, y: { range } },
+      axes: [
+        { ...AXIS, size: 22, label: "", labelSize: 0, values: (plot, splits) => tickTexts(plot, splits).map((t, k) => (k === splits.length - 1 ? `${t} s` : t)) },
+        { ...AXIS, size: tickRoom, label: units.label(quantity), values: tickTexts },
+      ],
+      series: [
+        {},
+        ...curves.map(([name, label], k) => {
+          const [stroke, dash] = STYLES[k % STYLES.length] ?? ["#000", []];
+          return { label, stroke, dash, width: 1.4, show: !this.hidden.has(name), points: { show: false } };
+        }),
+      ],
+    };
+    this.plot = new uPlot(options, [times, ...columns] as uPlot.AlignedData, this.body);
+    const [min, max] = this.window.value;
+    this.plot.setScale("x", { min, max });
+    this.plot.over.append(this.playhead);
+    this.listen(this.plot);
+    this.entries(curves);
+    this.show();
+  }
+
+  private listen(plot: uPlot): void {
+    const { over } = plot;
+    over.classList.add("wl-scrub");
+    over.tabIndex = -1;
+    const scrub = (event: PointerEvent): void => {
+      this.clock.set(plot.posToVal(event.clientX - over.getBoundingClientRect().left, "x"));
+    };
+    over.addEventListener("pointerdown", (event) => {
+      over.setPointerCapture(event.pointerId);
+      this.clock.play(false);
+      scrub(event);
+    });
+    over.addEventListener("pointermove", (event) => {
+      if (event.buttons & 1) {
+        scrub(event);
+      }
+    });
+    over.addEventListener("dblclick", () => this.window.set([this.run.start, this.run.end]));
+    wheelZoom(plot, "x", (_scale, [min, max]) => {
+      this.window.set([Math.max(this.run.start, min), Math.min(this.run.end, max)]);
+    });
+  }
+
+  private entries(curves: [string, string][]): void {
+    this.values = [];
+    const buttons = curves.map(([name, label], k) => {
+      const [colour, dashes] = STYLES[k % STYLES.length] ?? ["#000", []];
+      const value = element("output", { class: "wl-value", "data-column": name });
+      const show = !this.hidden.has(name);
+      const button = element(
+        "button",
+        { type: "button", class: "wl-entry", "aria-pressed": String(show), title: "show or hide" },
+        swatch(colour, dashes, 2),
+        `${label}: `,
+        value,
+      );
+      button.addEventListener("click", () => {
+        const hide = !this.hidden.has(name);
+        if (hide) {
+          this.hidden.add(name);
+        } else {
+          this.hidden.delete(name);
+        }
+        button.setAttribute("aria-pressed", String(!hide));
+        this.plot?.setSeries(k + 1, { show: !hide });
+      });
+      this.values.push({ show: (text) => (value.textContent = text), read: this.run.reader(name) });
+      return button;
+    });
+    this.legend.replaceChildren(...buttons);
+  }
+
+  /** Puts the playhead and the values at the clock's time. */
+  private show(): void {
+    const { plot } = this;
+    if (!plot) {
+      return;
+    }
+    const time = this.clock.time;
+    const left = plot.valToPos(time, "x");
+    const inside = Number.isFinite(left) && left >= 0 && left <= plot.over.clientWidth;
+    this.playhead.style.transform = `translateX(${inside ? left.toFixed(1) : 0}px)`;
+    this.playhead.style.visibility = inside ? "visible" : "hidden";
+    this.root.dataset.time = time.toFixed(4);
+    const at = this.run.at(time);
+    const quantity = this.run.quantity(this.run.run.plots[this.choice]?.curves[0]?.[0] ?? "");
+    const units = this.units.value;
+    for (const { show, read } of this.values) {
+      show(`${digits(read(at) * units.factor(quantity))} ${units.label(quantity)}`);
+    }
+  }
+}

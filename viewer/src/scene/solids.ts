@@ -1,0 +1,96 @@
+// Solids and coils as three.js draws them.
+//
+// Light is painted on once, for the nominal position: bodies hardly turn, and browsers without a graphics processor then draw
+// one and a half times as many frames (docs/benchmarks.md).
+
+import {
+  BufferAttribute,
+  BufferGeometry,
+  CatmullRomCurve3,
+  Color,
+  DoubleSide,
+  EdgesGeometry,
+  Euler,
+  FrontSide,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  TubeGeometry,
+  Vector3,
+} from "three";
+
+import type { Coil, Role, Solid, Triple } from "../contract.js";
+
+const LOOKS: Record<Role, { colour: number; opacity: number; edge: number }> = {
+  wedge: { colour: 0xcdd5dc, opacity: 1, edge: 0x3b444c },
+  column: { colour: 0x7da3bf, opacity: 0.26, edge: 0x4d7591 },
+  pocket: { colour: 0xc9ad7f, opacity: 0.22, edge: 0x8a6d3b },
+  seat: { colour: 0x8f989f, opacity: 0.7, edge: 0x5a6167 },
+  body: { colour: 0xa8b0b7, opacity: 0.5, edge: 0x5a6167 },
+};
+
+const SUN = new Vector3(0.45, -0.75, 0.5).normalize();
+
+/** Colours the corners of a geometry by how they face the light. */
+function paint(geometry: BufferGeometry, colour: number): void {
+  const base = new Color(colour);
+  const normals = geometry.getAttribute("normal");
+  const normal = new Vector3();
+  const colours = new Float32Array(3 * normals.count);
+  for (let k = 0; k < normals.count; k++) {
+    const light = 0.62 + 0.38 * normal.fromBufferAttribute(normals, k).dot(SUN);
+    base.clone().multiplyScalar(light).toArray(colours, 3 * k);
+  }
+  geometry.setAttribute("color", new BufferAttribute(colours, 3));
+}
+
+/** R = Ry(pitch) Rz(yaw) Rx(roll). */
+export function turn([roll, pitch, yaw]: Triple): Euler {
+  return new Euler(roll, pitch, yaw, "YZX");
+}
+
+/** A solid in the axes of its mount. */
+export function solidMesh(solid: Solid): Group {
+  const look = LOOKS[solid.role];
+  const corners = solid.triangles.flatMap((triangle) => triangle.flatMap((corner) => solid.vertices[corner] ?? [0, 0, 0]));
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(Float32Array.from(corners), 3));
+  geometry.computeVertexNormals();
+  paint(geometry, look.colour);
+  const clear = look.opacity < 1;
+  const material = new MeshBasicMaterial({
+    vertexColors: true,
+    transparent: clear,
+    opacity: look.opacity,
+    depthWrite: !clear,
+    side: clear ? DoubleSide : FrontSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
+  const edges = new LineSegments(new EdgesGeometry(geometry, 1), new LineBasicMaterial({ color: look.edge }));
+  const group = new Group();
+  group.add(new Mesh(geometry, material), edges);
+  group.name = solid.id;
+  return group;
+}
+
+/** A coil of length 1 along z, from the origin; its wire is round at the nominal length. */
+export function coilMesh(coil: Coil): Mesh {
+  const steps = Math.round(coil.turns * 20);
+  const wire = coil.radius * 0.14;
+  const points = Array.from({ length: steps + 1 }, (_, k) => {
+    const share = k / steps;
+    const angle = 2 * Math.PI * coil.turns * share;
+    const z = wire + share * (coil.nominal_length - 2 * wire);
+    return new Vector3(coil.radius * Math.cos(angle), coil.radius * Math.sin(angle), z);
+  });
+  const geometry = new TubeGeometry(new CatmullRomCurve3(points), steps, wire, 6);
+  paint(geometry, 0x8d979f);
+  geometry.scale(1, 1, 1 / coil.nominal_length);
+  const mesh = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true }));
+  mesh.name = coil.name;
+  return mesh;
+}

@@ -1,0 +1,324 @@
+// The 3D view of a run: what is seen at an instant.
+
+import {
+  Box3,
+  Color,
+  Group,
+  Mesh,
+  type Object3D,
+  PerspectiveCamera,
+  Scene,
+  Sphere,
+  Vector3,
+  WebGLRenderer,
+  LineSegments,
+  type Material,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+import type { Coil, Contact, SceneData } from "../contract.js";
+import type { Instant, RunData } from "../data.js";
+import { Arrow, Dot, FRICTION, NORMAL } from "./arrows.js";
+import { VIEWS } from "./cameras.js";
+import { poser, type Poser } from "./pose.js";
+import { coilMesh, solidMesh, turn } from "./solids.js";
+
+interface Moved {
+  id: string;
+  group: Group;
+  pose: Poser;
+}
+
+interface Mounted {
+  /** Its group turns with its angles, times the factor. */
+  group: Group;
+  angles: [number, number, number];
+}
+
+interface Touch {
+  contact: Contact;
+  body: Group;
+  on: Group;
+  normal: Arrow;
+  friction: Arrow;
+  dot: Dot;
+  readNormal: (at: Instant) => number;
+  readFriction: ((at: Instant) => number)[];
+  readState: (at: Instant) => number;
+}
+
+interface Sprung {
+  coil: Coil;
+  mesh: Mesh;
+  from: Group;
+  to: Group;
+}
+
+const Z = new Vector3(0, 0, 1);
+const FIELD = 26;
+/** Arrows longer than this many times the scale's force are cut. */
+export const LONGEST = 2.5;
+
+/** Milliseconds of rest before a fine picture. */
+const REST = 250;
+
+/** Whether WebGL is computed without a graphics processor. */
+function drawsInSoftware(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  if (!context) {
+    return false;
+  }
+  const info = context.getExtension("WEBGL_debug_renderer_info");
+  const name = String(context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER));
+  context.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
+export class SceneView {
+  readonly canvas: HTMLCanvasElement;
+  readonly controls: OrbitControls;
+  readonly camera = new PerspectiveCamera(FIELD, 1, 0.01, 20);
+  /** The force whose arrow has the length `arrow`. */
+  readonly scaleForce: number;
+  readonly arrow: number;
+  factor: number;
+  arrowFactor = 1;
+  private readonly scene = new Scene();
+  private readonly renderer: WebGLRenderer;
+  private readonly moved: Moved[] = [];
+  private readonly mounted: Mounted[] = [];
+  private readonly touches: Touch[] = [];
+  private readonly sprung: Sprung[] = [];
+  private readonly ball: Sphere;
+  private stale = true;
+  private readonly software: boolean;
+  private density = 1;
+  private fine = false;
+  private lastDrawn = 0;
+
+  constructor(
+    private readonly data: SceneData,
+    run: RunData,
+  ) {
+    this.factor = data.factor;
+    this.software = drawsInSoftware();
+    this.renderer = new WebGLRenderer({ antialias: !this.software, powerPreference: "low-power" });
+    this.canvas = this.renderer.domElement;
+    this.scene.background = new Color(0xf7f9fb);
+
+    const bodies = new Map<string, Group>();
+    for (const body of data.bodies) {
+      const group = new Group();
+      bodies.set(body.id, group);
+      this.moved.push({ id: body.id, group, pose: poser(body, run) });
+      this.scene.add(group);
+    }
+    const none = new Group();
+    const solids = new Map<string, Group>();
+    for (const solid of data.solids) {
+      const group = solidMesh(solid);
+      group.position.set(...solid.mount.position);
+      (bodies.get(solid.body) ?? none).add(group);
+      this.mounted.push({ group, angles: solid.mount.angles });
+      solids.set(solid.id, group);
+    }
+    for (const coil of data.coils) {
+      const mesh = coilMesh(coil);
+      this.scene.add(mesh);
+      this.sprung.push({ coil, mesh, from: bodies.get(coil.from.body) ?? none, to: bodies.get(coil.to.body) ?? none });
+    }
+    // The nominal position gives the view and the sizes.
+    this.place({ time: 0, row: 0, share: 0 }, 1);
+    this.ball = new Box3().setFromObject(this.scene).getBoundingSphere(new Sphere());
+    this.arrow = 0.42 * this.ball.radius;
+    this.scaleForce = typicalForce(data, run);
+    for (const contact of data.contacts) {
+      const thickness = 0.009 * this.ball.radius;
+      const touch: Touch = {
+        contact,
+        body: bodies.get(contact.body) ?? none,
+        on: solids.get(contact.on) ?? none,
+        normal: new Arrow(NORMAL, thickness),
+        friction: new Arrow(FRICTION, thickness),
+        dot: new Dot(0.02 * this.ball.radius),
+        readNormal: run.reader(contact.normal_force),
+        readFriction: contact.friction.map((name) => run.reader(name)),
+        readState: run.reader(contact.state, true),
+      };
+      this.scene.add(touch.normal.group, touch.friction.group, touch.dot.mesh);
+      this.touches.push(touch);
+    }
+
+    this.camera.up.copy(Z);
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.enableDamping = false;
+    this.controls.minDistance = 0.4 * this.ball.radius;
+    this.controls.maxDistance = 20 * this.ball.radius;
+    this.controls.addEventListener("change", () => this.refresh());
+  }
+
+  dispose(): void {
+    this.controls.dispose();
+    this.scene.traverse((object) => {
+      if (object instanceof Mesh || object instanceof LineSegments) {
+        const drawn = object as Mesh;
+        drawn.geometry.dispose();
+        (drawn.material as Material).dispose();
+      }
+    });
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+    this.canvas.remove();
+  }
+
+  /** Asks for a new picture. */
+  refresh(): void {
+    this.stale = true;
+  }
+
+  resize(width: number, height: number, density: number): void {
+    this.density = this.software ? 1 : Math.min(2, density);
+    this.fine = false;
+    this.renderer.setPixelRatio(this.density);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / Math.max(1, height);
+    this.camera.updateProjectionMatrix();
+    this.refresh();
+  }
+
+  /** Looks from a named view, all in sight. */
+  look(id: string): void {
+    const view = VIEWS.find((own) => own.id === id) ?? VIEWS[0];
+    if (!view) {
+      return;
+    }
+    const half = (FIELD / 2) * (Math.PI / 180);
+    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
+    const distance = (0.93 * this.ball.radius) / Math.sin(narrow);
+    this.controls.target.copy(this.ball.center);
+    this.camera.position.copy(view.from).normalize().multiplyScalar(distance).add(this.ball.center);
+    this.controls.update();
+    this.camera.updateMatrixWorld();
+    this.refresh();
+  }
+
+  /** Turns and moves nearer by keys. */
+  orbit(about: number, up: number, nearer: number): void {
+    const arm = this.camera.position.clone().sub(this.controls.target);
+    const sideways = new Vector3().crossVectors(Z, arm).normalize();
+    arm.applyAxisAngle(Z, about);
+    const level = Math.asin(arm.z / arm.length());
+    arm.applyAxisAngle(sideways, -Math.max(-1.5 - level, Math.min(1.5 - level, up)));
+    this.camera.position.copy(this.controls.target).add(arm.multiplyScalar(nearer));
+    this.controls.update();
+    this.camera.updateMatrixWorld();
+    this.refresh();
+  }
+
+  /** Pixels of the screen for a metre at the target. */
+  get pixels(): number {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    return this.canvas.clientHeight / (2 * distance * Math.tan((FIELD / 2) * (Math.PI / 180)));
+  }
+
+  /** Puts everything where it is at an instant. */
+  place(at: Instant, factor = this.factor): void {
+    for (const { group, pose } of this.moved) {
+      const { position, angles } = pose(at, factor, this.data.limit);
+      group.position.set(...position);
+      group.setRotationFromEuler(turn(angles));
+    }
+    for (const { group, angles } of this.mounted) {
+      group.setRotationFromEuler(turn([factor * angles[0], factor * angles[1], factor * angles[2]]));
+    }
+    this.scene.updateMatrixWorld();
+    for (const { coil, mesh, from, to } of this.sprung) {
+      const start = from.localToWorld(new Vector3(...coil.from.point));
+      const along = to.localToWorld(new Vector3(...coil.to.point)).sub(start);
+      const length = Math.max(along.length(), 1e-3);
+      mesh.position.copy(start);
+      mesh.quaternion.setFromUnitVectors(Z, along.divideScalar(length));
+      mesh.scale.set(1, 1, length);
+    }
+    const scale = (this.arrow * this.arrowFactor) / this.scaleForce;
+    const length = (force: number): number => Math.min(force * scale, LONGEST * this.arrow * this.arrowFactor);
+    for (const touch of this.touches) {
+      const corner = touch.body.localToWorld(new Vector3(...touch.contact.point));
+      const normal = new Vector3(...touch.contact.normal).transformDirection(touch.on.matrixWorld);
+      const state = touch.readState(at);
+      const pressed = state > 0 ? Math.max(0, touch.readNormal(at)) : 0;
+      const size = length(pressed);
+      // It pushes: its tip is at the corner.
+      touch.normal.show(corner.clone().addScaledVector(normal, -size), normal, size);
+      const friction = new Vector3(...(touch.readFriction.map((read) => read(at)) as [number, number, number]));
+      const rubbed = pressed > 0 ? friction.length() : 0;
+      touch.friction.show(corner, friction.normalize(), length(rubbed));
+      touch.dot.show(corner.addScaledVector(normal, -0.02 * this.ball.radius), state);
+    }
+    this.stale = true;
+  }
+
+  /**
+   * Draws if something changed; says whether it did. Without a graphics processor it draws coarsely what moves, and finely
+   * what has rested for a moment.
+   */
+  render(now: number): boolean {
+    const { stale } = this;
+    if (stale) {
+      this.lastDrawn = now;
+    } else if (!this.software || this.fine || now - this.lastDrawn < REST) {
+      return false;
+    }
+    this.stale = false;
+    if (this.software && this.fine === stale) {
+      this.fine = !stale;
+      this.renderer.setPixelRatio(this.fine ? 2 : this.density);
+    }
+    this.renderer.render(this.scene, this.camera);
+    return stale;
+  }
+
+  /** The contacts whose normal force is seen. */
+  get pressed(): string[] {
+    return this.touches.filter(({ normal }) => normal.visible).map(({ contact }) => contact.id);
+  }
+
+  /** The contacts' states, 0 open, 1 stick, 2 slip. */
+  states(at: Instant): number[] {
+    return this.touches.map(({ readState }) => readState(at));
+  }
+
+  /** Where a body's origin is drawn, m, and on the canvas, from its upper left corner. */
+  placeOf(id: string): { position: Vector3; pixel: [number, number] } | undefined {
+    const body = this.moved.find((own) => own.id === id)?.group;
+    return body && { position: body.position.clone(), pixel: this.project(body.position) };
+  }
+
+  /** Directions of the axes on the screen, x to the right and y down. */
+  axes(): [number, number][] {
+    const turned = this.camera.matrixWorldInverse;
+    return ([[1, 0, 0], [0, 1, 0], [0, 0, 1]] as const).map((axis): [number, number] => {
+      const seen = new Vector3(...axis).transformDirection(turned);
+      return [seen.x, -seen.y];
+    });
+  }
+
+  private project(place: Vector3): [number, number] {
+    const seen = place.clone().project(this.camera);
+    return [((seen.x + 1) / 2) * this.canvas.clientWidth, ((1 - seen.y) / 2) * this.canvas.clientHeight];
+  }
+
+  /** For tests: what is in the scene. */
+  get root(): Object3D {
+    return this.scene;
+  }
+}
+
+/** A force that few corners exceed, so that most arrows are readable. */
+function typicalForce(data: SceneData, run: RunData): number {
+  const forces = data.contacts
+    .flatMap((contact) => [...run.values(contact.normal_force)])
+    .filter((force) => force > 0)
+    .sort((a, b) => a - b);
+  return forces[Math.floor(0.9 * forces.length)] ?? 1;
+}

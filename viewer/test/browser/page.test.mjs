@@ -1,0 +1,371 @@
+// The report's page in a real browser. WEDGELAB_REPORT: the folder that `wedgelab reproduce` wrote; WEDGELAB_CHROMIUM: the browser.
+import assert from "node:assert/strict";
+import { readFileSync, statSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const folder = process.env.WEDGELAB_REPORT;
+assert.ok(folder, "WEDGELAB_REPORT names the folder of a report");
+const file = join(folder, "index.html");
+const address = pathToFileURL(file).href;
+
+/** The stand-alone run with lift-off; its nominal coil length is 10.25 in. */
+const RUN = "vdrun_toe_0_psi_0.012";
+const ANCHOR = `#run-${RUN.replaceAll(".", "_")}`;
+const NOMINAL = 10.25;
+const INCH = 0.0254;
+
+let browser;
+let faults = [];
+
+before(async () => {
+  browser = await chromium.launch({
+    executablePath: process.env.WEDGELAB_CHROMIUM ?? "/usr/bin/chromium",
+    args: [
+      "--no-sandbox",
+      "--disable-gpu",
+      "--use-gl=angle",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+    ],
+  });
+});
+
+after(async () => {
+  await browser?.close();
+});
+
+/** A page on which every complaint, and every look at the network, is noted. */
+async function open(hash = "", size = { width: 1280, height: 900 }) {
+  faults = [];
+  const page = await browser.newPage({ viewport: size });
+  page.on("pageerror", (error) => faults.push(String(error)));
+  page.on("console", (message) => {
+    // Drivers in software say so of every picture that is copied to the screen.
+    if (["error", "warning"].includes(message.type()) && !message.text().includes("GPU stall due to ReadPixels")) {
+      faults.push(message.text());
+    }
+  });
+  page.on("request", (request) => request.url().startsWith("http") && faults.push(request.url()));
+  await page.goto(address + hash);
+  await page.waitForSelector("html[data-viewer=ready]", { state: "attached" });
+  return page;
+}
+
+async function openRun(size) {
+  const page = await open(ANCHOR, size);
+  const run = page.locator(`details[data-run="${RUN}"] .wl-run`);
+  await run.and(page.locator("[data-ready]")).waitFor();
+  return { page, run };
+}
+
+/** What a run's view says of itself. */
+const state = (run) => run.evaluate((element) => ({ ...element.dataset }));
+
+/** Moves the scrubber. */
+const scrub = (run, time) =>
+  run.locator(".wl-scrubber").evaluate((slider, to) => {
+    slider.value = String(to);
+    slider.dispatchEvent(new Event("input"));
+  }, time);
+
+/** The columns of `result.csv`. */
+function table(run) {
+  const [head, ...lines] = readFileSync(join(folder, "runs", run, "result.csv"), "utf8").trim().split("\n");
+  const rows = lines.map((line) => line.split(",").map(Number));
+  return Object.fromEntries(head.split(",").map((name, k) => [name, rows.map((row) => row[k])]));
+}
+
+/** Counts the canvas's pixels by what they look like, all and in a part of it (shares of its width and height). */
+async function pixels(page, run, [left, top, right, bottom] = [0, 0, 1, 1]) {
+  // A picture of something at rest is drawn finely a moment later.
+  await page.waitForTimeout(900);
+  const picture = await run.locator("canvas").first().screenshot();
+  return page.evaluate(
+    async ([data, [x0, y0, x1, y1]]) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${data}`;
+      await image.decode();
+      const canvas = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });
+      const context = canvas.getContext("2d");
+      context.drawImage(image, 0, 0);
+      const [x, y] = [Math.floor(x0 * image.width), Math.floor(y0 * image.height)];
+      const [w, h] = [Math.floor((x1 - x0) * image.width), Math.floor((y1 - y0) * image.height)];
+      const bytes = context.getImageData(x, y, w, h).data;
+      const near = (k, [r, g, b]) => Math.abs(bytes[k] - r) + Math.abs(bytes[k + 1] - g) + Math.abs(bytes[k + 2] - b) < 40;
+      const count = { all: w * h, empty: 0, normal: 0, friction: 0, slip: 0, open: 0 };
+      for (let k = 0; k < bytes.length; k += 4) {
+        count.empty += near(k, [0xf7, 0xf9, 0xfb]) ? 1 : 0;
+        count.normal += near(k, [0x00, 0x72, 0xb2]) ? 1 : 0;
+        count.friction += near(k, [0xd5, 0x5e, 0x00]) ? 1 : 0;
+        count.slip += near(k, [0xe6, 0x9f, 0x00]) ? 1 : 0;
+        count.open += near(k, [0x56, 0xb4, 0xe9]) ? 1 : 0;
+      }
+      return count;
+    },
+    [picture.toString("base64"), [left, top, right, bottom]],
+  );
+}
+
+test("the page opens from disk in 2 s, without complaints and without network", async (t) => {
+  const page = await open();
+  const opened = await page.evaluate(() => performance.getEntriesByType("navigation")[0].domComplete);
+  const megabytes = statSync(file).size / 1e6;
+  t.diagnostic(`opens in ${opened.toFixed(0)} ms; ${megabytes.toFixed(1)} MB`);
+  await page.waitForTimeout(500);
+  assert.deepEqual(faults, []);
+  assert.ok(opened <= 2000, `${opened} ms`);
+  assert.ok(megabytes <= 25, `${megabytes} MB`);
+  await page.close();
+});
+
+test("an address with a run opens its view; closing it takes the view away", async () => {
+  const { page, run } = await openRun();
+  await page.waitForTimeout(800);
+  assert.deepEqual(faults, []);
+  assert.equal(await run.locator(".wl-plot").count(), 3);
+  await page.locator(`details[data-run="${RUN}"] > summary`).click();
+  await run.waitFor({ state: "detached" });
+  assert.equal(await page.locator(".wl-run, .wl-stage canvas").count(), 0);
+  await page.close();
+});
+
+test("the canvas shows wedge, column, pocket and coil", async () => {
+  const { page, run } = await openRun();
+  const all = await pixels(page, run);
+  assert.ok(all.empty > 0.4 * all.all && all.empty < 0.9 * all.all, JSON.stringify(all));
+  // The wedge is in the middle of the upper half, the coil below it; the upper corners are empty.
+  const wedge = await pixels(page, run, [0.4, 0.25, 0.6, 0.5]);
+  const coil = await pixels(page, run, [0.4, 0.65, 0.65, 0.95]);
+  const corner = await pixels(page, run, [0, 0, 0.1, 0.1]);
+  assert.ok(wedge.empty < 0.1 * wedge.all, `wedge ${JSON.stringify(wedge)}`);
+  assert.ok(coil.empty > 0.1 * coil.all && coil.empty < 0.9 * coil.all, `coil ${JSON.stringify(coil)}`);
+  assert.equal(corner.empty, corner.all);
+  await page.close();
+});
+
+test("at a time, wedge, plots and playhead are where the table says", async () => {
+  const { page, run } = await openRun();
+  await run.getByLabel("exaggeration").selectOption("1");
+  const columns = table(RUN);
+  const heights = [];
+  for (const row of [137, 236, 551, 860]) {
+    const time = columns.time_s[row];
+    await scrub(run, time);
+    const now = await state(run);
+    assert.ok(Math.abs(Number(now.time) - time) < 1e-4);
+    const [x, y, z] = now.wedge.split(" ").map(Number);
+    assert.ok(Math.abs(x - columns.wedge_x_in[row] * INCH) < 1e-5, `x at ${time}`);
+    assert.ok(Math.abs(y) < 1e-5);
+    assert.ok(Math.abs(z - (NOMINAL + columns.wedge_z_in[row]) * INCH) < 1e-5, `z at ${time}`);
+    heights.push({ z, pixel: Number(now.wedgePixel.split(" ")[1]) });
+    const told = await run.locator('output[data-column="vertical_wedge_force"]').textContent();
+    const value = Number(told.replace("\u2212", "-").replace(" lbf", ""));
+    const wanted = columns.vertical_wedge_force_lbf[row];
+    assert.ok(Math.abs(value - wanted) <= 5e-4 * Math.abs(wanted) + 1e-3, `${told} is not ${wanted}`);
+    // The axis shows the whole run.
+    const share = await run
+      .locator(".wl-plot")
+      .first()
+      .evaluate((plot) => {
+        const over = plot.querySelector(".u-over").getBoundingClientRect();
+        const head = plot.querySelector(".wl-playhead").getBoundingClientRect();
+        return (head.left + 0.5 * head.width - over.left) / over.width;
+      });
+    assert.ok(Math.abs(share - time / columns.time_s.at(-1)) < 0.006, `playhead at ${share}`);
+  }
+  // On the screen, higher is up: the order of the heights is that of the pixels turned round.
+  const byHeight = [...heights].sort((a, b) => a.z - b.z).map(({ pixel }) => pixel);
+  assert.deepEqual(byHeight, [...byHeight].sort((a, b) => b - a));
+  await page.close();
+});
+
+test("a click in a plot moves the wedge", async () => {
+  const { page, run } = await openRun();
+  const over = run.locator(".wl-plot .u-over").first();
+  const box = await over.boundingBox();
+  await page.mouse.click(box.x + 0.75 * box.width, box.y + 0.5 * box.height);
+  const end = table(RUN).time_s.at(-1);
+  const now = await state(run);
+  assert.ok(Math.abs(Number(now.time) - 0.75 * end) < 0.01 * end, now.time);
+  await page.close();
+});
+
+test("arrows are there while a corner touches, and not when it is open", async () => {
+  const { page, run } = await openRun();
+  const columns = table(RUN);
+  const contacts = Object.keys(columns).filter((name) => name.endsWith("_state")).map((name) => name.replace(/_state$/, ""));
+  assert.equal(contacts.length, 8);
+  const touching = (row) => contacts.filter((name) => columns[`${name}_state`][row] > 0);
+  const count = columns.time_s.map((_, row) => touching(row).length);
+  const free = count.findIndex((n, row) => n === 0 && row > 50 && count[row - 1] === 0 && count[row + 1] === 0);
+  // Not in the first moments, where large forces reach out of the picture.
+  const load = columns.longitudinal_wedge_force_lbf;
+  const held = load.reduce((best, force, row) => (row > 150 && force > load[best] ? row : best), 150);
+  assert.ok(free > 0 && held > 0, "the run lifts off and touches");
+  for (const row of [free, held]) {
+    await scrub(run, columns.time_s[row]);
+    const now = await state(run);
+    assert.deepEqual(now.visibleArrows.split(" ").filter(Boolean).sort(), touching(row).sort());
+    assert.deepEqual(now.states.split(" ").map(Number), contacts.map((name) => columns[`${name}_state`][row]));
+    const seen = await pixels(page, run);
+    if (row === free) {
+      assert.equal(seen.normal + seen.friction, 0, JSON.stringify(seen));
+      assert.ok(seen.open > 50, JSON.stringify(seen));
+    } else {
+      assert.ok(seen.normal > 100 && seen.friction > 30, JSON.stringify(seen));
+    }
+  }
+  // One that closes between two output times appears there.
+  const name = contacts.find((own) => columns[`${own}_state`][held] > 0);
+  const closing = columns.time_s.findIndex((_, row) => row > 100 && columns[`${name}_state`][row] === 0 && columns[`${name}_state`][row + 1] > 0);
+  for (const [row, there] of [[closing, false], [closing + 1, true]]) {
+    await scrub(run, columns.time_s[row]);
+    assert.equal((await state(run)).visibleArrows.split(" ").includes(name), there, `${name} at ${columns.time_s[row]}`);
+  }
+  await page.close();
+});
+
+test("exaggeration turns the column as it says, and says so", async () => {
+  const { page, run } = await openRun();
+  assert.match(await run.locator(".wl-told").textContent(), /10×/);
+  const before = await run.locator("canvas").first().screenshot();
+  await run.getByLabel("exaggeration").selectOption("50");
+  assert.match(await run.locator(".wl-told").textContent(), /50×/);
+  await page.waitForTimeout(600);
+  assert.ok(!before.equals(await run.locator("canvas").first().screenshot()));
+  await run.getByLabel("exaggeration").selectOption("1");
+  assert.match(await run.locator(".wl-told").textContent(), /To scale/);
+  await page.close();
+});
+
+test("units switch in plots, scene and figures", async () => {
+  const { page, run } = await openRun();
+  const columns = table(RUN);
+  const row = 551;
+  await scrub(run, columns.time_s[row]);
+  await page.locator(".wl-units").click();
+  const told = await run.locator('output[data-column="vertical_wedge_force"]').textContent();
+  assert.match(told, / N$/);
+  const newtons = Number(told.replace("\u2212", "-").replace(" N", ""));
+  const wanted = columns.vertical_wedge_force_lbf[row] * 4.4482216152605;
+  assert.ok(Math.abs(newtons - wanted) <= 5e-4 * Math.abs(wanted) + 1e-3, `${told} is not ${wanted}`);
+  assert.match(await run.locator(".wl-key").textContent(), / N/);
+  assert.equal((await state(run)).units, "si");
+  await page.locator(".wl-units").click();
+  assert.match(await run.locator(".wl-key").textContent(), / lbf/);
+  await page.close();
+});
+
+test("keys play, step, look, exaggerate and switch units", async () => {
+  const { page, run } = await openRun();
+  await run.evaluate((element) => element.focus());
+  const press = async (...keys) => {
+    for (const key of keys) {
+      await page.keyboard.press(key);
+    }
+    return state(run);
+  };
+  assert.equal((await press("ArrowRight", "ArrowRight")).time, "0.0200");
+  assert.equal((await press("ArrowLeft")).time, "0.0100");
+  assert.equal((await press("Shift+ArrowRight")).time, "0.1100");
+  assert.equal(Number((await press("End")).time), table(RUN).time_s.at(-1));
+  assert.equal((await press("Home")).time, "0.0000");
+  assert.equal((await press("e")).factor, "20");
+  assert.equal((await press("Shift+E")).factor, "10");
+  assert.equal((await press("u")).units, "si");
+  const oblique = await run.locator("canvas").first().screenshot();
+  await press("2");
+  await page.waitForTimeout(600);
+  assert.ok(!oblique.equals(await run.locator("canvas").first().screenshot()), "another view");
+  await press("f");
+  assert.ok(await run.evaluate((element) => element.getBoundingClientRect().height >= window.innerHeight - 1));
+  await press("Escape");
+  assert.equal((await press(" ")).playing, "true");
+  await page.waitForTimeout(700);
+  const later = await press(" ");
+  assert.equal(later.playing, "false");
+  assert.ok(Number(later.time) > 0.2 && Number(later.time) < 5, later.time);
+  await page.waitForTimeout(200);
+  assert.equal((await state(run)).time, later.time);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("playing at 1280 by 720 without a graphics processor", async (t) => {
+  const { page, run } = await openRun({ width: 1300, height: 760 });
+  await page.addStyleTag({ content: ".wl-stage { position: fixed !important; left: 0; top: 0; width: 1280px; height: 720px; z-index: 20; }" });
+  await page.waitForTimeout(600);
+  await run.evaluate((element) => element.focus());
+  await page.keyboard.press(" ");
+  await page.waitForTimeout(5000);
+  const { frameRate, playing } = await state(run);
+  const size = await run.locator("canvas").first().evaluate((canvas) => `${canvas.width}x${canvas.height}`);
+  t.diagnostic(`${frameRate} frames a second at ${size}`);
+  assert.equal(size, "1280x720");
+  assert.equal(playing, "true");
+  // 30 on an idle machine (docs/benchmarks.md); others may be busy.
+  assert.ok(Number(frameRate) >= 8, frameRate);
+  await page.close();
+});
+
+test("a figure in sight is interactive: curves hide, zoom, come back; the drawing is what is printed", async () => {
+  const page = await open("#files");
+  const figure = page.locator("figure[data-figure]").nth(2);
+  assert.ok(await figure.locator(":scope > svg").isVisible(), "far away it is a drawing");
+  await figure.scrollIntoViewIfNeeded();
+  await page.locator("figure[data-figure].wl-live").first().waitFor();
+  const name = await page.locator("figure[data-figure].wl-live").first().getAttribute("data-figure");
+  const live = page.locator(`figure[data-figure="${name}"]`);
+  assert.ok(!(await live.locator(":scope > svg").isVisible()));
+  const canvas = live.locator("canvas").first();
+  const before = await canvas.screenshot();
+  const entry = live.locator(".wl-entry").first();
+  await entry.click();
+  assert.equal(await entry.getAttribute("aria-pressed"), "false");
+  await page.mouse.move(2, 2);
+  assert.ok(!before.equals(await canvas.screenshot()), "a curve is hidden");
+  await entry.click();
+  const over = live.locator(".u-over").first();
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + 0.3 * box.width, box.y + 0.4 * box.height);
+  assert.match(await live.locator(".wl-readout").first().textContent(), /\d/, "values are told");
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.7 * box.width, box.y + 0.8 * box.height, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForTimeout(100);
+  const zoomed = await canvas.screenshot();
+  assert.ok(!before.equals(zoomed), "zoomed in");
+  await page.mouse.dblclick(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
+  await page.mouse.move(2, 2);
+  await page.waitForTimeout(100);
+  assert.ok(!zoomed.equals(await canvas.screenshot()), "zoomed out");
+  await page.emulateMedia({ media: "print" });
+  assert.ok(await live.locator(":scope > svg").isVisible());
+  assert.ok(!(await live.locator(".wl-figure").isVisible()));
+  await page.emulateMedia({ media: "screen" });
+  await live.locator(".wl-switch").click();
+  assert.ok(await live.locator(":scope > svg").isVisible(), "the button brings the drawing back");
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("at a phone's width nothing sticks out", async () => {
+  const { page, run } = await openRun({ width: 390, height: 800 });
+  const { page: width, run: own } = await page.evaluate(() => ({
+    page: document.documentElement.scrollWidth,
+    run: document.querySelector(".wl-run").scrollWidth - document.querySelector(".wl-run").clientWidth,
+  }));
+  assert.ok(width <= 390, `${width} px`);
+  assert.ok(own <= 0, `${own} px`);
+  const canvas = await run.locator("canvas").first().boundingBox();
+  assert.ok(canvas.width > 300 && canvas.height > 250);
+  await page.close();
+});

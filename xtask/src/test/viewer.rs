@@ -1,0 +1,83 @@
+//! The report page's interactive part: types, lints, unit tests, and the page in a real browser. What is missing is installed:
+//! packages of the lock file with npm, Chromium with `apt-get`.
+
+use std::env;
+use std::process::Command;
+
+use super::Outcome;
+use crate::shell::{self, Workspace};
+use crate::viewer::{bundle, install, node};
+
+/// Programs that Chromium is called.
+const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+
+/// Checks and bundles the viewer, makes a report, and tries its page.
+pub fn check(workspace: &Workspace) -> Outcome {
+    install(workspace)?;
+    for arguments in [
+        ["node_modules/typescript/bin/tsc", "--noEmit"].as_slice(),
+        &["node_modules/eslint/bin/eslint.js", "."],
+        &["scripts/unit.mjs"],
+    ] {
+        shell::run(&mut node(workspace, arguments.iter().copied()))?;
+    }
+    bundle(workspace)?;
+    let chromium = chromium()?;
+    let report = workspace.target.join("viewer-report");
+    let arguments = [
+        "run",
+        "--release",
+        "--quiet",
+        "-p",
+        "wedgelab",
+        "--",
+        "reproduce",
+        "--force",
+        "--quiet",
+        "--out",
+    ];
+    shell::run(workspace.cargo(arguments).arg(&report))?;
+    let mut tests = node(workspace, ["--test", "test/browser/"]);
+    tests
+        .env("WEDGELAB_REPORT", &report)
+        .env("WEDGELAB_CHROMIUM", &chromium);
+    shell::run(&mut tests)?;
+    Ok(shell::output(Command::new(&chromium).arg("--version")))
+}
+
+/// The path of a Chromium, which is installed if there is none.
+fn chromium() -> Result<String, String> {
+    if let Ok(named) = env::var("WEDGELAB_CHROMIUM") {
+        return Ok(named);
+    }
+    if let Some(path) = found() {
+        return Ok(path);
+    }
+    println!("Chromium is missing and is installed now, once (90 MB to fetch).");
+    apt(&["update"])
+        .and_then(|()| apt(&["install", "-y", "--no-install-recommends", "chromium"]))
+        .map_err(|error| format!("{}\n{error}", advice()))?;
+    found().ok_or_else(advice)
+}
+
+/// The first Chromium on the path that starts.
+fn found() -> Option<String> {
+    let folders = env::var_os("PATH")?;
+    let mut paths = env::split_paths(&folders).flat_map(|folder| NAMES.map(|name| folder.join(name)));
+    let path =
+        paths.find(|path| path.is_file() && shell::output(Command::new(path).arg("--version")).is_some())?;
+    path.into_os_string().into_string().ok()
+}
+
+fn apt(arguments: &[&str]) -> Result<(), String> {
+    let mut command = Command::new("apt-get");
+    command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive");
+    shell::run(&mut command)
+}
+
+fn advice() -> String {
+    "Chromium is missing and could not be installed. On Debian an administrator installs it with `apt-get install chromium`; \
+     elsewhere install Chromium or Chrome and name the program in WEDGELAB_CHROMIUM. `cargo xtask test --only` runs other \
+     checks without it."
+        .to_owned()
+}
