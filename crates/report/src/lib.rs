@@ -10,6 +10,7 @@
 //! - [`drawing`]: figures, their curves and axes, drawn as SVG and PNG; [`thin`] makes their curves small.
 //! - [`figures`]: the report's figures.
 //! - [`run_files`]: the files of a run.
+//! - [`truck_files`]: the files of a half-truck's run.
 //! - [`table`]: tables of results, read back.
 //! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
 
@@ -30,3 +31,4 @@ pub mod sections;
 pub mod summary;
 pub mod table;
 pub mod thin;
+pub mod truck_files;
