@@ -5,6 +5,7 @@
 
 use std::io::{self, Write};
 
+use mechanics::output::Column;
 use quantity::{Kind, System as Units};
 use study::result::RunResult;
 
@@ -16,17 +17,33 @@ pub const FILE_NAME: &str = "result.csv";
 /// # Errors
 /// The writer's.
 pub fn write(result: &RunResult, out: &mut dyn Write) -> io::Result<()> {
-    let units = result.summary.units;
+    write_columns(&result.columns, &result.values, result.summary.units, out)
+}
+
+/// Writes columns with their values (SI, one vector a column, all of the same length) in a system of units.
+///
+/// # Errors
+/// The writer's; or the columns differ in length.
+pub fn write_columns(
+    columns: &[Column],
+    values: &[Vec<f64>],
+    units: Units,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let rows = values.first().map_or(0, Vec::len);
+    if columns.len() != values.len() || values.iter().any(|values| values.len() != rows) {
+        return Err(io::Error::other("the columns of the result differ in length"));
+    }
     let mut line = Vec::new();
-    for column in &result.columns {
+    for column in columns {
         separate(&mut line);
         line.extend_from_slice(column.full_name(units).as_bytes());
     }
     end(&mut line, out)?;
-    let kinds: Vec<Kind> = result.columns.iter().map(|column| column.kind).collect();
+    let kinds: Vec<Kind> = columns.iter().map(|column| column.kind).collect();
     let mut decimal = ryu::Buffer::new();
-    for row in 0..result.rows() {
-        for (kind, values) in kinds.iter().zip(&result.values) {
+    for row in 0..rows {
+        for (kind, values) in kinds.iter().zip(values) {
             separate(&mut line);
             let value = converted(values[row], *kind, units);
             let text = decimal.format(value);

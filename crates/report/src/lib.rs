@@ -11,6 +11,7 @@
 //! - [`figures`]: the report's figures.
 //! - [`view`]: the data of the page's interactive part.
 //! - [`run_files`]: the files of a run.
+//! - [`truck_files`]: the files of a half-truck's run.
 //! - [`table`]: tables of results, read back.
 //! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
 
@@ -31,4 +32,5 @@ pub mod sections;
 pub mod summary;
 pub mod table;
 pub mod thin;
+pub mod truck_files;
 pub mod view;

@@ -6,6 +6,7 @@
 
 use std::io::{self, Write};
 
+use serde::Serialize;
 use study::summary::Summary;
 
 /// The file's name.
@@ -16,6 +17,14 @@ pub const FILE_NAME: &str = "summary.json";
 /// # Errors
 /// The writer's.
 pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
+    write_json(summary, out)
+}
+
+/// Writes anything as a summary is written: indented, a line feed at the end.
+///
+/// # Errors
+/// The writer's.
+pub fn write_json(summary: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, summary)?;
     out.write_all(b"\n")
 }

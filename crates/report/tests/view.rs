@@ -5,6 +5,7 @@
 use std::collections::BTreeMap;
 
 use quantity::System as Units;
+use report::claims::Claims;
 use report::figures::Outcome;
 use report::page::{self, Contents, Viewer};
 use report::sections;
@@ -256,6 +257,8 @@ fn the_page_takes_viewer_and_data_or_does_without() {
     let page = |interactive| {
         page::render(&Contents {
             outcomes: &outcomes,
+            beyond: &[],
+            claims: &Claims::of(Vec::new()),
             sections: &[],
             interactive,
         })

@@ -8,11 +8,11 @@
 use nucars::builtin;
 use nucars::read::{read_data, read_input, read_system};
 use nucars::tree::{DataFile, InputFile, Law, SystemFile, Toe};
-use nucars::truck::{Choices, Truck, Yaw};
-use quantity::System as Units;
+use nucars::truck::{Choices, Yaw};
 use wedge::parameters::Damping;
 
-use super::{TruckCase, TruckStart, requests};
+use super::TruckCase;
+use super::files::{self, Files, Settings};
 
 /// The type of the wedges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -174,38 +174,55 @@ impl Entry {
     /// # Errors
     /// None happen with the built-in files, which the tests read: a text that says why they make no model.
     pub fn case(&self, choices: &Choices, duration: f64) -> Result<TruckCase, String> {
+        self.case_with(&Settings {
+            choices: choices.clone(),
+            duration: Some(duration),
+            ..Settings::default()
+        })
+    }
+
+    /// The run with other settings; without a duration, the files' 20 s.
+    ///
+    /// # Errors
+    /// None happen with the built-in files and sensible settings: a text that says why they make no run.
+    pub fn case_with(&self, settings: &Settings) -> Result<TruckCase, String> {
         let [system, input, data] = self.files();
         let mut system = tree_of::<SystemFile>(system)?;
         let input = tree_of::<InputFile>(input)?;
         let data = tree_of::<DataFile>(data)?;
         set_toe(&mut system, self.toe);
-        let mut choices = choices.clone();
-        choices.yaw = match (self.yaw, choices.yaw) {
+        let mut settings = settings.clone();
+        settings.duration = Some(settings.duration.unwrap_or(DURATION));
+        settings.choices.yaw = match (self.yaw, settings.choices.yaw) {
             (YawCase::Intended, Yaw::AsPrinted) => Yaw::Dropped,
             (YawCase::Intended, own) => own,
             _ => Yaw::AsPrinted,
         };
-        let truck = Truck::new(&system, Some(&input), &choices).map_err(|error| error.to_string())?;
-        let (requests, notes) = requests::of(&data, &truck, false);
-        let mut assumptions = choices.describe();
+        let files = Files {
+            system: &system,
+            input: Some(&input),
+            data: Some(&data),
+            run: None,
+        };
+        let mut case =
+            files::case(&self.name(), &self.title(), files, &settings).map_err(|error| error.to_string())?;
         if !self.is_printed() {
-            assumptions
+            case.assumptions
                 .push("made from the printed files of the same type and damping by toe and yaw".to_owned());
         }
-        assumptions.extend(notes);
-        Ok(TruckCase {
-            name: self.name(),
-            title: self.title(),
-            truck,
-            assumptions,
-            requests,
-            start: TruckStart::Drawn,
-            duration,
-            interval: 0.01,
-            relative_tolerance: 1e-5,
-            units: Units::Us,
-        })
+        Ok(case)
     }
+}
+
+/// The end of the printed runs, s.
+pub const DURATION: f64 = 20.0;
+/// The interval of the printed runs' results, s.
+pub const OUTPUT_INTERVAL: f64 = 0.1;
+
+/// The run of this name.
+#[must_use]
+pub fn entry(name: &str) -> Option<Entry> {
+    entries().into_iter().find(|entry| entry.name() == name)
 }
 
 fn damping_name(damping: Damping) -> &'static str {

@@ -1,12 +1,15 @@
 //! Runs of the half-truck of the comparison program's files.
 //!
-//! [`catalog`] lists the thesis's runs. [`TruckCase`] is a model made from files with what a run needs besides, [`run`](run::run) runs it, [`requests`] holds what a
+//! [`catalog`] lists the thesis's runs, [`files`] makes a run of any files. [`TruckCase`] is a model made from files with what a run needs besides, [`run`](run::run) runs it, [`requests`] holds what a
 //! data file asks for, and [`TruckResult`] what came out.
 
 pub mod catalog;
+pub mod files;
+pub mod options;
 pub mod requests;
 pub mod run;
 mod table;
+pub mod yaw;
 
 use std::collections::BTreeMap;
 
@@ -18,6 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::summary::{Measure, Stopped};
 use requests::Request;
+pub use yaw::YawSummary;
 
 /// How a run begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -95,8 +99,14 @@ pub struct TruckSummary {
     pub complete: bool,
     /// Why and when it stopped, if it did not.
     pub stopped: Option<Stopped>,
+    /// What makes the numbers doubtful; empty for a sound run.
+    #[serde(default)]
+    pub warnings: Vec<String>,
     /// Number of rows.
     pub rows: usize,
+    /// Commanded and reached yaw, if one is commanded.
+    #[serde(default)]
+    pub yaw: Option<YawSummary>,
     /// Each wedge, by its number in the file.
     pub wedges: BTreeMap<String, WedgeSummary>,
     /// Largest displacements (without sign) of the free bodies, by `body_NUMBER_COORDINATE`.

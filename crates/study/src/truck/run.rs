@@ -94,7 +94,9 @@ pub fn run(case: &TruckCase, mut progress: impl FnMut(f64)) -> Result<TruckResul
             units: case.units,
             complete: stopped.is_none(),
             stopped,
+            warnings: Vec::new(),
             rows: 0,
+            yaw: None,
             wedges: BTreeMap::new(),
             largest_displacements: BTreeMap::new(),
             ledger: BTreeMap::new(),
@@ -168,7 +170,23 @@ fn summarize(case: &TruckCase, system: &System, result: &mut TruckResult) {
         values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
     };
     let (residual, work) = (most("ledger_residual"), most("input_work"));
+    let yaw = super::yaw::summary(&case.truck, result, units);
     let summary = &mut result.summary;
+    if let Some(yaw) = yaw.as_ref().filter(|yaw| yaw.is_missed()) {
+        summary.warnings.push(yaw.warning());
+    }
+    summary.yaw = yaw;
+    let jams = wedges.iter().filter(|(_, wedge)| wedge.jammed > 0.0);
+    let jams: Vec<String> = jams
+        .map(|(number, wedge)| format!("{number} ({:.1} %)", 100.0 * wedge.jammed))
+        .collect();
+    if !jams.is_empty() {
+        summary.warnings.push(format!(
+            "jammed wedges, with the share of the output times: {}; no steady sliding exists there, and only the limit of \
+             the files holds the normal force",
+            jams.join(", ")
+        ));
+    }
     summary.rows = times.len();
     summary.wedges = wedges;
     summary.largest_displacements = largest;

@@ -133,6 +133,15 @@ impl Table {
                 move |seen| seen.connections[place].forces[component].abs(),
             );
         }
+        let lateral = coordinates.iter().position(|own| *own == 1);
+        if let Some(component) = lateral {
+            self.add(
+                format!("{wedge}_lateral_force"),
+                Kind::Force,
+                "lateral friction of the column, in the sense of the stroke",
+                move |seen| seen.connections[place].forces[component],
+            );
+        }
         self.add(
             format!("{wedge}_stroke"),
             Kind::Length,
@@ -145,6 +154,25 @@ impl Table {
             "its rate",
             move |seen| seen.connections[place].velocities[0],
         );
+        let other = [
+            ("longitudinal", coordinates.iter().position(|own| *own == 0)),
+            ("lateral", lateral),
+        ];
+        for (name, component) in other {
+            let Some(component) = component else { continue };
+            self.add(
+                format!("{wedge}_{name}_stroke"),
+                Kind::Length,
+                format!("{name} displacement of the bolster against the side frame"),
+                move |seen| seen.connections[place].strokes[component],
+            );
+            self.add(
+                format!("{wedge}_{name}_stroke_rate"),
+                Kind::Speed,
+                "its rate",
+                move |seen| seen.connections[place].velocities[component],
+            );
+        }
         self.add(
             format!("{wedge}_friction_power"),
             Kind::Power,

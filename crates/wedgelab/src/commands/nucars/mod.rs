@@ -1,7 +1,10 @@
 //! `wedgelab nucars`: the comparison program's files.
 
 mod check;
+mod files;
 mod load;
+mod modes;
+mod run;
 mod show;
 
 use std::process::ExitCode;
@@ -10,7 +13,7 @@ use clap::{Args, Subcommand};
 
 use crate::failure::Failure;
 
-/// Check and show input files of NUCARS
+/// Check, show and run files of NUCARS
 ///
 /// Reads the .SYS, .INP, .DAT and .RUN files of NUCARS, the vehicle dynamics program that the thesis compares with.
 #[derive(Debug, Args)]
@@ -23,6 +26,8 @@ pub struct Arguments {
 enum Command {
     Check(check::Arguments),
     Show(show::Arguments),
+    Run(run::Arguments),
+    Modes(modes::Arguments),
 }
 
 /// Does it.
@@ -30,5 +35,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     match &arguments.command {
         Command::Check(arguments) => check::execute(arguments),
         Command::Show(arguments) => show::execute(arguments),
+        Command::Run(arguments) => run::execute(arguments),
+        Command::Modes(arguments) => modes::execute(arguments),
     }
 }

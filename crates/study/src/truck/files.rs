@@ -1,0 +1,196 @@
+//! A run from files: what the run file says, and what is asked for besides.
+
+use nucars::tree::{DataFile, InputFile, RunFile, SystemFile};
+use nucars::truck::{BuildError, Choices, Truck, Yaw};
+use quantity::System as Units;
+use thiserror::Error;
+
+use super::{TruckCase, TruckStart, requests, yaw};
+
+/// The most rows of a result: at some two hundred columns a gigabyte and a half.
+const MOST_ROWS: f64 = 1e6;
+
+/// The trees of the files of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Files<'t> {
+    /// The system file.
+    pub system: &'t SystemFile,
+    /// The input file; without it input bodies rest.
+    pub input: Option<&'t InputFile>,
+    /// The data file; without it only the columns that are always there are written.
+    pub data: Option<&'t DataFile>,
+    /// The run file.
+    pub run: Option<&'t RunFile>,
+}
+
+/// What is asked for besides the files.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// What the files leave open.
+    pub choices: Choices,
+    /// How the run begins.
+    pub start: TruckStart,
+    /// Whether sections of the data file that are switched off are written too.
+    pub all_outputs: bool,
+    /// How long the run is, s; otherwise as the run file says.
+    pub duration: Option<f64>,
+    /// Time between two rows, s.
+    pub interval: f64,
+    /// Relative tolerance of the integrator.
+    pub relative_tolerance: f64,
+    /// Units of the results.
+    pub units: Units,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            choices: Choices::default(),
+            start: TruckStart::Drawn,
+            all_outputs: false,
+            duration: None,
+            interval: 0.01,
+            relative_tolerance: 1e-5,
+            units: Units::Us,
+        }
+    }
+}
+
+/// Why files and settings make no run.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum FilesError {
+    /// The files make no model.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// Nothing says how long the run is.
+    #[error("nothing says how long the run is: the run file has no \\STEPPING CONSTANTS")]
+    NoDuration,
+    /// Duration and interval give no rows, or too many.
+    #[error(
+        "{duration} s with a row each {interval} s: both must be positive, and give at least one row and at most a million"
+    )]
+    Rows {
+        /// The duration, s.
+        duration: f64,
+        /// The interval, s.
+        interval: f64,
+    },
+    /// The intended yaw of files that command none.
+    #[error("the yaw as intended was asked for, but no input body that drives a body yaws")]
+    NoYaw,
+}
+
+/// The run of these files.
+///
+/// # Errors
+/// What [`FilesError`] names.
+pub fn case(name: &str, title: &str, files: Files<'_>, settings: &Settings) -> Result<TruckCase, FilesError> {
+    let stepping = files.run.and_then(|run| run.stepping.as_ref());
+    let duration = settings
+        .duration
+        .or(stepping.map(|stepping| *stepping.end))
+        .ok_or(FilesError::NoDuration)?;
+    let interval = settings.interval;
+    let rows = duration / interval * (1.0 + 1e-12);
+    if !(duration > 0.0 && interval > 0.0 && (1.0..=MOST_ROWS).contains(&rows)) {
+        return Err(FilesError::Rows { duration, interval });
+    }
+    let choices = &settings.choices;
+    let truck = Truck::new(files.system, files.input, choices)?;
+    if choices.yaw != Yaw::AsPrinted && yaw::drive(&truck.model).is_none() {
+        return Err(FilesError::NoYaw);
+    }
+    let mut assumptions = choices.describe();
+    assumptions.push(
+        match settings.start {
+            TruckStart::Drawn => "start: at rest in the drawn layout, springs and wedges without history",
+            TruckStart::Equilibrium => {
+                "start: at rest in static equilibrium without friction, input bodies where they are at time zero"
+            }
+        }
+        .to_owned(),
+    );
+    if let Some(stepping) = stepping {
+        assumptions.push(format!(
+            "the run file's stepping constants {} {} {} s: the second is the end of the run; the third, the interval of \
+             its results, is that of the thesis's arrays, while the table has a row each {interval} s; the first, \
+             presumably its largest step, is not used, because steps are chosen by their error",
+            *stepping.step, *stepping.end, *stepping.output
+        ));
+    }
+    if let Some(control) = files.run.and_then(|run| run.control.as_ref()) {
+        assumptions.push(format!(
+            "the run file's control constants {} {} {} are not used: their meaning is not published",
+            *control.analysis,
+            *control.option,
+            if *control.flag { ".T." } else { ".F." }
+        ));
+    }
+    let requests = match files.data {
+        Some(data) => {
+            let (requests, notes) = requests::of(data, &truck, settings.all_outputs);
+            assumptions.extend(notes);
+            requests
+        }
+        None => Vec::new(),
+    };
+    Ok(TruckCase {
+        name: name.to_owned(),
+        title: title.to_owned(),
+        truck,
+        assumptions,
+        requests,
+        start: settings.start,
+        duration,
+        interval,
+        relative_tolerance: settings.relative_tolerance,
+        units: settings.units,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use nucars::builtin;
+    use nucars::read::read_system;
+
+    #[test]
+    fn durations_and_intervals_are_checked() {
+        let source = builtin::source("Bolst_wedge_sf_68_constant.sys").unwrap();
+        let system = read_system(&source).strict().unwrap();
+        let files = Files {
+            system: &system,
+            input: None,
+            data: None,
+            run: None,
+        };
+        let error = |settings: Settings| case("a", "b", files, &settings).unwrap_err();
+        assert_eq!(error(Settings::default()), FilesError::NoDuration);
+        for (duration, interval) in [
+            (0.0, 0.01),
+            (1.0, 0.0),
+            (1.0, -1.0),
+            (0.1, 0.2),
+            (f64::NAN, 0.01),
+            (2e4, 0.01),
+        ] {
+            let settings = Settings {
+                duration: Some(duration),
+                interval,
+                ..Settings::default()
+            };
+            assert!(matches!(error(settings), FilesError::Rows { .. }));
+        }
+        let intended = Settings {
+            duration: Some(1.0),
+            choices: Choices {
+                yaw: Yaw::Driven,
+                ..Choices::default()
+            },
+            ..Settings::default()
+        };
+        assert_eq!(error(intended), FilesError::NoYaw);
+    }
+}

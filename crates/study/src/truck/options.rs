@@ -1,0 +1,176 @@
+//! The choices as typed: `NAME=VALUE`.
+
+use mechanics::small::{Branch, GapTension, NegativeRise};
+use nucars::truck::{Bend, Choices};
+use quantity::{Kind, Quantity, nearest};
+use thiserror::Error;
+
+/// Names and what is expected of each.
+const OPTIONS: [(&str, &str); 8] = [
+    ("bend", "half_cosine or linear"),
+    ("speed", "a speed along the track, such as \"60 mph\""),
+    ("plain_toe_angle", "an angle, such as \"0.2 deg\""),
+    (
+        "branch",
+        "friction_force, or for a branch by velocity its reference speed, such as \"0.1 in/s\"",
+    ),
+    ("rise_in_slip", "true or false"),
+    ("negative_rise", "extend or stop"),
+    ("accumulator_damping", "a number, 1 for the files' damping"),
+    ("gap_tension", "never or allowed"),
+];
+
+/// A choice that cannot be taken.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum OptionError {
+    /// There is no `=`.
+    #[error("`{0}` is not of the form NAME=VALUE; names are {names}", names = names())]
+    Form(String),
+    /// There is no such option.
+    #[error("there is no option `{name}`; {hint}")]
+    Unknown {
+        /// As typed.
+        name: String,
+        /// The nearest name, or all.
+        hint: String,
+    },
+    /// The value is none of its kind.
+    #[error("`{value}` is no value of {name}: {expected} is expected")]
+    Value {
+        /// The option.
+        name: &'static str,
+        /// As typed.
+        value: String,
+        /// What would do.
+        expected: &'static str,
+    },
+}
+
+fn names() -> String {
+    OPTIONS.map(|(name, _)| name).join(", ")
+}
+
+/// Names of all options and what is expected of each.
+pub fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
+    OPTIONS.into_iter()
+}
+
+/// Takes one choice as typed.
+///
+/// # Errors
+/// It is no option or no value of it.
+pub fn set(choices: &mut Choices, typed: &str) -> Result<(), OptionError> {
+    let (name, value) = typed
+        .split_once('=')
+        .map(|(name, value)| (name.trim(), value.trim().trim_matches('"')))
+        .ok_or_else(|| OptionError::Form(typed.to_owned()))?;
+    let Some((name, expected)) = OPTIONS.into_iter().find(|(own, _)| *own == name) else {
+        let hint = match nearest(name, OPTIONS.iter().map(|(name, _)| *name)) {
+            Some(near) => format!("did you mean {near}?"),
+            None => format!("names are {}", names()),
+        };
+        return Err(OptionError::Unknown {
+            name: name.to_owned(),
+            hint,
+        });
+    };
+    let wrong = || OptionError::Value {
+        name,
+        value: value.to_owned(),
+        expected,
+    };
+    let measure = |kind: Kind| -> Result<f64, OptionError> {
+        let value = Quantity::parse_as(value, kind).map_err(|_| wrong())?.to_si();
+        Some(value).filter(|value| value.is_finite()).ok_or_else(wrong)
+    };
+    let positive = |value: f64| Some(value).filter(|value| *value > 0.0).ok_or_else(wrong);
+    let elements = &mut choices.elements;
+    match (name, value) {
+        ("bend", "half_cosine") => choices.bend = Bend::HalfCosine,
+        ("bend", "linear") => choices.bend = Bend::Linear,
+        ("speed", _) => choices.speed = Some(positive(measure(Kind::Speed)?)?),
+        ("plain_toe_angle", _) => elements.plain_toe_angle = measure(Kind::Angle)?,
+        ("branch", "friction_force") => elements.branch = Branch::FrictionForce,
+        ("branch", _) => {
+            let reference_speed = positive(measure(Kind::Speed)?)?;
+            elements.branch = Branch::Velocity { reference_speed };
+        }
+        ("rise_in_slip", _) => elements.rise_in_slip = value.parse().map_err(|_| wrong())?,
+        ("negative_rise", "extend") => elements.negative_rise = NegativeRise::Extend,
+        ("negative_rise", "stop") => elements.negative_rise = NegativeRise::Stop,
+        ("accumulator_damping", _) => {
+            let number = value.parse().map_err(|_| wrong())?;
+            elements.accumulator_damping = positive(number)
+                .and_then(|number: f64| Some(number).filter(|number| number.is_finite()).ok_or_else(wrong))?;
+        }
+        ("gap_tension", "never") => elements.gap_tension = GapTension::Never,
+        ("gap_tension", "allowed") => elements.gap_tension = GapTension::Allowed,
+        _ => return Err(wrong()),
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    #[test]
+    fn every_field_can_be_chosen() {
+        let mut choices = Choices::default();
+        for typed in [
+            "bend=linear",
+            "speed=10 m/s",
+            "plain_toe_angle=0.5 deg",
+            "branch = 2 mm/s",
+            "rise_in_slip=true",
+            "negative_rise=stop",
+            "accumulator_damping=0.1",
+            "gap_tension=allowed",
+        ] {
+            let before = choices.clone();
+            set(&mut choices, typed).unwrap();
+            assert_ne!(before, choices, "{typed}");
+        }
+        assert_eq!(choices.speed, Some(10.0));
+        assert_eq!(
+            choices.elements.branch,
+            Branch::Velocity {
+                reference_speed: 0.002
+            }
+        );
+        for typed in [
+            "bend=half_cosine",
+            "branch=friction_force",
+            "rise_in_slip=false",
+            "negative_rise=extend",
+            "gap_tension=never",
+            "accumulator_damping=1",
+            "plain_toe_angle=0 deg",
+        ] {
+            set(&mut choices, typed).unwrap();
+        }
+        choices.speed = None;
+        assert_eq!(choices, Choices::default());
+    }
+
+    #[test]
+    fn wrong_choices_say_what_would_do() {
+        for (typed, text) in [
+            ("bend", "NAME=VALUE"),
+            ("bent=linear", "did you mean bend?"),
+            ("zzzzzzzzzz=1", "names are bend"),
+            ("bend=round", "half_cosine or linear"),
+            ("speed=60", "such as \"60 mph\""),
+            ("speed=-1 m/s", "a speed along the track"),
+            ("branch=velocity", "its reference speed"),
+            ("rise_in_slip=yes", "true or false"),
+            ("accumulator_damping=0", "a number"),
+            ("accumulator_damping=inf", "a number"),
+        ] {
+            let error = set(&mut Choices::default(), typed).unwrap_err().to_string();
+            assert!(error.contains(text), "{error}");
+        }
+    }
+}

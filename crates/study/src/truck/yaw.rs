@@ -1,0 +1,91 @@
+//! How far the yaw that input bodies command is reached.
+
+use mechanics::small::{Kind as BodyKind, Law, Model};
+use nucars::truck::Truck;
+use quantity::{Kind, System as Units};
+use serde::{Deserialize, Serialize};
+
+use super::TruckResult;
+use crate::summary::Measure;
+
+/// The share of the commanded yaw below which it counts as not reached.
+const REACHED: f64 = 0.5;
+
+/// The yaw of a driven body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct YawSummary {
+    /// Number of the driven body in the file.
+    pub body: u32,
+    /// Mean of the yaw that its input body commands, over the second half of the run.
+    pub commanded: Measure,
+    /// Mean of the yaw that it reaches, over the same time.
+    pub reached: Measure,
+}
+
+/// An input body that yaws, and the free body that a yaw spring ties to it, by their places in the model.
+pub(super) fn drive(model: &Model) -> Option<(usize, usize)> {
+    let yaws = |body: usize| match &model.bodies[body].kind {
+        BodyKind::Prescribed { motions } => !motions[5].is_constant(),
+        BodyKind::Free { .. } => false,
+    };
+    let free = |body: usize| matches!(&model.bodies[body].kind, BodyKind::Free { free, .. } if free[5]);
+    model.connections.iter().find_map(|connection| {
+        let Law::Springs(springs) = &connection.law else {
+            return None;
+        };
+        let turns = springs.iter().any(|(coordinate, _)| *coordinate == 5);
+        let ends = [(connection.a, connection.b), (connection.b, connection.a)];
+        ends.into_iter()
+            .find(|(input, body)| turns && yaws(*input) && free(*body))
+    })
+}
+
+/// Whether an input body commands a yaw.
+#[must_use]
+pub fn is_commanded(truck: &Truck) -> bool {
+    drive(&truck.model).is_some()
+}
+
+/// Commanded and reached yaw of a run, if one is commanded.
+pub(super) fn summary(truck: &Truck, result: &TruckResult, units: Units) -> Option<YawSummary> {
+    let (input, body) = drive(&truck.model)?;
+    let BodyKind::Prescribed { motions } = &truck.model.bodies[input].kind else {
+        return None;
+    };
+    let number = truck.bodies[body];
+    let (times, yaws) = (
+        result.column("time")?,
+        result.column(&format!("body_{number}_yaw"))?,
+    );
+    let late = times.len() / 2..times.len();
+    let count = late.len().max(1) as f64;
+    let commanded: f64 = times[late.clone()]
+        .iter()
+        .map(|time| motions[5].evaluate(*time, *time)[0])
+        .sum();
+    let reached: f64 = yaws[late].iter().sum();
+    Some(YawSummary {
+        body: number,
+        commanded: Measure::new(commanded / count, Kind::Angle, units),
+        reached: Measure::new(reached / count, Kind::Angle, units),
+    })
+}
+
+impl YawSummary {
+    /// Whether less than half of the commanded yaw is reached.
+    #[must_use]
+    pub fn is_missed(&self) -> bool {
+        let (commanded, reached) = (self.commanded.value, self.reached.value);
+        reached * commanded.signum() < REACHED * commanded.abs()
+    }
+
+    /// The warning for its user.
+    #[must_use]
+    pub fn warning(&self) -> String {
+        format!(
+            "body {} is commanded to yaw by {:.4} rad and reaches {:.1e} rad on the mean over the second half of the run: \
+             the springs that drive it hold it more than they yaw it",
+            self.body, self.commanded.value, self.reached.value
+        )
+    }
+}

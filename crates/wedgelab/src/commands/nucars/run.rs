@@ -1,0 +1,377 @@
+//! `wedgelab nucars run`: one run of a half-truck.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::{Args, ValueEnum};
+use nucars::Severity;
+use nucars::truck::{Choices, Yaw};
+use quantity::{Kind, Quantity, System as Units, nearest};
+use report::files::Folder;
+use report::truck_files;
+use study::truck::catalog::{self, Entry, OUTPUT_INTERVAL, YawCase};
+use study::truck::files::{Files, Settings, case};
+use study::truck::run::run;
+use study::truck::{TruckCase, TruckStart, TruckSummary, options, yaw};
+
+use super::files::{Instead, RunFiles};
+use super::load::{find, kind, load, tell};
+use crate::failure::{Failure, Message, say};
+use crate::progress::Progress;
+use crate::table::Table;
+
+/// Run a half-truck from its files
+///
+/// Reads a run file with the files it names, and writes result.csv (the columns that the data file asks for, wedges, bodies,
+/// energies), result.mat (the same, and the array that the thesis's scripts load) and summary.json (averages of each
+/// wedge, energy ledger, yaw, assumptions) into a folder named as the run file. The run ends when the run file's stepping
+/// constants say. The runs of the thesis's table 4-1 are built in; --list names them.
+///
+/// What no public text says of the elements is an --option, with a default that the summary lists:
+/// bend (half_cosine, linear), speed (along the track), plain_toe_angle (column of types without an angle), branch
+/// (friction_force, or a reference speed), rise_in_slip (true, false), negative_rise (extend, stop), accumulator_damping (a
+/// factor), gap_tension (never, allowed).
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab nucars run half_truck.run
+  wedgelab nucars run yaw.run --data results.dat --yaw drop
+  wedgelab nucars run half_truck.run --option branch=\"0.1 in/s\" --option gap_tension=allowed --out other
+  wedgelab nucars run nucars_69_constant_toe_out_yaw
+
+Exit codes: 0 done; 1 the run could not finish or files could not be written; 2 the input is wrong.")]
+pub struct Arguments {
+    /// Run file (.RUN), or, if there is no such file, the name of a built-in run
+    #[arg(value_name = "FILE", required_unless_present = "list")]
+    file: Option<PathBuf>,
+    /// List the built-in runs
+    #[arg(long, exclusive = true)]
+    list: bool,
+    #[command(flatten)]
+    instead: Instead,
+    /// Folder to write into [default: the run file's name without ending]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Overwrite existing results
+    #[arg(long)]
+    force: bool,
+    /// Start in static equilibrium without friction instead of the drawn layout
+    #[arg(long)]
+    equilibrium: bool,
+    /// Write also what the data file has switched off
+    #[arg(long)]
+    all_outputs: bool,
+    /// Time between two rows
+    #[arg(long, value_name = "TIME", default_value = "0.01 s", value_parser = time, allow_hyphen_values = true)]
+    interval: Quantity,
+    /// How the bolster's yaw is reached
+    #[arg(long, value_name = "HOW")]
+    yaw: Option<YawArgument>,
+    /// A choice where the files leave one open
+    #[arg(long, value_name = "NAME=VALUE")]
+    option: Vec<String>,
+    /// Units of the results
+    #[arg(long, default_value = "us")]
+    units: OutputUnits,
+    /// No progress
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+enum YawArgument {
+    /// As the files say, even where springs hold the bolster
+    Printed,
+    /// As they mean it: without the longitudinal springs at both sides, with a stiff yaw spring
+    Drop,
+    /// As they mean it: the outer input bodies move along
+    Drive,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum OutputUnits {
+    /// US customary units
+    Us,
+    /// SI units
+    Si,
+}
+
+fn time(text: &str) -> Result<Quantity, String> {
+    let quantity = Quantity::parse_as(text, Kind::Time).map_err(|error| error.to_string())?;
+    if quantity.to_si() > 0.0 && quantity.to_si().is_finite() {
+        Ok(quantity)
+    } else {
+        Err("it must be positive".to_owned())
+    }
+}
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let (false, Some(file)) = (arguments.list, &arguments.file) else {
+        return list();
+    };
+    let settings = arguments.settings()?;
+    let (case, script_interval) = match built_in(file)? {
+        Some(entry) => (arguments.built_in(entry, settings)?, OUTPUT_INTERVAL),
+        None => arguments.of_files(file, &settings)?,
+    };
+    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
+    let folder = Folder::check(path, &truck_files::NAMES, arguments.force)
+        .map_err(|error| Failure::Input(error.into()))?;
+    let progress = Progress::new(1, arguments.quiet);
+    let start = Instant::now();
+    let done = run(&case, progress.of_run(case.duration));
+    let wall = start.elapsed().as_secs_f64();
+    let result = done.map_err(|error| {
+        progress.finish();
+        Message::new(
+            format!("the run {} cannot begin: {error}", case.name),
+            "look for values that are out of proportion; `wedgelab nucars show` prints them as tables",
+        )
+    })?;
+    truck_files::write(&folder, &case, &result, script_interval)?;
+    let summary = &result.summary;
+    let how = match &summary.stopped {
+        Some(stopped) => format!("stopped at {} s", stopped.time),
+        None => format!("{wall:.2} s"),
+    };
+    progress.done(&case.name, &how);
+    progress.finish();
+    for warning in &summary.warnings {
+        say(&format!("warning: {}: {warning}", case.name));
+    }
+    if summary.yaw.as_ref().is_some_and(|yaw| yaw.is_missed()) {
+        say("  --yaw drop leaves out the springs that hold it, --yaw drive moves their input bodies along");
+    }
+    let mut out = io::stdout().lock();
+    writeln!(out, "{}\n", summary.title)?;
+    table(summary).write(&mut out)?;
+    writeln!(
+        out,
+        "\n{TABLE_NOTE}\nResidual of the energy ledger: {:.1e} of the work of the inputs.\n\nWritten into {}: {}.",
+        summary.largest_relative_residual,
+        folder.path().display(),
+        truck_files::NAMES.join(", ")
+    )?;
+    let Some(stopped) = &summary.stopped else {
+        return Ok(ExitCode::SUCCESS);
+    };
+    let message = format!(
+        "the run {} stopped at {} s and is incomplete: {}",
+        summary.name, stopped.time, stopped.reason
+    );
+    let advice = format!(
+        "what was computed until then is in {}, marked as incomplete",
+        folder.path().display()
+    );
+    Err(Failure::Failed(Message::new(message, advice).into()))
+}
+
+impl Arguments {
+    fn settings(&self) -> Result<Settings, Message> {
+        let mut choices = Choices {
+            yaw: match self.yaw {
+                None | Some(YawArgument::Printed) => Yaw::AsPrinted,
+                Some(YawArgument::Drop) => Yaw::Dropped,
+                Some(YawArgument::Drive) => Yaw::Driven,
+            },
+            ..Choices::default()
+        };
+        for typed in &self.option {
+            options::set(&mut choices, typed).map_err(|error| {
+                Message::new(error.to_string(), "`wedgelab nucars run --help` lists them")
+            })?;
+        }
+        Ok(Settings {
+            choices,
+            start: if self.equilibrium {
+                TruckStart::Equilibrium
+            } else {
+                TruckStart::Drawn
+            },
+            all_outputs: self.all_outputs,
+            interval: self.interval.to_si(),
+            units: match self.units {
+                OutputUnits::Us => Units::Us,
+                OutputUnits::Si => Units::Si,
+            },
+            ..Settings::default()
+        })
+    }
+
+    fn built_in(&self, entry: Entry, settings: Settings) -> Result<TruckCase, Message> {
+        if let Some(option) = self.instead.given().first() {
+            return Err(Message::new(
+                format!(
+                    "the built-in run {} has its own files, and {option} is given",
+                    entry.name()
+                ),
+                "give a run file, or leave it out",
+            ));
+        }
+        let fits = match self.yaw {
+            None => true,
+            Some(YawArgument::Printed) => entry.yaw != YawCase::Intended,
+            Some(_) => entry.yaw == YawCase::Intended,
+        };
+        if !fits {
+            return Err(Message::new(
+                format!("--yaw does not fit the built-in run {}", entry.name()),
+                "built-in runs with yaw as intended end with _yaw, those as printed with _yaw_as_printed",
+            ));
+        }
+        let wrong = |text: String| Message::new(text, "choose another interval or another option");
+        entry.case_with(&settings).map_err(wrong)
+    }
+
+    /// The case of a run file, and its own interval of results, s.
+    fn of_files(&self, file: &Path, settings: &Settings) -> Result<(TruckCase, f64), Failure> {
+        let path = find(file)?;
+        let source = load(&path)?;
+        let found = kind(&source)?;
+        if found != nucars::read::FileKind::Run {
+            return Err(Message::new(
+                format!("{} is not a run file, but a {found}", path.display()),
+                "name the .RUN file, which says what belongs together and how long the run is",
+            )
+            .into());
+        }
+        let files = RunFiles::read(&path, &self.instead)?;
+        let mut warnings = 0;
+        let mut wrong = false;
+        for findings in files.findings() {
+            tell(findings, |finding| finding.severity() == Severity::Error);
+            warnings += findings.count(Severity::Warning);
+            wrong |= findings.has_errors();
+        }
+        let again = std::iter::once(format!("wedgelab nucars check {}", path.display()))
+            .chain(self.instead.given())
+            .collect::<Vec<_>>()
+            .join(" ");
+        let (false, Some(run_file), Some(system)) = (wrong, files.run(), files.system()) else {
+            return Err(Message::new(
+                format!("{} cannot be run", path.display()),
+                format!("mend the errors above; `{again}` tells warnings and notes too"),
+            )
+            .into());
+        };
+        if warnings > 0 {
+            let s = if warnings == 1 { "" } else { "s" };
+            say(&format!(
+                "{warnings} warning{s} about the files; `{again}` tells them"
+            ));
+        }
+        let mut name = path
+            .file_stem()
+            .map_or_else(|| "nucars".to_owned(), |stem| stem.to_string_lossy().into_owned());
+        if settings.choices.yaw != Yaw::AsPrinted {
+            name.push_str("_yaw_as_intended");
+        }
+        let trees = Files {
+            system,
+            input: files.input(),
+            data: files.data(),
+            run: Some(run_file),
+        };
+        let title = run_file.title.text.trim();
+        let mut case = case(&name, title, trees, settings).map_err(|error| {
+            Message::new(
+                format!("{} cannot be run: {error}", path.display()),
+                format!("`{again}` tells what is doubtful about the files"),
+            )
+        })?;
+        if warnings > 0 {
+            case.assumptions.push(format!(
+                "{warnings} warnings of `wedgelab nucars check` about the files were passed over"
+            ));
+        }
+        if settings.choices.yaw == Yaw::AsPrinted && yaw::is_commanded(&case.truck) {
+            case.assumptions.push(
+                "the yaw input is taken as printed; --yaw drop or --yaw drive reach what it commands"
+                    .to_owned(),
+            );
+        }
+        if !case.truck.left_out.is_empty() {
+            let numbers: Vec<String> = case.truck.left_out.iter().map(u32::to_string).collect();
+            case.assumptions.push(format!(
+                "connections left out for the intended yaw: {}",
+                numbers.join(", ")
+            ));
+        }
+        let interval = run_file
+            .stepping
+            .as_ref()
+            .map_or(0.0, |stepping| *stepping.output);
+        Ok((case, interval))
+    }
+}
+
+/// The built-in run of this name, unless there is such a file.
+fn built_in(file: &Path) -> Result<Option<Entry>, Message> {
+    let name = file.to_str().unwrap_or("");
+    let exists = file.is_file();
+    if let Some(entry) = catalog::entry(name).filter(|_| !exists) {
+        return Ok(Some(entry));
+    }
+    if !exists && name.starts_with("nucars_") && file.extension().is_none() {
+        let names: Vec<String> = catalog::entries().iter().map(Entry::name).collect();
+        let advice = match nearest(name, names.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean {near}? `wedgelab nucars run --list` lists all"),
+            None => "`wedgelab nucars run --list` lists the built-in runs".to_owned(),
+        };
+        return Err(Message::new(
+            format!("there is neither a file nor a built-in run `{name}`"),
+            advice,
+        ));
+    }
+    Ok(None)
+}
+
+fn list() -> Result<ExitCode, Failure> {
+    let mut shown = Table::new(2, &[("name", ""), ("what", "")]);
+    for entry in catalog::entries() {
+        shown.row([entry.name(), entry.title()]);
+    }
+    let mut out = io::stdout().lock();
+    shown.write(&mut out)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What the columns of the table are.
+const TABLE_NOTE: &str = "\
+Mean force: column friction on the side frame, positive up, over the branch in which the input goes up or down. Energy per cycle:
+lost in friction at the column. Jammed: share of the output times without steady sliding, held by the limit alone.";
+
+/// The table of wedges.
+fn table(summary: &TruckSummary) -> Table {
+    let units = summary.units;
+    let (force, energy) = (Kind::Force.label(units), Kind::Energy.label(units));
+    let mut table = Table::new(
+        1,
+        &[
+            ("wedge", ""),
+            ("mean force, up", force),
+            ("mean force, down", force),
+            ("energy per cycle", energy),
+            ("largest normal force", force),
+            ("jammed", "%"),
+        ],
+    );
+    for (number, wedge) in &summary.wedges {
+        let cell = |measure: &Option<study::summary::Measure>| {
+            let value = measure.as_ref().map(|measure| format!("{:.1}", measure.value));
+            value.unwrap_or_else(|| "-".to_owned())
+        };
+        table.row([
+            number.clone(),
+            cell(&wedge.up),
+            cell(&wedge.down),
+            cell(&wedge.energy_per_cycle),
+            cell(&wedge.largest_normal_force),
+            format!("{:.1}", 100.0 * wedge.jammed),
+        ]);
+    }
+    table
+}
