@@ -347,8 +347,8 @@ fn stroke(case: &Case, entry: &Entry, result: &TruckResult, cycle: &Cycle, found
     }
     let settled = rows(times, start, f64::INFINITY);
     let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, v| most.max(v.abs()));
-    let (input, bolster) = (column("input_vertical")?, column("body_1_vertical")?);
-    let frame = column("body_3_vertical")?;
+    let (input, bolster) = (column("input_vertical")?, column("body_1_z")?);
+    let frame = column("body_3_z")?;
     let parameters = element(case, entry.wedges);
     Some(Stroke {
         wedges: entry.wedges,
@@ -394,6 +394,14 @@ fn loop_area(cycle: &Cycle, times: &[f64], displacement: &[f64], force: &[f64]) 
         .map(|row| 0.5 * (force[row] + force[row - 1]) * (displacement[row] - displacement[row - 1]))
         .sum();
     Some(area / f64::from(cycles))
+}
+
+/// Mean yaw of the bolster after the first half period of its input (s: the input's files have π), rad.
+#[must_use]
+pub fn mean_yaw(result: &TruckResult) -> Option<f64> {
+    let settled = rows(result.column("time")?, 0.5 * std::f64::consts::PI, f64::INFINITY);
+    let yaw = result.column("body_1_yaw")?.get(settled)?;
+    (!yaw.is_empty()).then(|| yaw.iter().sum::<f64>() / yaw.len() as f64)
 }
 
 /// Eq. 5-1 along a type's run: the coil force of the run in the quasi-static wedge of the case, with the direction of the stroke.

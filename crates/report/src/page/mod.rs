@@ -1,9 +1,12 @@
 //! `index.html`: the report as one page that needs nothing else to be shown.
 
+mod agreement;
 mod claims;
 mod runs;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+pub use agreement::Comparison;
 
 use crate::claims::Claims;
 use crate::drawing::Figure;
@@ -49,6 +52,8 @@ pub struct Contents<'c> {
     pub claims: &'c Claims,
     /// The figures.
     pub sections: &'c [Section],
+    /// The comparison with the comparison program's wedges, if there is one.
+    pub comparison: Option<Comparison<'c>>,
 }
 
 /// The page as HTML.
@@ -84,6 +89,7 @@ pub fn render(contents: &Contents<'_>) -> String {
                         @if !contents.claims.claims.is_empty() {
                             li { a href="#claims" { "The thesis's statements, one by one" } }
                         }
+                        @if contents.comparison.is_some() { li { a href="#agreement" { "How far the models agree" } } }
                         @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
                         @if !folded.is_empty() { li { a href="#run-by-run" { "Run by run" } } }
                         li { a href="#assumptions" { "Assumptions" } }
@@ -93,6 +99,7 @@ pub fn render(contents: &Contents<'_>) -> String {
                 main {
                     (runs::table(contents.outcomes))
                     (claims::tables(contents.claims))
+                    @if let Some(comparison) = &contents.comparison { (agreement::section(comparison)) }
                     @for section in &open {
                         section {
                             h2 id=(anchor(&section.id)) { (section.title) }
