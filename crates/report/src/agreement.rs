@@ -404,13 +404,14 @@ pub fn mean_yaw(result: &TruckResult) -> Option<f64> {
     (!yaw.is_empty()).then(|| yaw.iter().sum::<f64>() / yaw.len() as f64)
 }
 
-/// Eq. 5-1 along a type's run: the coil force of the run in the quasi-static wedge of the case, with the direction of the stroke.
+/// Eq. 5-1 along a type's run: the coil force of the run in the quasi-static wedge of the case, in the direction of the input (the
+/// stroke's own rings, and would change branch with each swing).
 /// Gives at each row the column's friction on the side frame (N, positive up) and its force along the track (N).
 #[must_use]
 pub fn equation_5_1(case: &Case, result: &TruckResult) -> Option<Vec<[f64; 2]>> {
     let wedge: QuasiStaticWedge = closed_form::wedge(&case.parameters);
     let coil = truck_column(result, "coil_force")?;
-    let rates = result.column(&format!("wedge_{COMPONENT}_stroke_rate"))?;
+    let rates = truck_column(result, "bolster_vertical_rate")?;
     coil.iter()
         .zip(rates)
         .map(|(coil, rate)| {

@@ -5,7 +5,10 @@
 //! columns are those of the leading left wedge, drawn under the names of the stand-alone wedge's columns that stand for the same
 //! ([`crate::agreement::truck_column`]).
 
+use mechanics::quasi_static::Direction;
 use quantity::{Kind, System as Units};
+use study::closed_form;
+use study::metrics::Cycle;
 use study::truck::TruckResult;
 use study::truck::catalog::WedgeType;
 use wedge::parameters::Damping;
@@ -95,6 +98,8 @@ fn style(wedges: WedgeType) -> (&'static str, Colour, Line) {
 }
 
 const ALONE: (&str, Colour, Line) = ("stand-alone model", Colour::Blue, Line::Solid);
+/// How finely eq. 5-1 is drawn over the stroke.
+const BRANCH_POINTS: u32 = 100;
 const EQUATION: (&str, Colour, Line) = ("eq. 5-1", Colour::Green, Line::Dotted);
 
 /// The figures that these runs allow.
@@ -142,7 +147,7 @@ impl<'o> Sheet<'o> {
     fn title(&self, what: &str) -> String {
         let yaw = if self.set.yawed { "yawed" } else { "not yawed" };
         format!(
-            "{} damping, toe out, bolster {yaw}: {what}",
+            "{} damping, toe out, {yaw}: {what}",
             capital(damping_name(self.set.damping))
         )
     }
@@ -167,13 +172,41 @@ impl<'o> Sheet<'o> {
             .trucks
             .iter()
             .find(|(entry, _)| entry.wedges == WedgeType::Spatial);
-        if let (Some(part), Some((_, result))) = (quantity.equation, spatial) {
+        if quantity.equation.is_some() && x != "time" {
+            curves.extend(self.branches());
+        } else if let (Some(part), Some((_, result))) = (quantity.equation, spatial) {
             curves.extend(equation_5_1(&self.set.alone.0, result).and_then(|values| {
                 let values = values.into_iter().map(|value| value[part]);
                 self.truck_curve(result, x, values, quantity.kind, EQUATION)
             }));
         }
         curves
+    }
+
+    /// Eq. 5-1 over the input's stroke: both branches.
+    fn branches(&self) -> Option<Curve> {
+        let parameters = &self.set.alone.0.parameters;
+        let cycle = Cycle::of(parameters)?;
+        let (low, high) = (cycle.middle - cycle.amplitude, cycle.middle + cycle.amplitude);
+        let mut points = Vec::new();
+        for direction in [Direction::Up, Direction::Down] {
+            for part in 0..=BRANCH_POINTS {
+                let z = low + (high - low) * f64::from(part) / f64::from(BRANCH_POINTS);
+                let force = closed_form::vertical_wedge_force(parameters, z, direction)?;
+                points.push((
+                    converted(z, Kind::Length, self.units),
+                    converted(force, Kind::Force, self.units),
+                ));
+            }
+            points.push((f64::NAN, f64::NAN));
+        }
+        let (label, colour, line) = EQUATION;
+        Some(Curve {
+            label: label.to_owned(),
+            colour,
+            line,
+            points,
+        })
     }
 
     fn truck_curve(
@@ -231,7 +264,7 @@ impl<'o> Sheet<'o> {
             });
         }
         let mut caption = format!("{} over time: {}.", capital(quantity.name), quantity.about);
-        caption += &self.labels(quantity);
+        caption += &self.labels(quantity, true);
         if start > 0.0 {
             caption += &cut_text(&curves, start, quantity.kind, self.units);
         }
@@ -246,7 +279,7 @@ impl<'o> Sheet<'o> {
             figure: Figure {
                 title: self.title(quantity.name),
                 caption,
-                columns: zooms.len().max(1),
+                columns: if zooms.is_empty() { 1 } else { 2 },
                 panels,
                 ..Figure::default()
             },
@@ -254,15 +287,20 @@ impl<'o> Sheet<'o> {
     }
 
     /// What the curves are.
-    fn labels(&self, quantity: &Quantity) -> String {
+    fn labels(&self, quantity: &Quantity, over_time: bool) -> String {
         let mut text = " Types 6.8 and 6.9 are our reading of them, in the half-truck: no output of the comparison program is \
                         known."
             .to_owned();
         if let Some(part) = quantity.equation {
             let what = ["friction", "longitudinal force"][part];
+            let under = if over_time {
+                "the coil force that type 6.9 has in its run, in the direction of the input"
+            } else {
+                "the coil force that the input's full stroke gives"
+            };
             text += &format!(
-                " Eq. 5-1, with its misprint put right, is drawn as the {what} of steady sliding, under the coil force that type 6.9 \
-                 has in its run, in the direction of its stroke."
+                " Eq. 5-1, with its misprint put right, and its like for the way down, is drawn as the {what} of steady sliding, \
+                 under {under}."
             );
         }
         if self.set.yawed {
@@ -277,7 +315,11 @@ impl<'o> Sheet<'o> {
         let panel = |x: &str, title: &str, x_label: &str| {
             let mut curves = self.curves(x, quantity);
             let times = self.curves("time", quantity);
-            for (curve, timed) in curves.iter_mut().zip(&times) {
+            for (curve, timed) in curves
+                .iter_mut()
+                .zip(&times)
+                .filter(|(curve, _)| curve.label != EQUATION.0)
+            {
                 let mut rows = timed.points.iter();
                 curve.points.retain(|_| {
                     rows.next()
@@ -312,7 +354,7 @@ impl<'o> Sheet<'o> {
             piece.0,
             piece.1,
             quantity.about,
-            self.labels(quantity)
+            self.labels(quantity, false)
         );
         Some(Exhibit {
             name: self.name(&format!("{}_loop", quantity.column)),
