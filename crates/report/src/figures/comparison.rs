@@ -73,9 +73,9 @@ const QUANTITIES: [Quantity; 4] = [
     },
     Quantity {
         column: "side_frame_friction_power",
-        name: "rate of energy dissipation at the side frame",
+        name: "rate of energy dissipation",
         kind: Kind::Power,
-        about: "the power of the column's friction, negative where energy is lost. The thesis's scripts make the types' curves \
+        about: "the power of the column's friction on the side frame, negative where energy is lost. The thesis's scripts make the types' curves \
                 from their force and velocity (in chapter 5 its size); here it is the friction's own power",
         thesis: ["figure 5-7", "figure 5-15", "figure 6-7", "figure 6-16"],
         loops: None,
