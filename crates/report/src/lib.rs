@@ -1,6 +1,7 @@
 //! Files and figures of results.
 //!
 //! - [`claims`]: what the thesis says of its runs, with verdicts.
+//! - [`agreement`]: how far the stand-alone wedge and the comparison program's wedges agree.
 //! - [`beyond`]: figures of the cases beyond the thesis, one a group.
 //! - [`csv`]: the table `result.csv`.
 //! - [`mat`]: the file `result.mat`, under the thesis's names; [`mat5`] is its format.
@@ -15,6 +16,7 @@
 //! - [`table`]: tables of results, read back.
 //! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
 
+pub mod agreement;
 pub mod beyond;
 pub mod claims;
 pub mod comparison;

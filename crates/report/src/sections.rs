@@ -3,6 +3,7 @@
 use study::case::builtin;
 use wedge::parameters::Damping;
 
+use crate::agreement::TruckOutcome;
 use crate::beyond;
 use crate::figures::{self, Exhibit, Outcome, damping_name};
 use crate::page::{Drawn, Section};
@@ -90,6 +91,22 @@ pub fn beyond(outcomes: &[Outcome]) -> Vec<Plan> {
         });
     }
     plans
+}
+
+/// The section that compares these runs with those of the half-truck; `None` where there are none to be compared.
+#[must_use]
+pub fn comparison(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Option<Plan> {
+    let exhibits = figures::comparison::exhibits(outcomes, trucks);
+    (!exhibits.is_empty()).then(|| Plan {
+        id: "compared".to_owned(),
+        title: "Against types 6.8 and 6.9, toe out".to_owned(),
+        intro: "The thesis's comparison: its stand-alone wedge against the comparison program's wedges, here our reading of them in \
+                the half-truck."
+            .to_owned(),
+        exhibits,
+        folded: false,
+        run: None,
+    })
 }
 
 fn intro(damping: Damping, yawed: bool) -> &'static str {

@@ -9,7 +9,11 @@ use quantity::{Kind, System as Units};
 use study::case::Case;
 use study::metrics::Cycle;
 use study::result::RunResult;
+use study::truck::TruckResult;
+use study::truck::catalog::{Entry, ToeCase, WedgeType, YawCase};
 use wedge::parameters::Damping;
+
+use crate::agreement::{COMPONENT, truck_column};
 
 /// Direction of the toe angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -50,6 +54,42 @@ impl RunId {
     }
 }
 
+impl RunId {
+    /// What a half-truck's run is to be compared with; `None` for yaw as printed, which is no yaw.
+    #[must_use]
+    pub fn of_truck(entry: &Entry) -> Option<Self> {
+        Some(Self {
+            constant: entry.damping == Damping::Constant,
+            toe: match entry.toe {
+                ToeCase::Out => Toe::Out,
+                ToeCase::None => Toe::None,
+                ToeCase::In => Toe::In,
+            },
+            yawed: match entry.yaw {
+                YawCase::Straight => false,
+                YawCase::Intended => true,
+                YawCase::Printed => return None,
+            },
+        })
+    }
+}
+
+/// A run that a predicate names: of the stand-alone wedge, or of the half-truck with wedges of a type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Source {
+    run: RunId,
+    wedges: Option<WedgeType>,
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(wedges) = self.wedges {
+            write!(f, "type {}, ", wedges.code())?;
+        }
+        self.run.fmt(f)
+    }
+}
+
 impl fmt::Display for RunId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(if self.constant { "constant" } else { "variable" })?;
@@ -62,33 +102,56 @@ impl fmt::Display for RunId {
     }
 }
 
-/// The names that predicates have for the runs: `vd` and `cd` for variable and constant damping.
+/// The names that predicates have for the runs: `vd` and `cd` for variable and constant damping; `68` and `69` at the end
+/// for the half-truck with wedges of that type.
 #[allow(non_upper_case_globals)] // They stand for the names of arguments.
 pub(super) mod runs {
-    use super::{RunId, Toe};
+    use study::truck::catalog::WedgeType;
 
-    const fn id(constant: bool, toe: Toe, yawed: bool) -> RunId {
-        RunId { constant, toe, yawed }
+    use super::{RunId, Source, Toe};
+
+    const fn id(constant: bool, toe: Toe, yawed: bool) -> Source {
+        Source {
+            run: RunId { constant, toe, yawed },
+            wedges: None,
+        }
     }
 
-    pub(in crate::claims) const vd_out: RunId = id(false, Toe::Out, false);
-    pub(in crate::claims) const vd_none: RunId = id(false, Toe::None, false);
-    pub(in crate::claims) const vd_in: RunId = id(false, Toe::In, false);
-    pub(in crate::claims) const vd_out_yaw: RunId = id(false, Toe::Out, true);
-    pub(in crate::claims) const vd_none_yaw: RunId = id(false, Toe::None, true);
-    pub(in crate::claims) const vd_in_yaw: RunId = id(false, Toe::In, true);
-    pub(in crate::claims) const cd_out: RunId = id(true, Toe::Out, false);
-    pub(in crate::claims) const cd_none: RunId = id(true, Toe::None, false);
-    pub(in crate::claims) const cd_in: RunId = id(true, Toe::In, false);
-    pub(in crate::claims) const cd_out_yaw: RunId = id(true, Toe::Out, true);
-    pub(in crate::claims) const cd_none_yaw: RunId = id(true, Toe::None, true);
-    pub(in crate::claims) const cd_in_yaw: RunId = id(true, Toe::In, true);
+    const fn truck(wedges: WedgeType, alone: Source) -> Source {
+        Source {
+            run: alone.run,
+            wedges: Some(wedges),
+        }
+    }
+
+    pub(in crate::claims) const vd_out: Source = id(false, Toe::Out, false);
+    pub(in crate::claims) const vd_none: Source = id(false, Toe::None, false);
+    pub(in crate::claims) const vd_in: Source = id(false, Toe::In, false);
+    pub(in crate::claims) const vd_out_yaw: Source = id(false, Toe::Out, true);
+    pub(in crate::claims) const vd_none_yaw: Source = id(false, Toe::None, true);
+    pub(in crate::claims) const vd_in_yaw: Source = id(false, Toe::In, true);
+    pub(in crate::claims) const cd_out: Source = id(true, Toe::Out, false);
+    pub(in crate::claims) const cd_none: Source = id(true, Toe::None, false);
+    pub(in crate::claims) const cd_in: Source = id(true, Toe::In, false);
+    pub(in crate::claims) const cd_out_yaw: Source = id(true, Toe::Out, true);
+    pub(in crate::claims) const cd_none_yaw: Source = id(true, Toe::None, true);
+    pub(in crate::claims) const cd_in_yaw: Source = id(true, Toe::In, true);
+
+    pub(in crate::claims) const vd_out_68: Source = truck(WedgeType::Plain, vd_out);
+    pub(in crate::claims) const vd_out_69: Source = truck(WedgeType::Spatial, vd_out);
+    pub(in crate::claims) const vd_out_yaw_68: Source = truck(WedgeType::Plain, vd_out_yaw);
+    pub(in crate::claims) const vd_out_yaw_69: Source = truck(WedgeType::Spatial, vd_out_yaw);
+    pub(in crate::claims) const cd_out_68: Source = truck(WedgeType::Plain, cd_out);
+    pub(in crate::claims) const cd_out_69: Source = truck(WedgeType::Spatial, cd_out);
+    pub(in crate::claims) const cd_out_yaw_68: Source = truck(WedgeType::Plain, cd_out_yaw);
+    pub(in crate::claims) const cd_out_yaw_69: Source = truck(WedgeType::Spatial, cd_out_yaw);
 }
 
 /// The runs that there are.
 #[derive(Clone, Debug, Default)]
 pub struct Evidence<'a> {
     runs: BTreeMap<RunId, (&'a Case, &'a RunResult)>,
+    trucks: BTreeMap<(RunId, WedgeType), &'a TruckResult>,
 }
 
 impl<'a> Evidence<'a> {
@@ -99,7 +162,19 @@ impl<'a> Evidence<'a> {
                 .into_iter()
                 .map(|(case, result)| (RunId::of(case), (case, result)))
                 .collect(),
+            trucks: BTreeMap::new(),
         }
+    }
+
+    /// The same with runs of the half-truck; those with yaw as printed are not looked at. A run of the half-truck is
+    /// compared with the stand-alone run of its damping, toe and yaw, which tells the cycle.
+    #[must_use]
+    pub fn with_trucks(mut self, trucks: impl IntoIterator<Item = (&'a Entry, &'a TruckResult)>) -> Self {
+        let known = trucks
+            .into_iter()
+            .filter_map(|(entry, result)| Some(((RunId::of_truck(entry)?, entry.wedges), result)));
+        self.trucks.extend(known);
+        self
     }
 
     /// The same with the places of two runs exchanged: what would be found if one were taken for the other.
@@ -121,37 +196,69 @@ impl<'a> Evidence<'a> {
     }
 
     /// A run that is there, complete, and moves in cycles.
-    fn find(&self, id: RunId) -> Result<Seen<'a>, String> {
-        let Some((case, result)) = self.runs.get(&id) else {
-            return Err(format!("the run \"{id}\" was not made"));
+    fn find(&self, source: Source) -> Result<Seen<'a>, String> {
+        let Some((case, result)) = self.runs.get(&source.run) else {
+            return Err(format!("the run \"{}\" was not made", source.run));
         };
-        if !result.summary.complete {
-            let time = result.column("time").and_then(<[f64]>::last).copied();
+        let table = match source.wedges {
+            None => TableOf::Alone(result),
+            Some(wedges) => match self.trucks.get(&(source.run, wedges)) {
+                Some(result) => TableOf::Truck(result),
+                None => return Err(format!("the run \"{source}\" was not made")),
+            },
+        };
+        if !table.is_complete() {
+            let time = table.column("time").and_then(<[f64]>::last).copied();
             return Err(format!(
-                "the run \"{id}\" stopped at {:.3} s",
+                "the run \"{source}\" stopped at {:.3} s",
                 time.unwrap_or_default()
             ));
         }
         let Some(cycle) = Cycle::of(&case.parameters) else {
             return Err(format!(
-                "the bolster's vertical motion in the run \"{id}\" is not one sine or triangle"
+                "the bolster's vertical motion in the run \"{}\" is not one sine or triangle",
+                source.run
             ));
         };
         Ok(Seen {
-            id,
+            source,
             case,
-            result,
+            table,
             cycle,
         })
+    }
+}
+
+/// The table of a run, under the names of the stand-alone wedge's columns.
+#[derive(Clone, Copy)]
+enum TableOf<'a> {
+    Alone(&'a RunResult),
+    Truck(&'a TruckResult),
+}
+
+impl<'a> TableOf<'a> {
+    fn is_complete(self) -> bool {
+        match self {
+            Self::Alone(result) => result.summary.complete,
+            Self::Truck(result) => result.summary.complete,
+        }
+    }
+
+    /// A column, SI. The leading left wedge of a half-truck has the column's names where it has what they stand for.
+    fn column(self, name: &str) -> Option<&'a [f64]> {
+        match self {
+            Self::Alone(result) => result.column(name),
+            Self::Truck(result) => truck_column(result, name),
+        }
     }
 }
 
 /// A run found.
 #[derive(Clone, Copy)]
 struct Seen<'a> {
-    id: RunId,
+    source: Source,
     case: &'a Case,
-    result: &'a RunResult,
+    table: TableOf<'a>,
     cycle: Cycle,
 }
 
@@ -183,15 +290,42 @@ pub(super) struct View<'a> {
 impl<'a> View<'a> {
     /// What it is, in words.
     pub(super) fn name(self) -> String {
-        self.seen.id.to_string()
+        self.seen.source.to_string()
     }
 
     pub(super) fn case(self) -> &'a Case {
         self.seen.case
     }
 
-    pub(super) fn result(self) -> &'a RunResult {
-        self.seen.result
+    /// Friction energy per cycle at the side frame, as the summary has it, J; NaN without.
+    pub(super) fn energy_per_cycle(self) -> f64 {
+        let (energy, units) = match self.seen.table {
+            TableOf::Alone(result) => {
+                let summary = &result.summary;
+                (summary.averages.energy_per_cycle.get("side_frame"), summary.units)
+            }
+            TableOf::Truck(result) => {
+                let wedge = result.summary.wedges.get(COMPONENT);
+                (
+                    wedge.and_then(|wedge| wedge.energy_per_cycle.as_ref()),
+                    result.summary.units,
+                )
+            }
+        };
+        energy.map_or(f64::NAN, |energy| energy.value / Kind::Energy.from_si(units))
+    }
+
+    /// Largest residual of the ledger over the work.
+    pub(super) fn ledger_residual(self) -> f64 {
+        match self.seen.table {
+            TableOf::Alone(result) => result.summary.ledger.largest_relative_residual,
+            TableOf::Truck(result) => result.summary.largest_relative_residual,
+        }
+    }
+
+    /// Whether the run's table has a column.
+    pub(super) fn has(self, name: &str) -> bool {
+        self.seen.table.column(name).is_some()
     }
 
     pub(super) fn cycle(self) -> Cycle {
@@ -200,7 +334,7 @@ impl<'a> View<'a> {
 
     /// A column, SI; without it the claim cannot be decided.
     pub(super) fn column(self, name: &str) -> &'a [f64] {
-        self.seen.result.column(name).unwrap_or_else(|| {
+        self.seen.table.column(name).unwrap_or_else(|| {
             self.missing(format!("there is no column {name}"));
             &[]
         })
@@ -279,7 +413,7 @@ impl Finding {
 /// Evaluates a predicate on the runs that it names.
 pub(super) fn decide<const N: usize>(
     evidence: &Evidence<'_>,
-    runs: [RunId; N],
+    runs: [Source; N],
     holds: impl Fn([View<'_>; N]) -> bool,
 ) -> Finding {
     let found = runs.map(|id| evidence.find(id));

@@ -183,17 +183,9 @@ pub(super) fn so_at_peak(run: View<'_>, quantity: Quantity, when: When, so: When
 
 /// Friction energy per cycle at the side frame, as the summary has it.
 pub(super) fn energy_per_cycle(run: View<'_>) -> f64 {
-    let summary = &run.result().summary;
-    let energy = summary
-        .averages
-        .energy_per_cycle
-        .get("side_frame")
-        .map_or(f64::NAN, |energy| {
-            energy.value / Kind::Energy.from_si(summary.units)
-        });
     run.note(
         format!("energy per cycle at the side frame, {}", run.name()),
-        energy,
+        run.energy_per_cycle(),
         Kind::Energy,
     )
 }
@@ -314,12 +306,58 @@ pub(super) fn amplitude(run: View<'_>) -> f64 {
 
 /// Largest residual of the energy ledger at any time, over the work done by the bolster.
 pub(super) fn ledger_residual(run: View<'_>) -> f64 {
-    let value = run.result().summary.ledger.largest_relative_residual.abs();
+    let value = run.ledger_residual().abs();
     let label = format!(
         "largest residual of the energy ledger over the work, {}",
         run.name()
     );
     run.note(label, value, Kind::Dimensionless)
+}
+
+/// How alike two runs' curves are: the correlation of a quantity's values at the rows that both have.
+pub(super) fn correlation(one: View<'_>, other: View<'_>, quantity: Quantity, when: When) -> f64 {
+    let times = |run: View<'_>| -> Vec<f64> {
+        let rows = (when.rows)(run).into_iter();
+        let times = run.column("time").iter().copied();
+        times
+            .zip(rows)
+            .filter_map(|(time, counts)| counts.then_some(time))
+            .collect()
+    };
+    let (a, b) = (chosen(one, quantity, when), chosen(other, quantity, when));
+    let (a_times, b_times) = (times(one), times(other));
+    let mut pairs = Vec::new();
+    let mut rows = b_times.iter().zip(&b).peekable();
+    for (time, a) in a_times.iter().zip(&a) {
+        while rows.next_if(|(own, _)| **own < time - 1e-6).is_some() {}
+        if let Some((_, b)) = rows.next_if(|(own, _)| (**own - time).abs() <= 1e-6) {
+            pairs.push((*a, *b));
+        }
+    }
+    let count = pairs.len() as f64;
+    let (mean_a, mean_b) = pairs.iter().fold((0.0, 0.0), |(sum_a, sum_b), (a, b)| {
+        (sum_a + a / count, sum_b + b / count)
+    });
+    let (ab, aa, bb) = pairs.iter().fold((0.0, 0.0, 0.0), |(ab, aa, bb), (a, b)| {
+        let (a, b) = (a - mean_a, b - mean_b);
+        (ab + a * b, aa + a * a, bb + b * b)
+    });
+    // Without rows, or where one does not change, this is not a number.
+    let value = ab / (aa * bb).sqrt();
+    let label = format!(
+        "correlation of the {}, {} with {}, {}",
+        quantity.name,
+        one.name(),
+        other.name(),
+        when.name
+    );
+    one.note(label, value, Kind::Dimensionless)
+}
+
+/// Whether a run's table lacks what the stand-alone wedge has in this column.
+pub(super) fn lacks(run: View<'_>, column: &str) -> bool {
+    let label = format!("columns {column}, {}", run.name());
+    run.note(label, f64::from(u8::from(run.has(column))), Kind::Count) == 0.0
 }
 
 /// All of them; all are evaluated, so that all values are shown.

@@ -3,8 +3,8 @@
 //! One row per statement that can be decided from the twelve runs: where it stands, what it says (in our words), the
 //! predicate in words and as the code that is compiled, the values found, the verdict. Statements about the runs that
 //! they cannot decide have a row too, with the reason. A verdict "does not hold" is a finding: a sentence says why,
-//! as far as the runs tell. Statements that compare with the comparison program have a group of their own, without
-//! members yet.
+//! as far as the runs tell. Statements that compare with the comparison program have a group of their own; they need runs of
+//! the half-truck ([`Evidence::with_trucks`]), and are decided from our reading of its wedges.
 //!
 //! Words that have a number here, wherever the thesis gives none: *small*, *similar*, *close*: within 10 %; *large*
 //! differences: more than 10 %; *very small*: below 5 %; *close to zero* of a ringing force: below 5 % of the run's peak;
@@ -26,6 +26,7 @@
 //! assert!(rows.iter().all(|row| row.verdict == Verdict::CannotBeDecided));
 //! ```
 
+mod comparison;
 mod conclusions;
 mod constant;
 mod constant_yawed;
@@ -59,7 +60,7 @@ pub enum Group {
     ConstantYawed,
     /// Chapter 7.
     Conclusions,
-    /// Comparisons with the comparison program, of all chapters; none yet.
+    /// Comparisons with the comparison program, of all chapters.
     Comparison,
 }
 
@@ -83,7 +84,7 @@ impl Group {
             Self::Constant => "Constant damping (section 6.1)",
             Self::ConstantYawed => "Constant damping, bolster yawed (section 6.2)",
             Self::Conclusions => "Conclusions (chapter 7)",
-            Self::Comparison => "Against the comparison program",
+            Self::Comparison => "Against the comparison program's wedges, as we read them",
         }
     }
 }
@@ -192,6 +193,7 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
         constant::CLAIMS,
         constant_yawed::CLAIMS,
         conclusions::CLAIMS,
+        comparison::CLAIMS,
     ]
     .into_iter()
     .flatten()

@@ -54,6 +54,10 @@ pub(super) const lateral_force: Quantity = column("lateral force on the bolster"
 pub(super) const dissipation: Quantity = column("dissipation at the side frame", Kind::Power, |run| {
     run.column("side_frame_dissipation").to_vec()
 });
+/// The power of the column's friction, which types 6.8 and 6.9 have too: negative where energy is lost.
+pub(super) const friction_power: Quantity = column("friction power at the side frame", Kind::Power, |run| {
+    run.column("side_frame_friction_power").to_vec()
+});
 pub(super) const roll_moment: Quantity = column("roll moment", Kind::Moment, |run| {
     run.column("side_frame_roll_moment").to_vec()
 });
@@ -294,7 +298,16 @@ pub(super) const sliding_down: When = when("while the wedge slides down", |run| 
 pub(super) const rising: When = when("while the wedge rises", |run| wedge_moves(run, 1.0));
 /// The column dissipates less than 0.02 % of what it does at most.
 pub(super) const not_dissipating: When = when("while hardly anything is dissipated", |run| {
-    let values = run.column("side_frame_dissipation");
+    quiet(run, "side_frame_dissipation")
+});
+
+/// The same of the power of the column's friction, which types 6.8 and 6.9 have too.
+pub(super) const powerless: When = when("while the friction has hardly any power", |run| {
+    quiet(run, "side_frame_friction_power")
+});
+
+fn quiet(run: View<'_>, name: &str) -> Vec<bool> {
+    let values = run.column(name);
     let most = values
         .iter()
         .zip(phase(run, |_, _| true))
@@ -302,7 +315,7 @@ pub(super) const not_dissipating: When = when("while hardly anything is dissipat
         .fold(0.0, |most: f64, (value, _)| most.max(value.abs()));
     let quiet: Vec<bool> = values.iter().map(|value| value.abs() < 2e-4 * most).collect();
     both(quiet, &phase(run, |_, _| true))
-});
+}
 
 fn wedge_moves(run: View<'_>, sign: f64) -> Vec<bool> {
     let moves: Vec<bool> = run

@@ -1,9 +1,11 @@
 //! The report's figures.
 //!
 //! - [`thesis`]: those of the thesis's stand-alone runs, three toe cases in each.
+//! - [`comparison`]: the stand-alone wedge against types 6.8 and 6.9 of the comparison program.
 //! - [`model`]: the bolster's motion, the friction law, the coil.
 //! - [`run`]: what the thesis lacks, run by run.
 
+pub mod comparison;
 pub mod model;
 pub mod run;
 pub mod thesis;

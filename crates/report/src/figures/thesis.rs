@@ -100,14 +100,14 @@ const QUANTITIES: [Quantity; 7] = [
 ];
 
 /// Time windows of a group of runs, s.
-struct Windows {
+pub(super) struct Windows {
     /// Where the thesis's curves of the whole run begin.
     start: f64,
     /// Where those of the moments begin.
     moments_start: f64,
-    zooms: &'static [(f64, f64)],
+    pub(super) zooms: &'static [(f64, f64)],
     /// The thesis's piece of the loop.
-    of_loop: (f64, f64),
+    pub(super) of_loop: (f64, f64),
     /// The times of the phases (1) to (4) in that piece, and in the first zoom.
     phases: [f64; 4],
 }
@@ -151,6 +151,32 @@ const PHASES: [&str; 2] = [
     "(1) the bolster begins to rise and the wedge sticks, (2) it slips up, (3) the bolster begins to sink and the wedge \
      sticks, (4) it slips down",
 ];
+
+/// The windows of a group of runs: variable damping without and with yaw, constant damping without and with yaw.
+pub(super) fn windows(number: usize) -> &'static Windows {
+    &WINDOWS[number]
+}
+
+/// What the beginning of the curves holds that is not drawn.
+pub(super) fn cut_text(curves: &[Curve], start: f64, kind: Kind, units: Units) -> String {
+    let before = curves.iter().flat_map(|curve| {
+        let points = curve.points.iter();
+        points.filter(move |point| point.0 < start).map(|point| point.1)
+    });
+    let (low, high) = before.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
+        (low.min(y), high.max(y))
+    });
+    if low > high {
+        return String::new();
+    }
+    format!(
+        " The first {start} s are cut, as in the thesis: there the wedge is released from its start, and the values \
+         lie between {} and {} {}.",
+        digits(low),
+        digits(high),
+        kind.label(units)
+    )
+}
 
 /// Runs of one damping, without or with yaw.
 struct Group<'o> {
@@ -322,7 +348,7 @@ impl Group<'_> {
         if quantity.loops.is_some() && !zooms.is_empty() {
             caption += &format!(" {}.", PHASES[self.number / 2]);
         }
-        caption += &self.cut(&curves, start, quantity.kind);
+        caption += &cut_text(&curves, start, quantity.kind, self.units);
         Exhibit {
             name: self.name(quantity.column),
             thesis: quantity.thesis[self.number].to_owned(),
@@ -334,27 +360,6 @@ impl Group<'_> {
                 ..Figure::default()
             },
         }
-    }
-
-    /// What the beginning of the curves holds that is not drawn.
-    fn cut(&self, curves: &[Curve], start: f64, kind: Kind) -> String {
-        let before = curves.iter().flat_map(|curve| {
-            let points = curve.points.iter();
-            points.filter(move |point| point.0 < start).map(|point| point.1)
-        });
-        let (low, high) = before.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
-            (low.min(y), high.max(y))
-        });
-        if low > high {
-            return String::new();
-        }
-        format!(
-            " The first {start} s are cut, as in the thesis: there the wedge is released from its start, and the values \
-             lie between {} and {} {}.",
-            digits(low),
-            digits(high),
-            kind.label(self.units)
-        )
     }
 
     /// The numbers of the phases at the curve of toe out, or at the first one.

@@ -1,10 +1,13 @@
 //! `index.html`: the report as one page that needs nothing else to be shown.
 
+mod agreement;
 mod claims;
 mod runs;
 mod viewer;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+pub use agreement::Comparison;
 
 use crate::claims::Claims;
 use crate::drawing::Figure;
@@ -57,6 +60,8 @@ pub struct Contents<'c> {
     pub sections: &'c [Section],
     /// The page's interactive part with its data, JSON of [`crate::view::View`]; without it the page is static.
     pub interactive: Option<(Viewer, &'c str)>,
+    /// The comparison with the comparison program's wedges, if there is one.
+    pub comparison: Option<Comparison<'c>>,
 }
 
 /// The page as HTML.
@@ -95,6 +100,7 @@ pub fn render(contents: &Contents<'_>) -> String {
                         @if !contents.claims.claims.is_empty() {
                             li { a href="#claims" { "The thesis's statements, one by one" } }
                         }
+                        @if contents.comparison.is_some() { li { a href="#agreement" { "How far the models agree" } } }
                         @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
                         @if !folded.is_empty() { li { a href="#run-by-run" { "Run by run" } } }
                         li { a href="#assumptions" { "Assumptions" } }
@@ -104,6 +110,7 @@ pub fn render(contents: &Contents<'_>) -> String {
                 main {
                     (runs::table(contents.outcomes))
                     (claims::tables(contents.claims))
+                    @if let Some(comparison) = &contents.comparison { (agreement::section(comparison)) }
                     @for section in &open {
                         section {
                             h2 id=(anchor(&section.id)) { (section.title) }

@@ -1,5 +1,7 @@
 //! `wedgelab reproduce`: all built-in cases, told in a report.
 
+mod trucks;
+
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -7,6 +9,7 @@ use std::time::Duration;
 
 use clap::Args;
 use rayon::prelude::*;
+use report::agreement::{self, TruckOutcome};
 use report::claims::{self, Claims, Evidence};
 use report::figures::{Exhibit, Outcome};
 use report::files::{Folder, check_all};
@@ -25,7 +28,8 @@ use crate::select::select;
 /// Computes the twelve runs of Steets (2007), table 4-1 (variable and constant damping, toe out, none and in, with and
 /// without yaw of the bolster), and the cases beyond the thesis. Writes the report index.html, its statements with verdicts
 /// claims.json, each figure as SVG and PNG, and for each run runs/NAME/result.csv, result.mat, case.toml and
-/// summary.json; prints a table of the runs.
+/// summary.json; prints a table of the runs. Without --only the half-truck of the
+/// comparison program's files is run too (28 runs: result.csv and summary.json), and the report compares.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -63,22 +67,30 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .map(builtin::case)
         .collect::<Result<Vec<Case>, _>>()?;
     let places = check(&arguments.out, &cases, arguments.force)?;
+    // A choice of runs leaves the half-trucks out.
+    let half_trucks = if arguments.only.is_empty() {
+        trucks::plan(&arguments.out, arguments.force)?
+    } else {
+        Vec::new()
+    };
 
-    let progress = Progress::new(cases.len(), arguments.quiet);
+    let progress = Progress::new(cases.len() + half_trucks.len(), arguments.quiet);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(arguments.jobs.map_or(0, usize::from))
         .build()
         .map_err(|error| Failure::Failed(Message::new(error.to_string(), "try --jobs 1").into()))?;
-    let kept: Vec<Result<Kept, Failure>> = pool.install(|| {
+    let (kept, half_trucks): (Vec<Result<Kept, Failure>>, _) = pool.install(|| {
         let work = cases.into_par_iter().zip(&places.runs).with_max_len(1);
-        work.map(|(case, folder)| keep(case, folder, &progress)).collect()
+        let work = work.map(|(case, folder)| keep(case, folder, &progress));
+        rayon::join(|| work.collect(), || trucks::trucks(half_trucks, &progress))
     });
     progress.finish();
+    let half_trucks = half_trucks?;
     let kept = kept.into_iter().collect::<Result<Vec<Kept>, Failure>>()?;
     let walls: Vec<Duration> = kept.iter().map(|kept| kept.wall).collect();
     let outcomes: Vec<Outcome> = kept.into_iter().map(|kept| kept.outcome).collect();
 
-    let figures = pool.install(|| tell(&outcomes, &places))?;
+    let figures = pool.install(|| tell(&outcomes, &half_trucks, &places))?;
 
     let mut out = io::stdout().lock();
     let summaries = outcomes.iter().map(|(_, result)| &result.summary);
@@ -123,13 +135,14 @@ fn is_of_thesis(case: &Case) -> bool {
 }
 
 /// Draws all figures and writes them and the page; gives the number of figures.
-fn tell(outcomes: &[Outcome], places: &Places) -> Result<usize, Failure> {
+fn tell(outcomes: &[Outcome], half_trucks: &[TruckOutcome], places: &Places) -> Result<usize, Failure> {
     // The thesis's runs come first in the list of cases.
     let first_beyond = outcomes.partition_point(|(case, _)| is_of_thesis(case));
     let (outcomes, others) = outcomes.split_at(first_beyond);
     let mut plans = sections::thesis(outcomes);
     let run_by_run = plans.partition_point(|plan| !plan.folded);
-    plans.splice(run_by_run..run_by_run, sections::beyond(others));
+    let more = sections::comparison(outcomes, half_trucks).into_iter();
+    plans.splice(run_by_run..run_by_run, more.chain(sections::beyond(others)));
     let exhibits: Vec<&Exhibit> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
     let drawings: Vec<(String, Vec<u8>)> = exhibits
         .par_iter()
@@ -166,8 +179,12 @@ fn tell(outcomes: &[Outcome], places: &Places) -> Result<usize, Failure> {
         .iter()
         .map(|plan| sections::drawn(plan, svgs.by_ref().take(plan.exhibits.len())))
         .collect();
-    let evidence = Evidence::new(outcomes.iter().map(|(case, result)| (case, result)));
+    let evidence = Evidence::new(outcomes.iter().map(|(case, result)| (case, result)))
+        .with_trucks(half_trucks.iter().map(|(entry, result)| (entry, result)));
     let verdicts = Claims::of(claims::evaluate(&evidence));
+    let groups = agreement::groups(outcomes, half_trucks);
+    let units = outcomes.first().map(|(_, result)| result.summary.units);
+    let comparison = units.filter(|_| !half_trucks.is_empty());
     let page = page::render(&Contents {
         outcomes,
         beyond: others,
@@ -176,6 +193,11 @@ fn tell(outcomes: &[Outcome], places: &Places) -> Result<usize, Failure> {
         interactive: interactive
             .as_ref()
             .map(|(viewer, view)| (*viewer, view.as_str())),
+        comparison: comparison.map(|units| page::Comparison {
+            groups: &groups,
+            trucks: half_trucks,
+            units,
+        }),
     });
     places.sheets.write(|files| {
         files.add(page::FILE_NAME, |out| out.write_all(page.as_bytes()))?;
