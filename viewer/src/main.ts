@@ -30,7 +30,7 @@ function start(): void {
     button.title = `show ${system === "us" ? "SI" : "inch-pound"} units in plots and 3D views`;
     document.documentElement.dataset.units = system;
   });
-  document.querySelector("header")?.append(button);
+  document.querySelector("header")?.after(button);
 
   for (const fold of document.querySelectorAll<HTMLDetailsElement>("details[data-run]")) {
     let view: RunView | undefined;
