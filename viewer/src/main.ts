@@ -30,7 +30,7 @@ function start(): void {
     button.title = `show ${system === "us" ? "SI" : "inch-pound"} units in plots and 3D views`;
     document.documentElement.dataset.units = system;
   });
-  document.querySelector("header")?.append(button);
+  document.querySelector("header")?.after(button);
 
   for (const fold of document.querySelectorAll<HTMLDetailsElement>("details[data-run]")) {
     let view: RunView | undefined;
@@ -61,6 +61,13 @@ function start(): void {
     }
   };
   addEventListener("hashchange", open);
+  // A link to where the address already points changes nothing, but its fold may be closed again.
+  addEventListener("click", (event) => {
+    const link = event.target instanceof Element ? event.target.closest("a") : null;
+    if (link?.hash && link.hash === location.hash) {
+      open();
+    }
+  });
   open();
   interactiveFigures(data, units);
   document.documentElement.dataset.viewer = "ready";

@@ -36,6 +36,7 @@ export class RunView {
   private readonly timeText = element("output", { class: "wl-time" });
   private readonly speedList: HTMLSelectElement;
   private readonly loopBox: HTMLInputElement;
+  private readonly unitsButton: HTMLButtonElement;
   private readonly factorList: HTMLSelectElement;
   private readonly stops: (() => void)[] = [];
   private readonly observer: ResizeObserver;
@@ -97,6 +98,7 @@ export class RunView {
       },
     );
     const views = VIEWS.map(({ id, name }, k) => button(name, `view: ${name} (${k + 1})`, () => this.scene?.look(id)));
+    this.unitsButton = button("", "inch-pound or SI (U)", this.switchUnits);
     const fill = button(icon(FILL), "fill the window (F)", () => this.fill());
     this.root.append(
       element(
@@ -108,6 +110,7 @@ export class RunView {
         this.timeText,
         this.speedList,
         element("label", {}, this.loopBox, " loop"),
+        this.unitsButton,
         fill,
       ),
     );
@@ -273,6 +276,7 @@ export class RunView {
     this.timeText.textContent = `${time.toFixed(2)} s`;
     this.speedList.value = String(clock.speed);
     this.loopBox.checked = clock.loop;
+    this.unitsButton.textContent = this.units.value.system === "us" ? "in, lbf" : "m, N";
     state.time = time.toFixed(4);
     state.playing = String(playing);
     state.units = this.units.value.system;

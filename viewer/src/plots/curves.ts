@@ -138,7 +138,10 @@ export const AXIS: Pick<uPlot.Axis, "stroke" | "font" | "labelFont" | "labelSize
 export function tickTexts(_plot: uPlot, splits: number[]): string[] {
   const step = Math.abs((splits[1] ?? 1) - (splits[0] ?? 0));
   const most = Math.max(...splits.map(Math.abs));
-  const decimals = Math.min(9, Math.max(0, -Math.floor(Math.log10(step) + 1e-9), /[1-9]5$/.test(step.toPrecision(2)) ? 1 : 0));
+  let decimals = 0;
+  while (decimals < 9 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6 * step * 10 ** decimals) {
+    decimals++;
+  }
   return splits.map((value) => {
     const text = most >= 1e6 || most < 1e-3 ? value.toExponential(1) : value.toFixed(decimals);
     return value === 0 ? "0" : text.replace("-", "\u2212");

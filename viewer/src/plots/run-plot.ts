@@ -85,7 +85,7 @@ export class RunPlot {
       width: Math.max(200, this.body.clientWidth),
       height: Math.max(120, this.body.clientHeight),
       legend: { show: false },
-      padding: [8, 12, 0, 0],
+      padding: [8, 20, 0, 0],
       cursor: { drag: { x: false, y: false }, points: { show: false }, x: false, y: false },
       scales: { x: { time: false, auto: false }, y: { range } },
       axes: [

@@ -67,8 +67,9 @@ export function solidMesh(solid: Solid): Group {
     depthWrite: !clear,
     side: clear ? DoubleSide : FrontSide,
     polygonOffset: true,
-    polygonOffsetFactor: 1,
-    polygonOffsetUnits: 1,
+    // Where faces touch, that of the wedge is in front.
+    polygonOffsetFactor: clear ? 4 : 1,
+    polygonOffsetUnits: clear ? 4 : 1,
   });
   const edges = new LineSegments(new EdgesGeometry(geometry, 1), new LineBasicMaterial({ color: look.edge }));
   const group = new Group();

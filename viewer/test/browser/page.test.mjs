@@ -259,7 +259,7 @@ test("units switch in plots, scene and figures", async () => {
   assert.ok(Math.abs(newtons - wanted) <= 5e-4 * Math.abs(wanted) + 1e-3, `${told} is not ${wanted}`);
   assert.match(await run.locator(".wl-key").textContent(), / N/);
   assert.equal((await state(run)).units, "si");
-  await page.locator(".wl-units").click();
+  await run.getByLabel("inch-pound or SI").click();
   assert.match(await run.locator(".wl-key").textContent(), / lbf/);
   await page.close();
 });

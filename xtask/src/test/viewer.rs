@@ -37,7 +37,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
         "--out",
     ];
     shell::run(workspace.cargo(arguments).arg(&report))?;
-    let mut tests = node(workspace, ["--test", "test/browser/"]);
+    let mut tests = node(workspace, ["--test", "test/browser/page.test.mjs"]);
     tests
         .env("WEDGELAB_REPORT", &report)
         .env("WEDGELAB_CHROMIUM", &chromium);

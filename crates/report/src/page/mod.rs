@@ -120,6 +120,9 @@ pub fn render(contents: &Contents<'_>) -> String {
                     @if !folded.is_empty() {
                         section {
                             h2 id="run-by-run" { "Run by run" }
+                            @if contents.interactive.is_some() {
+                                p { "Open a run to see it move in 3D, with its plots on the same clock." }
+                            }
                             p {
                                 "What the thesis does not show: the energy ledger, the state of each contact, the forces at the \
                                  corners, how much of the contact sticks, and the power that wears the faces."
