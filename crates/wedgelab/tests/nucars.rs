@@ -245,6 +245,311 @@ fn wrong_calls_are_refused() {
     }
 }
 
+/// A run of the constantly damped truck with other capitals than its files have, four seconds long.
+const SHORT: [(&str, &str, &str); 1] = [(
+    "Bolst_wedge_sf_bolst-vert-displ_68_constant.run",
+    "0.01 20.0 0.1",
+    "0.01 4.0 0.1",
+)];
+const SHORT_RUN: &str = "Bolst_wedge_sf_bolst-vert-displ_68_constant.run";
+
+fn json(folder: &Path, name: &str) -> serde_json::Value {
+    let text = fs::read_to_string(folder.join(name).join("summary.json")).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+#[test]
+fn a_run_file_is_run() {
+    let folder = folder(&SHORT);
+    fs::rename(
+        folder.path().join("sngl_trk_68.dat"),
+        folder.path().join("SNGL_trk.dat"),
+    )
+    .unwrap();
+    let output = wedgelab(folder.path(), &["run", SHORT_RUN]);
+    assert_eq!(output.code, Some(0), "{}", output.err);
+    let name = "Bolst_wedge_sf_bolst-vert-displ_68_constant";
+    contains(
+        &output.out,
+        &[
+            "energy per cycle",
+            "130",
+            &format!("Written into {name}: result.csv, result.mat, summary.json."),
+        ],
+    );
+    contains(
+        &output.err,
+        &[
+            "warnings about the files; `wedgelab nucars check Bolst",
+            "1 of 1 runs",
+        ],
+    );
+    // Rows each 0.01 s to the end that the run file says.
+    let table = fs::read_to_string(folder.path().join(name).join("result.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines.len(), 402);
+    assert!(lines[401].starts_with("4,"), "{}", lines[401]);
+    for column in [
+        "time_s,input_vertical_in,",
+        "wedge_127_column_friction_lbf",
+        "force_119_2_lbf",
+        "stroke_127_2_in",
+        "velocity_130_2_in_per_s",
+        "sum_2_lbf",
+        "ledger_residual_lbf_in",
+    ] {
+        assert!(lines[0].contains(column), "{column} is not in {}", lines[0]);
+    }
+    assert!(!lines[0].contains("body_1_z_rate"));
+    let summary = json(folder.path(), name);
+    assert_eq!(summary["schema"], "wedgelab.truck/1");
+    assert_eq!(summary["complete"], true);
+    let assumptions = summary["assumptions"].to_string();
+    contains(
+        &assumptions,
+        &[
+            "0.01 4 0.1 s",
+            "a row each 0.01 s",
+            "branch follows the direction",
+            "warnings of `wedgelab nucars check`",
+        ],
+    );
+    assert!(summary["largest_relative_residual"].as_f64().unwrap() < 1e-5);
+    let matrix = fs::read(folder.path().join(name).join("result.mat")).unwrap();
+    let holds = |text: &[u8]| matrix.windows(text.len()).any(|part| part == text);
+    assert!(holds(b"const_vrt_68_out") && holds(b"wedge_127_stroke_in"));
+    // What is there is not overwritten, unless it may be.
+    let again = wedgelab(folder.path(), &["run", SHORT_RUN]);
+    assert_eq!(again.code, Some(2), "{}", again.err);
+    contains(&again.err, &["there are results already", "--force"]);
+    let forced = [
+        "run",
+        SHORT_RUN,
+        "--force",
+        "--quiet",
+        "--units",
+        "si",
+        "--interval",
+        "20 ms",
+        "--all-outputs",
+        "--option",
+        "branch=0.1 in/s",
+        "--equilibrium",
+    ];
+    let forced = wedgelab(folder.path(), &forced);
+    assert_eq!(forced.code, Some(0), "{}", forced.err);
+    assert!(!forced.err.contains("1 of 1 runs"));
+    let table = fs::read_to_string(folder.path().join(name).join("result.csv")).unwrap();
+    assert_eq!(table.lines().count(), 202);
+    contains(
+        table.lines().next().unwrap(),
+        &["wedge_127_stroke_m", "body_1_z_rate_m_per_s"],
+    );
+    contains(
+        &json(folder.path(), name)["assumptions"].to_string(),
+        &[
+            "branch follows the vertical velocity over 0.00254 m/s",
+            "start: at rest in static equilibrium",
+        ],
+    );
+}
+
+#[test]
+fn a_yaw_that_is_not_reached_is_told_and_can_be_reached() {
+    let folder = folder(&[(YAW_RUN, "0.01 20.0 0.1", "0.01 2.0 0.1")]);
+    let files = [
+        "--data",
+        "SNGL_TRK_68.DAT",
+        "--input",
+        "bolst_displ_input36.inp",
+        "-q",
+    ];
+    let run = |more: &[&str]| {
+        let arguments = [&["run", YAW_RUN], &files[..], more].concat();
+        wedgelab(folder.path(), &arguments)
+    };
+    let output = run(&[]);
+    assert_eq!(output.code, Some(0), "{}", output.err);
+    contains(
+        &output.err,
+        &[
+            "body 1 is commanded to yaw by 0.0120 rad and reaches 2.",
+            "e-6 rad",
+            "--yaw drop",
+        ],
+    );
+    let name = YAW_RUN.trim_end_matches(".run");
+    contains(
+        &json(folder.path(), name)["assumptions"].to_string(),
+        &["the yaw input is taken as printed"],
+    );
+    let intended = format!("{name}_yaw_as_intended");
+    for how in ["drop", "drive"] {
+        let output = run(&["--yaw", how, "--force"]);
+        assert_eq!(output.code, Some(0), "{}", output.err);
+        assert!(!output.err.contains("commanded"), "{}", output.err);
+        let summary = json(folder.path(), &intended);
+        let reached = summary["yaw"]["reached"]["value"].as_f64().unwrap();
+        assert!((reached - 0.012).abs() < 0.001, "{how}: {reached}");
+        let left_out = summary["assumptions"]
+            .to_string()
+            .contains("left out for the intended yaw: 201, 221");
+        assert_eq!(left_out, how == "drop");
+    }
+}
+
+#[test]
+fn built_in_runs_are_listed_and_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = wedgelab(folder.path(), &["run", "--list"]);
+    assert_eq!(list.code, Some(0), "{}", list.err);
+    let names: Vec<&str> = list
+        .out
+        .lines()
+        .skip(1)
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    assert_eq!(names.len(), 28);
+    assert!(names.contains(&"nucars_69_constant_toe_out_yaw"));
+    let name = "nucars_69_variable_toe_in";
+    let output = wedgelab(folder.path(), &["run", name, "--out", "deep/in"]);
+    assert_eq!(output.code, Some(0), "{}", output.err);
+    contains(&output.err, &["jammed wedges"]);
+    contains(&output.out, &["Written into deep/in"]);
+    assert_eq!(json(folder.path(), "deep/in")["name"], name);
+}
+
+#[test]
+fn wrong_runs_are_refused() {
+    let folder = folder(&[(SHORT_RUN, "\\STEPPING CONSTANTS", "$\\STEPPING CONSTANTS")]);
+    let cases: [(&[&str], &[&str]); 13] = [
+        (&["run"], &["<FILE>"]),
+        (&["run", "bolst.run"], &["there is no file bolst.run"]),
+        (&["run", CONSTANT], &["not a run file, but a system file"]),
+        (
+            &["run", YAW_RUN],
+            &[
+                "did you mean 'sngl_trk_68.dat'?",
+                "cannot be run",
+                "`wedgelab nucars check Bolst",
+            ],
+        ),
+        (
+            &["run", SHORT_RUN, "--data", "sngl_trk_68.dat"],
+            &["STEPPING CONSTANTS"],
+        ),
+        (
+            &[
+                "run",
+                "bolst_wedge_sf_bolst-vert-displ_69_var.run",
+                "--data",
+                "sngl_trk_69.dat",
+                "--yaw",
+                "drop",
+            ],
+            &["no input body that drives a body yaws"],
+        ),
+        (
+            &["run", "nucars_69_constant_toe_uot"],
+            &["did you mean nucars_69_constant_toe_out?"],
+        ),
+        (
+            &["run", "nucars_69_constant_toe_out", "--yaw", "drop"],
+            &["--yaw does not fit", "end with _yaw"],
+        ),
+        (
+            &["run", "nucars_69_constant_toe_out", "--system", CONSTANT],
+            &["has its own files, and --system Bolst"],
+        ),
+        (
+            &["run", "nucars_69_constant_toe_out", "--option", "bent=linear"],
+            &["did you mean bend?"],
+        ),
+        (
+            &[
+                "run",
+                "nucars_69_constant_toe_out",
+                "--option",
+                "plain_toe_angle=40 deg",
+            ],
+            &["cannot begin", "plain_toe_angle"],
+        ),
+        (
+            &["run", "nucars_69_constant_toe_out", "--interval", "0 s"],
+            &["it must be positive"],
+        ),
+        (
+            &["run", "nucars_69_constant_toe_out", "--interval", "1 us"],
+            &["at most a million"],
+        ),
+    ];
+    for (arguments, texts) in cases {
+        let output = wedgelab(folder.path(), arguments);
+        assert_eq!(
+            output.code,
+            Some(2),
+            "{arguments:?}: {}{}",
+            output.out,
+            output.err
+        );
+        contains(&output.err, texts);
+    }
+    let left: Vec<_> = fs::read_dir(folder.path())
+        .unwrap()
+        .filter(|entry| entry.as_ref().unwrap().path().is_dir())
+        .collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+#[test]
+fn natural_vibrations_are_printed() {
+    let folder = folder(&[]);
+    let output = wedgelab(
+        folder.path(),
+        &["modes", "bolst_wedge_sf_69_const.sys", "--stick", "surfaces"],
+    );
+    assert_eq!(output.code, Some(0), "{}", output.err);
+    contains(
+        &output.out,
+        &[
+            "about the drawn layout; closed surfaces stick, wedges slide",
+            "1 Half Car+Bolst",
+            "   3.1224   ",
+            "yaw +100",
+            "  15.5593   ",
+            "z +100",
+            " 302.3657   ",
+        ],
+    );
+    let rows = output
+        .out
+        .lines()
+        .filter(|line| line.contains('%') || line.contains(" +"));
+    assert!(rows.count() >= 18);
+    let rest = [
+        "modes",
+        "bolst_wedge_sf_69_var.sys",
+        "--equilibrium",
+        "--stick",
+        "surfaces",
+    ];
+    let rest = wedgelab(folder.path(), &rest);
+    assert_eq!(rest.code, Some(0), "{}", rest.err);
+    contains(&rest.out, &["about static equilibrium", "  15.52"]);
+    for (arguments, text) in [
+        (
+            &["modes", "sngl_trk_68.dat"][..],
+            "not a system file, but a data file",
+        ),
+        (&["modes", CONSTANT, "--stick", "glue"][..], "glue"),
+        (&["modes", "nothing.sys"][..], "there is no file"),
+    ] {
+        let output = wedgelab(folder.path(), arguments);
+        assert_eq!(output.code, Some(2));
+        contains(&output.err, &[text]);
+    }
+}
+
 #[test]
 fn help_shows_examples() {
     let folder = tempfile::tempdir().unwrap();
@@ -254,6 +559,14 @@ fn help_shows_examples() {
             "wedgelab nucars check yaw.run --data results.dat",
         ),
         (["show", "--help"], "wedgelab nucars show half_truck.sys"),
+        (
+            ["run", "--help"],
+            "wedgelab nucars run nucars_69_constant_toe_out_yaw",
+        ),
+        (
+            ["modes", "--help"],
+            "wedgelab nucars modes half_truck.sys --equilibrium",
+        ),
     ] {
         let output = wedgelab(folder.path(), &arguments);
         assert_eq!(output.code, Some(0));

@@ -55,6 +55,7 @@ pub fn run(case: &TruckCase, mut progress: impl FnMut(f64)) -> Result<TruckResul
         maximum_steps: MAXIMUM_STEPS,
         ..Options::default()
     };
+    let mut works = Works::new(case);
     let mut integrator = Integrator::new(system.clone(), options, 0.0, &x)?;
     let mut values = vec![Vec::new(); table.columns.len()];
     table.read(&system.observe(0.0, &x), &mut values);
@@ -72,6 +73,7 @@ pub fn run(case: &TruckCase, mut progress: impl FnMut(f64)) -> Result<TruckResul
             break;
         }
         system.segment_like(integrator.problem());
+        works.add_step(&integrator, &mut system, &mut buffer);
         while row <= count {
             let time = (row as f64 * case.interval).min(case.duration);
             if time > integrator.time() {
@@ -106,7 +108,7 @@ pub fn run(case: &TruckCase, mut progress: impl FnMut(f64)) -> Result<TruckResul
             assumptions: case.assumptions.clone(),
         },
     };
-    summarize(case, &system, &mut result);
+    summarize(case, &system, &works, &mut result);
     Ok(result)
 }
 
@@ -127,13 +129,68 @@ fn cycle(case: &TruckCase) -> Option<Cycle> {
     }
 }
 
-fn summarize(case: &TruckCase, system: &System, result: &mut TruckResult) {
+/// The work of each wedge's friction at the column over whole cycles, taken step by step from the dense output (Simpson's rule):
+/// the input springs ring, which rows would miss.
+struct Works {
+    window: Option<(f64, f64, u32)>,
+    wedges: Vec<usize>,
+    works: Vec<f64>,
+    reached: f64,
+    powers: [Vec<f64>; 3],
+}
+
+impl Works {
+    fn new(case: &TruckCase) -> Self {
+        let wedges: Vec<usize> = case.truck.wedges().collect();
+        let none = vec![0.0; wedges.len()];
+        Self {
+            window: cycle(case).and_then(|cycle| cycle.window(case.duration)),
+            works: none.clone(),
+            powers: [none.clone(), none.clone(), none],
+            wedges,
+            reached: 0.0,
+        }
+    }
+
+    /// Adds the part of the last step that lies in the window.
+    fn add_step(&mut self, integrator: &Integrator<System>, system: &mut System, buffer: &mut [f64]) {
+        let (from, to) = (self.reached, integrator.time());
+        self.reached = to;
+        let Some((start, end, _)) = self.window else {
+            return;
+        };
+        let (from, to) = (from.max(start), to.min(end));
+        if to <= from {
+            return;
+        }
+        for (time, powers) in [from, 0.5 * (from + to), to].into_iter().zip(&mut self.powers) {
+            integrator.interpolate(time, buffer);
+            let seen = system.observe(time, buffer);
+            for (place, power) in self.wedges.iter().zip(powers) {
+                let own = &seen.connections[*place];
+                *power = -own.wedge.map_or(0.0, |wedge| wedge.column_friction) * own.velocities[0];
+            }
+        }
+        let [a, b, c] = &self.powers;
+        for (index, work) in self.works.iter_mut().enumerate() {
+            *work += (to - from) / 6.0 * (a[index] + 4.0 * b[index] + c[index]);
+        }
+    }
+
+    fn per_cycle(&self, place: usize) -> Option<f64> {
+        let (_, _, cycles) = self.window?;
+        let index = self.wedges.iter().position(|own| *own == place)?;
+        Some(self.works[index] / f64::from(cycles))
+    }
+}
+
+fn summarize(case: &TruckCase, system: &System, works: &Works, result: &mut TruckResult) {
     let units = case.units;
     let times = result.column("time").unwrap_or_default().to_vec();
     let mut wedges = BTreeMap::new();
     for place in case.truck.wedges() {
         let number = case.truck.connections[place];
-        wedges.insert(number.to_string(), wedge(case, result, &times, place, number));
+        wedges.insert(number.to_string(), wedge(case, result, works, place));
     }
     let mut largest = BTreeMap::new();
     for (place, number) in case.truck.bodies.iter().enumerate() {
@@ -194,11 +251,12 @@ fn summarize(case: &TruckCase, system: &System, result: &mut TruckResult) {
     summary.largest_relative_residual = if work > 0.0 { residual / work } else { 0.0 };
 }
 
-fn wedge(case: &TruckCase, result: &TruckResult, times: &[f64], place: usize, number: u32) -> WedgeSummary {
+fn wedge(case: &TruckCase, result: &TruckResult, works: &Works, place: usize) -> WedgeSummary {
     use mechanics::small::Law;
     use wedge::parameters::Damping;
 
-    let units = case.units;
+    let (units, number) = (case.units, case.truck.connections[place]);
+    let times = result.column("time").unwrap_or_default();
     let column = |what: &str| {
         let values = result.column(&format!("wedge_{number}_{what}"));
         values.unwrap_or_default()
@@ -222,16 +280,11 @@ fn wedge(case: &TruckCase, result: &TruckResult, times: &[f64], place: usize, nu
     } else {
         Damping::Variable
     };
-    let (friction, stroke) = (column("column_friction"), column("stroke"));
-    if let Some((start, end, cycles)) = cycle.window(times.last().copied().unwrap_or_default()) {
-        let rows = times.partition_point(|time| *time < start)..times.partition_point(|time| *time <= end);
-        let energy: f64 = rows
-            .clone()
-            .skip(1)
-            .map(|row| 0.5 * (friction[row] + friction[row - 1]) * (stroke[row] - stroke[row - 1]))
-            .sum();
-        summary.energy_per_cycle = Some(Measure::new(energy / f64::from(cycles), Kind::Energy, units));
-    }
+    let friction = column("column_friction");
+    summary.energy_per_cycle = works
+        .per_cycle(place)
+        .filter(|_| result.summary.complete)
+        .map(|energy| Measure::new(energy, Kind::Energy, units));
     let (input, rate) = (
         result.column("input_vertical").unwrap_or_default(),
         result.column("input_vertical_rate").unwrap_or_default(),

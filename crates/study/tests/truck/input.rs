@@ -1,0 +1,66 @@
+//! The runs that are built in.
+#![allow(clippy::unwrap_used)]
+
+use std::collections::BTreeSet;
+
+use mechanics::small::System;
+use study::truck::catalog::{ToeCase, WedgeType, YawCase, entries, entry};
+use study::truck::run::run;
+
+use crate::common::case;
+
+#[test]
+fn all_entries_make_systems_of_eighteen_coordinates_and_four_wedges() {
+    let names: BTreeSet<String> = entries().iter().map(|own| own.name()).collect();
+    assert_eq!(names.len(), 28);
+    let of_the_table = entries().iter().filter(|own| own.yaw != YawCase::Printed).count();
+    assert_eq!(of_the_table, 24);
+    for own in entries() {
+        assert_eq!(entry(&own.name()), Some(own));
+        let case = case(&own.name(), 1.0);
+        let connections = if own.yaw == YawCase::Intended { 48 } else { 50 };
+        assert_eq!(case.truck.model.connections.len(), connections, "{}", case.name);
+        assert_eq!(
+            case.truck.left_out,
+            if own.yaw == YawCase::Intended {
+                vec![201, 221]
+            } else {
+                vec![]
+            }
+        );
+        let system = System::new(case.truck.model.clone()).unwrap();
+        assert_eq!(system.layout().speeds, 18);
+        let wedges: Vec<u32> = case
+            .truck
+            .wedges()
+            .map(|place| case.truck.connections[place])
+            .collect();
+        assert_eq!(wedges, [127, 128, 129, 130]);
+    }
+    assert_eq!(entry("nucars_67_constant_toe_out"), None);
+}
+
+/// Type 6.8 has no angle: no toe is its toe-out branch.
+#[test]
+fn no_toe_of_the_plain_type_is_toe_out() {
+    for own in entries()
+        .into_iter()
+        .filter(|own| own.wedges == WedgeType::Plain && own.toe == ToeCase::None)
+    {
+        let other = own.name().replace("toe_none", "toe_out");
+        assert_eq!(case(&own.name(), 1.0).truck.model, case(&other, 1.0).truck.model);
+    }
+}
+
+#[test]
+fn the_same_run_gives_the_same_bits() {
+    let case = case("nucars_69_variable_toe_out_yaw", 4.0);
+    let (a, b) = (run(&case, |_| ()).unwrap(), run(&case, |_| ()).unwrap());
+    for ((column, a), b) in a.columns.iter().zip(&a.values).zip(&b.values) {
+        assert!(
+            a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits()),
+            "{}",
+            column.name
+        );
+    }
+}

@@ -1,0 +1,63 @@
+//! Where wedges jam, and what is the same in all four.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::{POUND, result};
+
+#[test]
+fn toe_in_jams_on_the_way_down_and_is_held_by_the_limit() {
+    for name in [
+        "nucars_68_variable_toe_in",
+        "nucars_68_constant_toe_in",
+        "nucars_69_variable_toe_in",
+        "nucars_69_constant_toe_in",
+    ] {
+        let result = result(name, 9.0);
+        for (number, wedge) in &result.summary.wedges {
+            let column = |what: &str| result.column(&format!("wedge_{number}_{what}")).unwrap();
+            let (jammed, normal, rate) = (
+                column("jammed"),
+                column("column_normal_force"),
+                column("stroke_rate"),
+            );
+            let most = wedge.largest_normal_force.as_ref().unwrap();
+            println!(
+                "{name} {number}: {:.3} {most:?} up {:?} down {:?}",
+                wedge.jammed, wedge.up, wedge.down
+            );
+            assert!(wedge.jammed > 0.1, "{name} {number}: {}", wedge.jammed);
+            assert!(most.value <= 1e5 * (1.0 + 1e-9), "{name}: {most:?}");
+            assert!(most.value > 0.999e5, "{name}: {most:?}");
+            // A jammed wedge that slides goes down.
+            let sliding = |row: &usize| {
+                jammed[*row] == 1.0 && normal[*row] > 0.999e5 * POUND && rate[*row].abs() > 0.01
+            };
+            let rows: Vec<usize> = (0..rate.len()).filter(sliding).collect();
+            assert!(rows.iter().all(|row| rate[*row] < 0.0), "{name} {number}");
+            assert!(!rows.is_empty(), "{name}");
+        }
+        assert!(
+            result
+                .summary
+                .warnings
+                .iter()
+                .any(|text| text.contains("jammed wedges"))
+        );
+    }
+}
+
+#[test]
+fn without_yaw_all_four_wedges_do_the_same() {
+    for name in ["nucars_68_constant_toe_out", "nucars_69_variable_toe_out"] {
+        let result = result(name, 7.0);
+        let friction = |number: u32| result.column(&format!("wedge_{number}_column_friction")).unwrap();
+        let size = friction(127)
+            .iter()
+            .fold(0.0, |most: f64, own| most.max(own.abs()));
+        for number in [128, 129, 130] {
+            let differ = friction(number).iter().zip(friction(127));
+            let most = differ.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+            println!("{name} {number}: {:e} of {size}", most / size);
+            assert!(most < 1e-2 * size, "{name} {number}: {most} of {size}");
+        }
+    }
+}
