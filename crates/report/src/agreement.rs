@@ -13,6 +13,8 @@
 //!
 //! Units: SI, unless a text says otherwise.
 
+mod remarks;
+
 use mechanics::quasi_static::{Direction, QuasiStaticWedge};
 use study::case::Case;
 use study::closed_form;
@@ -24,7 +26,9 @@ use wedge::parameters::{Damping, Parameters};
 
 use quantity::Kind;
 
-use crate::figures::{Outcome, digits, yaw};
+use crate::figures::{Outcome, yaw};
+
+pub(crate) use remarks::percent;
 
 /// The leading left wedge's connection.
 pub const COMPONENT: &str = "127";
@@ -222,7 +226,7 @@ fn group(set: &Set<'_>) -> Option<Group> {
         strokes,
         remarks: Vec::new(),
     };
-    group.remarks = remarks::of(&group, set);
+    group.remarks = remarks::of(&group, result.summary.units);
     Some(group)
 }
 
@@ -426,12 +430,4 @@ pub fn equation_5_1(case: &Case, result: &TruckResult) -> Option<Vec<[f64; 2]>> 
             Some([-friction * cos, slide.column_normal * cos + friction * sin])
         })
         .collect()
-}
-
-mod remarks {
-    use super::{Group, Set};
-
-    pub(super) fn of(_group: &Group, _set: &Set<'_>) -> Vec<String> {
-        Vec::new()
-    }
 }
