@@ -124,7 +124,7 @@ impl Numbers {
 pub struct Stroke {
     /// Which type.
     pub wedges: WedgeType,
-    /// Energy per cycle of the element alone under the input's full stroke, J.
+    /// Energy per cycle of the element alone under the input's full stroke, J; type 6.9 with the wedge's rise in its pocket.
     pub alone: f64,
     /// The same under the stroke that it has, J: from the mean lowest to the mean highest stroke of the cycles.
     pub shortened: f64,

@@ -66,12 +66,17 @@ fn loops(group: &Group, stroke: &Stroke, units: Units) -> String {
     let rest = if group.yawed {
         "the lateral slip and the ringing that come with the half-truck's swing in yaw"
     } else {
-        "the friction's springs at the reversals, and the stroke's ringing"
+        "the accumulators of the friction, which have to turn at each reversal, and the stroke's ringing"
     };
     format!(
-        "Type {}: alone under the input's full stroke its loop is {}; in the half-truck it is {} ({}). Its stroke goes from {} to {} {}: \
+        "Type {}: alone under the input's full stroke{} its loop is {}; in the half-truck it is {} ({}). Its stroke goes from {} to {} {}: \
          that alone makes {}; the rest, {}, is from {rest}.",
         stroke.wedges.code(),
+        if stroke.wedges == WedgeType::Spatial && group.damping == Damping::Variable {
+            " (with the wedge's rise in its pocket, which eases the coil by 0.6 %)"
+        } else {
+            ""
+        },
         energy(stroke.alone),
         energy(stroke.found),
         percent(stroke.found / stroke.alone - 1.0),

@@ -207,8 +207,8 @@ pub(super) static CLAIMS: &[Claim] = &[
             share(cd_out, column_sticks, settled) > share(run, column_sticks, settled),
         ])),
         but: "With one coefficient for rest and sliding there is no break-out peak, and the stand-alone model's \
-              force has one smooth hump a cycle. The types stick for longer at the reversals, as their friction \
-              has springs in it, and ring with the half-truck.",
+              force has one smooth hump a cycle. The types stick for longer at the reversals, as the springs that \
+              hold and drive the half-truck give way first, and ring with it.",
     },
     claim! {
         id: "6.1-longitudinal-similar",
