@@ -13,6 +13,8 @@
 //!
 //! Units: SI, unless a text says otherwise.
 
+mod remarks;
+
 use mechanics::quasi_static::{Direction, QuasiStaticWedge};
 use study::case::Case;
 use study::closed_form;
@@ -25,6 +27,8 @@ use wedge::parameters::{Damping, Parameters};
 use quantity::Kind;
 
 use crate::figures::{Outcome, yaw};
+
+pub(crate) use remarks::percent;
 
 /// The leading left wedge's connection.
 pub const COMPONENT: &str = "127";
@@ -120,7 +124,7 @@ impl Numbers {
 pub struct Stroke {
     /// Which type.
     pub wedges: WedgeType,
-    /// Energy per cycle of the element alone under the input's full stroke, J.
+    /// Energy per cycle of the element alone under the input's full stroke, J; type 6.9 with the wedge's rise in its pocket.
     pub alone: f64,
     /// The same under the stroke that it has, J: from the mean lowest to the mean highest stroke of the cycles.
     pub shortened: f64,
@@ -222,7 +226,7 @@ fn group(set: &Set<'_>) -> Option<Group> {
         strokes,
         remarks: Vec::new(),
     };
-    group.remarks = remarks::of(&group, set);
+    group.remarks = remarks::of(&group, result.summary.units);
     Some(group)
 }
 
@@ -426,12 +430,4 @@ pub fn equation_5_1(case: &Case, result: &TruckResult) -> Option<Vec<[f64; 2]>> 
             Some([-friction * cos, slide.column_normal * cos + friction * sin])
         })
         .collect()
-}
-
-mod remarks {
-    use super::{Group, Set};
-
-    pub(super) fn of(_group: &Group, _set: &Set<'_>) -> Vec<String> {
-        Vec::new()
-    }
 }

@@ -298,22 +298,22 @@ pub(super) const sliding_down: When = when("while the wedge slides down", |run| 
 pub(super) const rising: When = when("while the wedge rises", |run| wedge_moves(run, 1.0));
 /// The column dissipates less than 0.02 % of what it does at most.
 pub(super) const not_dissipating: When = when("while hardly anything is dissipated", |run| {
-    quiet(run, "side_frame_dissipation")
+    quiet(run, "side_frame_dissipation", 2e-4)
 });
 
-/// The same of the power of the column's friction, which types 6.8 and 6.9 have too.
+/// The power of the column's friction, which types 6.8 and 6.9 have too, is below 1 % of its greatest.
 pub(super) const powerless: When = when("while the friction has hardly any power", |run| {
-    quiet(run, "side_frame_friction_power")
+    quiet(run, "side_frame_friction_power", 0.01)
 });
 
-fn quiet(run: View<'_>, name: &str) -> Vec<bool> {
+fn quiet(run: View<'_>, name: &str, share: f64) -> Vec<bool> {
     let values = run.column(name);
     let most = values
         .iter()
         .zip(phase(run, |_, _| true))
         .filter(|(_, counts)| *counts)
         .fold(0.0, |most: f64, (value, _)| most.max(value.abs()));
-    let quiet: Vec<bool> = values.iter().map(|value| value.abs() < 2e-4 * most).collect();
+    let quiet: Vec<bool> = values.iter().map(|value| value.abs() < share * most).collect();
     both(quiet, &phase(run, |_, _| true))
 }
 

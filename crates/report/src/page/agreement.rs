@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use quantity::{Kind, System as Units};
 use study::summary::Measure;
 
-use crate::agreement::{COMPONENT, Group, TruckOutcome, mean_yaw};
+use crate::agreement::{COMPONENT, Group, TruckOutcome, mean_yaw, percent};
 use crate::figures::{capital, damping_name, digits};
 
 /// The comparison with the comparison program's wedges.
@@ -83,12 +83,6 @@ fn agreement(group: &Group, units: Units) -> Markup {
             ul { @for remark in &group.remarks { li { (remark) } } }
         }
     }
-}
-
-/// A share in per cent, with its sign.
-fn percent(share: f64) -> String {
-    let sign = if share < 0.0 { "\u{2212}" } else { "+" };
-    format!("{sign}{:.1} %", 100.0 * share.abs())
 }
 
 fn trucks(trucks: &[TruckOutcome]) -> Markup {
