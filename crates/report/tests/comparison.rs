@@ -428,6 +428,8 @@ fn the_page_tells_how_far_they_agree() {
         units: quantity::System::Us,
     };
     let mut contents = Contents {
+        beyond: &[],
+        interactive: None,
         outcomes,
         claims: &claims,
         sections: &[],

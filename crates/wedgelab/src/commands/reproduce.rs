@@ -5,6 +5,7 @@ mod trucks;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use clap::Args;
@@ -12,7 +13,7 @@ use rayon::prelude::*;
 use report::agreement::{self, TruckOutcome};
 use report::claims::{self, Claims, Evidence};
 use report::figures::{Exhibit, Outcome};
-use report::files::{Folder, check_all};
+use report::files::{FileError, Folder, check_all};
 use report::page::{self, Contents, Viewer};
 use report::view::View;
 use report::{beyond, run_files, sections};
@@ -134,6 +135,37 @@ fn is_of_thesis(case: &Case) -> bool {
     builtin::thesis_names().any(|name| name == case.name)
 }
 
+/// Writes all figures as pictures and drawings; gives the drawings.
+///
+/// A picture is written as soon as it is painted, and nothing of it is kept: its pixels need a hundred times the memory of
+/// its drawing.
+fn draw(exhibits: &[&Exhibit], folder: &Folder) -> Result<Vec<String>, Failure> {
+    let mut svgs = Vec::new();
+    folder.write(|files| {
+        let files = Mutex::new(files);
+        let add = |name: &str, bytes: &[u8]| {
+            let mut files = files.lock().unwrap_or_else(PoisonError::into_inner);
+            files.add(name, |out| out.write_all(bytes))
+        };
+        exhibits.par_iter().try_for_each(|exhibit| {
+            let png = exhibit.figure.to_png().map_err(|reason| FileError::Write {
+                file: folder.path().join(format!("{}.png", exhibit.name)),
+                reason: io::Error::other(reason),
+            })?;
+            add(&format!("{}.png", exhibit.name), &png)
+        })?;
+        svgs = exhibits
+            .par_iter()
+            .map(|exhibit| exhibit.figure.to_svg())
+            .collect();
+        exhibits
+            .iter()
+            .zip(&svgs)
+            .try_for_each(|(exhibit, svg)| add(&format!("{}.svg", exhibit.name), svg.as_bytes()))
+    })?;
+    Ok(svgs)
+}
+
 /// Draws all figures and writes them and the page; gives the number of figures.
 fn tell(outcomes: &[Outcome], half_trucks: &[TruckOutcome], places: &Places) -> Result<usize, Failure> {
     // The thesis's runs come first in the list of cases.
@@ -144,25 +176,7 @@ fn tell(outcomes: &[Outcome], half_trucks: &[TruckOutcome], places: &Places) -> 
     let more = sections::comparison(outcomes, half_trucks).into_iter();
     plans.splice(run_by_run..run_by_run, more.chain(sections::beyond(others)));
     let exhibits: Vec<&Exhibit> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
-    let drawings: Vec<(String, Vec<u8>)> = exhibits
-        .par_iter()
-        .map(|exhibit| {
-            let png = exhibit.figure.to_png().map_err(|reason| {
-                let message = format!("cannot draw {}: {reason}", exhibit.name);
-                Failure::Failed(Message::new(message, "").into())
-            })?;
-            Ok((exhibit.figure.to_svg(), png))
-        })
-        .collect::<Result<_, Failure>>()?;
-    places.figures.write(|files| {
-        for (exhibit, (svg, png)) in exhibits.iter().zip(&drawings) {
-            files.add(&format!("{}.svg", exhibit.name), |out| {
-                out.write_all(svg.as_bytes())
-            })?;
-            files.add(&format!("{}.png", exhibit.name), |out| out.write_all(png))?;
-        }
-        Ok(())
-    })?;
+    let svgs = draw(&exhibits, &places.figures)?;
     let count = exhibits.len();
     let interactive = Viewer::embedded()
         .map(|viewer| {
@@ -174,7 +188,7 @@ fn tell(outcomes: &[Outcome], half_trucks: &[TruckOutcome], places: &Places) -> 
             let message = format!("cannot write the page's data: {error}");
             Failure::Failed(Message::new(message, "").into())
         })?;
-    let mut svgs = drawings.into_iter().map(|(svg, _)| svg);
+    let mut svgs = svgs.into_iter();
     let sections: Vec<page::Section> = plans
         .iter()
         .map(|plan| sections::drawn(plan, svgs.by_ref().take(plan.exhibits.len())))
