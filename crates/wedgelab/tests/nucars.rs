@@ -479,7 +479,7 @@ fn wrong_runs_are_refused() {
             &["it must be positive"],
         ),
         (
-            &["run", "nucars_69_constant_toe_out", "--interval", "1 us"],
+            &["run", "nucars_69_constant_toe_out", "--interval", "0.001 ms"],
             &["at most a million"],
         ),
     ];
