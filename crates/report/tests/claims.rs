@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, OnceLock};
 
 use quantity::System as Units;
-use report::claims::{Claims, Evidence, Row, RunId, SCHEMA, Toe, Verdict, claims, evaluate};
+use report::claims::{Claims, Evidence, Group, Row, RunId, SCHEMA, Toe, Verdict, claims, evaluate};
 use study::case::{Case, builtin};
 use study::result::RunResult;
 use study::run::Run;
@@ -125,7 +125,8 @@ fn the_table() {
 /// What is not a question of numbers is decided by the twelve runs, or says why not; every failure is explained.
 #[test]
 fn verdicts_come_with_their_reasons() {
-    for row in rows() {
+    // Those that compare need runs of the half-truck, and have tests of their own.
+    for row in rows().iter().filter(|row| row.group != Group::Comparison) {
         let claim = claims().find(|claim| claim.id == row.id).unwrap();
         match row.verdict {
             Verdict::Holds => assert!(row.note.is_empty(), "{}", row.id),

@@ -259,14 +259,14 @@ fn numbers_are_found_again_from_the_columns() {
                 .filter(|i| times[*i] > 0.5 * PI && times[*i] <= 2.5 * PI)
                 .map(|i| -0.01 * column("wedge_127_friction_power")[i])
                 .sum();
-            close(found.area, 0.5 * lost, 5e-3);
-            // The ledger's loss at the four columns, alike without yaw, is exact in time; rows of 0.01 s see the first cycle's ringing less
-            // well.
+            // Rows of 0.01 s miss some of the first cycle's rattling with variable damping.
+            let tolerance = if damping == Damping::Constant { 2e-3 } else { 0.03 };
+            close(found.area, 0.5 * lost, tolerance);
+            // The ledger's loss at the four columns, alike without yaw, is exact in time.
             // Two cycles from the first row after the half period.
             let loss = column("wedge_column_loss");
             let rows = [(50.0 * PI).ceil() as usize, (250.0 * PI).floor() as usize];
             let ledger = (loss[rows[1]] - loss[rows[0]]) / 8.0;
-            let tolerance = if damping == Damping::Constant { 2e-3 } else { 0.03 };
             close(found.energy, ledger, tolerance);
         }
     }
