@@ -44,6 +44,9 @@ impl System {
             .iter_mut()
             .map(|m| (m.moves, m.motions.clone()))
             .collect();
+        // Motions have smooth pieces: the place at `time` is that of its own piece.
+        let reference = self.reference;
+        self.segment(time);
         // the prescribed bodies held where they are
         for moved in &mut self.moved {
             for motion in moved.motions.iter_mut() {
@@ -63,6 +66,7 @@ impl System {
         for (moved, (moves, motions)) in self.moved.iter_mut().zip(moving) {
             (moved.moves, moved.motions) = (moves, motions);
         }
+        self.reference = reference;
         self.moved_at = f64::NAN;
         found
     }

@@ -11,6 +11,7 @@ mod analytic;
 mod convergence;
 mod energy;
 mod input;
+mod issue_004_behaviour;
 mod jacobian;
 mod limits;
 mod loops;
