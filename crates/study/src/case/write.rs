@@ -69,7 +69,7 @@ impl CaseDocument {
         );
         page.line(
             "angle",
-            Written::quantity(&wedge.angle, Kind::Angle, Reach::Between(0.35, 0.96)),
+            Written::quantity(&wedge.angle, Kind::Angle, ANGLES),
             "between the slope and the vertical",
         );
         page.line(
@@ -315,6 +315,8 @@ impl CaseDocument {
     }
 }
 
+/// Angles of wedges that are built, 20 to 55 deg, rad.
+const ANGLES: Reach = Reach::Between(0.349_065_850_398_865_9, 0.959_931_088_596_881_3);
 /// A depth of wear that is thought of first, m.
 const WEAR: f64 = 0.25 * 0.0254;
 /// A toe or turn that is thought of first, rad.
