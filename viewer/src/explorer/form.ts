@@ -63,7 +63,7 @@ export class Form {
         rest.push(mistake);
         continue;
       }
-      const text = mistake.help ? `${mistake.message}. ${mistake.help}` : mistake.message;
+      const text = mistake.help ? `${mistake.message}\n${mistake.help}` : mistake.message;
       texts.set(mistake.path, [...(texts.get(mistake.path) ?? []), text]);
     }
     for (const [path, view] of this.views) {

@@ -28,7 +28,7 @@ class Explorer {
   private readonly status = element("p", { class: "wx-status", role: "status" });
   private readonly faults = element("div", { class: "wx-faults", role: "alert" });
   private readonly lookAt = element("p", { class: "wx-about" });
-  private readonly stage = element("div");
+  private readonly stage = element("div", { class: "wx-stage" });
   private preset: string | null;
   private set: Record<string, string> = {};
   /** What is being asked for, and since when. */
@@ -265,7 +265,7 @@ class Explorer {
   }
 
   private show(notes: Mistake[]): void {
-    this.faults.replaceChildren(...notes.map(({ message, help }) => element("p", {}, help ? `${message}. ${help}` : message)));
+    this.faults.replaceChildren(...notes.map(({ message, help }) => element("p", {}, help ? `${message}\n${help}` : message)));
   }
 
   private async keep(file: string): Promise<void> {

@@ -265,7 +265,7 @@ test("foreign pages and foreign names are refused", { skip }, async () => {
   const page = await browser.newPage();
   await page.goto("about:blank");
   const read = await page.evaluate(
-    (from) => fetch(`${from}/api/run`, { method: "POST", mode: "no-cors", body: "{}" }).then((answer) => answer.type, () => "refused"),
+    (from) => window.fetch(`${from}/api/run`, { method: "POST", mode: "no-cors", body: "{}" }).then((answer) => answer.type, () => "refused"),
     address,
   );
   assert.ok(["opaque", "refused"].includes(read), read);
