@@ -272,7 +272,7 @@ test("foreign pages and foreign names are refused", { skip }, async () => {
   await page.close();
 });
 
-test("changes of a yawed case are shown in 300 ms", { skip }, async (t) => {
+test("how long a change of a yawed case takes to be seen", { skip }, async (t) => {
   const page = await open();
   await page.locator(".wl-run[data-ready]").waitFor({ timeout: 20_000 });
   const times = [];
@@ -282,8 +282,8 @@ test("changes of a yawed case are shown in 300 ms", { skip }, async (t) => {
   }
   times.sort((a, b) => a - b);
   t.diagnostic(`from the change to the new loop: ${times.join(", ")} ms`);
-  // On an idle machine 300 (docs/benchmarks.md); others may be busy.
-  assert.ok(times[3] <= 1500, `${times[3]} ms`);
+  // The target is 300 on an idle machine (docs/benchmarks.md); others may be busy.
+  assert.ok(times[3] <= 600, `${times[3]} ms`);
   await page.close();
 });
 
