@@ -146,6 +146,28 @@ test("a slider and a typed value give new loops, with the energies of the comman
   await page.close();
 });
 
+test("while a slider moves the loop follows; one loop is left of it, that of its last place", { skip }, async () => {
+  const page = await open();
+  await field(page, "friction.slope").locator("input[type=range]").evaluate(async (own) => {
+    for (let place = 80; place >= 50; place--) {
+      own.value = String(place);
+      own.dispatchEvent(new Event("input"));
+      await new Promise((resolve) => window.setTimeout(resolve, 30));
+    }
+    own.dispatchEvent(new Event("change"));
+  });
+  await page.waitForFunction(() => !document.querySelector("#explorer").dataset.running);
+  const now = await state(page);
+  assert.ok(Number(now.runs) > 2, `${now.runs} runs: it follows`);
+  assert.equal(now.loops, "2");
+  same(now.energy, told("friction.slope=0.25"));
+  // The next change does not take its place.
+  const next = await after_run(page, type(page, "friction.slope", "0.3"));
+  assert.equal(next.loops, "3");
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
 test("no more than eight loops, the latest on top", { skip }, async () => {
   const page = await open();
   for (let k = 1; k <= 9; k++) {
