@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// The files in `viewer/dist`.
-const FILES: [&str; 2] = ["viewer.js", "viewer.css"];
+const FILES: [&str; 4] = ["viewer.js", "viewer.css", "explorer.js", "explorer.css"];
 
 fn main() -> ExitCode {
     match embed() {

@@ -1,4 +1,4 @@
-// Bundles the viewer into dist/viewer.js and dist/viewer.css, or into the folder that is named.
+// Bundles the viewer and the explorer into dist/viewer.js, dist/explorer.js and their styles, or into the folder that is named.
 import { readFile, writeFile, mkdir } from "node:fs/promises";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -9,7 +9,7 @@ const out = process.argv[2] ?? join(root, "dist");
 
 const { outputFiles } = await build({
   absWorkingDir: root,
-  entryPoints: { viewer: "src/main.ts" },
+  entryPoints: { viewer: "src/main.ts", explorer: "src/explorer/main.ts" },
   bundle: true,
   minify: true,
   format: "iife",

@@ -250,7 +250,8 @@ impl Run {
     }
 
     /// Contact states by face and corner.
-    fn contact_states(&self) -> BTreeMap<String, String> {
+    #[must_use]
+    pub fn contact_states(&self) -> BTreeMap<String, String> {
         self.integrator
             .modes()
             .iter()

@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{case, compare, nucars, plot, quasi_static, reproduce, run};
+use commands::{case, compare, explore, nucars, plot, quasi_static, reproduce, run};
 use failure::Failure;
 
 /// A laboratory for railway friction wedges.
@@ -30,6 +30,7 @@ Begin with:
   wedgelab case                      the built-in cases
   wedgelab case NAME > my.toml       a complete case file to change ...
   wedgelab run my.toml               ... and to run
+  wedgelab explore my.toml           a page to change it and see its loop move
   wedgelab compare RESULT RESULT     differences and overlay figures
 
 Exit codes: 0 done; 1 a run could not finish or files could not be written; 2 the input is wrong."
@@ -46,6 +47,7 @@ enum Command {
     Compare(compare::Arguments),
     Plot(plot::Arguments),
     Case(case::Arguments),
+    Explore(explore::Arguments),
     QuasiStatic(quasi_static::Arguments),
     Nucars(nucars::Arguments),
 }
@@ -58,6 +60,7 @@ impl Cli {
             Command::Compare(arguments) => compare::execute(&arguments),
             Command::Plot(arguments) => plot::execute(&arguments),
             Command::Case(arguments) => case::execute(&arguments),
+            Command::Explore(arguments) => explore::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Nucars(arguments) => nucars::execute(&arguments),
         }

@@ -73,6 +73,7 @@ fn help_shows_examples() {
         (vec!["run", "--help"], "--set friction.column=0.3"),
         (vec!["case", "--help"], "> a.toml"),
         (vec!["compare", "--help"], "other_program.csv"),
+        (vec!["explore", "--help"], "--port 8080"),
         (vec!["plot", "--help"], "--out loop.svg"),
         (vec!["quasi-static", "--help"], "0.2 deg out"),
         (vec!["--version"], env!("CARGO_PKG_VERSION")),

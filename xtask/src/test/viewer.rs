@@ -1,5 +1,5 @@
-//! The report page's interactive part: types, lints, unit tests, and the page in a real browser. What is missing is installed:
-//! packages of the lock file with npm, Chromium with `apt-get`.
+//! The report page's interactive part and the explorer: types, lints, unit tests, and the pages in a real browser. What is
+//! missing is installed: packages of the lock file with npm, Chromium with `apt-get`.
 
 use std::env;
 use std::process::Command;
@@ -11,7 +11,7 @@ use crate::viewer::{bundle, install, node};
 /// Programs that Chromium is called.
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
-/// Checks and bundles the viewer, makes a report, and tries its page.
+/// Checks and bundles the viewer, makes a report, and tries its page and the explorer.
 pub fn check(workspace: &Workspace) -> Outcome {
     install(workspace)?;
     for arguments in [
@@ -37,8 +37,19 @@ pub fn check(workspace: &Workspace) -> Outcome {
         "--out",
     ];
     shell::run(workspace.cargo(arguments).arg(&report))?;
-    let mut tests = node(workspace, ["--test", "test/browser/page.test.mjs"]);
+    let program = format!("release/wedgelab{}", env::consts::EXE_SUFFIX);
+    // One after the other: they measure times.
+    let mut tests = node(
+        workspace,
+        [
+            "--test",
+            "--test-concurrency=1",
+            "test/browser/page.test.mjs",
+            "test/browser/explorer.test.mjs",
+        ],
+    );
     tests
+        .env("WEDGELAB", workspace.target.join(program))
         .env("WEDGELAB_REPORT", &report)
         .env("WEDGELAB_CHROMIUM", &chromium);
     shell::run(&mut tests)?;

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod claims;
+pub mod explorer;
 mod runs;
 mod viewer;
 

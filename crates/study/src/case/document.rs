@@ -154,6 +154,16 @@ pub enum ToeDirection {
     Out,
 }
 
+impl ToeDirection {
+    /// Its name in case files.
+    pub fn name(self) -> &'static str {
+        match self {
+            ToeDirection::In => "in",
+            ToeDirection::Out => "out",
+        }
+    }
+}
+
 /// How the side frame or the bolster moves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NeighbourSection {

@@ -10,6 +10,7 @@
 pub mod builtin;
 mod defaults;
 mod document;
+mod field;
 mod motion;
 mod name;
 mod overrides;
@@ -26,6 +27,7 @@ pub use document::{
     FrictionLaw, FrictionSection, NeighbourSection, SimulationSection, Start, Toe, ToeDirection,
     WedgeSection,
 };
+pub use field::{Field, FieldSection, Input, Measured};
 pub use motion::{Motion, Profile};
 pub use problem::{CaseError, Problem};
 pub use table::QuantityTable;

@@ -270,6 +270,42 @@ impl Motion {
         }
     }
 
+    /// The quantities of its shape, by their keys; none of a held value, a table, or a sum.
+    pub(super) fn parts(&self) -> Vec<(&'static str, &Quantity)> {
+        match self {
+            Motion::Sine {
+                amplitude,
+                frequency,
+                phase,
+            } => vec![
+                ("amplitude", amplitude),
+                ("frequency", frequency),
+                ("phase", phase),
+            ],
+            Motion::Triangle { amplitude, frequency } => {
+                vec![("amplitude", amplitude), ("frequency", frequency)]
+            }
+            Motion::SweptSine {
+                amplitude,
+                start_frequency,
+                end_frequency,
+                duration,
+            } => vec![
+                ("amplitude", amplitude),
+                ("start_frequency", start_frequency),
+                ("end_frequency", end_frequency),
+                ("duration", duration),
+            ],
+            Motion::Ramp {
+                amplitude,
+                start,
+                duration,
+                ..
+            } => vec![("amplitude", amplitude), ("start", start), ("duration", duration)],
+            Motion::Constant(_) | Motion::Table(_) | Motion::Sum(_) => Vec::new(),
+        }
+    }
+
     /// The tables in it, to be changed.
     pub(super) fn tables_mut(&mut self) -> Vec<&mut QuantityTable> {
         match self {

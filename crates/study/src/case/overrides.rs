@@ -4,6 +4,9 @@ use super::problem::{Place, Problem, Source};
 use super::tree::{self, Entry, Table, Value};
 use std::sync::Arc;
 
+/// What overrides are called as a source.
+pub(super) const SOURCE: &str = "--set";
+
 /// Lays every override over the tree; the problems are those of the overrides themselves.
 pub(super) fn apply(tree: &mut Table, overrides: &[String]) -> Vec<Problem> {
     let mut problems = Vec::new();
@@ -18,7 +21,7 @@ pub(super) fn apply(tree: &mut Table, overrides: &[String]) -> Vec<Problem> {
 
 /// The tables on the way, and the last key with its value.
 fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Vec<Problem>> {
-    let source = Source::new("--set", text);
+    let source = Source::new(SOURCE, text);
     let whole = Place {
         source: Arc::clone(&source),
         span: 0..text.len(),
@@ -46,7 +49,7 @@ fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Vec<Problem>> {
         Ok(table) => (table, equals),
         // Shells take quotes away: `wedge.angle=30 deg` is meant as text.
         Err(_) if !value.starts_with(['"', '\'', '[', '{']) => {
-            let quoted = Source::new("--set", format!("{key}={}", toml::Value::from(value)));
+            let quoted = Source::new(SOURCE, format!("{key}={}", toml::Value::from(value)));
             (tree::parse(&quoted)?, key.len())
         }
         Err(problems) => return Err(problems),

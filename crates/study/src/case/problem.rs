@@ -91,6 +91,14 @@ impl Problem {
         self.place.as_ref().map(|place| place.source.name.as_str())
     }
 
+    /// The path that was set, if the mistake is in what was given to `--set`.
+    pub fn set_path(&self) -> Option<&str> {
+        let place = self.place.as_ref()?;
+        let text = place.source.text();
+        (place.source.name == super::overrides::SOURCE)
+            .then(|| text.split_once('=').map_or(text, |(path, _)| path).trim())
+    }
+
     /// The text the mistake is marked at.
     pub fn marked_text(&self) -> Option<&str> {
         self.place.as_ref().map(Place::text)

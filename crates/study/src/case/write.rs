@@ -1,23 +1,40 @@
 //! A document as a complete, commented case file.
 
-use super::document::{CaseDocument, CoilForce, METHODS, NeighbourSection, SYSTEMS};
-use super::section::name_of;
-use quantity::Quantity;
+use super::document::{
+    ActsAt, CaseDocument, CoilForce, Coordinate, Damping, FrictionLaw, METHODS, NeighbourSection, SYSTEMS,
+    Start, Toe, ToeDirection,
+};
+use super::field::{Field, FieldSection, Input, Measured, Reach, Written, quoted};
+use super::motion::Motion;
+use quantity::Kind;
 use std::fmt::Write;
 
 impl CaseDocument {
     /// The whole case as TOML: every key, in groups, each with what it means, and with the reason
     /// where the thesis leaves a choice. Reads back to the same document and the same SI bits.
     pub fn to_toml(&self) -> String {
+        self.written().text
+    }
+
+    /// The whole case as fields, in the order of [`CaseDocument::to_toml`] and with its texts.
+    pub fn fields(&self) -> Vec<FieldSection> {
+        self.written().sections
+    }
+
+    fn written(&self) -> Page {
         let mut page = Page::default();
-        page.line("name", text(&self.name), "a folder name: results go there");
-        page.line("title", text(&self.title), "one line for people");
+        page.line(
+            "name",
+            Written::text(&self.name),
+            "a folder name: results go there",
+        );
+        page.line("title", Written::text(&self.title), "one line for people");
         self.write_wedge(&mut page);
         self.write_coil(&mut page);
         self.write_contact_and_friction(&mut page);
         self.write_neighbours(&mut page);
         self.write_simulation(&mut page);
-        page.text
+        page
     }
 
     /// The same case with the points of tables from files written into it, so that it runs from
@@ -47,46 +64,53 @@ impl CaseDocument {
         );
         page.line(
             "damping",
-            text(wedge.damping.name()),
+            Written::choice(Damping::NAMES, &wedge.damping),
             "\"variable\": the coil stands on the side frame; \"constant\": in the bolster",
         );
         page.line(
             "angle",
-            quantity(&wedge.angle),
+            Written::quantity(&wedge.angle, Kind::Angle, ANGLES),
             "between the slope and the vertical",
         );
-        page.line("height", quantity(&wedge.height), "of the vertical face");
-        page.line("width", quantity(&wedge.width), "across the track");
+        page.line(
+            "height",
+            Written::quantity(&wedge.height, Kind::Length, Reach::Positive),
+            "of the vertical face",
+        );
+        page.line(
+            "width",
+            Written::quantity(&wedge.width, Kind::Length, Reach::Positive),
+            "across the track",
+        );
         page.line(
             "weight",
-            quantity(&wedge.weight),
+            Written::quantity(&wedge.weight, Kind::Force, Reach::Positive),
             "a force; the mass is the weight over standard gravity",
         );
         page.line(
             "inertia",
-            triple(&wedge.inertia),
+            Written::triple(&wedge.inertia, Kind::Inertia, Reach::Positive),
             "roll, pitch, yaw. The thesis gives no unit; lb in^2 is the only plausible one",
         );
         page.line(
             "center_of_gravity",
-            triple(&wedge.center_of_gravity),
+            Written::triple(&wedge.center_of_gravity, Kind::Length, Reach::Signed(0.0254)),
             "from the point above the coil. It is taken as the prism's centroid, which places \
              the faces",
         );
         page.line(
             "column_wear",
-            quantity(&wedge.column_wear),
+            Written::quantity(&wedge.column_wear, Kind::Length, Reach::FromZero(WEAR)),
             "what column and wedge have lost there, together: the column lies deeper by it",
         );
         page.line(
             "slope_wear",
-            quantity(&wedge.slope_wear),
+            Written::quantity(&wedge.slope_wear, Kind::Length, Reach::FromZero(WEAR)),
             "the same at the slope; a worn wedge rises. Begin with start = \"equilibrium\"",
         );
-        let free: Vec<String> = wedge.free_coordinates.iter().map(|c| text(c.name())).collect();
         page.line(
             "free_coordinates",
-            format!("[{}]", free.join(", ")),
+            Written::several(Coordinate::NAMES, &wedge.free_coordinates),
             "of x, y, z, roll, pitch, yaw; the others are held",
         );
     }
@@ -98,7 +122,7 @@ impl CaseDocument {
             CoilForce::Stiffness(stiffness) => {
                 page.line(
                     "stiffness",
-                    quantity(stiffness),
+                    Written::quantity(stiffness, Kind::Stiffness, Reach::Positive),
                     "or table = [[compression, force], ...] or table = \"coil.csv\"",
                 );
             }
@@ -106,15 +130,19 @@ impl CaseDocument {
                 let value = table
                     .file
                     .as_ref()
-                    .map_or_else(|| table.points_to_toml(), |file| text(file));
+                    .map_or_else(|| table.points_to_toml(), |file| quoted(file));
                 page.line(
                     "table",
-                    value,
+                    Written::toml(value),
                     "compression and force; straight between the points",
                 );
             }
         }
-        page.line("free_length", quantity(&coil.free_length), "without force");
+        page.line(
+            "free_length",
+            Written::quantity(&coil.free_length, Kind::Length, Reach::Positive),
+            "without force",
+        );
         let preload = match self.wedge.damping {
             super::Damping::Variable => "in the nominal position; the thesis: just free",
             super::Damping::Constant => {
@@ -122,22 +150,34 @@ impl CaseDocument {
                  a preload of 3702.2 lbf"
             }
         };
-        page.line("nominal_length", quantity(&coil.nominal_length), preload);
-        page.line("damping", quantity(&coil.damping), "along the coil");
+        page.line(
+            "nominal_length",
+            Written::quantity(&coil.nominal_length, Kind::Length, Reach::Positive),
+            preload,
+        );
+        page.line(
+            "damping",
+            Written::quantity(&coil.damping, Kind::Damping, Reach::FromZero(2000.0)),
+            "along the coil",
+        );
         page.line(
             "rotational_damping",
-            quantity(&coil.rotational_damping),
+            Written::quantity(
+                &coil.rotational_damping,
+                Kind::RotationalDamping,
+                Reach::FromZero(1.0),
+            ),
             "of the wedge's rotations; the thesis uses the same number as along the coil",
         );
         page.line(
             "acts_at",
-            text(coil.acts_at.name()),
+            Written::choice(ActsAt::NAMES, &coil.acts_at),
             "\"center_of_gravity\": the thesis's moment equations hold no moment of the coil; or \
              \"seat\", with its moment",
         );
         page.line(
             "pulls",
-            coil.pulls.to_string(),
+            Written::truth(coil.pulls),
             "the thesis's coil pushes and pulls; false: it lifts off at its free length",
         );
     }
@@ -147,13 +187,13 @@ impl CaseDocument {
         page.section("contact", "Contact of the wedge's corners with column and slope.");
         page.line(
             "stiffness",
-            quantity(&contact.stiffness),
+            Written::quantity(&contact.stiffness, Kind::Stiffness, Reach::Wide),
             "per corner. The thesis gives none; four of 2.5e5 lbf/in give its limits and \
              orderings",
         );
         page.line(
             "damping",
-            quantity(&contact.damping),
+            Written::quantity(&contact.damping, Kind::Damping, Reach::FromZero(5000.0)),
             "per corner; never pulls. The thesis has none",
         );
         page.section(
@@ -161,10 +201,10 @@ impl CaseDocument {
             "Friction at the column (side frame) and at the slope (bolster).",
         );
         let law = if friction.column_law == friction.slope_law {
-            text(friction.column_law.name())
+            Written::choice(FrictionLaw::NAMES, &friction.column_law)
         } else {
             let (column, slope) = (friction.column_law.name(), friction.slope_law.name());
-            format!("{{ column = \"{column}\", slope = \"{slope}\" }}")
+            Written::toml(format!("{{ column = \"{column}\", slope = \"{slope}\" }}"))
         };
         page.line(
             "law",
@@ -172,22 +212,30 @@ impl CaseDocument {
             "\"tanh\" (the thesis's; creeps under load) or \"bristle\" (holds); or { column = \
              ..., slope = ... }",
         );
-        page.line("column", number(friction.column), "coefficient of friction");
-        page.line("slope", number(friction.slope), "coefficient of friction");
+        page.line(
+            "column",
+            Written::number(friction.column, FRICTION),
+            "coefficient of friction",
+        );
+        page.line(
+            "slope",
+            Written::number(friction.slope, FRICTION),
+            "coefficient of friction",
+        );
         page.line(
             "reference_speed",
-            quantity(&friction.reference_speed),
+            Written::quantity(&friction.reference_speed, Kind::Speed, Reach::Wide),
             "tanh: below it friction fades. It is part of the result: ten times it moves the \
              forces by 20 to 30 %",
         );
         page.line(
             "bristle_stiffness",
-            quantity(&friction.bristle_stiffness),
+            Written::quantity(&friction.bristle_stiffness, Kind::Stiffness, Reach::Wide),
             "bristle: tangential, per face. Not in the thesis: from the comparison program",
         );
         page.line(
             "bristle_damping",
-            quantity(&friction.bristle_damping),
+            Written::quantity(&friction.bristle_damping, Kind::Damping, Reach::Wide),
             "bristle: tangential, per face. From the comparison program",
         );
     }
@@ -199,7 +247,7 @@ impl CaseDocument {
         );
         page.line(
             "toe",
-            text(&self.toe.text()),
+            toe(&self.toe),
             "out: the gap between column and bolster opens downwards; in: it closes",
         );
         write_neighbour(page, &self.side_frame, "the centre of the column");
@@ -223,55 +271,117 @@ impl CaseDocument {
     fn write_simulation(&self, page: &mut Page) {
         let simulation = &self.simulation;
         page.section("environment", "");
-        page.line("gravity", quantity(&self.environment.gravity), "standard gravity");
+        page.line(
+            "gravity",
+            Written::quantity(
+                &self.environment.gravity,
+                Kind::Acceleration,
+                Reach::FromZero(9.80665),
+            ),
+            "standard gravity",
+        );
         page.section("simulation", "How to run it.");
-        page.line("duration", quantity(&simulation.duration), "");
+        page.line(
+            "duration",
+            Written::quantity(&simulation.duration, Kind::Time, Reach::Positive),
+            "",
+        );
         page.line(
             "output_interval",
-            quantity(&simulation.output_interval),
+            Written::quantity(&simulation.output_interval, Kind::Time, Reach::Positive),
             "time between two rows of the result; steps are chosen freely",
         );
         page.line(
             "relative_tolerance",
-            number(simulation.relative_tolerance),
+            Written::number(simulation.relative_tolerance, Reach::Wide),
             "of the integrator, between 0 and 1",
         );
         page.line(
             "start",
-            text(simulation.start.name()),
+            Written::choice(Start::NAMES, &simulation.start),
             "\"rest\": nominal position, corners may start inside; \"touching\"; or \
              \"equilibrium\"",
         );
         page.line(
             "output_units",
-            text(name_of(SYSTEMS, &simulation.output_units)),
+            Written::choice(SYSTEMS, &simulation.output_units),
             "\"us\" (in, lbf) or \"si\" (m, N)",
         );
         page.line(
             "method",
-            text(name_of(METHODS, &simulation.method)),
+            Written::choice(METHODS, &simulation.method),
             "\"rodas4\", \"rodas42\", \"rodas4p\", \"rodas4p2\" or \"rodas5p\"",
         );
     }
 }
 
-fn write_neighbour(page: &mut Page, section: &NeighbourSection, center: &str) {
-    match &section.center {
-        Some(point) => page.line("center", triple(point), "the point it turns about"),
-        None => {
-            page.comment(&format!("the point it turns about; left out, {center}"));
-            page.comment("center = [\"0 in\", \"0 in\", \"0 in\"]");
-        }
+/// Angles of wedges that are built, 20 to 55 deg, rad.
+const ANGLES: Reach = Reach::Between(0.349_065_850_398_865_9, 0.959_931_088_596_881_3);
+/// A depth of wear that is thought of first, m.
+const WEAR: f64 = 0.25 * 0.0254;
+/// A toe or turn that is thought of first, rad.
+const TURN: f64 = 0.02;
+const FRICTION: Reach = Reach::Between(0.0, 1.0);
+
+fn toe(toe: &Toe) -> Written {
+    let mut number = Measured::of(&toe.angle, Kind::Angle, Reach::Signed(TURN));
+    if toe.direction == Some(ToeDirection::In) {
+        number.value = -number.value;
+        number.si = -number.si;
     }
-    for (key, motion) in NeighbourSection::COORDINATES.iter().zip(&section.coordinates) {
-        page.line(key, motion.to_toml(), "");
+    number.signs = Some([ToeDirection::In, ToeDirection::Out].map(ToeDirection::name));
+    Written {
+        toml: quoted(&toe.text()),
+        input: Input::Number(number),
     }
 }
 
-/// The text so far.
+fn write_neighbour(page: &mut Page, section: &NeighbourSection, center: &str) {
+    match &section.center {
+        Some(point) => {
+            let point = Written::triple(point, Kind::Length, Reach::Signed(0.0254));
+            page.line("center", point, "the point it turns about");
+        }
+        None => page.absent(
+            "center",
+            r#"["0 in", "0 in", "0 in"]"#,
+            &format!("the point it turns about; left out, {center}"),
+        ),
+    }
+    for (at, (key, motion)) in NeighbourSection::COORDINATES
+        .iter()
+        .zip(&section.coordinates)
+        .enumerate()
+    {
+        let (kind, most) = if at < 3 {
+            (Kind::Length, 0.0254)
+        } else {
+            (Kind::Angle, TURN)
+        };
+        let signed = Reach::Signed(most);
+        if let Motion::Constant(value) = motion {
+            page.line(key, Written::quantity(value, kind, signed), "");
+            continue;
+        }
+        page.line(key, Written::toml(motion.to_toml()), "");
+        for (part, value) in motion.parts() {
+            let written = match part {
+                "amplitude" => Written::quantity(value, kind, signed),
+                "phase" => Written::quantity(value, Kind::Angle, Reach::Signed(std::f64::consts::PI)),
+                "start" => Written::quantity(value, Kind::Time, Reach::FromZero(1.0)),
+                "duration" => Written::quantity(value, Kind::Time, Reach::Positive),
+                _ => Written::quantity(value, Kind::Frequency, Reach::Positive),
+            };
+            page.field(&format!("{key}.{part}"), &written, "");
+        }
+    }
+}
+
+/// The text and the fields so far.
 #[derive(Default)]
 struct Page {
     text: String,
+    sections: Vec<FieldSection>,
 }
 
 /// Comments begin in this column where the value leaves room.
@@ -289,14 +399,20 @@ impl Page {
             self.comment(about);
         }
         let _ = writeln!(self.text, "[{name}]");
+        self.sections.push(FieldSection {
+            name: name.to_owned(),
+            about: about.replace("\n# ", "\n"),
+            fields: Vec::new(),
+        });
     }
 
     fn comment(&mut self, comment: &str) {
         let _ = writeln!(self.text, "# {comment}");
     }
 
-    fn line(&mut self, key: &str, value: String, comment: &str) {
-        let line = format!("{key} = {value}");
+    fn line(&mut self, key: &str, value: Written, comment: &str) {
+        self.field(key, &value, comment);
+        let line = format!("{key} = {}", value.toml);
         if comment.is_empty() {
             let _ = writeln!(self.text, "{line}");
         } else if line.contains('\n') || line.len().max(COMMENT_COLUMN) + comment.len() > WIDEST {
@@ -306,22 +422,34 @@ impl Page {
             let _ = writeln!(self.text, "{line:<COMMENT_COLUMN$} # {comment}");
         }
     }
-}
 
-fn text(text: &str) -> String {
-    toml::Value::from(text).to_string()
-}
+    /// A key that is left out, with an example.
+    fn absent(&mut self, key: &str, example: &str, comment: &str) {
+        self.comment(comment);
+        self.comment(&format!("{key} = {example}"));
+        self.field(key, &Written::toml(String::new()), comment);
+    }
 
-fn quantity(quantity: &Quantity) -> String {
-    text(quantity.text())
-}
-
-fn triple(quantities: &[Quantity; 3]) -> String {
-    let [a, b, c] = quantities.each_ref().map(quantity);
-    format!("[{a}, {b}, {c}]")
-}
-
-/// The shortest decimal that reads back to the same bits.
-fn number(number: f64) -> String {
-    format!("{number:?}")
+    /// A field that is no line of its own.
+    fn field(&mut self, key: &str, value: &Written, comment: &str) {
+        if self.sections.is_empty() {
+            self.sections.push(FieldSection {
+                name: String::new(),
+                about: String::new(),
+                fields: Vec::new(),
+            });
+        }
+        if let Some(section) = self.sections.last_mut() {
+            let path = match section.name.as_str() {
+                "" => key.to_owned(),
+                name => format!("{name}.{key}"),
+            };
+            section.fields.push(Field {
+                path,
+                help: comment.to_owned(),
+                text: value.typed(),
+                input: value.input.clone(),
+            });
+        }
+    }
 }

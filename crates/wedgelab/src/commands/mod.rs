@@ -2,6 +2,7 @@
 
 pub mod case;
 pub mod compare;
+pub mod explore;
 pub mod nucars;
 pub mod plot;
 pub mod quasi_static;

@@ -68,10 +68,16 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
 }
 
-fn read(path: &Path, set: &[String]) -> Result<Case, Failure> {
+/// Whether a built-in case is meant. A folder may well have its name: that of its results.
+pub fn is_built_in(path: &Path) -> bool {
     let name = path.to_str().unwrap_or("");
-    // A folder may well have a built-in case's name: that of its results.
-    if (!path.exists() || path.is_dir()) && builtin::names().any(|builtin| builtin == name) {
+    (!path.exists() || path.is_dir()) && builtin::names().any(|builtin| builtin == name)
+}
+
+/// The case that a user names, with `--set` overrides.
+pub fn read(path: &Path, set: &[String]) -> Result<Case, Failure> {
+    let name = path.to_str().unwrap_or("");
+    if is_built_in(path) {
         return Ok(builtin::case_with(name, set)?);
     }
     if path.is_dir() {

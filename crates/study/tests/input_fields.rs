@@ -1,0 +1,110 @@
+//! The list of fields: it holds the whole case, and what it says can be set.
+
+#![allow(clippy::unwrap_used)]
+
+use std::path::Path;
+
+use study::case::{Case, Field, Input, builtin};
+
+fn fields(case: &Case) -> Vec<Field> {
+    case.document
+        .fields()
+        .into_iter()
+        .flat_map(|section| section.fields)
+        .collect()
+}
+
+/// As the explorer writes it.
+fn set(field: &Field) -> String {
+    match &field.input {
+        Input::Text => format!("{}={:?}", field.path, field.text),
+        _ => format!("{}={}", field.path, field.text),
+    }
+}
+
+/// Setting every field to what it says gives the same case, of every built-in one.
+#[test]
+fn every_field_can_be_set_to_what_it_says() {
+    for name in builtin::names() {
+        let case = builtin::case(name).unwrap();
+        let overrides: Vec<String> = fields(&case)
+            .iter()
+            .filter(|field| !field.text.is_empty() || matches!(field.input, Input::Text))
+            .map(set)
+            .collect();
+        let again = builtin::case_with(name, &overrides).unwrap();
+        assert_eq!(again, case, "{name}");
+    }
+}
+
+/// Every key of the commented case file is a field, in the same order.
+#[test]
+fn every_key_of_the_case_file_is_a_field() {
+    let case = builtin::case("vdrun_toe_0_psi_0").unwrap();
+    let mut section = String::new();
+    let mut keys = Vec::new();
+    for line in case.document.to_toml().lines() {
+        if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
+            section = format!("{name}.");
+        } else if let Some((key, _)) = line.split_once(" = ").filter(|(key, _)| !key.contains('#')) {
+            keys.push(format!("{section}{key}"));
+        }
+    }
+    let parts = ["amplitude", "frequency", "phase", "center"];
+    let listed: Vec<String> = fields(&case)
+        .into_iter()
+        .map(|field| field.path)
+        .filter(|path| !parts.iter().any(|part| path.ends_with(&format!(".{part}"))))
+        .collect();
+    assert_eq!(listed, keys);
+}
+
+/// Suggested ranges hold the value, and toe carries its sign in words.
+#[test]
+fn ranges_hold_their_values() {
+    for name in builtin::names() {
+        for field in fields(&builtin::case(name).unwrap()) {
+            let numbers = match &field.input {
+                Input::Number(number) => vec![number.clone()],
+                Input::Triple { numbers } => numbers.to_vec(),
+                _ => continue,
+            };
+            for number in numbers {
+                assert!(
+                    number.low <= number.value && number.value <= number.high && number.low < number.high,
+                    "{name} {}: {number:?}",
+                    field.path
+                );
+                assert!(!number.logarithmic || number.low > 0.0);
+            }
+        }
+    }
+    let text = "[wedge]\ndamping = \"variable\"\n[side_frame]\ntoe = \"0.2 deg in\"\n";
+    let case = Case::parse("a.toml", text, Path::new(""), &[]).unwrap();
+    let toe = fields(&case)
+        .into_iter()
+        .find(|field| field.path == "side_frame.toe")
+        .unwrap();
+    let Input::Number(number) = toe.input else {
+        panic!("toe is a number")
+    };
+    assert_eq!((number.value, number.signs), (-0.2, Some(["in", "out"])));
+    assert_eq!(toe.text, "0.2 deg in");
+}
+
+/// A mistake in an override knows the path that was set.
+#[test]
+fn mistakes_name_the_path_that_was_set() {
+    for (set, path) in [
+        ("wedge.angle=32 in", "wedge.angle"),
+        ("friction.column=-1", "friction.column"),
+        ("bolster.vertical.frequency=0 Hz", "bolster.vertical.frequency"),
+        ("wedge.colour=red", "wedge.colour"),
+        ("wedge.angle=", "wedge.angle"),
+    ] {
+        let error = builtin::case_with("vdrun_toe_0_psi_0", &[set.to_owned()]).unwrap_err();
+        assert_eq!(error.problems()[0].set_path(), Some(path), "{set}");
+    }
+    let error = Case::parse("a.toml", "[wedge]\ndamping = 3\n", Path::new(""), &[]).unwrap_err();
+    assert_eq!(error.problems()[0].set_path(), None);
+}

@@ -1,0 +1,120 @@
+//! Which requests are answered: those that a page of this very server can make, or a person who typed its address.
+//!
+//! A server on 127.0.0.1 can be reached by every page that the same person has open. A foreign page cannot hide its origin,
+//! and one that made its own name point to 127.0.0.1 cannot hide that name.
+
+use std::net::SocketAddr;
+
+use axum::extract::{Request, State};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+
+/// The names under which the server is asked.
+#[derive(Clone, Debug)]
+pub struct Guard {
+    hosts: [String; 2],
+}
+
+impl Guard {
+    /// For a server that listens here.
+    pub fn new(address: SocketAddr) -> Self {
+        let port = address.port();
+        Self {
+            hosts: [format!("127.0.0.1:{port}"), format!("localhost:{port}")],
+        }
+    }
+
+    /// Why a request is refused; `None` if it is answered.
+    pub fn refusal(&self, headers: &HeaderMap) -> Option<String> {
+        let mut hosts = headers.get_all(header::HOST).iter();
+        let host = match (hosts.next().and_then(|host| host.to_str().ok()), hosts.next()) {
+            (Some(host), None) if self.knows(host) => host,
+            _ => {
+                return Some(format!(
+                    "Refused: this server answers to http://{} only.",
+                    self.hosts[0]
+                ));
+            }
+        };
+        for origin in headers.get_all(header::ORIGIN) {
+            let own = origin
+                .to_str()
+                .ok()
+                .and_then(|origin| origin.strip_prefix("http://"));
+            if own != Some(host) {
+                return Some("Refused: the request comes from a page of another origin.".to_owned());
+            }
+        }
+        match headers.get("sec-fetch-site").map(HeaderValue::as_bytes) {
+            None | Some(b"same-origin" | b"none") => None,
+            Some(_) => Some("Refused: the request was caused by a page of another site.".to_owned()),
+        }
+    }
+
+    fn knows(&self, host: &str) -> bool {
+        self.hosts.iter().any(|own| own.eq_ignore_ascii_case(host))
+    }
+}
+
+/// What browsers may do with answers: nothing but what the page needs.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
+                      connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// Refuses what is to be refused, with status 403 and the reason as text.
+pub async fn check(State(guard): State<Guard>, request: Request, next: Next) -> Response {
+    let mut response = match guard.refusal(request.headers()) {
+        Some(reason) => (StatusCode::FORBIDDEN, format!("{reason}\n")).into_response(),
+        None => next.run(request).await,
+    };
+    let headers = response.headers_mut();
+    for (name, value) in [
+        (header::CONTENT_SECURITY_POLICY, POLICY),
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::REFERRER_POLICY, "no-referrer"),
+        (header::CACHE_CONTROL, "no-store"),
+    ] {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    response
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn answered(lines: &[(&'static str, &str)]) -> bool {
+        let mut headers = HeaderMap::new();
+        for (name, value) in lines {
+            headers.append(*name, value.parse().unwrap());
+        }
+        Guard::new("127.0.0.1:4000".parse().unwrap())
+            .refusal(&headers)
+            .is_none()
+    }
+
+    #[test]
+    fn only_its_own_page_is_answered() {
+        let host = ("host", "127.0.0.1:4000");
+        assert!(answered(&[host]));
+        assert!(answered(&[("host", "localhost:4000")]));
+        assert!(answered(&[
+            host,
+            ("origin", "http://127.0.0.1:4000"),
+            ("sec-fetch-site", "same-origin")
+        ]));
+        assert!(answered(&[host, ("sec-fetch-site", "none")]));
+        assert!(!answered(&[]));
+        assert!(!answered(&[("host", "127.0.0.1")]));
+        assert!(!answered(&[("host", "127.0.0.1:4001")]));
+        assert!(!answered(&[("host", "evil.example:4000")]));
+        assert!(!answered(&[host, ("host", "evil.example:4000")]));
+        assert!(!answered(&[host, ("origin", "null")]));
+        assert!(!answered(&[host, ("origin", "https://127.0.0.1:4000")]));
+        assert!(!answered(&[host, ("origin", "http://localhost:4000")]));
+        assert!(!answered(&[host, ("origin", "http://evil.example")]));
+        assert!(!answered(&[host, ("sec-fetch-site", "same-site")]));
+        assert!(!answered(&[host, ("sec-fetch-site", "cross-site")]));
+    }
+}

@@ -1,0 +1,49 @@
+//! `wedgelab explore`: a page on which every value of a case can be changed, and each change runs it again.
+//!
+//! - [`guard`]: which requests are answered.
+//! - [`base`]: the case that changes are laid over.
+//! - [`api`]: requests and answers, `wedgelab.explore/1`, described in `docs/explore.md`.
+//! - [`server`]: routes, start and stop.
+
+mod api;
+mod base;
+mod guard;
+mod server;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+
+use crate::failure::Failure;
+use base::Base;
+
+/// The case that is shown first if none is named.
+const FIRST: &str = "vdrun_toe_0_psi_0";
+
+/// Change a case on a page and see its loop move
+///
+/// Serves a page on this machine only (127.0.0.1) with a control for every value of the case; each change runs the case again
+/// and shows the new hysteresis loop over the earlier ones, with plots and the 3D view. Prints the address to open in a
+/// browser; Ctrl-C stops it.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab explore
+  wedgelab explore my.toml
+  wedgelab explore cdrun_toe_0_psi_0.012 --port 8080")]
+pub struct Arguments {
+    /// Case file, or, if there is no such file, the name of a built-in case [default: vdrun_toe_0_psi_0]
+    case: Option<PathBuf>,
+    /// Port to listen at; 0: any that is free
+    #[arg(long, value_name = "PORT", default_value_t = 0)]
+    port: u16,
+}
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let path = arguments.case.clone().unwrap_or_else(|| PathBuf::from(FIRST));
+    let base = Base::open(&path)?;
+    server::serve(base, arguments.port)?;
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,395 @@
+//! The explorer's server, asked without a browser.
+
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// A server, ended with the test.
+struct Server {
+    child: Child,
+    host: String,
+}
+
+struct Answer {
+    status: u16,
+    head: String,
+    body: Vec<u8>,
+}
+
+impl Answer {
+    fn json(&self) -> Value {
+        serde_json::from_slice(&self.body).unwrap()
+    }
+
+    fn text(&self) -> String {
+        String::from_utf8_lossy(&self.body).into_owned()
+    }
+}
+
+impl Server {
+    fn start(folder: &Path, arguments: &[&str]) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
+            .current_dir(folder)
+            .arg("explore")
+            .args(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().unwrap())
+            .read_line(&mut line)
+            .unwrap();
+        let host = line
+            .split("http://")
+            .nth(1)
+            .unwrap()
+            .split(' ')
+            .next()
+            .unwrap()
+            .to_owned();
+        Self { child, host }
+    }
+
+    fn send(&self, method: &str, path: &str, headers: &[(&str, &str)], body: &str) -> Answer {
+        ask(&self.host, method, path, headers, body)
+    }
+
+    fn get(&self, path: &str) -> Answer {
+        self.send("GET", path, &[("Host", &self.host)], "")
+    }
+
+    fn post(&self, path: &str, body: &Value) -> Answer {
+        post(&self.host, path, body)
+    }
+
+    /// Ends it with a signal; gives the exit code.
+    #[cfg(unix)]
+    fn end(&mut self, signal: &str) -> Option<i32> {
+        let pid = self.child.id().to_string();
+        assert!(
+            Command::new("kill")
+                .args([signal, &pid])
+                .status()
+                .unwrap()
+                .success()
+        );
+        let begun = Instant::now();
+        while begun.elapsed() < Duration::from_secs(20) {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                return status.code();
+            }
+            thread::sleep(Duration::from_millis(20));
+        }
+        None
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+fn post(host: &str, path: &str, body: &Value) -> Answer {
+    let headers = [("Host", host), ("Content-Type", "application/json")];
+    ask(host, "POST", path, &headers, &body.to_string())
+}
+
+fn ask(host: &str, method: &str, path: &str, headers: &[(&str, &str)], body: &str) -> Answer {
+    let mut stream = TcpStream::connect(host).unwrap();
+    let lines: String = headers
+        .iter()
+        .map(|(name, value)| format!("{name}: {value}\r\n"))
+        .collect();
+    let length = body.len();
+    let request = format!(
+        "{method} {path} HTTP/1.1\r\n{lines}Content-Length: {length}\r\nConnection: close\r\n\r\n{body}"
+    );
+    stream.write_all(request.as_bytes()).unwrap();
+    let mut bytes = Vec::new();
+    stream.read_to_end(&mut bytes).unwrap();
+    let end = bytes.windows(4).position(|four| four == b"\r\n\r\n").unwrap();
+    let head = String::from_utf8(bytes[..end].to_vec()).unwrap();
+    Answer {
+        status: head.split(' ').nth(1).unwrap().parse().unwrap(),
+        head,
+        body: bytes[end + 4..].to_vec(),
+    }
+}
+
+fn temporary() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+/// What `wedgelab run` writes.
+fn run(folder: &Path, case: &str, set: &[(&str, &str)]) -> std::path::PathBuf {
+    let out = folder.join("run");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wedgelab"));
+    command
+        .current_dir(folder)
+        .args(["run", case, "--quiet", "--force", "--out"])
+        .arg(&out);
+    for (path, text) in set {
+        command.args(["--set", &format!("{path}={text}")]);
+    }
+    assert!(command.output().unwrap().status.success());
+    out
+}
+
+fn summary(folder: &Path) -> Value {
+    serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap()
+}
+
+fn fields(answer: &Value) -> Vec<Value> {
+    let sections = answer["sections"].as_array().unwrap();
+    sections
+        .iter()
+        .flat_map(|section| section["fields"].as_array().unwrap().clone())
+        .collect()
+}
+
+/// A run that would take minutes.
+fn endless() -> Value {
+    json!({ "set": { "simulation.duration": "20000 s", "simulation.output_interval": "1 s" } })
+}
+
+#[test]
+fn energies_are_those_of_the_command_line() {
+    let folder = temporary();
+    let server = Server::start(folder.path(), &["vdrun_toe_0_psi_0.012"]);
+    let changes: [&[(&str, &str)]; 4] = [
+        &[],
+        &[("friction.column", "0.3")],
+        &[("wedge.angle", "35 deg"), ("side_frame.toe", "0.1 deg in")],
+        // A change of the damping changes what the case leaves out.
+        &[
+            ("wedge.damping", "constant"),
+            ("bolster.vertical.amplitude", "0.75 in"),
+        ],
+    ];
+    let mut seen = Vec::new();
+    for set in changes {
+        let wanted: serde_json::Map<String, Value> = set
+            .iter()
+            .map(|(path, text)| ((*path).to_owned(), json!(text)))
+            .collect();
+        let answer = server.post("/api/run", &json!({ "set": wanted }));
+        assert_eq!(answer.status, 200, "{}", answer.text());
+        let answer = answer.json();
+        assert_eq!(answer["schema"], "wedgelab.explore/1");
+        assert_eq!(answer["view"]["schema"], "wedgelab.view/1");
+        let energy = &answer["summary"]["averages"]["energy_per_cycle"];
+        let told = run(folder.path(), "vdrun_toe_0_psi_0.012", set);
+        assert_eq!(*energy, summary(&told)["averages"]["energy_per_cycle"], "{set:?}");
+        assert!(energy["side_frame"]["value"].as_f64().unwrap() > 0.0);
+        assert!(!seen.contains(energy), "{set:?} changes the energy");
+        seen.push(energy.clone());
+        for (path, text) in set {
+            let field = fields(&answer)
+                .into_iter()
+                .find(|field| field["path"] == *path)
+                .unwrap();
+            assert_eq!(field["text"], *text);
+        }
+    }
+}
+
+#[test]
+fn a_case_file_is_explored_and_kept() {
+    let folder = temporary();
+    let text = "name = \"mine\"\n[wedge]\ndamping = \"constant\"\n[simulation]\nduration = \"7 s\"\n";
+    fs::write(folder.path().join("my.toml"), text).unwrap();
+    let server = Server::start(folder.path(), &["my.toml"]);
+    let opening = server.get("/api/case").json();
+    assert_eq!(
+        (&opening["preset"], &opening["name"]),
+        (&Value::Null, &json!("mine"))
+    );
+    assert!(opening["presets"].as_array().unwrap().len() > 3);
+    let set = [("friction.slope", "0.25")];
+    let wanted = json!({ "set": { "friction.slope": "0.25" } });
+    let told = run(folder.path(), "my.toml", &set);
+    for file in ["case.toml", "result.csv", "result.mat", "summary.json"] {
+        let kept = server.post(&format!("/api/export/{file}"), &wanted);
+        assert_eq!(kept.status, 200, "{file}");
+        assert!(
+            kept.head.contains(&format!("filename=\"mine_{file}\"")),
+            "{}",
+            kept.head
+        );
+        let written = fs::read(told.join(file)).unwrap();
+        assert_eq!(kept.body, written, "{file}");
+    }
+    let other = server.post("/api/export/passwords", &wanted);
+    assert_eq!(other.status, 404);
+    // Another case is a click away.
+    let preset = server.post("/api/run", &json!({ "preset": "vdrun_toe_0_psi_0", "set": {} }));
+    assert_eq!(preset.json()["summary"]["name"], "vdrun_toe_0_psi_0");
+}
+
+#[test]
+fn mistakes_are_told_where_they_were_typed() {
+    let folder = temporary();
+    let server = Server::start(folder.path(), &[]);
+    for (path, text, word) in [
+        ("wedge.angle", "32 in", "deg"),
+        ("wedge.angle", "95 deg", "between 0 deg and 90 deg"),
+        ("wedge.weight", "50", "50 lbf"),
+        ("friction.column", "-0.1", "zero or greater"),
+        ("friction.law", "tahn", "tanh"),
+        (
+            "wedge.inertia",
+            "[\"1 lb in^2\", \"2 in\", \"3 lb in^2\"]",
+            "inertia",
+        ),
+        ("bolster.vertical", "{ shape = \"triangle\" }", "amplitude"),
+        ("wedge.colour", "red", "colour"),
+        ("wedge.height", "", "missing"),
+        ("simulation.output_interval", "20 s", "longer"),
+        ("simulation.duration", "0.001 s", "longer"),
+    ] {
+        let answer = server.post("/api/run", &json!({ "set": { path: text } }));
+        assert_eq!(answer.status, 422, "{path}={text}");
+        let answer = answer.json();
+        let errors = answer["errors"].as_array().unwrap();
+        let all = answer.to_string();
+        assert!(all.contains(word), "{word} is not in {all}");
+        let place = errors[0]["path"].as_str().unwrap();
+        assert!(place == path || place == "simulation.output_interval", "{all}");
+    }
+    // Two at a time, each at its field.
+    let answer = server.post(
+        "/api/run",
+        &json!({ "set": { "wedge.angle": "32", "friction.slope": "rough" } }),
+    );
+    let answer = answer.json();
+    let mut places: Vec<&str> = answer["errors"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|error| error["path"].as_str().unwrap())
+        .collect();
+    places.sort_unstable();
+    assert_eq!(places, ["friction.slope", "wedge.angle"]);
+    // What is no request at all.
+    assert_eq!(server.post("/api/run", &json!({ "sets": {} })).status, 422);
+    assert_eq!(server.post("/api/run", &json!(3)).status, 422);
+    let text = [("Host", server.host.as_str()), ("Content-Type", "text/plain")];
+    assert_eq!(server.send("POST", "/api/run", &text, "{}").status, 415);
+    let unknown = server.post("/api/run", &json!({ "preset": "nothing", "set": {} }));
+    assert_eq!(unknown.status, 422);
+}
+
+#[test]
+fn only_its_own_page_is_answered() {
+    let folder = temporary();
+    let server = Server::start(folder.path(), &[]);
+    let host = server.host.as_str();
+    let port = host.rsplit(':').next().unwrap();
+    assert_eq!(host, format!("127.0.0.1:{port}"));
+    let local = format!("localhost:{port}");
+    let evil = format!("evil.example:{port}");
+    let origin = format!("http://{host}");
+    let get = |headers: &[(&str, &str)]| server.send("GET", "/api/case", headers, "").status;
+    assert_eq!(get(&[("Host", host)]), 200);
+    assert_eq!(get(&[("Host", &local)]), 200);
+    assert_eq!(get(&[("Host", host), ("Origin", &origin)]), 200);
+    assert_eq!(get(&[("Host", &evil)]), 403);
+    assert_eq!(get(&[("Host", "127.0.0.1")]), 403);
+    assert_eq!(get(&[("Host", host), ("Origin", "http://evil.example")]), 403);
+    assert_eq!(get(&[("Host", host), ("Origin", "null")]), 403);
+    assert_eq!(get(&[("Host", host), ("Sec-Fetch-Site", "cross-site")]), 403);
+    for path in [
+        "/",
+        "/explorer.js",
+        "/api/run",
+        "/api/export/case.toml",
+        "/nothing",
+    ] {
+        let refused = server.send(
+            "POST",
+            path,
+            &[("Host", &evil), ("Content-Type", "application/json")],
+            "{}",
+        );
+        assert_eq!(refused.status, 403, "{path}");
+        assert!(refused.text().contains("Refused"), "{}", refused.text());
+    }
+    // The page, or what to do to get it.
+    let page = server.get("/");
+    match page.status {
+        200 => assert!(page.text().contains("/explorer.js") && server.get("/explorer.js").status == 200),
+        503 => assert!(page.text().contains("cargo xtask viewer") && page.text().contains("Node.js")),
+        other => panic!("{other}"),
+    }
+    assert!(page.head.contains("content-security-policy"));
+}
+
+#[test]
+fn a_second_run_replaces_the_first() {
+    let folder = temporary();
+    let server = Server::start(folder.path(), &[]);
+    let host = server.host.clone();
+    let first = thread::spawn(move || post(&host, "/api/run", &endless()));
+    thread::sleep(Duration::from_millis(700));
+    assert!(!first.is_finished());
+    let begun = Instant::now();
+    assert_eq!(server.post("/api/run", &json!({ "set": {} })).status, 200);
+    let first = first.join().unwrap();
+    assert_eq!((first.status, &first.json()["replaced"]), (409, &json!(true)));
+    assert!(begun.elapsed() < Duration::from_secs(20));
+}
+
+#[cfg(unix)]
+#[test]
+fn it_stops_cleanly_even_while_it_runs() {
+    let folder = temporary();
+    for signal in ["-TERM", "-INT"] {
+        let mut server = Server::start(folder.path(), &[]);
+        let host = server.host.clone();
+        let running = thread::spawn(move || post(&host, "/api/run", &endless()));
+        // A connection on which nothing is ever said must not hold it.
+        let _idle = TcpStream::connect(&server.host).unwrap();
+        thread::sleep(Duration::from_millis(700));
+        let begun = Instant::now();
+        assert_eq!(server.end(signal), Some(0), "{signal}");
+        assert!(begun.elapsed() < Duration::from_secs(10));
+        assert_eq!(running.join().unwrap().status, 409);
+        assert!(TcpStream::connect(&server.host).is_err());
+    }
+}
+
+#[test]
+fn what_cannot_be_served_is_refused() {
+    let folder = temporary();
+    let output = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
+            .current_dir(folder.path())
+            .arg("explore")
+            .args(arguments)
+            .output()
+            .unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (code, message) = output(&["vdrun_toe_0_psi_1"]);
+    assert_eq!(code, Some(2));
+    assert!(message.contains("did you mean"), "{message}");
+    let server = Server::start(folder.path(), &[]);
+    let (code, message) = output(&["--port", server.host.rsplit(':').next().unwrap()]);
+    assert_eq!(code, Some(1));
+    assert!(
+        message.contains("cannot listen") && message.contains("--port"),
+        "{message}"
+    );
+}

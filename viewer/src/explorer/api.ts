@@ -1,0 +1,145 @@
+// Requests and answers, `wedgelab.explore/1` (docs/explore.md).
+
+import type { ViewDocument } from "../contract.js";
+
+export interface Measured {
+  value: number;
+  unit: string;
+  si: number;
+  kind: string;
+  low: number;
+  high: number;
+  logarithmic: boolean;
+  signs: [string, string] | null;
+}
+
+export type Input =
+  | ({ type: "number" } & Measured)
+  | { type: "triple"; numbers: [Measured, Measured, Measured] }
+  | { type: "choice"; choices: string[] }
+  | { type: "several"; choices: string[]; chosen: string[] }
+  | { type: "text" }
+  | { type: "toml" };
+
+export interface Field {
+  path: string;
+  help: string;
+  text: string;
+  input: Input;
+}
+
+export interface Section {
+  name: string;
+  about: string;
+  fields: Field[];
+}
+
+export interface Opening {
+  schema: string;
+  preset: string | null;
+  name: string;
+  presets: { name: string; title: string; look_at: string; cases: { name: string; title: string }[] }[];
+  sections: Section[];
+}
+
+/** A case with changes, each as `--set` takes it. */
+export interface Wanted {
+  preset: string | null;
+  set: Record<string, string>;
+}
+
+export interface Measure {
+  value: number;
+  unit: string;
+}
+
+export interface Summary {
+  name: string;
+  title: string;
+  units: "us" | "si";
+  complete: boolean;
+  stopped: { time: number; reason: string } | null;
+  warnings: string[];
+  averages: { missing: string; energy_per_cycle: Record<string, Measure> };
+}
+
+export interface Answer {
+  schema: string;
+  view: ViewDocument;
+  summary: Summary;
+  sections: Section[];
+  seconds: number;
+}
+
+export interface Mistake {
+  path: string;
+  message: string;
+  help: string;
+}
+
+export type Outcome =
+  | { is: "answer"; answer: Answer }
+  | { is: "mistakes"; mistakes: Mistake[] }
+  | { is: "replaced" }
+  | { is: "failed"; why: string };
+
+async function post(path: string, wanted: Wanted): Promise<Response> {
+  return fetch(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(wanted) });
+}
+
+const GONE = "The server does not answer: `wedgelab explore` has been stopped. Start it again and open the address it prints.";
+
+async function refused(response: Response): Promise<Outcome> {
+  if (response.status === 409) {
+    return { is: "replaced" };
+  }
+  const text = await response.text();
+  if (response.status === 422) {
+    try {
+      const { errors } = JSON.parse(text) as { errors?: Mistake[] };
+      if (errors) {
+        return { is: "mistakes", mistakes: errors };
+      }
+    } catch {
+      // Told as it is.
+    }
+  }
+  return { is: "failed", why: text };
+}
+
+export async function opening(): Promise<Opening> {
+  const response = await fetch("/api/case");
+  if (!response.ok) {
+    throw new Error(await response.text());
+  }
+  return (await response.json()) as Opening;
+}
+
+export async function run(wanted: Wanted): Promise<Outcome> {
+  try {
+    const response = await post("/api/run", wanted);
+    return response.ok ? { is: "answer", answer: (await response.json()) as Answer } : await refused(response);
+  } catch {
+    return { is: "failed", why: GONE };
+  }
+}
+
+/** Keeps a file of what is wanted; says why if it cannot. */
+export async function keep(wanted: Wanted, file: string): Promise<Outcome | undefined> {
+  try {
+    const response = await post(`/api/export/${file}`, wanted);
+    if (!response.ok) {
+      return await refused(response);
+    }
+    const name = /filename="([^"]*)"/.exec(response.headers.get("content-disposition") ?? "")?.[1] ?? file;
+    const address = URL.createObjectURL(await response.blob());
+    const link = document.createElement("a");
+    link.href = address;
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(address), 10_000);
+    return undefined;
+  } catch {
+    return { is: "failed", why: GONE };
+  }
+}

@@ -1,0 +1,174 @@
+// The latest loops over the earlier ones, and their energies.
+
+import type { Chart, Quantity, System } from "../contract.js";
+import { SCHEMA } from "../contract.js";
+import { Data, type RunData } from "../data.js";
+import { element } from "../dom.js";
+import { FigurePlots } from "../plots/figure.js";
+import type { Store } from "../store.js";
+import { type Units } from "../units.js";
+import type { Summary } from "./api.js";
+
+/** How many loops are shown. */
+export const MOST = 8;
+
+export interface Loop {
+  number: number;
+  /** What was changed. */
+  label: string;
+  travel: Float32Array;
+  force: Float32Array;
+  /** J a cycle at the side frame; missing where there are no cycles. */
+  energy: number | undefined;
+  seconds: number;
+  /** Whether a slider was still being moved. */
+  live: boolean;
+}
+
+/** The loops' numbers as a figure has them. */
+class Lists extends Data {
+  constructor(
+    quantities: Record<string, Quantity>,
+    units: System,
+    private readonly lists: Float32Array[],
+  ) {
+    super({ schema: SCHEMA, units, quantities, data: [], figures: {}, runs: [] });
+  }
+
+  override list(place: number): Float32Array {
+    return this.lists[place] ?? new Float32Array();
+  }
+}
+
+/** Blue for the latest, fading to a light grey. */
+export function colour(age: number): string {
+  const share = Math.min(1, age / (MOST - 1));
+  const mix = (from: number, to: number): string => Math.round(from + (to - from) * share).toString(16).padStart(2, "0");
+  return age === 0 ? "#0072b2" : `#${mix(0x8a, 0xdc)}${mix(0x9b, 0xe0)}${mix(0xa8, 0xe4)}`;
+}
+
+/** An energy of the summary in J. */
+export function joules(summary: Summary, quantities: Record<string, Quantity>): number | undefined {
+  const energy = summary.averages.energy_per_cycle.side_frame;
+  const factor = summary.units === "us" ? (quantities.energy?.us_from_si ?? 1) : 1;
+  return energy && energy.value / factor;
+}
+
+export function loopOf(run: RunData): Pick<Loop, "travel" | "force"> {
+  return { travel: run.values("bolster_vertical"), force: run.values("vertical_wedge_force") };
+}
+
+export class Loops {
+  readonly root = element("section", { class: "wx-loops", "aria-label": "Loops" });
+  private readonly place = element("div");
+  private readonly rows = element("tbody");
+  private readonly head = element("th", { scope: "col" });
+  private readonly loops: Loop[] = [];
+  private plots: FigurePlots | undefined;
+  private count = 0;
+
+  constructor(
+    private readonly quantities: Record<string, Quantity>,
+    private readonly units: Store<Units>,
+  ) {
+    this.root.append(
+      this.place,
+      element(
+        "div",
+        { class: "wx-wide" },
+        element(
+          "table",
+          {},
+          element("caption", {}, "Energy lost in friction at the side frame, the latest run first"),
+          element("thead", {}, element("tr", {}, element("th", { scope: "col" }, "run"), element("th", { scope: "col" }, "changed"), this.head, element("th", { scope: "col" }, "computed in"))),
+          this.rows,
+        ),
+      ),
+    );
+    units.watch(() => this.table());
+  }
+
+  /** Puts a loop over the others; one that came while a slider moved gives way to the next. */
+  add(loop: Omit<Loop, "number">): void {
+    if (this.loops[0]?.live) {
+      this.loops.shift();
+      this.count -= 1;
+    }
+    this.count += 1;
+    this.loops.unshift({ ...loop, number: this.count });
+    this.loops.length = Math.min(this.loops.length, MOST);
+    this.draw();
+  }
+
+  /** The latest loop stays. */
+  settle(): void {
+    if (this.loops[0]) {
+      this.loops[0].live = false;
+    }
+  }
+
+  clear(): void {
+    const [latest] = this.loops;
+    this.loops.length = latest ? 1 : 0;
+    this.draw();
+  }
+
+  private draw(): void {
+    const lists = this.loops.flatMap(({ travel, force }) => [travel, force]);
+    const curves = this.loops.map(({ number }, k) => ({
+      label: `run ${number}`,
+      colour: colour(k),
+      width: k === 0 ? 2 : 1.2,
+      dashes: [],
+      x: 2 * k,
+      y: 2 * k + 1,
+    }));
+    const chart: Chart = {
+      title: "Loops",
+      columns: 1,
+      common_axes: true,
+      panels: [
+        {
+          title: "Vertical wedge force over the bolster's travel",
+          x: { name: "bolster, vertical", quantity: "length" },
+          y: { name: "vertical force on the side frame", quantity: "force" },
+          x_window: null,
+          y_names: [],
+          marks: [],
+          span: 1,
+          // The latest on top.
+          curves: curves.reverse(),
+        },
+      ],
+    };
+    this.plots?.dispose();
+    const data = new Lists(this.quantities, this.units.value.system, lists);
+    this.plots = new FigurePlots(chart, data, this.units, 480);
+    this.place.replaceChildren(this.plots.root);
+    this.plots.refit();
+    this.root.dataset.loops = String(this.loops.length);
+    this.root.dataset.run = String(this.count);
+    this.root.dataset.energy = String(this.loops[0]?.energy ?? "");
+    this.table();
+  }
+
+  private table(): void {
+    const units = this.units.value;
+    this.head.textContent = `energy per cycle (${units.label("energy")})`;
+    this.rows.replaceChildren(
+      ...this.loops.map(({ number, label, energy, seconds }, k) => {
+        const mark = element("i", { class: "wl-stroke" });
+        mark.style.background = colour(k);
+        const shown = energy === undefined ? "–" : (energy * units.factor("energy")).toFixed(1).replace("-", "\u2212");
+        return element(
+          "tr",
+          {},
+          element("th", { scope: "row" }, mark, ` ${number}`),
+          element("td", {}, label),
+          element("td", { class: "wx-energy" }, shown),
+          element("td", { class: "wx-energy" }, `${(1000 * seconds).toFixed(0)} ms`),
+        );
+      }),
+    );
+  }
+}

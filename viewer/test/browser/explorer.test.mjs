@@ -1,0 +1,319 @@
+// The explorer in a real browser. WEDGELAB: the program; WEDGELAB_CHROMIUM: the browser.
+import assert from "node:assert/strict";
+import { spawn, spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { request } from "node:http";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { createInterface } from "node:readline";
+import { after, before, test } from "node:test";
+import { chromium } from "playwright-core";
+
+const program = process.env.WEDGELAB;
+const skip = program ? false : "WEDGELAB names the program";
+
+/** Yawed, toe in: the slowest of the thesis's runs. */
+const CASE = "vdrun_toe_0.2_psi_0.012";
+const JOULES = 0.1129848290276167;
+
+let browser;
+let server;
+let address;
+let folder;
+let ended;
+let faults = [];
+
+before(async () => {
+  if (skip) {
+    return;
+  }
+  folder = mkdtempSync(join(tmpdir(), "wedgelab-explorer-"));
+  server = spawn(program, ["explore", CASE], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+  ended = new Promise((resolve) => server.once("exit", (code, signal) => resolve({ code, signal })));
+  const [line] = await new Promise((resolve) => createInterface(server.stdout).once("line", (text) => resolve([text])));
+  address = /http:\/\/[\d.:]+/.exec(line)[0];
+  browser = await chromium.launch({
+    executablePath: process.env.WEDGELAB_CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+      "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+  });
+});
+
+after(async () => {
+  await browser?.close();
+  server?.kill("SIGKILL");
+  if (folder) {
+    rmSync(folder, { recursive: true, force: true });
+  }
+});
+
+/** A page on which every complaint, and every look elsewhere, is noted. */
+async function open(size = { width: 1280, height: 900 }) {
+  faults = [];
+  const page = await browser.newPage({ viewport: size });
+  page.on("pageerror", (error) => faults.push(String(error)));
+  page.on("console", (message) => {
+    // Refused values are answered with 422, which the browser tells as an error; drivers in software say so.
+    if (["error", "warning"].includes(message.type()) && !/GPU stall due to ReadPixels|status of 422/.test(message.text())) {
+      faults.push(message.text());
+    }
+  });
+  page.on("request", (own) => !/^(data|blob):/.test(own.url()) && !own.url().startsWith(address) && faults.push(own.url()));
+  await page.goto(address);
+  await page.waitForSelector("#explorer[data-explorer=ready]", { timeout: 30_000 });
+  return page;
+}
+
+const state = (page) => page.evaluate(() => ({ ...document.querySelector("#explorer").dataset, ...document.querySelector(".wx-loops").dataset }));
+
+/** Does something, and waits until it has been run. */
+async function after_run(page, act) {
+  const { runs } = await state(page);
+  await act();
+  await page.waitForFunction(
+    (before) => {
+      const { runs: now, running } = document.querySelector("#explorer").dataset;
+      return Number(now) > before && !running;
+    },
+    Number(runs),
+    { timeout: 30_000 },
+  );
+  return state(page);
+}
+
+/** J a cycle at the side frame, by `wedgelab run`. */
+function told(...set) {
+  const out = join(folder, "run");
+  const done = spawnSync(program, ["run", CASE, "--quiet", "--force", "--out", out, ...set.flatMap((own) => ["--set", own])], { encoding: "utf8" });
+  assert.equal(done.status, 0, done.stderr);
+  const { value, unit } = JSON.parse(readFileSync(join(out, "summary.json"), "utf8")).averages.energy_per_cycle.side_frame;
+  assert.equal(unit, "lbf·in");
+  return value * JOULES;
+}
+
+const same = (energy, wanted) => assert.ok(Math.abs(Number(energy) - wanted) <= 1e-12 * wanted, `${energy} is not ${wanted}`);
+
+const field = (page, path) => page.locator(`.wx-field[data-path="${path}"]`);
+
+const type = (page, path, text) => async () => {
+  const input = field(page, path).locator("input[type=text]").first();
+  await input.fill(text);
+  await input.press("Enter");
+};
+
+test("it begins with the case's loop, its plots and its 3D view, without complaints", { skip }, async () => {
+  const page = await open();
+  const now = await state(page);
+  same(now.energy, told());
+  assert.equal(now.loops, "1");
+  await page.locator(".wl-run[data-ready]").waitFor({ timeout: 20_000 });
+  assert.equal(await page.locator(".wl-plot").count(), 3);
+  assert.equal(await page.locator("#preset").inputValue(), CASE);
+  await page.waitForTimeout(500);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("a slider and a typed value give new loops, with the energies of the command line", { skip }, async (t) => {
+  const page = await open();
+  const slider = field(page, "friction.column").locator("input[type=range]");
+  const slid = await after_run(page, () =>
+    slider.evaluate((own) => {
+      own.value = "60";
+      own.dispatchEvent(new Event("input"));
+      own.dispatchEvent(new Event("change"));
+    }),
+  );
+  const text = await field(page, "friction.column").locator("input[type=text]").inputValue();
+  assert.equal(text, "0.3");
+  same(slid.energy, told("friction.column=0.3"));
+  assert.equal(slid.loops, "2");
+  t.diagnostic(`shown after ${slid.milliseconds} ms`);
+  // By key: one step of 200.
+  await slider.focus();
+  const stepped = await after_run(page, () => page.keyboard.press("ArrowRight"));
+  same(stepped.energy, told("friction.column=0.305"));
+  const typed = await after_run(page, type(page, "friction.column", "0.35"));
+  same(typed.energy, told("friction.column=0.35"));
+  assert.equal(await slider.inputValue(), "70");
+  const both = await after_run(page, type(page, "side_frame.toe", "0.1 deg out"));
+  same(both.energy, told("friction.column=0.35", "side_frame.toe=0.1 deg out"));
+  assert.equal(await page.locator(".wx-loops tbody tr").count(), Number(both.loops));
+  const back = await after_run(page, () => field(page, "friction.column").locator(".wx-reset").click());
+  same(back.energy, told("side_frame.toe=0.1 deg out"));
+  assert.equal(await field(page, "friction.column").locator("input[type=text]").inputValue(), "0.4");
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("while a slider moves the loop follows; one loop is left of it, that of its last place", { skip }, async () => {
+  const page = await open();
+  await field(page, "friction.slope").locator("input[type=range]").evaluate(async (own) => {
+    for (let place = 80; place >= 50; place--) {
+      own.value = String(place);
+      own.dispatchEvent(new Event("input"));
+      await new Promise((resolve) => window.setTimeout(resolve, 30));
+    }
+    own.dispatchEvent(new Event("change"));
+  });
+  await page.waitForFunction(() => !document.querySelector("#explorer").dataset.running);
+  const now = await state(page);
+  assert.ok(Number(now.runs) > 2, `${now.runs} runs: it follows`);
+  assert.equal(now.loops, "2");
+  same(now.energy, told("friction.slope=0.25"));
+  // The next change does not take its place.
+  const next = await after_run(page, type(page, "friction.slope", "0.3"));
+  assert.equal(next.loops, "3");
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("no more than eight loops, the latest on top", { skip }, async () => {
+  const page = await open();
+  for (let k = 1; k <= 9; k++) {
+    await after_run(page, type(page, "friction.slope", `0.${30 + k}`));
+  }
+  const now = await state(page);
+  assert.equal(now.loops, "8");
+  assert.match(await page.locator(".wx-loops tbody tr").first().textContent(), /friction\.slope = 0\.39/);
+  same(now.energy, told("friction.slope=0.39"));
+  await page.close();
+});
+
+test("a bad value is explained where it was typed, and put right there", { skip }, async () => {
+  const page = await open();
+  const before = await state(page);
+  const own = field(page, "friction.column");
+  await type(page, "friction.column", "-1")();
+  await own.locator(".wx-mistake").filter({ hasText: "zero or greater" }).waitFor();
+  assert.equal(await own.locator("input[type=text]").getAttribute("aria-invalid"), "true");
+  assert.equal(await page.locator(".wx-mistake:visible").count(), 1);
+  // In a section that is folded.
+  await page.locator(".wx-section > summary", { hasText: "Wedge" }).click();
+  await type(page, "wedge.angle", "32 in")();
+  await field(page, "wedge.angle").locator(".wx-mistake").filter({ hasText: "angle" }).waitFor();
+  assert.equal(await page.locator(".wx-mistake:visible").count(), 2);
+  assert.equal((await state(page)).runs, before.runs, "nothing was run");
+  await type(page, "friction.column", "0.3")();
+  const right = await after_run(page, type(page, "wedge.angle", "33 deg"));
+  same(right.energy, told("friction.column=0.3", "wedge.angle=33 deg"));
+  assert.equal(await page.locator(".wx-mistake:visible").count(), 0);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("units switch, by button and by key; what was typed stays", { skip }, async () => {
+  const page = await open();
+  await page.locator(".wl-run[data-ready]").waitFor({ timeout: 20_000 });
+  const energy = page.locator(".wx-loops tbody tr").first().locator("td").nth(1);
+  const pounds = Number(await energy.textContent());
+  await page.locator(".wl-units").click();
+  assert.equal((await state(page)).units, "si");
+  assert.match(await page.locator(".wx-loops thead").textContent(), /\(J\)/);
+  assert.ok(Math.abs(Number(await energy.textContent()) - pounds * JOULES) < 0.06);
+  assert.match(await page.locator(".wl-key").textContent(), / N/);
+  await page.locator(".wx-section > summary", { hasText: "Control coil" }).click();
+  const own = field(page, "control_coil.stiffness");
+  assert.equal(await own.locator("input[type=text]").inputValue(), "3000 lbf/in");
+  assert.match(await own.locator(".wx-also").textContent(), /525381 N\/m/);
+  await page.keyboard.press("Alt+u");
+  assert.equal((await state(page)).units, "us");
+  assert.equal(await own.locator(".wx-also").textContent(), "");
+  await page.close();
+});
+
+test("every control has a name and can be reached by keys", { skip }, async () => {
+  const page = await open();
+  await page.locator(".wx-section").evaluateAll((folds) => folds.forEach((fold) => (fold.open = true)));
+  const nameless = await page.locator(".wx-controls :is(input, select, textarea, button)").evaluateAll((all) =>
+    all
+      .filter((own) => !own.labels?.length && !own.getAttribute("aria-label") && !own.textContent.trim())
+      .map((own) => own.outerHTML),
+  );
+  assert.deepEqual(nameless, []);
+  await page.locator("#preset").focus();
+  const seen = new Set();
+  for (let k = 0; k < 40; k++) {
+    await page.keyboard.press("Tab");
+    seen.add(await page.evaluate(() => document.activeElement.closest(".wx-field")?.dataset.path ?? ""));
+  }
+  assert.ok(seen.has("name") && seen.has("wedge.angle") && seen.has("wedge.inertia"), [...seen].join(" "));
+  await page.close();
+});
+
+test("a preset brings its values; files are kept", { skip }, async () => {
+  const page = await open();
+  await after_run(page, type(page, "friction.column", "0.2"));
+  const [kept] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "case.toml" }).click()]);
+  assert.equal(kept.suggestedFilename(), `${CASE}_case.toml`);
+  assert.match(readFileSync(await kept.path(), "utf8"), /^column = 0\.2 /m);
+  const [table] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "result.csv" }).click()]);
+  assert.match(readFileSync(await table.path(), "utf8"), /^time_s,/);
+  await after_run(page, () => page.locator("#preset").selectOption("cdrun_toe_0_psi_0"));
+  assert.equal(await field(page, "friction.column").locator("input[type=text]").inputValue(), "0.4");
+  assert.equal(await field(page, "wedge.damping").locator("select").inputValue(), "constant");
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("at a phone's width nothing sticks out", { skip }, async () => {
+  const page = await open({ width: 390, height: 800 });
+  await page.locator(".wx-section").evaluateAll((folds) => folds.forEach((fold) => (fold.open = true)));
+  await page.locator(".wl-run[data-ready]").waitFor({ timeout: 20_000 });
+  const width = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(width <= 390, `${width} px`);
+  await page.close();
+});
+
+/** The status of a request with headers of one's own. */
+function status(headers, path = "/api/case") {
+  const { hostname, port } = new URL(address);
+  return new Promise((resolve, reject) => {
+    const asked = request({ hostname, port, path, headers, setHost: false }, (answer) => {
+      answer.resume();
+      resolve(answer.statusCode);
+    });
+    asked.once("error", reject);
+    asked.end();
+  });
+}
+
+test("foreign pages and foreign names are refused", { skip }, async () => {
+  const { host } = new URL(address);
+  assert.equal(await status({ Host: host }), 200);
+  assert.equal(await status({ Host: host, Origin: "http://evil.example" }), 403);
+  assert.equal(await status({ Host: `evil.example:${host.split(":")[1]}` }), 403);
+  // A page elsewhere cannot read it, nor run anything.
+  const page = await browser.newPage();
+  await page.goto("about:blank");
+  const read = await page.evaluate(
+    (from) => window.fetch(`${from}/api/run`, { method: "POST", mode: "no-cors", body: "{}" }).then((answer) => answer.type, () => "refused"),
+    address,
+  );
+  assert.ok(["opaque", "refused"].includes(read), read);
+  await page.close();
+});
+
+test("how long a change of a yawed case takes to be seen", { skip }, async (t) => {
+  const page = await open();
+  await page.locator(".wl-run[data-ready]").waitFor({ timeout: 20_000 });
+  const times = [];
+  for (let k = 0; k < 7; k++) {
+    times.push(Number((await after_run(page, type(page, "friction.column", `0.4${k + 1}`))).milliseconds));
+    await page.waitForTimeout(1500);
+  }
+  times.sort((a, b) => a - b);
+  t.diagnostic(`from the change to the new loop: ${times.join(", ")} ms`);
+  // The target is 300 on an idle machine (docs/benchmarks.md); others may be busy.
+  assert.ok(times[3] <= 600, `${times[3]} ms`);
+  await page.close();
+});
+
+test("it stops cleanly", { skip }, async () => {
+  const page = await open();
+  server.kill("SIGINT");
+  assert.deepEqual(await ended, { code: 0, signal: null });
+  await type(page, "friction.column", "0.3")();
+  await page.locator(".wx-faults").filter({ hasText: "does not answer" }).waitFor();
+  await page.close();
+});
