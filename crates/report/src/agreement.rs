@@ -11,8 +11,8 @@
 //!   for the stand-alone model, the stroke (bolster against side frame) for the types; mean over the whole cycles after
 //!   the first half period, by the trapezoidal rule on the rows.
 //!
-//! Defect: the types' energies and loops are taken from the rows, 0.01 s apart; in the first cycle with variable damping the types
-//! rattle faster than that, and the mean over both cycles comes out some 2 % below the ledger's.
+//! Defect: loops are taken from the rows, 0.01 s apart; in the first cycle with variable damping the types rattle faster than
+//! that, and their loop area, a mean over both cycles, comes out some 2 % below the energy, which is integrated along the steps.
 //!
 //! Units: SI, unless a text says otherwise.
 

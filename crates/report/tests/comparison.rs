@@ -263,11 +263,15 @@ fn numbers_are_found_again_from_the_columns() {
             let tolerance = if damping == Damping::Constant { 2e-3 } else { 0.03 };
             close(found.area, 0.5 * lost, tolerance);
             // The ledger's loss at the four columns, alike without yaw, is exact in time.
-            // Two cycles from the first row after the half period.
+            // Two cycles from the half period on, between rows straight.
             let loss = column("wedge_column_loss");
-            let rows = [(50.0 * PI).ceil() as usize, (250.0 * PI).floor() as usize];
-            let ledger = (loss[rows[1]] - loss[rows[0]]) / 8.0;
-            close(found.energy, ledger, tolerance);
+            let at = |time: f64| {
+                let row = (100.0 * time).floor();
+                let (row, share) = (row as usize, 100.0 * time - row);
+                loss[row] + share * (loss[row + 1] - loss[row])
+            };
+            let ledger = (at(2.5 * PI) - at(0.5 * PI)) / 8.0;
+            close(found.energy, ledger, 2e-3);
         }
     }
 }
@@ -309,12 +313,18 @@ fn loops_of_the_elements_alone_are_the_known_ones() {
         1e-3,
     );
     // In the half-truck: deeper with variable damping, shorter with constant damping, and that is most of the difference.
-    for (group, low, high) in [(variable, 1.09, 1.12), (constant, 0.96, 0.975)] {
+    // The rest is the ringing of the input springs after the start, which crosses the loop again and again with variable
+    // damping, and with constant damping the accumulators, which narrow the loop.
+    let groups = [
+        (variable, 1.09..1.12, 1.02..1.06),
+        (constant, 0.96..0.975, 0.99..1.0),
+    ];
+    for (group, of_stroke, of_rest) in groups {
         for wedges in [WedgeType::Plain, WedgeType::Spatial] {
             let share = per_cent(group, wedges, |stroke| stroke.shortened / stroke.alone);
-            assert!((low..high).contains(&share), "{share}");
+            assert!(of_stroke.contains(&share), "{share}");
             let rest = per_cent(group, wedges, |stroke| stroke.found / stroke.shortened);
-            assert!((0.98..1.03).contains(&rest), "{rest}");
+            assert!(of_rest.contains(&rest), "{rest}");
         }
     }
 }

@@ -20,7 +20,8 @@ pub(super) fn of(group: &Group, units: Units) -> Vec<String> {
         remarks.push(
             "In the first cycle the types rattle from branch to branch between 1.6 and 2.4 s: the input starts with its full speed, \
              which sets the undamped input springs ringing at about 15 Hz, and the friction of that cycle quiets them. The thesis's \
-             rows, 0.1 s apart, hide such ringing; ours, 0.01 s apart, see all but some 2 % of the energy that it takes."
+             rows, 0.1 s apart, hide such ringing; loop areas here, from rows 0.01 s apart, miss some 2 % of the energy that it takes, \
+             which the energies hold."
                 .to_owned(),
         );
         remarks.push(

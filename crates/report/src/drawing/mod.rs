@@ -1,6 +1,6 @@
 //! The drawing layer: what figures are made of, and how they become SVG and PNG.
 //!
-//! Figures are described without reference to a drawing library: panels, axes, curves. Only [`paint`] knows the
+//! Figures are described without reference to a drawing library: panels, axes, curves. Only `paint` knows the
 //! library that draws them, so that it can be changed, and other formats added, in one place.
 
 mod paint;
