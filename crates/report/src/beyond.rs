@@ -14,6 +14,7 @@ use wedge::parameters::{Damping, Parameters};
 
 use crate::csv::converted;
 use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::figures::axis;
 
 /// A run of a group: its case, and what came out.
 pub type Ran = (Case, RunResult);
@@ -193,7 +194,7 @@ fn sweep(runs: &[Ran], units: Units) -> Vec<Panel> {
                 panels.push(Panel {
                     x_label: "frequency (Hz)".to_owned(),
                     ..panel(
-                        &format!("{} damping", damping_name(damping)),
+                        &format!("{} damping", damping.name()),
                         ("", Kind::Dimensionless),
                         (title, kind),
                         units,
@@ -220,7 +221,7 @@ fn histories(runs: &[Ran], units: Units, columns: [(&str, &str); 2]) -> Vec<Pane
                 .iter()
                 .zip(values)
                 .map(|(time, value)| (*time, converted(*value, column.kind, units)));
-            let damping = damping_name(case.parameters.damping);
+            let damping = case.parameters.damping.name();
             curves.push(curve(&format!("{damping} damping"), style, points));
         }
         Some(panel(label, ("time", Kind::Time), (label, kind?), units, curves))
@@ -266,7 +267,7 @@ fn wear(runs: &[Ran], units: Units) -> Vec<Panel> {
             .and_then(|run| height(run));
         let length = |value: f64| converted(value, Kind::Length, units);
         let depth = |run: &Ran| length(run.0.parameters.wear.column);
-        let name = format!("{} damping", damping_name(damping));
+        let name = format!("{} damping", damping.name());
         let closed = format!("{name}, closed form");
         let reference = (style.0, Line::Dotted);
         if let Some(unworn) = unworn {
@@ -342,7 +343,7 @@ fn branches(parameters: &Parameters, units: Units) -> Vec<Curve> {
 
 fn force_panel(damping: Damping, units: Units, curves: Vec<Curve>) -> Panel {
     panel(
-        &format!("{} damping", damping_name(damping)),
+        &format!("{} damping", damping.name()),
         ("bolster's vertical displacement", Kind::Length),
         ("vertical wedge force", Kind::Force),
         units,
@@ -369,13 +370,6 @@ fn amplitude_name(amplitude: f64, units: Units) -> String {
     format!("{value} {}", Kind::Length.label(units))
 }
 
-fn damping_name(damping: Damping) -> &'static str {
-    match damping {
-        Damping::Variable => "variable",
-        Damping::Constant => "constant",
-    }
-}
-
 // Everything that the drawing layer is told passes through these three.
 
 fn curve(label: &str, (colour, line): (Colour, Line), points: impl IntoIterator<Item = (f64, f64)>) -> Curve {
@@ -396,8 +390,8 @@ fn panel(
 ) -> Panel {
     Panel {
         title: title.to_owned(),
-        x_label: format!("{x} ({})", x_kind.label(units)),
-        y_label: format!("{y} ({})", y_kind.label(units)),
+        x_label: axis(x, x_kind, units),
+        y_label: axis(y, y_kind, units),
         curves,
         ..Panel::default()
     }

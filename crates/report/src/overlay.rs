@@ -3,6 +3,7 @@
 use quantity::System as Units;
 
 use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::figures;
 use crate::table::Column;
 
 /// Axes with curves, each a name with its points.
@@ -14,11 +15,7 @@ pub(crate) struct Axes {
 
 /// The name of a column with its unit, as an axis shows it: `wedge x (in)`.
 pub(crate) fn axis(column: &Column, units: Units) -> String {
-    let name = words(&column.name);
-    match column.kind.label(units) {
-        "" => name,
-        unit => format!("{name} ({unit})"),
-    }
+    figures::axis(&words(&column.name), column.kind, units)
 }
 
 /// A column's name in words.

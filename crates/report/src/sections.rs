@@ -5,7 +5,7 @@ use wedge::parameters::Damping;
 
 use crate::agreement::TruckOutcome;
 use crate::beyond;
-use crate::figures::{self, Exhibit, Outcome, damping_name};
+use crate::figures::{self, Exhibit, Outcome};
 use crate::page::{Drawn, Section};
 
 /// Figures that belong together, not yet drawn.
@@ -38,7 +38,7 @@ pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
     }];
     for chapter in figures::thesis::chapters(outcomes) {
         let (damping, yawed) = (chapter.damping, chapter.yawed);
-        let name = damping_name(damping);
+        let name = damping.name();
         let with = if yawed {
             "with yaw of the bolster"
         } else {

@@ -24,6 +24,17 @@ pub struct Cycle {
 }
 
 impl Cycle {
+    /// The cycle of a sine about zero; amplitude in m, angular frequency in rad/s.
+    #[must_use]
+    pub fn sine(amplitude: f64, angular_frequency: f64) -> Self {
+        Self {
+            amplitude: amplitude.abs(),
+            angular_frequency: angular_frequency.abs(),
+            peak_speed: (amplitude * angular_frequency).abs(),
+            middle: 0.0,
+        }
+    }
+
     /// The cycle of the bolster's vertical motion, if it is one sine or triangle (plus constants).
     #[must_use]
     pub fn of(parameters: &Parameters) -> Option<Self> {
@@ -33,12 +44,7 @@ impl Cycle {
                     amplitude,
                     angular_frequency,
                     ..
-                } => Some(Cycle {
-                    amplitude: amplitude.abs(),
-                    angular_frequency: angular_frequency.abs(),
-                    peak_speed: (amplitude * angular_frequency).abs(),
-                    middle: 0.0,
-                }),
+                } => Some(Cycle::sine(*amplitude, *angular_frequency)),
                 Motion::Triangle {
                     amplitude,
                     angular_frequency,

@@ -22,6 +22,17 @@ pub enum Damping {
     Constant,
 }
 
+impl Damping {
+    /// Its name, as in case files and names of files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Variable => "variable",
+            Self::Constant => "constant",
+        }
+    }
+}
+
 /// The wedge body: a right triangular prism with mass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WedgeBody {

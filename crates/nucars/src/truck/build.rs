@@ -351,30 +351,59 @@ impl Laws<'_> {
         }))
     }
 
+    /// A wedge whose toe is only a direction. Without a function for its coil the coil's force is constant: it stands in
+    /// the bolster.
+    fn plain_wedge(
+        &self,
+        coil: u32,
+        angle: f64,
+        force: f64,
+        toe: Toe,
+        [slope_friction, column_friction]: [f64; 2],
+        accumulator: Accumulator,
+        normal_limit: f64,
+    ) -> Result<Wedge, BuildError> {
+        Ok(Wedge {
+            angle: angle * DEGREE,
+            coil: self.coil(coil)?,
+            preload: force * POUND,
+            coil_in_bolster: coil == 0,
+            column: Column::Plain {
+                toe_out: toe == Toe::Out,
+            },
+            slope_friction,
+            column_friction,
+            accumulator,
+            normal_limit,
+        })
+    }
+
+    /// The force of a coil over its stroke; zero without a function.
+    fn coil(&self, number: u32) -> Result<Curve, BuildError> {
+        let curve = self.curve(number, (INCH, POUND))?;
+        Ok(curve.unwrap_or_else(|| Curve::constant(0.0)))
+    }
+
     fn wedge(&self, number: u32) -> Result<Wedge, BuildError> {
-        let both = (INCH, POUND);
-        let coil = |number: u32| Ok(self.curve(number, both)?.unwrap_or_else(|| Curve::constant(0.0)));
-        Ok(match self.characteristic(number)? {
+        match self.characteristic(number)? {
             tree::Law::ViscousWedge {
-                coil: function,
+                coil,
                 angle,
                 force,
                 viscosity,
                 friction,
                 ..
-            } => Wedge {
-                angle: **angle * DEGREE,
-                coil: coil(**function)?,
-                preload: **force * POUND,
-                coil_in_bolster: **function == 0,
-                column: Column::Plain { toe_out: true },
-                slope_friction: **friction,
-                column_friction: **friction,
-                accumulator: viscous(**viscosity),
-                normal_limit: f64::INFINITY,
-            },
+            } => self.plain_wedge(
+                **coil,
+                **angle,
+                **force,
+                Toe::Out,
+                [**friction; 2],
+                viscous(**viscosity),
+                f64::INFINITY,
+            ),
             tree::Law::ViscousToeWedge {
-                coil: function,
+                coil,
                 angle,
                 force,
                 viscosity,
@@ -382,21 +411,17 @@ impl Laws<'_> {
                 column_friction,
                 toe,
                 ..
-            } => Wedge {
-                angle: **angle * DEGREE,
-                coil: coil(**function)?,
-                preload: **force * POUND,
-                coil_in_bolster: **function == 0,
-                column: Column::Plain {
-                    toe_out: **toe == Toe::Out,
-                },
-                slope_friction: **slope_friction,
-                column_friction: **column_friction,
-                accumulator: viscous(**viscosity),
-                normal_limit: f64::INFINITY,
-            },
+            } => self.plain_wedge(
+                **coil,
+                **angle,
+                **force,
+                **toe,
+                [**slope_friction, **column_friction],
+                viscous(**viscosity),
+                f64::INFINITY,
+            ),
             tree::Law::StickSlipWedge {
-                coil: function,
+                coil,
                 angle,
                 force,
                 stiffness,
@@ -406,21 +431,17 @@ impl Laws<'_> {
                 toe,
                 normal_limit,
                 ..
-            } => Wedge {
-                angle: **angle * DEGREE,
-                coil: coil(**function)?,
-                preload: **force * POUND,
-                coil_in_bolster: **function == 0,
-                column: Column::Plain {
-                    toe_out: **toe == Toe::Out,
-                },
-                slope_friction: **slope_friction,
-                column_friction: **column_friction,
-                accumulator: bristle(**stiffness, **bristle_damping),
-                normal_limit: **normal_limit * POUND,
-            },
+            } => self.plain_wedge(
+                **coil,
+                **angle,
+                **force,
+                **toe,
+                [**slope_friction, **column_friction],
+                bristle(**stiffness, **bristle_damping),
+                **normal_limit * POUND,
+            ),
             tree::Law::StickSlipWedge3d {
-                coil: function,
+                coil,
                 face,
                 angle,
                 variable,
@@ -430,9 +451,9 @@ impl Laws<'_> {
                 column_friction,
                 direction,
                 normal_limit,
-            } => Wedge {
+            } => Ok(Wedge {
                 angle: **angle * DEGREE,
-                coil: coil(**function)?,
+                coil: self.coil(**coil)?,
                 preload: 0.0,
                 coil_in_bolster: !**variable,
                 column: Column::Profile {
@@ -443,9 +464,9 @@ impl Laws<'_> {
                 column_friction: **column_friction,
                 accumulator: bristle(**stiffness, **bristle_damping),
                 normal_limit: **normal_limit * POUND,
-            },
-            _ => return Err(self.wrong(number)),
-        })
+            }),
+            _ => Err(self.wrong(number)),
+        }
     }
 
     /// The depth of a column face over the vertical stroke, both lengths. A face is never mirrored.

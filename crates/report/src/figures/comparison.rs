@@ -14,7 +14,7 @@ use study::truck::catalog::WedgeType;
 use wedge::parameters::Damping;
 
 use super::thesis::{Windows, cut_text, windows};
-use super::{Exhibit, Outcome, axis, capital, curve, damping_name};
+use super::{Exhibit, Outcome, axis, capital, curve};
 use crate::agreement::{Set, TruckOutcome, equation_5_1, sets, truck_column};
 use crate::csv::converted;
 use crate::drawing::{Colour, Curve, Figure, Line, Panel};
@@ -141,14 +141,14 @@ impl<'o> Sheet<'o> {
 
     fn name(&self, what: &str) -> String {
         let yaw = if self.set.yawed { "_yawed" } else { "" };
-        format!("{}{yaw}_compared_{what}", damping_name(self.set.damping))
+        format!("{}{yaw}_compared_{what}", self.set.damping.name())
     }
 
     fn title(&self, what: &str) -> String {
         let yaw = if self.set.yawed { "yawed" } else { "not yawed" };
         format!(
             "{} damping, toe out, {yaw}: {what}",
-            capital(damping_name(self.set.damping))
+            capital(self.set.damping.name())
         )
     }
 

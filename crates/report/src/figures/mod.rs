@@ -14,7 +14,6 @@ use mechanics::motion::Motion;
 use quantity::{Kind, System as Units};
 use study::case::Case;
 use study::result::RunResult;
-use wedge::parameters::Damping;
 
 use crate::csv::converted;
 use crate::drawing::{Colour, Curve, Figure, Line};
@@ -31,15 +30,6 @@ pub struct Exhibit {
     pub thesis: String,
     /// The figure.
     pub figure: Figure,
-}
-
-/// A damping's name, as in file names.
-#[must_use]
-pub fn damping_name(damping: Damping) -> &'static str {
-    match damping {
-        Damping::Variable => "variable",
-        Damping::Constant => "constant",
-    }
 }
 
 /// The bolster's constant yaw, rad; 0 if it moves.

@@ -5,7 +5,7 @@ use mechanics::friction::{FrictionLaw, bristle, tanh};
 use quantity::{Kind, System as Units};
 use wedge::parameters::Damping;
 
-use super::{Exhibit, Outcome, axis, curve, damping_name, digits, toe_style, yaw};
+use super::{Exhibit, Outcome, axis, curve, digits, toe_style, yaw};
 use crate::csv::converted;
 use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
 
@@ -181,7 +181,7 @@ fn coil(outcomes: &[Outcome], damping: Damping) -> Option<Exhibit> {
         over_length.push(curve(result, "coil_length", "coil_force", (&label, colour, line)));
         over_time.push(curve(result, "time", "coil_force", (&label, colour, line)));
     }
-    let name = damping_name(damping);
+    let name = damping.name();
     let (thesis, seat) = match damping {
         Damping::Variable => (
             "figure 2-3",

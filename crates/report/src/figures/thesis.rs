@@ -4,7 +4,7 @@ use quantity::{Kind, System as Units};
 use study::metrics::Cycle;
 use wedge::parameters::Damping;
 
-use super::{Exhibit, Outcome, axis, capital, curve, damping_name, digits, points, toe_style, yaw};
+use super::{Exhibit, Outcome, axis, capital, curve, digits, points, toe_style, yaw};
 use crate::drawing::{Colour, Curve, Figure, Line, Mark, Panel};
 use crate::thin::window;
 
@@ -252,7 +252,7 @@ impl Group<'_> {
 
     fn name(&self, what: &str) -> String {
         let yaw = if self.yaw == 0.0 { "" } else { "_yawed" };
-        format!("{}{yaw}_{what}", damping_name(self.damping))
+        format!("{}{yaw}_{what}", self.damping.name())
     }
 
     fn title(&self, what: &str) -> String {
@@ -261,7 +261,7 @@ impl Group<'_> {
         } else {
             format!("bolster yawed by {} rad", self.yaw)
         };
-        format!("{} damping, {yaw}: {what}", capital(damping_name(self.damping)))
+        format!("{} damping, {yaw}: {what}", capital(self.damping.name()))
     }
 
     fn curves(&self, x: &str, y: &str) -> Vec<Curve> {

@@ -5,7 +5,7 @@ use quantity::{Kind, System as Units};
 use study::summary::Measure;
 
 use crate::agreement::{COMPONENT, Group, TruckOutcome, mean_yaw, percent};
-use crate::figures::{capital, damping_name, digits};
+use crate::figures::{capital, digits};
 
 /// The comparison with the comparison program's wedges.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +52,7 @@ fn agreement(group: &Group, units: Units) -> Markup {
         "loop area",
     ];
     html! {
-        h3 { (capital(damping_name(group.damping))) " damping, " (yaw) }
+        h3 { (capital(group.damping.name())) " damping, " (yaw) }
         div.wide {
             table {
                 thead {

@@ -49,7 +49,7 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
                             @let summary = &result.summary;
                             tr {
                                 th scope="row" { a href={ "#run-" (super::anchor(&case.name)) } { (case.name) } }
-                                td { (crate::figures::damping_name(case.parameters.damping)) }
+                                td { (case.parameters.damping.name()) }
                                 td.plain { (toe_style(case.parameters.toe).0) }
                                 td.number { (yaw(case)) }
                                 td.number { (cell(up(summary))) }

@@ -116,7 +116,7 @@ impl Entry {
         format!(
             "nucars_{}_{}_toe_{}{yaw}",
             self.wedges.code().replace('.', ""),
-            damping_name(self.damping),
+            self.damping.name(),
             self.toe.name()
         )
     }
@@ -137,7 +137,7 @@ impl Entry {
         format!(
             "half-truck with wedges of type {}, {} damping, {toe}, {yaw}",
             self.wedges.code(),
-            damping_name(self.damping)
+            self.damping.name()
         )
     }
 
@@ -223,13 +223,6 @@ pub const OUTPUT_INTERVAL: f64 = 0.1;
 #[must_use]
 pub fn entry(name: &str) -> Option<Entry> {
     entries().into_iter().find(|entry| entry.name() == name)
-}
-
-fn damping_name(damping: Damping) -> &'static str {
-    match damping {
-        Damping::Variable => "variable",
-        Damping::Constant => "constant",
-    }
 }
 
 /// Trees that are read from built-in files.

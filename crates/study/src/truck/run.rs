@@ -119,12 +119,7 @@ fn cycle(case: &TruckCase) -> Option<Cycle> {
             amplitude,
             angular_frequency,
             ..
-        } => Some(Cycle {
-            amplitude: amplitude.abs(),
-            angular_frequency: angular_frequency.abs(),
-            peak_speed: (amplitude * angular_frequency).abs(),
-            middle: 0.0,
-        }),
+        } => Some(Cycle::sine(*amplitude, *angular_frequency)),
         _ => None,
     }
 }
