@@ -5,6 +5,8 @@
 mod bench;
 mod shell;
 mod test;
+#[allow(dead_code)] // until the first check uses it
+mod venv;
 mod viewer;
 
 use std::env;
