@@ -7,6 +7,7 @@ pub mod assumptions;
 pub mod case;
 pub mod closed_form;
 pub mod cycles;
+pub mod driven;
 pub mod metrics;
 pub mod result;
 pub mod run;
