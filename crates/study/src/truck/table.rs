@@ -89,8 +89,8 @@ impl Table {
         self.columns.push(Column {
             name: name.into(),
             kind,
-            frame: "x forward, y left, z up",
-            reference: "",
+            frame: "x forward, y left, z up".into(),
+            reference: "".into(),
             text: text.into(),
         });
         self.values.push(Box::new(value));
