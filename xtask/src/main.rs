@@ -8,6 +8,7 @@ mod test;
 #[allow(dead_code)] // until the first check uses it
 mod venv;
 mod viewer;
+mod wheel;
 
 use std::env;
 use std::process::ExitCode;
@@ -36,6 +37,11 @@ const COMMANDS: &[Command] = &[
         name: "viewer",
         about: "bundle the interactive part of the report's page (needs Node.js)",
         run: viewer::run,
+    },
+    Command {
+        name: "wheel",
+        about: "build a wheel of the Python package (needs Python 3.10)",
+        run: wheel::run,
     },
 ];
 

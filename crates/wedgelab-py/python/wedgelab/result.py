@@ -197,6 +197,11 @@ class _Base:
         return (column[0] for column in self._described())
 
     def __len__(self) -> int:
+        """Number of columns."""
+        return len(self._described())
+
+    @property
+    def rows(self) -> int:
         """Number of rows."""
         return self._native.rows
 
@@ -370,7 +375,7 @@ class Result(_Base):
 
     def __repr__(self) -> str:
         how = "" if self.is_complete else ", incomplete"
-        return f"<Result of {self.summary.name}: {len(self)} rows, {len(self._described())} columns{how}>"
+        return f"<Result of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         header, values = self._native.parts()
@@ -405,7 +410,7 @@ class TruckResult(_Base):
 
     def __repr__(self) -> str:
         how = "" if self.is_complete else ", incomplete"
-        return f"<TruckResult of {self.summary.name}: {len(self)} rows, {len(self._described())} columns{how}>"
+        return f"<TruckResult of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_truck_of_parts, self._native.parts())
