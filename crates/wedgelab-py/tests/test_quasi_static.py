@@ -25,12 +25,17 @@ def test_analytic_equation_5_1() -> None:
         for i in range(5):
             for j in range(3):
                 t, p, s = angle[i, 0], toe[j], b[j]
-                column = np.array([np.cos(p), -np.sin(p)]) + a * mu_c * np.array([-np.sin(p), -np.cos(p)]) * -1.0
+                column = np.array([np.cos(p), -np.sin(p)]) + a * mu_c * np.array([np.sin(p), np.cos(p)])
                 slope = np.array([-np.cos(t), -np.sin(t)]) + s * mu_s * np.array([-np.sin(t), np.cos(t)])
                 normal = np.linalg.solve(np.column_stack([column, slope]), np.array([0.0, -force]))
+                if normal.min() < 0.0:
+                    # Faces do not pull: there is no such balance, and the wedge jams.
+                    assert out.jams[i, j] and out.jam_margin[i, j] < 0.0
+                    continue
                 assert out.column_normal[i, j] == pytest.approx(normal[0], rel=1e-9)
                 assert out.slope_normal[i, j] == pytest.approx(normal[1], rel=1e-9)
-        assert np.allclose(out.column_friction, mu_c * out.column_normal, rtol=1e-14)
+        assert out.jams.any() == (direction == "down") and not out.jams.all()
+        assert np.allclose(out.column_friction, mu_c * out.column_normal, rtol=1e-14, equal_nan=True)
         assert np.allclose(out.jam_margin, angle + toe - b * psi_s - a * psi_c, rtol=1e-13)
         assert np.array_equal(out.up_slope, np.broadcast_to(b > 0, (5, 3)))
 

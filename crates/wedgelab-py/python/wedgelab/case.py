@@ -256,7 +256,8 @@ class Case:
         """
         interruptible = threading.current_thread() is threading.main_thread()
         native = self._native.run(_names(columns), progress, interruptible)
-        return checked(Result(native), incomplete)
+        result: Result = checked(Result(native), incomplete)
+        return result
 
     def __eq__(self, other: object) -> bool:
         return self.to_toml() == other.to_toml() if isinstance(other, Case) else NotImplemented
