@@ -56,14 +56,33 @@ def of_step(count: int) -> float:
     return (time.process_time() - start) / count
 
 
-def busy(workers: int, count: int) -> tuple[float, float]:
-    """How busy ``workers`` processors are in ``count`` short runs (processor time over wall time), and the wall time, s."""
+def busy(workers: int, count: int) -> tuple[float, float, float]:
+    """How busy ``workers`` processors are in ``count`` short runs, and the wall time, s.
+
+    Two shares: processor time over wall time, which is right on an idle machine only; and the time in which the workers computed or waited for a
+    processor that others had, which says what we leave idle (Linux only; NaN elsewhere).
+    """
     base = wl.Case("cdrun_toe_-0.2_psi_0.012").replace({"simulation.duration": "1 s"})
     cases = [base.replace({"friction.column": 0.2 + 0.3 * k / count}) for k in range(count)]
+    own = os.listdir("/proc/self/task") if os.path.isdir("/proc/self/task") else []
+    seen: dict[str, tuple[float, float]] = {}
+
+    def look(_done: int, _count: int) -> None:
+        now = time.perf_counter()
+        for task in set(os.listdir("/proc/self/task")) - set(own):
+            try:
+                with open(f"/proc/self/task/{task}/schedstat", encoding="ascii") as file:
+                    ran, waited, _ = map(int, file.read().split())
+            except OSError:
+                continue
+            seen[task] = ((ran + waited) * 1e-9, now)
+
     start, wall = time.process_time(), time.perf_counter()
-    wl.run_many(cases, workers=workers, columns=["time", "vertical_wedge_force"])
-    wall = time.perf_counter() - wall
-    return (time.process_time() - start) / wall / workers, wall
+    wl.run_many(cases, workers=workers, columns=["time", "vertical_wedge_force"], progress=look if own else False)
+    ended = time.perf_counter() - wall
+    share = (time.process_time() - start) / ended / workers
+    ready = [spent / (until - wall) for spent, until in seen.values() if until - wall > 0.5 * ended]
+    return share, sum(ready) / workers if ready else float("nan"), ended
 
 
 def main() -> None:
@@ -85,8 +104,11 @@ def main() -> None:
     print(f"  10 s called from Python over the command line: {min(times['python'][0]) / min(times['command'][0]):.3f}")
     print(f"A step of 1 ms from Python, yawed: {of_step(5000) * 1e6:.1f} us")
     workers = len(os.sched_getaffinity(0))
-    share, wall = busy(workers, 1000)
-    print(f"1000 runs of 1 s on {workers} processors: {wall:.1f} s, each busy {100.0 * share:.0f} %")
+    share, ready, wall = busy(workers, 1000)
+    print(
+        f"1000 runs of 1 s on {workers} processors: {wall:.1f} s, each busy {100.0 * share:.0f} %, "
+        f"busy or kept waiting by others {100.0 * ready:.0f} %"
+    )
 
 
 if __name__ == "__main__":

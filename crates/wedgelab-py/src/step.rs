@@ -78,7 +78,12 @@ impl NativeWedge {
             let from = *wedge.neighbours();
             let side = match side_frame {
                 Some(position) => place(&from.side_frame, position, side_frame_rate, duration),
-                None => place(&from.side_frame, from.side_frame.position, Some([0.0; 6]), duration),
+                None => place(
+                    &from.side_frame,
+                    from.side_frame.position,
+                    Some([0.0; 6]),
+                    duration,
+                ),
             };
             let end = Neighbours {
                 side_frame: side,
@@ -155,12 +160,18 @@ impl NativeWedge {
     /// Coefficients of friction of column and slope, from now on.
     fn set_friction(&mut self, py: Python<'_>, column: f64, slope: f64) -> PyResult<()> {
         let wedge = &mut self.wedge;
-        guarded(py, || wedge.set_friction([column, slope]).map_err(|error| refused(py, &error)))
+        guarded(py, || {
+            wedge
+                .set_friction([column, slope])
+                .map_err(|error| refused(py, &error))
+        })
     }
 
     /// All that is needed to go on with the same bits.
     fn save<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = guarded(py, || self.wedge.state().to_bytes().map_err(|error| refused(py, &error)))?;
+        let bytes = guarded(py, || {
+            self.wedge.state().to_bytes().map_err(|error| refused(py, &error))
+        })?;
         Ok(PyBytes::new(py, &bytes))
     }
 

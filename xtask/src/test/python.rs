@@ -20,7 +20,13 @@ pub fn check(workspace: &Workspace) -> Outcome {
     };
     run(&["-m", "mypy"])?;
     // Stubs against the native part itself; what nobody may make or inherit from needs no more than its methods.
-    run(&["-m", "mypy.stubtest", "wedgelab._wedgelab", "--mypy-config-file", "pyproject.toml"])?;
+    run(&[
+        "-m",
+        "mypy.stubtest",
+        "wedgelab._wedgelab",
+        "--mypy-config-file",
+        "pyproject.toml",
+    ])?;
     run(&["-m", "pytest", "--quiet"])?;
     Ok(shell::output(Command::new(&python).arg("--version")))
 }

@@ -15,6 +15,7 @@ _ColumnUnit = tuple[str, str, float]
 _Six = list[float]
 _Load = tuple[list[float], list[float]]
 
+__all__: list[str]
 __version__: str
 
 @final

@@ -148,7 +148,10 @@ class Figure:
             for handle, label in zip(*ax.get_legend_handles_labels()):
                 entries.setdefault(label, handle)
         if entries:
-            figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=min(len(entries), 4))
+            # About 0.08 in a letter and 0.7 in for the line and the gaps.
+            widest = 0.08 * max(map(len, entries)) + 0.7
+            columns = max(1, min(len(entries), 4, int(figure.get_figwidth() / widest)))
+            figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=columns)
 
 
 def _figure(data: Mapping[str, Any]) -> Figure:
