@@ -44,7 +44,7 @@ export interface Chart {
 }
 
 export interface Column {
-  text: string;
+  text?: string;
   quantity: string;
   data?: number;
   value?: number;

@@ -115,9 +115,13 @@ pub fn moving(others: &[Outcome], trucks: &[TruckOutcome]) -> Vec<Plan> {
         let group = builtin::group_of(&case.name).map_or("", |group| group.title);
         plan(&case.name, &case.title, group)
     });
-    let trucks = trucks
-        .iter()
-        .map(|(entry, _)| plan(&entry.name(), &entry.title(), "Half-truck of the comparison program's files"));
+    let trucks = trucks.iter().map(|(entry, _)| {
+        plan(
+            &entry.name(),
+            &entry.title(),
+            "Half-truck of the comparison program's files",
+        )
+    });
     others.chain(trucks).collect()
 }
 

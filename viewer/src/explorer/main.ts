@@ -92,7 +92,7 @@ class Explorer {
     const units = button("", () => this.switchUnits(), { class: "wl-units" });
     this.units.watch(({ system }) => {
       units.textContent = system === "us" ? "Units: inch-pound" : "Units: SI";
-      units.title = `show ${system === "us" ? "SI" : "inch-pound"} units in plots and 3D view; what was typed stays (Alt+U)`;
+      units.title = `show ${system === "us" ? "SI" : "inch-pound"} units in fields, plots and 3D view; the case stays as it is (Alt+U)`;
       this.root.dataset.units = system;
     });
     document.addEventListener("keydown", (event) => {

@@ -27,12 +27,12 @@ pub enum List {
 pub enum Precision {
     /// To 32-bit floating point, seven digits.
     Exact,
-    /// To half a step of 1/2¹⁶ to 1/2¹⁷ of the largest number: a third of the room.
+    /// To half a step of 1/2¹⁴ to 1/2¹⁵ of the largest number: a quarter of the room.
     Rounded,
 }
 
 /// The largest number is at most this many steps.
-const STEPS: f64 = 131_072.0;
+const STEPS: f64 = 32_768.0;
 
 /// Lists of numbers, each kept once.
 #[derive(Clone, Debug, Default)]
@@ -141,7 +141,7 @@ mod tests {
             .map(|k| 3e4 * libm::sin(0.02 * f64::from(k)) + 7.0 * f64::from(k % 13))
             .collect();
         let (step, bytes) = rounded(&wave);
-        assert!(step <= 3.1e4 / 65536.0, "{step}");
+        assert!(step <= 3.1e4 / 16384.0, "{step}");
         let back = read(step, &bytes);
         assert_eq!(back.len(), wave.len());
         for (back, value) in back.iter().zip(&wave) {

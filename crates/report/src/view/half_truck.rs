@@ -85,7 +85,8 @@ pub fn drawn(truck: &Truck, result: &TruckResult) -> (Vec<Column>, Vec<Vec<f64>>
     for wedge in wedges(truck) {
         let id = wedge.id();
         let of = |what: &str| result.column(&format!("{id}_{what}")).unwrap_or_default();
-        let scaled = |what: &str, factor: f64| of(what).iter().map(|value| factor * value).collect::<Vec<f64>>();
+        let scaled =
+            |what: &str, factor: f64| of(what).iter().map(|value| factor * value).collect::<Vec<f64>>();
         let (sine, cosine) = libm::sincos(wedge.law.angle);
         let state = of("state").iter().zip(of("slope_normal_force"));
         let drawn = [
@@ -129,7 +130,9 @@ pub fn drawn(truck: &Truck, result: &TruckResult) -> (Vec<Column>, Vec<Vec<f64>>
                 "slope_state",
                 Kind::Count,
                 "state shown at the slope: that of the wedge's friction while the slope presses, else open",
-                state.map(|(state, normal)| if *normal > 0.0 { *state } else { 0.0 }).collect(),
+                state
+                    .map(|(state, normal)| if *normal > 0.0 { *state } else { 0.0 })
+                    .collect(),
             ),
         ];
         for (name, kind, text, own) in drawn {
@@ -201,14 +204,23 @@ pub fn scene(truck: &Truck) -> Option<Scene> {
     let seat = bottom - SPRING;
     for bolster in distinct(wedges.iter().map(|wedge| wedge.bolster)) {
         let own: Vec<&Seen<'_>> = wedges.iter().filter(|wedge| wedge.bolster == bolster).collect();
-        scene.solids.push(bolster_solid(truck, &own, (bottom, height, width)));
+        scene
+            .solids
+            .push(bolster_solid(truck, &own, (bottom, height, width)));
     }
     for side_frame in distinct(wedges.iter().map(|wedge| wedge.side_frame)) {
-        let own: Vec<&Seen<'_>> = wedges.iter().filter(|wedge| wedge.side_frame == side_frame).collect();
-        scene.solids.extend(side_frame_solids(truck, side_frame, &own, (seat, height)));
+        let own: Vec<&Seen<'_>> = wedges
+            .iter()
+            .filter(|wedge| wedge.side_frame == side_frame)
+            .collect();
+        scene
+            .solids
+            .extend(side_frame_solids(truck, side_frame, &own, (seat, height)));
     }
     for (place, connection) in model.connections.iter().enumerate() {
-        let Law::Springs(springs) = &connection.law else { continue };
+        let Law::Springs(springs) = &connection.law else {
+            continue;
+        };
         let carried = wedges
             .iter()
             .any(|wedge| (wedge.bolster, wedge.side_frame) == (connection.a, connection.b));
@@ -237,7 +249,13 @@ pub fn scene(truck: &Truck) -> Option<Scene> {
     for wedge in &wedges {
         add_wedge(&mut scene, truck, wedge, (height, width, seat));
     }
-    scene.looks = looks(first, height);
+    scene.looks = looks(truck, &wedges, height);
+    for solid in &mut scene.solids {
+        // Sizes are for the eye: a micrometre will do, and is shorter to write.
+        for part in solid.vertices.iter_mut().flatten() {
+            *part = (*part * 1e6).round() / 1e6;
+        }
+    }
     Some(scene)
 }
 
@@ -262,13 +280,19 @@ fn bolster_solid(truck: &Truck, own: &[&Seen<'_>], (bottom, height, width): (f64
         // The slope's line from the top of the wedge down.
         let at = |z: f64| {
             let below = wedge.point[2] + 0.5 * height - z;
-            [wedge.point[0] - wedge.ahead * below * tangent - center[0], z - center[2]]
+            [
+                wedge.point[0] - wedge.ahead * below * tangent - center[0],
+                z - center[2],
+            ]
         };
         Some([at(bottom), at(wedge.point[2] + 0.4 * height)])
     };
     let half = |k: usize, corner: usize| -> [f64; 2] {
         let own = side(k == 1);
-        own.map_or_else(|| [[-0.1, 0.1][k], [bottom, bottom + height][corner] - center[2]], |ends| ends[corner])
+        own.map_or_else(
+            || [[-0.1, 0.1][k], [bottom, bottom + height][corner] - center[2]],
+            |ends| ends[corner],
+        )
     };
     let ys: Vec<f64> = own.iter().map(|wedge| wedge.point[1] - center[1]).collect();
     let reach = ys.iter().fold(0.0, |most: f64, y| most.max(y.abs()));
@@ -300,7 +324,7 @@ fn side_frame_solids(
         // The face is where the wedge's is, and turns about its middle.
         let ends = [0.0, wedge.ahead * thick];
         let (from, to) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-        let half = 0.95 * height;
+        let (above, below) = (0.95 * height, wedge.point[2] - seat);
         solids.push(Solid {
             mount: Place {
                 position: less(wedge.point, center),
@@ -313,7 +337,7 @@ fn side_frame_solids(
                     Role::Column,
                     &id,
                 ),
-                &[[from, -half], [to, -half], [to, half], [from, half]],
+                &[[from, -below], [to, -below], [to, above], [from, above]],
                 1.1 * FRAME,
             )
         });
@@ -357,7 +381,11 @@ fn side_frame_solids(
         } else {
             [x - thick, back]
         };
-        block(if ahead { "front arm" } else { "rear arm" }, ends, [z, top + 0.4 * height]);
+        block(
+            if ahead { "front arm" } else { "rear arm" },
+            ends,
+            [z, top + 0.4 * height],
+        );
     }
     solids
 }
@@ -391,9 +419,11 @@ fn add_wedge(scene: &mut Scene, truck: &Truck, wedge: &Seen<'_>, (height, width,
     if ahead > 0.0 {
         outline.swap(0, 1);
     }
-    scene
-        .solids
-        .push(extruded((&id, &format!("wedge {}", wedge.number), Role::Wedge, &id), &outline, 0.7 * width));
+    scene.solids.push(extruded(
+        (&id, &format!("wedge {}", wedge.number), Role::Wedge, &id),
+        &outline,
+        0.7 * width,
+    ));
 
     let at = wedge.point[0] - 0.5 * ahead * length;
     let (on, on_id, foot) = if wedge.law.coil_in_bolster {
@@ -412,7 +442,12 @@ fn add_wedge(scene: &mut Scene, truck: &Truck, wedge: &Seen<'_>, (height, width,
                     Role::Seat,
                     &bolster,
                 ),
-                &[[-radius, -0.1 * height], [radius, -0.1 * height], [radius, 0.0], [-radius, 0.0]],
+                &[
+                    [-radius, -0.1 * height],
+                    [radius, -0.1 * height],
+                    [radius, 0.0],
+                    [-radius, 0.0],
+                ],
                 2.0 * radius,
             )
         });
@@ -464,32 +499,64 @@ fn add_wedge(scene: &mut Scene, truck: &Truck, wedge: &Seen<'_>, (height, width,
     let column = format!("column_{}", wedge.number);
     scene.contacts.extend([
         contact("column", [0.0; 3], column, [-ahead, 0.0, 0.0]),
-        contact("slope", [-0.5 * ahead * length, 0.0, 0.0], bolster, [ahead * cosine, 0.0, -sine]),
+        contact(
+            "slope",
+            [-0.5 * ahead * length, 0.0, 0.0],
+            bolster,
+            [ahead * cosine, 0.0, -sine],
+        ),
     ]);
 }
 
-fn looks(first: &Seen<'_>, height: f64) -> Vec<Look> {
-    let near = |name: &str, from| Look {
-        at: Some((first.point, 2.2 * height)),
+fn looks(truck: &Truck, wedges: &[Seen<'_>], height: f64) -> Vec<Look> {
+    let count = wedges.len().max(1) as f64;
+    let middle: [f64; 3] =
+        std::array::from_fn(|k| wedges.iter().map(|wedge| wedge.point[k]).sum::<f64>() / count);
+    // Half the length and width of what is seen.
+    let surfaces = truck.model.connections.iter();
+    let surfaces = surfaces.filter(|connection| matches!(connection.law, Law::Surface(_)));
+    let far = |points: &mut dyn Iterator<Item = [f64; 3]>, k: usize| {
+        points.fold(6.0 * height, |most: f64, point| {
+            most.max((point[k] - middle[k]).abs())
+        })
+    };
+    let length = far(&mut surfaces.map(|connection| connection.point), 0);
+    let width = far(&mut wedges.iter().map(|wedge| wedge.point), 1);
+    let near = |name: &str, at: [f64; 3], radius: f64, from| Look {
+        at: Some((at, radius)),
         ..Look::all(name, from)
     };
-    vec![
-        Look::all("Oblique", [0.55, 0.9, 0.42]),
-        Look::all("Left side", [0.0, 1.0, 0.0]),
-        Look::all("Along the track", [-1.0, 0.0, 0.0]),
-        Look::all("Top", [0.0, 0.0, 1.0]),
-        near(&format!("Wedge {}", first.number), [0.12, 1.0, 0.12]),
-    ]
+    let all = 0.85 * length.hypot(width);
+    let mut looks = vec![
+        near("Oblique", middle, all, [0.55, 0.9, 0.42]),
+        near("Left side", middle, 1.1 * length, [0.0, 1.0, 0.0]),
+        near("Along the track", middle, 1.2 * width, [-1.0, 0.0, 0.0]),
+        near("Top", middle, all, [0.0, 0.0, 1.0]),
+    ];
+    if let Some(first) = wedges.first() {
+        let name = format!("Wedge {}", first.number);
+        looks.push(near(&name, first.point, 2.2 * height, [0.12, 1.0, 0.12]));
+    }
+    looks
 }
 
 /// What its plots may show.
 #[must_use]
 pub fn plots(truck: &Truck) -> Vec<Plot> {
     let wedges = wedges(truck);
-    let labels: Vec<String> = wedges.iter().map(|wedge| format!("wedge {}", wedge.number)).collect();
+    let labels: Vec<String> = wedges
+        .iter()
+        .map(|wedge| format!("wedge {}", wedge.number))
+        .collect();
     let of_all = |title: &str, what: &str| {
-        let names: Vec<String> = wedges.iter().map(|wedge| format!("{}_{what}", wedge.id())).collect();
-        let curves = names.iter().map(String::as_str).zip(labels.iter().map(String::as_str));
+        let names: Vec<String> = wedges
+            .iter()
+            .map(|wedge| format!("{}_{what}", wedge.id()))
+            .collect();
+        let curves = names
+            .iter()
+            .map(String::as_str)
+            .zip(labels.iter().map(String::as_str));
         Plot::new(title, curves)
     };
     let mut plots = vec![
@@ -520,7 +587,10 @@ pub fn plots(truck: &Truck) -> Vec<Plot> {
                 .collect();
             let labels = range.filter(|k| free[*k]).map(|k| names[k]);
             if !own.is_empty() {
-                plots.push(Plot::new(&format!("{name}: {what}"), own.iter().map(String::as_str).zip(labels)));
+                plots.push(Plot::new(
+                    &format!("{name}: {what}"),
+                    own.iter().map(String::as_str).zip(labels),
+                ));
             }
         }
     }

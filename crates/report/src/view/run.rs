@@ -35,7 +35,8 @@ pub struct RunView {
 /// A column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ViewColumn {
-    /// What it is, in a few words.
+    /// What it is, in a few words; left out of thinned runs.
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub text: String,
     /// Its kind, a key of `quantities`.
     pub quantity: String,
@@ -61,7 +62,8 @@ pub struct Plot {
 pub enum Detail {
     /// Every row, to seven digits.
     Full,
-    /// Every row, or every n-th one so that there are at most 1251; rounded to five digits of each column's largest value.
+    /// Every row, or every n-th one so that there are at most 1251; rounded to half of 1/2¹⁴ of each column's largest
+    /// value or less.
     Thinned,
 }
 
@@ -107,7 +109,10 @@ impl Recording {
         let times = find("time").map_or(&[][..], |(_, values)| values);
         let (stride, precision) = match detail {
             Detail::Full => (1, Precision::Exact),
-            Detail::Thinned => (times.len().saturating_sub(1).div_ceil(ROWS - 1).max(1), Precision::Rounded),
+            Detail::Thinned => (
+                times.len().saturating_sub(1).div_ceil(ROWS - 1).max(1),
+                Precision::Rounded,
+            ),
         };
         let rows = |values: &[f64]| -> Vec<f64> { values.iter().step_by(stride).copied().collect() };
         let mut columns = BTreeMap::new();
@@ -154,7 +159,10 @@ fn column(column: &Column, values: &[f64], precision: Precision, data: &mut Data
     let first = values.first().copied().unwrap_or(0.0);
     let constant = values.iter().all(|value| *value == first);
     ViewColumn {
-        text: column.text.clone(),
+        text: match precision {
+            Precision::Exact => column.text.clone(),
+            Precision::Rounded => String::new(),
+        },
         quantity: kind_name(column.kind),
         data: (!constant).then(|| data.keep(values, precision)),
         value: constant.then_some(first),

@@ -92,8 +92,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (half_trucks, of_trucks): (Vec<TruckOutcome>, Vec<_>) = half_trucks?.into_iter().unzip();
     let kept = kept.into_iter().collect::<Result<Vec<Kept>, Failure>>()?;
     let walls: Vec<Duration> = kept.iter().map(|kept| kept.wall).collect();
-    let (outcomes, recordings): (Vec<Outcome>, Vec<_>) =
-        kept.into_iter().map(|kept| (kept.outcome, kept.recording)).unzip();
+    let (outcomes, recordings): (Vec<Outcome>, Vec<_>) = kept
+        .into_iter()
+        .map(|kept| (kept.outcome, kept.recording))
+        .unzip();
     let recordings = recordings.into_iter().chain(of_trucks).flatten().collect();
 
     let figures = pool.install(|| tell(&outcomes, &half_trucks, recordings, &places))?;
