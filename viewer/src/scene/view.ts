@@ -135,7 +135,7 @@ export class SceneView {
       solids.set(solid.id, group);
     }
     for (const coil of data.coils) {
-      const mesh = coilMesh(coil);
+      const mesh = coilMesh(coil, data.coils.length > 4);
       this.scene.add(mesh);
       this.sprung.push({ coil, mesh, from: bodies.get(coil.from.body) ?? none, to: bodies.get(coil.to.body) ?? none });
     }

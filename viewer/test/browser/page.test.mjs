@@ -302,22 +302,22 @@ test("keys play, step, look, exaggerate and switch units", async () => {
 });
 
 for (const [what, name] of [["wedge", RUN], ["half-truck", TRUCK]]) {
-test(`playing a ${what} at 1280 by 720 without a graphics processor`, async (t) => {
-  const { page, run } = await openRun({ width: 1300, height: 760 }, name);
-  await page.addStyleTag({ content: ".wl-stage { position: fixed !important; left: 0; top: 0; width: 1280px; height: 720px; z-index: 20; }" });
-  await page.waitForTimeout(600);
-  await run.evaluate((element) => element.focus());
-  await page.keyboard.press(" ");
-  await page.waitForTimeout(5000);
-  const { frameRate, playing } = await state(run);
-  const size = await run.locator("canvas").first().evaluate((canvas) => `${canvas.width}x${canvas.height}`);
-  t.diagnostic(`${frameRate} frames a second at ${size}`);
-  assert.equal(size, "1280x720");
-  assert.equal(playing, "true");
-  // 30 on an idle machine (docs/benchmarks.md); others may be busy.
-  assert.ok(Number(frameRate) >= 8, frameRate);
-  await page.close();
-});
+  test(`playing a ${what} at 1280 by 720 without a graphics processor`, async (t) => {
+    const { page, run } = await openRun({ width: 1300, height: 760 }, name);
+    await page.addStyleTag({ content: ".wl-stage { position: fixed !important; left: 0; top: 0; width: 1280px; height: 720px; z-index: 20; }" });
+    await page.waitForTimeout(600);
+    await run.evaluate((element) => element.focus());
+    await page.keyboard.press(" ");
+    await page.waitForTimeout(5000);
+    const { frameRate, playing } = await state(run);
+    const size = await run.locator("canvas").first().evaluate((canvas) => `${canvas.width}x${canvas.height}`);
+    t.diagnostic(`${frameRate} frames a second at ${size}`);
+    assert.equal(size, "1280x720");
+    assert.equal(playing, "true");
+    // 30 on an idle machine (docs/benchmarks.md); others may be busy.
+    assert.ok(Number(frameRate) >= 8, frameRate);
+    await page.close();
+  });
 }
 
 test("a half-truck is there with bolster, side frames, four wedges, springs and coils", async () => {

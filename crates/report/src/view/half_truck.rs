@@ -343,29 +343,27 @@ fn side_frame_solids(
         });
     }
     let y = own[0].point[1] - center[1];
-    let mut block = |what: &str, [from, to]: [f64; 2], [below, above]: [f64; 2]| {
-        solids.push(Solid {
-            mount: Place {
-                position: [0.0, y, 0.0],
-                angles: [0.0; 3],
-            },
-            ..extruded(
-                (
-                    &format!("{id}_{what}"),
-                    &format!("{what} of the side frame"),
-                    if what == "seat" { Role::Seat } else { Role::Column },
-                    &id,
-                ),
-                &[[from, below], [to, below], [to, above], [from, above]],
-                FRAME,
-            )
-        });
+    let block = |what: &str, [from, to]: [f64; 2], [below, above]: [f64; 2]| Solid {
+        mount: Place {
+            position: [0.0, y, 0.0],
+            angles: [0.0; 3],
+        },
+        ..extruded(
+            (
+                &format!("{id}_{what}"),
+                &format!("{what} of the side frame"),
+                if what == "seat" { Role::Seat } else { Role::Column },
+                &id,
+            ),
+            &[[from, below], [to, below], [to, above], [from, above]],
+            FRAME,
+        )
     };
     let faces = own.iter().map(|wedge| wedge.point[0] - center[0]);
     let (back, front) = faces.fold((0.0, 0.0), |(low, high): (f64, f64), x| (low.min(x), high.max(x)));
     let (back, front) = (back - thick, front + thick);
-    block("seat", [back, front], [low - 0.3 * height, low]);
-    block("top", [back, front], [top, top + 0.4 * height]);
+    solids.push(block("seat", [back, front], [low - 0.3 * height, low]));
+    let mut chord = block("chord", [back, front], [top, top + 0.4 * height]);
     // Axles: where friction surfaces stand on the ground.
     let axles = truck.model.connections.iter().filter_map(|connection| {
         let on_it = connection.a == body && matches!(connection.law, Law::Surface(_));
@@ -388,6 +386,17 @@ fn side_frame_solids(
         );
     }
     solids
+}
+
+/// Makes one solid of two on the same mount.
+fn join(solid: &mut Solid, other: Solid) {
+    let before = solid.vertices.len();
+    solid.vertices.extend(other.vertices);
+    let moved = other
+        .triangles
+        .into_iter()
+        .map(|corners| corners.map(|corner| before + corner));
+    solid.triangles.extend(moved);
 }
 
 /// The wedge in its pocket, its coil, and its two contacts.
