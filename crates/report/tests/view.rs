@@ -398,6 +398,11 @@ fn a_half_trucks_scene_has_its_bodies_wedges_and_springs_and_all_their_columns()
                 "wedge_130"
             ]
         );
+        for side_frame in ["body_3", "body_4"] {
+            for part in ["seat", "chord"] {
+                find(&scene["solids"], &Value::from(format!("{side_frame}_{part}")));
+            }
+        }
         // Eight springs, four control coils.
         assert_eq!(scene["coils"].as_array().unwrap().len(), 12);
         for contact in scene["contacts"].as_array().unwrap() {

@@ -379,12 +379,9 @@ fn side_frame_solids(
         } else {
             [x - thick, back]
         };
-        block(
-            if ahead { "front arm" } else { "rear arm" },
-            ends,
-            [z, top + 0.4 * height],
-        );
+        join(&mut chord, block("arm", ends, [z, top + 0.4 * height]));
     }
+    solids.push(chord);
     solids
 }
 
