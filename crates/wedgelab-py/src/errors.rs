@@ -30,9 +30,29 @@ pub fn shown(diagnostic: &dyn Diagnostic) -> String {
         .with_links(false);
     let mut text = String::new();
     match handler.render_report(&mut text, diagnostic) {
-        Ok(()) => text.trim_end().to_owned(),
-        Err(_) => diagnostic.to_string(),
+        Ok(()) => in_python(text.trim_end()),
+        Err(_) => in_python(&diagnostic.to_string()),
     }
+}
+
+/// What the command line advises, and what a Python user does instead.
+const ADVICE: [(&str, &str); 7] = [
+    ("`wedgelab case NAME` prints a built-in case", "Case(NAME).to_toml() is a built-in case"),
+    ("`wedgelab case` lists all", "wedgelab.built_in() lists all"),
+    ("see `wedgelab case` for a case that is valid", "see Case().to_toml() for a case that is valid"),
+    (" with --out", ""),
+    ("--force", "force=True"),
+    ("`wedgelab nucars check`", "wedgelab.nucars.check"),
+    ("--yaw drop or --yaw drive", "yaw=\"drop\" or yaw=\"drive\""),
+];
+
+/// A text with advice for Python.
+pub fn in_python(text: &str) -> String {
+    let mut text = text.to_owned();
+    for (typed, called) in ADVICE {
+        text = text.replace(typed, called);
+    }
+    text
 }
 
 /// The label of a diagnostic's first place.
@@ -47,7 +67,7 @@ fn problem<'py>(py: Python<'py>, problem: &Problem) -> PyResult<Bound<'py, PyAny
     class.call1((
         problem.message(),
         problem.marked_text().and_then(|_| label(problem)),
-        problem.advice(),
+        problem.advice().map(in_python),
         problem.source_name(),
         line,
         column,

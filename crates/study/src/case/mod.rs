@@ -20,6 +20,7 @@ mod resolve;
 mod section;
 mod table;
 mod tree;
+mod units;
 mod values;
 mod write;
 

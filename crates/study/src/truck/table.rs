@@ -112,6 +112,18 @@ impl Table {
             move |seen| inside(seen).column_normal,
         );
         self.add(
+            format!("{wedge}_slope_normal_force"),
+            Kind::Force,
+            "normal force of the slope",
+            move |seen| inside(seen).slope_normal,
+        );
+        self.add(
+            format!("{wedge}_slope_friction"),
+            Kind::Force,
+            "friction of the slope on the wedge, positive up the slope",
+            move |seen| inside(seen).slope_friction,
+        );
+        self.add(
             format!("{wedge}_coil_force"),
             Kind::Force,
             "force of the control coil, positive pushing",

@@ -127,7 +127,7 @@ class RunError(WedgelabError, RuntimeError):
 
 
 class StepError(WedgelabError, RuntimeError):
-    """A step cannot be made; the wedge is as it was before it."""
+    """A step cannot be made, or a state cannot be restored."""
 
 
 class NucarsError(WedgelabError, ValueError):

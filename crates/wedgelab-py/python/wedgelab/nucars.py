@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from typing import Any, Union
 
 from ._optional import need
-from ._wedgelab import NativeTruckCase, built_in_trucks, check_files, read_file, to_si
+from ._units import si
+from ._wedgelab import NativeTruckCase, built_in_trucks, check_files, read_file
 from .case import _names
 from .errors import Finding, NucarsError
 from .result import TruckResult, checked
@@ -148,7 +149,7 @@ class TruckCase:
         relative_tolerance: float = 1e-5,
     ) -> None:
         choices = [(str(name), _option(value)) for name, value in (options or {}).items()]
-        time = None if duration is None else to_si(duration, "time")
+        time = None if duration is None else si(duration, "time", "duration")
         self._native = NativeTruckCase.read(
             path,
             system,
@@ -157,7 +158,7 @@ class TruckCase:
             yaw,
             choices,
             time,
-            to_si(interval, "time"),
+            si(interval, "time", "interval"),
             start,
             all_outputs,
             units,

@@ -9,7 +9,8 @@ from typing import Any, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._wedgelab import Quantity, slide, to_si
+from ._units import si
+from ._wedgelab import Quantity, slide
 from .errors import WedgelabError
 from .sections import QuantityLike
 
@@ -43,12 +44,12 @@ class Sliding:
 
 def _values(value: Any, kind: str, what: str) -> Floats:
     if isinstance(value, (str, Quantity)):
-        return np.asarray(to_si(value, kind))
+        return np.asarray(si(value, kind, what))
     array = np.asarray(value)
     if array.dtype.kind in "US":
         array = array.astype(object)
     if array.dtype == object:
-        flat = [to_si(one, kind) for one in array.ravel()]
+        flat = [si(one, kind, what) for one in array.ravel()]
         return np.array(flat, dtype=float).reshape(array.shape)
     if array.dtype.kind not in "fiu":
         raise WedgelabError(f"{what} holds {array.dtype}; numbers in SI units or texts with units are expected")
@@ -60,14 +61,14 @@ def _toe(value: Any) -> Floats:
 
     def one(text: Any) -> float:
         if not isinstance(text, str):
-            return to_si(text, "angle")
+            return si(text, "angle", "toe")
         size, _, direction = text.strip().rpartition(" ")
         if direction not in ("out", "in"):
-            angle = to_si(text, "angle")
+            angle = si(text, "angle", "toe")
             if angle != 0.0:
                 raise WedgelabError(f'the toe "{text}" does not say in or out; write for example "0.2 deg out"')
             return 0.0
-        angle = to_si(size, "angle")
+        angle = si(size, "angle", "toe")
         if angle < 0.0:
             raise WedgelabError(f'the toe "{text}" is negative; its direction is said in words')
         return angle if direction == "out" else -angle

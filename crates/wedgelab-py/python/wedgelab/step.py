@@ -9,7 +9,8 @@ from typing import Any, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._wedgelab import NativeWedge, to_si
+from ._units import si
+from ._wedgelab import NativeWedge
 from .case import Case
 from .errors import StepError
 from .sections import QuantityLike
@@ -69,10 +70,10 @@ def _six(place: Any, what: str, kinds: tuple[str, str]) -> _Six:
         raise StepError(f"{what} is {place!r}; six values are expected, or a mapping of some of {', '.join(COORDINATES)}")
     if len(place) != 6:
         raise StepError(f"{what} has {len(place)} values; six are expected: {', '.join(COORDINATES)}")
-    try:
-        values = [to_si(value, kinds[0] if at < 3 else kinds[1]) for at, value in enumerate(place)]
-    except TypeError as error:
-        raise StepError(f"{what}: {error}") from None
+    values = [
+        si(value, kinds[0] if at < 3 else kinds[1], f"{what}, {name}")
+        for at, (name, value) in enumerate(zip(COORDINATES, place))
+    ]
     for name, value in zip(COORDINATES, values):
         if not np.isfinite(value):
             raise StepError(f"{what}: {name} is {value}; it must be finite")
@@ -145,10 +146,7 @@ class Wedge:
         Raises `StepError`: for values that are wrong the wedge stays as it was; a step that cannot be made leaves it useless until a
         state is restored.
         """
-        try:
-            duration = to_si(dt, "time")
-        except TypeError:
-            raise StepError(f"dt is {dt!r}; a time is expected, in s or as a text such as \"1 ms\"") from None
+        duration = si(dt, "time", "dt")
         position, rate = _motion(bolster_motion, "the bolster")
         side: tuple[_Six | None, _Six | None] = (None, None)
         if side_frame_motion is not None:
@@ -191,13 +189,13 @@ class Wedge:
     def set_coil(self, *, stiffness: QuantityLike | None = None, force: QuantityLike | None = None) -> None:
         """From now on the coil's force is ``stiffness`` times its compression, or ``force``; without both, the case's law."""
         self._native.set_coil(
-            None if stiffness is None else to_si(stiffness, "stiffness"),
-            None if force is None else to_si(force, "force"),
+            None if stiffness is None else si(stiffness, "stiffness", "stiffness"),
+            None if force is None else si(force, "force", "force"),
         )
 
     def set_friction(self, column: float, slope: float) -> None:
         """Coefficients of friction from now on."""
-        self._native.set_friction(column, slope)
+        self._native.set_friction(si(column, "dimensionless", "column"), si(slope, "dimensionless", "slope"))
 
     def save(self) -> bytes:
         """All that is needed to go on with the same bits, also in another process."""
