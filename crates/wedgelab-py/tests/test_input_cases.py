@@ -165,6 +165,8 @@ def test_errors_carry_what_the_command_line_shows() -> None:
 def test_unknown_names_and_files(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match="did you mean vdrun_toe_0_psi_0"):
         Case("vdrun_toe_0_psi_00")
+    with pytest.raises(CaseError, match=r"wedgelab.built_in\(\) lists all"):
+        Case("nothing")
     with pytest.raises(CaseError, match="there is no case file"):
         Case("nothing.toml")
     with pytest.raises(CaseError, match="is a folder"):

@@ -55,11 +55,13 @@ def test_limits_where_the_wedge_jams() -> None:
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        ({"angle": "3 in"}, "an angle is expected"),
+        ({"angle": "3 in"}, "angle: this is a length .in.; an angle is expected"),
+        ({"coil_force": None}, "coil_force is None"),
         ({"angle": 32.0}, "between 0 and pi/2"),
         ({"angle": np.nan}, "between 0 and pi/2"),
         ({"angle": [0.5, 0.6], "mu_column": [0.1, 0.2, 0.3]}, "do not fit together"),
         ({"angle": 1j}, "complex128"),
+        ({"angle": [object()]}, "angle is a object"),
         ({"toe": "0.2 deg"}, "in or out"),
         ({"toe": "-0.2 deg in"}, "in words"),
         ({"toe": 1.0}, "22.5 deg"),
@@ -73,5 +75,5 @@ def test_limits_where_the_wedge_jams() -> None:
     ],
 )
 def test_input_is_explained(given: dict[str, Any], said: str) -> None:
-    with pytest.raises((wl.WedgelabError, TypeError), match=said.replace("(", r"\(")):
+    with pytest.raises(wl.WedgelabError, match=said):
         wl.quasi_static(**given)

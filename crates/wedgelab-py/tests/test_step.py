@@ -109,9 +109,9 @@ def test_coil_and_friction_from_outside() -> None:
         ({}, math.nan, "must be positive"),
         ({}, math.inf, "must be positive"),
         ({}, "1 in", "a time is expected"),
-        ({}, None, "a time is expected"),
+        ({}, None, "dt is None; a time is expected"),
         ({"vertical": math.nan}, 1e-3, "must be finite"),
-        ({"vertical": "1 s"}, 1e-3, "a length is expected"),
+        ({"vertical": "1 s"}, 1e-3, "the bolster, vertical: .*a length is expected"),
         ({"heave": 1.0}, 1e-3, "has no 'heave'"),
         ({"vertical": None}, 1e-3, "a length is expected"),
         ([0.0] * 5, 1e-3, "six are expected"),
@@ -145,6 +145,8 @@ def test_input_of_other_calls() -> None:
         wedge.set_coil(stiffness=-1.0)
     with pytest.raises(wl.UnitError):
         wedge.set_coil(stiffness="3 N")
+    with pytest.raises(wl.UnitError, match="column"):
+        wedge.set_friction("a lot", 0.4)  # type: ignore[arg-type]
     with pytest.raises(wl.CaseError):
         Wedge("nothing")
 

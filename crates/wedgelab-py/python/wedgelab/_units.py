@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ._wedgelab import Quantity, to_si
+from ._wedgelab import to_si
 from .errors import UnitError
 
 
@@ -17,4 +17,3 @@ def si(value: object, kind: str, what: str) -> float:
         raise UnitError(f"{what} is {found}; {error}") from None
 
 
-__all__ = ["Quantity", "si"]
