@@ -139,8 +139,8 @@ pub fn drawn(truck: &Truck, result: &TruckResult) -> (Vec<Column>, Vec<Vec<f64>>
             columns.push(Column {
                 name: format!("{id}_{name}"),
                 kind,
-                frame: "x forward, y left, z up",
-                reference: "",
+                frame: "x forward, y left, z up".into(),
+                reference: "".into(),
                 text: text.to_owned(),
             });
             values.push(own);
