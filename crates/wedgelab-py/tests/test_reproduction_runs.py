@@ -7,6 +7,7 @@ import pickle
 import signal
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -133,12 +134,21 @@ def test_the_lock_is_released(short_case: wl.Case) -> None:
     assert count > 20
 
 
+@pytest.fixture
+def hears_ctrl_c() -> Iterator[None]:
+    """Programs that are started in the background of a shell ignore it; here it is heard."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def _interrupt_soon() -> threading.Timer:
     timer = threading.Timer(0.15, signal.raise_signal, [signal.SIGINT])
     timer.start()
     return timer
 
 
+@pytest.mark.usefixtures("hears_ctrl_c")
 def test_ctrl_c_stops_a_run_and_many_runs() -> None:
     long = wl.Case("vdrun_toe_0_psi_0").replace({"simulation.duration": "2000 s", "simulation.output_interval": "1 s"})
     for work in (lambda: long.run(), lambda: wl.run_many([long] * 5, workers=2)):
