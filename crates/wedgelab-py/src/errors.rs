@@ -37,9 +37,15 @@ pub fn shown(diagnostic: &dyn Diagnostic) -> String {
 
 /// What the command line advises, and what a Python user does instead.
 const ADVICE: [(&str, &str); 7] = [
-    ("`wedgelab case NAME` prints a built-in case", "Case(NAME).to_toml() is a built-in case"),
+    (
+        "`wedgelab case NAME` prints a built-in case",
+        "Case(NAME).to_toml() is a built-in case",
+    ),
     ("`wedgelab case` lists all", "wedgelab.built_in() lists all"),
-    ("see `wedgelab case` for a case that is valid", "see Case().to_toml() for a case that is valid"),
+    (
+        "see `wedgelab case` for a case that is valid",
+        "see Case().to_toml() for a case that is valid",
+    ),
     (" with --out", ""),
     ("--force", "force=True"),
     ("`wedgelab nucars check`", "wedgelab.nucars.check"),
