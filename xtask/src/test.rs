@@ -2,6 +2,7 @@
 
 mod deny;
 mod floors;
+mod fmu;
 mod octave;
 mod page;
 mod prose;
@@ -69,6 +70,11 @@ const CHECKS: &[Check] = &[
         "octave",
         "Octave and SciPy read the results, the plotting scripts draw them",
         octave::check,
+    ),
+    Check::new(
+        "fmu",
+        "FMUs are valid and give what runs give, in FMPy (needs Python 3)",
+        fmu::check,
     ),
     Check::new("doctest", "the examples in the documentation run", doc_tests),
     Check::new("doc", "the documentation builds without a warning", docs),
