@@ -5,7 +5,6 @@
 mod bench;
 mod shell;
 mod test;
-#[allow(dead_code)] // until the first check uses it
 mod venv;
 mod viewer;
 mod wheel;

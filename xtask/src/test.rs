@@ -2,6 +2,7 @@
 
 mod deny;
 mod floors;
+mod fmu;
 mod octave;
 mod page;
 mod prose;
@@ -77,6 +78,11 @@ const CHECKS: &[Check] = &[
         "python",
         "the Python package installs, its tests, types, stubs and notebooks pass (needs Python 3.10)",
         python::check,
+    ),
+    Check::new(
+        "fmu",
+        "FMUs are valid and give what runs give, in FMPy (needs Python 3)",
+        fmu::check,
     ),
     Check::new("doctest", "the examples in the documentation run", doc_tests),
     Check::new("doc", "the documentation builds without a warning", docs),

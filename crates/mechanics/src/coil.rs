@@ -84,6 +84,19 @@ pub struct CoilForce<S> {
     pub guide_power: S,
 }
 
+impl CoilLaw {
+    /// The force (N) at a compression (m); negative where it pulls.
+    #[inline(always)]
+    #[must_use]
+    pub fn force<S: Real>(&self, compression: S) -> S {
+        match self {
+            Self::Linear { stiffness } => compression * *stiffness,
+            Self::Table(table) => table.evaluate(compression),
+            Self::Given { force } => S::from(*force),
+        }
+    }
+}
+
 impl Coil {
     /// The coil's force.
     #[inline(always)]
@@ -136,11 +149,7 @@ impl Coil {
     #[inline(always)]
     pub fn spring<S: Real>(&self, length: S) -> S {
         let compression = -length + self.free_length;
-        let force = match &self.law {
-            CoilLaw::Linear { stiffness } => compression * *stiffness,
-            CoilLaw::Table(table) => table.evaluate(compression),
-            CoilLaw::Given { force } => S::from(*force),
-        };
+        let force = self.law.force(compression);
         if self.pulls || force.value() > 0.0 {
             force
         } else {

@@ -6,6 +6,7 @@
 pub mod driven;
 pub mod outputs;
 pub mod parameters;
+pub mod quasi_static;
 pub mod thesis;
 
 mod assemble;

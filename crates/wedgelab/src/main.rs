@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{case, compare, explore, nucars, plot, quasi_static, reproduce, run};
+use commands::{case, compare, explore, fmu, nucars, plot, quasi_static, reproduce, run};
 use failure::Failure;
 
 /// A laboratory for railway friction wedges.
@@ -50,6 +50,7 @@ enum Command {
     Explore(explore::Arguments),
     QuasiStatic(quasi_static::Arguments),
     Nucars(nucars::Arguments),
+    Fmu(fmu::Arguments),
 }
 
 impl Cli {
@@ -63,6 +64,7 @@ impl Cli {
             Command::Explore(arguments) => explore::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Nucars(arguments) => nucars::execute(&arguments),
+            Command::Fmu(arguments) => fmu::execute(&arguments),
         }
     }
 }

@@ -15,7 +15,7 @@ const FLOORS: &[(&str, &[&str])] = &[
     ("mechanics", &["mechanics"]),
     ("systems", &["wedge", "nucars"]),
     ("asking", &["study"]),
-    ("telling", &["report"]),
+    ("telling", &["report", "fmi"]),
     (
         "front doors",
         &["wedgelab", "wedgelab-py", "wedgelab-fmu", "benchmarks", "xtask"],

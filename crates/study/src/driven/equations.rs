@@ -276,6 +276,21 @@ impl Equations {
         Ok(())
     }
 
+    /// Sets the contact states.
+    ///
+    /// # Errors
+    /// Not one for each corner.
+    pub fn set_modes(&mut self, modes: &[u8]) -> Result<(), DrivenError> {
+        if modes.len() != self.modes.len() {
+            return Err(DrivenError::Length {
+                expected: self.modes.len(),
+                found: modes.len(),
+            });
+        }
+        self.modes.copy_from_slice(modes);
+        Ok(())
+    }
+
     /// Takes over what an integrator has reached.
     pub(super) fn follow(
         &mut self,

@@ -40,6 +40,9 @@ use wedge::outputs::Ledger;
 /// A step that needs more steps of the integrator than this is stopped: some seconds of computing.
 pub const MAXIMUM_STEPS: u64 = 1_000_000;
 
+/// A step must be longer, s: below, times are rounding.
+const SHORTEST_STEP: f64 = 1e-15;
+
 /// A wedge whose neighbours are moved by the caller, and which integrates itself.
 ///
 /// During a step each coordinate of a neighbour is the cubic through its values and rates at both ends. Steps may have any
@@ -136,6 +139,19 @@ impl DrivenWedge {
         self.equations.sense()
     }
 
+    /// The rates of the states, see [`Equations::rates`].
+    ///
+    /// # Errors
+    /// `out` does not have the length of the states.
+    pub fn rates(&mut self, out: &mut [f64]) -> Result<(), DrivenError> {
+        self.equations.rates(out)
+    }
+
+    /// The margins of the contact states, see [`Equations::margins`].
+    pub fn margins(&mut self) -> &[f64] {
+        self.equations.margins()
+    }
+
     /// The columns of [`DrivenWedge::row`].
     #[must_use]
     pub fn columns(&self) -> &[Column] {
@@ -192,7 +208,7 @@ impl DrivenWedge {
         }
         let start = self.time();
         let duration = time - start;
-        if !(duration > 0.0 && duration.is_finite()) {
+        if !(duration > SHORTEST_STEP && duration.is_finite()) {
             return Err(DrivenError::NoStep {
                 step: duration,
                 time: start,

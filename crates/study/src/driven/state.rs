@@ -66,11 +66,15 @@ impl DrivenState {
     }
 }
 
-/// A number for parameters and options; motions do not count, since a caller gives them.
+/// A number for parameters and options; motions and coefficients of friction do not count, since a caller gives them.
 pub(super) fn fingerprint(parameters: &Parameters, options: &Options) -> u64 {
     let mut still = parameters.clone();
     for neighbour in [&mut still.side_frame, &mut still.bolster] {
         neighbour.coordinates = NeighbourMotion::fixed().coordinates;
+    }
+    // Friction may be tuned on the way; it is part of the state.
+    for face in [&mut still.column_friction, &mut still.slope_friction] {
+        face.coefficient = 0.0;
     }
     let text = serde_json::to_vec(&(still, options)).unwrap_or_default();
     // FNV-1a, 64 bits: it tells apart, it does not protect.

@@ -13,12 +13,7 @@ fn steps_must_be_positive_and_finite() {
     let mut wedge = wedge();
     let at = *wedge.neighbours();
     for step in [0.0, -1e-3, f64::NAN, f64::INFINITY, 1e-320] {
-        let result = wedge.step(&at, step);
-        if step == 1e-320 {
-            // From time zero even this is a step.
-            continue;
-        }
-        let error = result.unwrap_err();
+        let error = wedge.step(&at, step).unwrap_err();
         assert!(matches!(error, DrivenError::NoStep { .. }), "{step}: {error}");
         assert!(error.to_string().contains("must be positive"), "{error}");
     }
@@ -93,7 +88,7 @@ fn saved_states_of_others_are_refused() {
         assert!(error.to_string().contains(what), "{error}");
     }
     let state = DrivenState::from_bytes(&bytes).unwrap();
-    let mut other = DrivenWedge::new(&case(YAWED, &["friction.column=0.3"])).unwrap();
+    let mut other = DrivenWedge::new(&case(YAWED, &["contact.stiffness=\"3e5 lbf/in\""])).unwrap();
     assert!(matches!(
         other.restore(&state).unwrap_err(),
         DrivenError::OtherCase
