@@ -1,6 +1,6 @@
 //! `cargo xtask race`: our integrator and other people's solvers on the same equations, side by side in one run.
 
-mod tools;
+pub mod tools;
 
 use std::process::{Command, ExitCode};
 
@@ -57,7 +57,7 @@ fn start(workspace: &Workspace, arguments: &[String]) -> Result<(), String> {
         std::fs::remove_dir_all(&folder)
             .map_err(|error| format!("cannot remove {}: {error}", folder.display()))?;
     }
-    let tools = tools::prepare(workspace, "release", !quick)?;
+    let tools = tools::prepare(workspace, !quick)?;
     let mut race = Command::new(&tools.race);
     race.arg("all").args(tools.arguments()).arg("--out").arg(folder);
     if quick {

@@ -5,6 +5,7 @@ mod floors;
 mod octave;
 mod page;
 mod prose;
+mod race;
 mod viewer;
 
 use std::process::ExitCode;
@@ -69,6 +70,11 @@ const CHECKS: &[Check] = &[
         "octave",
         "Octave and SciPy read the results, the plotting scripts draw them",
         octave::check,
+    ),
+    Check::new(
+        "race",
+        "the race's driver in C compiles, and CVODE agrees with our integrator (installs SUNDIALS)",
+        race::check,
     ),
     Check::new("doctest", "the examples in the documentation run", doc_tests),
     Check::new("doc", "the documentation builds without a warning", docs),

@@ -135,7 +135,7 @@ pub const SOLVERS: &[Solver] = &[
         program: Program::Octave,
         method: "ode15s",
         ours: false,
-        span: 0.5,
+        span: 1.0,
         options: "first step 1e-9 s, analytic Jacobian, relative tolerance 1e-13",
     },
     Solver {

@@ -72,11 +72,9 @@ pub fn figures(standings: &[Standing]) -> Vec<(&'static str, Figure)> {
         ("race_others", "Planar wedge and stick test", &|one| {
             one.span == full && !thesis(one)
         }),
-        (
-            "race_short",
-            "The first half second, with Octave's ode15s",
-            &|one| one.span < full,
-        ),
+        ("race_short", "The first second, with Octave's ode15s", &|one| {
+            one.span < full
+        }),
     ];
     let mut figures = Vec::new();
     for (name, title, takes) in groups {

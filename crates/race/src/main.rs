@@ -85,14 +85,19 @@ fn all(words: &[&str]) -> Result<(), String> {
         exudyn: file("--exudyn"),
         octave: file("--octave").zip(file("--mex")),
     };
-    // Names that contain one of the parts.
+    // Names that contain one of the parts; of a part that is a whole name, only this one.
     let chosen = |option: &str, names: Vec<String>| -> Result<Vec<String>, String> {
         let Some(parts) = options.get(option) else {
             return Ok(names);
         };
         let found: Vec<String> = names
             .iter()
-            .filter(|name| parts.split(',').any(|part| name.contains(part)))
+            .filter(|name| {
+                parts.split(',').any(|part| {
+                    let whole = names.iter().any(|name| name == part);
+                    if whole { *name == part } else { name.contains(part) }
+                })
+            })
             .cloned()
             .collect();
         if found.is_empty() {

@@ -20,10 +20,12 @@ Read this first.
 - The equations are those of this project: nothing here says how a solver does on others.
 - Runs without bolster yaw ring and are chaotic in detail: only means are compared there, and only down to the floor, which is how far
   the reference's own solver scatters at 1e-9 to 1e-11. Above the floor one lucky run can win a line.
-- Octave's ode15s gets half a second of simulated time, and is compared with ours over the same half second.
+- Octave's ode15s gets one second of simulated time, and is compared with ours over the same second, whose first part is the
+  release from the start. Right-hand side and Jacobian matrix are compiled for it as well; with a right-hand side in Octave's own
+  language it would take many times longer.
 ";
 
-/// Target ratios against a solver.
+/// A time in words.
 fn seconds(value: f64) -> String {
     if value < 1.0 {
         format!("{:.1} ms", value * 1e3)

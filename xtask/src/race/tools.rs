@@ -27,7 +27,7 @@ pub struct Tools {
     library: PathBuf,
     drivers: PathBuf,
     cvode: PathBuf,
-    python: Option<PathBuf>,
+    python: PathBuf,
     octave: Option<PathBuf>,
 }
 
@@ -42,10 +42,8 @@ impl Tools {
         add("--library", &self.library);
         add("--drivers", &self.drivers);
         add("--cvode", &self.cvode);
-        if let Some(python) = &self.python {
-            add("--python", python);
-            add("--exudyn", python);
-        }
+        add("--python", &self.python);
+        add("--exudyn", &self.python);
         if let Some(folder) = &self.octave {
             add("--octave", Path::new("octave-cli"));
             add("--mex", folder);
@@ -54,39 +52,52 @@ impl Tools {
     }
 }
 
-/// Builds the race with this profile and the drivers, and installs what is missing.
-pub fn prepare(workspace: &Workspace, profile: &str, octave: bool) -> Result<Tools, String> {
-    let mut build = workspace.cargo(["build", "--package", "race"]);
-    let folder = if profile == "release" {
-        build.arg("--release");
-        "release"
+/// Builds the race and the drivers, and installs what is missing.
+pub fn prepare(workspace: &Workspace, octave: bool) -> Result<Tools, String> {
+    shell::run(&mut workspace.cargo(["build", "--release", "--package", "race"]))?;
+    let built = workspace.target.join("release");
+    let made = folder(workspace)?;
+    let cvode = cvode(workspace)?;
+    let octave = if octave {
+        mex(workspace, &built, &made)?;
+        Some(made)
     } else {
-        "debug"
+        None
     };
-    shell::run(&mut build)?;
-    let built = workspace.target.join(folder);
-    let drivers = workspace.root.join("crates").join("race").join("drivers");
-    let made = workspace.target.join("race-drivers").join(folder);
-    std::fs::create_dir_all(&made).map_err(|error| format!("cannot make {}: {error}", made.display()))?;
-    let mut tools = Tools {
+    Ok(Tools {
         race: built.join("race"),
         library: built.join("librace.so"),
-        cvode: made.join("cvode"),
-        drivers,
-        python: None,
-        octave: None,
-    };
-    cvode(&tools, &built)?;
-    tools.python = Some(python(workspace)?);
-    if octave {
-        mex(&tools, &built, &made)?;
-        tools.octave = Some(made);
+        drivers: drivers(workspace),
+        cvode,
+        python: python(workspace)?,
+        octave,
+    })
+}
+
+/// The driver of CVODE alone, for tests.
+pub fn cvode(workspace: &Workspace) -> Result<PathBuf, String> {
+    // With the profile of the other tests, so that little is compiled twice.
+    shell::run(&mut workspace.cargo(["build", "--release", "--package", "race", "--lib"]))?;
+    let driver = folder(workspace)?.join("cvode");
+    compile_cvode(workspace, &workspace.target.join("release"), &driver)?;
+    Ok(driver)
+}
+
+fn drivers(workspace: &Workspace) -> PathBuf {
+    workspace.root.join("crates").join("race").join("drivers")
+}
+
+/// Where compiled drivers go.
+fn folder(workspace: &Workspace) -> Result<PathBuf, String> {
+    let folder = workspace.target.join("race-drivers");
+    match std::fs::create_dir_all(&folder) {
+        Ok(()) => Ok(folder),
+        Err(error) => Err(format!("cannot make {}: {error}", folder.display())),
     }
-    Ok(tools)
 }
 
 /// Compiles the driver of CVODE.
-pub fn cvode(tools: &Tools, built: &Path) -> Result<(), String> {
+fn compile_cvode(workspace: &Workspace, built: &Path, driver: &Path) -> Result<(), String> {
     let header = Path::new("/usr/include/cvode/cvode.h");
     if !header.is_file() {
         println!("SUNDIALS is missing and is installed now, once.");
@@ -95,10 +106,10 @@ pub fn cvode(tools: &Tools, built: &Path) -> Result<(), String> {
     let mut compile = Command::new("cc");
     compile
         .args(["-O3", "-Wall", "-Wextra", "-Werror", "-o"])
-        .arg(&tools.cvode)
-        .arg(tools.drivers.join("cvode.c"))
+        .arg(driver)
+        .arg(drivers(workspace).join("cvode.c"))
         .arg("-I")
-        .arg(&tools.drivers)
+        .arg(drivers(workspace))
         .arg("-L")
         .arg(built)
         .arg("-lrace")
@@ -109,7 +120,7 @@ pub fn cvode(tools: &Tools, built: &Path) -> Result<(), String> {
 }
 
 /// Compiles the functions for Octave.
-fn mex(tools: &Tools, built: &Path, made: &Path) -> Result<(), String> {
+fn mex(workspace: &Workspace, built: &Path, made: &Path) -> Result<(), String> {
     if shell::output(Command::new("mkoctfile").arg("--version")).is_none() {
         println!("Octave, or what compiles functions for it, is missing and is installed now, once.");
         shell::install(&OCTAVE)?;
@@ -117,8 +128,8 @@ fn mex(tools: &Tools, built: &Path, made: &Path) -> Result<(), String> {
     let mut compile = Command::new("mkoctfile");
     compile
         .arg("--mex")
-        .arg(tools.drivers.join("race_mex.c"))
-        .arg(format!("-I{}", tools.drivers.display()))
+        .arg(drivers(workspace).join("race_mex.c"))
+        .arg(format!("-I{}", drivers(workspace).display()))
         .arg(format!("-L{}", built.display()))
         .arg("-lrace")
         .arg(format!("-Wl,-rpath,{}", built.display()))
