@@ -24,7 +24,8 @@ fn look(name: &str) -> (Colour, Line) {
 
 fn panel(one: &Standing) -> Panel {
     let curves = SOLVERS.iter().filter_map(|solver| {
-        let mut points: Vec<(f64, f64)> = one
+        // In the order of the tolerances.
+        let points: Vec<(f64, f64)> = one
             .runs
             .iter()
             .filter(|run| run.entry.solver == solver.name && run.finished())
@@ -33,7 +34,6 @@ fn panel(one: &Standing) -> Panel {
                 (error < 1.0).then(|| (error.log10(), run.entry.outcome.cpu.log10()))
             })
             .collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (colour, line) = look(solver.name);
         (!points.is_empty()).then(|| Curve {
             label: solver.name.to_owned(),

@@ -97,9 +97,9 @@ fn standing(folder: &Path, case: &str, group: &[&Entry]) -> Result<Standing, Str
         } else {
             None
         };
-        // Chaotic runs scatter: the reference is not known better than two close tolerances of its solver agree.
+        // What is chaotic scatters: the reference is not known better than its solver's close tolerances agree.
         let close = entry.solver == REFERENCE.0 && entry.tolerance == "1e-9";
-        if let (true, true, Some(error)) = (means, close, error) {
+        if let (true, Some(error)) = (close, error) {
             floor = floor.max(error);
         }
         runs.push(Judgement {
