@@ -17,7 +17,8 @@ Runs that are there already are kept; --again begins anew.
   --cases PART,...    problems whose names contain one of the parts
   --solvers PART,...  solvers likewise
   --tolerances T,...  some of 1e-3, 1e-4, ... 1e-9
-  --limit SECONDS     CPU time of a run (60)";
+  --limit SECONDS     CPU time of a run (60)
+  --kept-only yes     run nothing, judge what was kept";
 
 /// What `--quick` runs.
 const QUICK: [&str; 8] = [

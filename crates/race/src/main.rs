@@ -13,7 +13,8 @@ use race::{diffsol, figures, own, problem, standings, tables};
 const USAGE: &str = "\
 race solve SOLVER CASE TOLERANCE LIMIT FILE [ROWS]   one run of a solver that is compiled in
 race all --library FILE --drivers FOLDER --out FOLDER [--cvode FILE] [--python FILE] [--exudyn FILE]
-         [--octave FILE --mex FOLDER] [--cases PART,...] [--solvers PART,...] [--tolerances T,...] [--limit SECONDS]";
+         [--octave FILE --mex FOLDER] [--cases PART,...] [--solvers PART,...] [--tolerances T,...] [--limit SECONDS]
+         [--kept-only yes]";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -114,6 +115,7 @@ fn all(words: &[&str]) -> Result<(), String> {
         tolerances: chosen("--tolerances", owned(&TOLERANCES))?,
         limit: options.get("--limit").map_or(Ok(60.0), |limit| number(limit))?,
         folder: folder.clone(),
+        kept_only: options.get("--kept-only") == Some(&"yes"),
     };
     let entries = plan.run(&tools)?;
     let standings = standings::judge(&folder, &entries)?;

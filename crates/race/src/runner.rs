@@ -46,6 +46,8 @@ pub struct Plan {
     pub limit: f64,
     /// Where runs are kept: what is there already is not run again.
     pub folder: PathBuf,
+    /// Whether nothing is run at all: what is kept is judged.
+    pub kept_only: bool,
 }
 
 impl Plan {
@@ -132,6 +134,9 @@ impl Plan {
             .join(format!("{}.json", name(case, one.name, tolerance, rows)));
         if let Ok(text) = fs::read_to_string(&kept) {
             return Ok(serde_json::from_str(&text).ok());
+        }
+        if self.kept_only {
+            return Ok(None);
         }
         let file = states_file(&self.folder, case, one.name, tolerance, rows);
         let Some(mut command) = one.command(tools, case, tolerance, limit, &file, rows) else {
