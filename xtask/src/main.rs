@@ -3,6 +3,7 @@
 //! One module a command. Exit codes: 0, 1 (a check failed), 2 (the call itself is wrong).
 
 mod bench;
+mod race;
 mod shell;
 mod test;
 mod venv;
@@ -31,6 +32,11 @@ const COMMANDS: &[Command] = &[
         name: "bench",
         about: "run the benchmarks (`cargo bench --workspace`)",
         run: bench::run,
+    },
+    Command {
+        name: "race",
+        about: "run other people's solvers and ours on the same equations, fetching what they need",
+        run: race::run,
     },
     Command {
         name: "viewer",

@@ -7,6 +7,7 @@ mod octave;
 mod page;
 mod prose;
 mod python;
+mod race;
 mod viewer;
 
 use std::process::ExitCode;
@@ -83,6 +84,11 @@ const CHECKS: &[Check] = &[
         "fmu",
         "FMUs are valid and give what runs give, in FMPy (needs Python 3)",
         fmu::check,
+    ),
+    Check::new(
+        "race",
+        "the race's driver in C compiles, and CVODE agrees with our integrator (installs SUNDIALS)",
+        race::check,
     ),
     Check::new("doctest", "the examples in the documentation run", doc_tests),
     Check::new("doc", "the documentation builds without a warning", docs),

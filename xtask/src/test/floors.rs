@@ -18,7 +18,14 @@ const FLOORS: &[(&str, &[&str])] = &[
     ("telling", &["report", "fmi"]),
     (
         "front doors",
-        &["wedgelab", "wedgelab-py", "wedgelab-fmu", "benchmarks", "xtask"],
+        &[
+            "wedgelab",
+            "wedgelab-py",
+            "wedgelab-fmu",
+            "benchmarks",
+            "race",
+            "xtask",
+        ],
     ),
 ];
 
