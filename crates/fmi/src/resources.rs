@@ -98,12 +98,12 @@ mod tests {
     #[test]
     fn input_uris_of_all_importers_are_understood() {
         for (uri, folder) in [
-            ("file:///tmp/a b/resources", "/tmp/a b/resources"),
-            ("file:///tmp/a%20b/r%C3%A9s", "/tmp/a b/rés"),
-            ("file:/tmp/x", "/tmp/x"),
-            ("file://localhost/tmp/x", "/tmp/x"),
-            ("FILE:///C:/Users/x", "C:/Users/x"),
-            ("/tmp/x", "/tmp/x"),
+            ("file:///data/a b/resources", "/data/a b/resources"),
+            ("file:///data/a%20b/r%C3%A9s", "/data/a b/rés"),
+            ("file:/data/x", "/data/x"),
+            ("file://localhost/data/x", "/data/x"),
+            ("FILE:///C:/Data/x", "C:/Data/x"),
+            ("/data/x", "/data/x"),
             ("C:/x", "C:/x"),
         ] {
             assert_eq!(folder_of_uri(uri).unwrap(), PathBuf::from(folder), "{uri}");
