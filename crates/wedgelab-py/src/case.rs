@@ -172,14 +172,14 @@ impl NativeCase {
     }
 }
 
+/// A name and a title.
+type Named = (&'static str, &'static str);
+/// A group of built-in cases: name, title, what to look at, its cases.
+type GroupOfCases = (&'static str, &'static str, &'static str, Vec<Named>);
+
 /// The groups of built-in cases: name, title, what to look at, and the names and titles of its cases.
 #[pyfunction]
-pub fn built_in_groups() -> Vec<(
-    &'static str,
-    &'static str,
-    &'static str,
-    Vec<(&'static str, &'static str)>,
-)> {
+pub fn built_in_groups() -> Vec<GroupOfCases> {
     let cases = |group: &'static builtin::Group| {
         let cases = group.cases.iter();
         cases

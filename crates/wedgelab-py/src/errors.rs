@@ -177,7 +177,7 @@ pub fn internal(py: Python<'_>, text: &str) -> PyErr {
 pub fn fail_inside(py: Python<'_>) -> PyResult<()> {
     guarded(py, || {
         let none: Option<()> = None;
-        none.map_or_else(|| panic_on_purpose(), Ok)
+        none.map_or_else(panic_on_purpose, Ok)
     })
 }
 
