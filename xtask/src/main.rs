@@ -3,6 +3,7 @@
 //! One module a command. Exit codes: 0, 1 (a check failed), 2 (the call itself is wrong).
 
 mod bench;
+mod debian;
 mod race;
 mod shell;
 mod test;

@@ -324,14 +324,19 @@ pub(crate) fn read<T>(
     Ok(OK)
 }
 
-/// Sets as many variables as there are references.
+/// Sets as many variables as there are references: all of them, or none if one cannot be set.
 pub(crate) fn write<T: Copy>(
+    instance: &mut Instance,
     references: &[u32],
     values: &[T],
-    mut set: impl FnMut(u32, T) -> Result<(), Error>,
+    check: impl Fn(&Instance, u32, T) -> Result<(), Error>,
+    set: impl Fn(&mut Instance, u32, T) -> Result<(), Error>,
 ) -> Result<Status, Error> {
     for (reference, value) in references.iter().zip(values) {
-        set(*reference, *value)?;
+        check(instance, *reference, *value)?;
+    }
+    for (reference, value) in references.iter().zip(values) {
+        set(instance, *reference, *value)?;
     }
     Ok(OK)
 }
@@ -423,6 +428,12 @@ pub(crate) unsafe fn deserialize(
     let bytes = unsafe { slice(bytes, size, "the bytes") }?;
     let state = SavedState::from_bytes(bytes)?;
     // SAFETY: by this function's contract. What the place held before is not freed: it may be uninitialized.
-    unsafe { put(target, hand_out(state), "the state") }?;
+    unsafe {
+        let state = hand_out(state);
+        if let Err(error) = put(target, state, "the state") {
+            take_back::<SavedState>(state);
+            return Err(error);
+        }
+    }
     Ok(OK)
 }

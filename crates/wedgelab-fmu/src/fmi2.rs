@@ -284,7 +284,8 @@ pub unsafe extern "C" fn fmi2SetReal(c: *mut c_void, vr: References, n: usize, v
     unsafe {
         call(c, |component| {
             let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
-            write(vr, value, |vr, value| component.instance.set_float(vr, value))
+            let instance = &mut component.instance;
+            write(instance, vr, value, Instance::may_set_float, Instance::set_float)
         })
     }
 }
@@ -301,7 +302,14 @@ pub unsafe extern "C" fn fmi2SetInteger(
     unsafe {
         call(c, |component| {
             let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
-            write(vr, value, |vr, value| component.instance.set_integer(vr, value))
+            let instance = &mut component.instance;
+            write(
+                instance,
+                vr,
+                value,
+                Instance::may_set_integer,
+                Instance::set_integer,
+            )
         })
     }
 }
@@ -318,9 +326,13 @@ pub unsafe extern "C" fn fmi2SetBoolean(
     unsafe {
         call(c, |component| {
             let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
-            write(vr, value, |vr, value| {
-                component.instance.set_boolean(vr, value != 0)
-            })
+            write(
+                &mut component.instance,
+                vr,
+                value,
+                |instance, vr, value| instance.may_set_boolean(vr, value != 0),
+                |instance, vr, value| instance.set_boolean(vr, value != 0),
+            )
         })
     }
 }

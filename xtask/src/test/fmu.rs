@@ -1,16 +1,19 @@
-//! The tests of functional mock-up units with the tools that people load them into: FMPy and libcosimpy.
+//! The tests of functional mock-up units with the tools that people load them into, FMPy and libcosimpy, and with a program in C
+//! that calls every function, under Valgrind too.
 
 use std::process::Command;
 
 use super::Outcome;
+use crate::debian;
 use crate::shell::{self, Workspace};
 use crate::venv;
 
 /// Where the tests in Python and their requirements lie.
 const TESTS: &str = "crates/wedgelab-fmu/tests/python";
 
-/// Builds program and library, makes the environment if it is missing, and runs the tests.
+/// Builds program and library, installs `gcc` and `valgrind` if they are missing, makes the environment if it is missing, and runs the tests.
 pub fn check(workspace: &Workspace) -> Outcome {
+    debian::need(&["gcc", "valgrind"])?;
     let packages = ["--package", "wedgelab", "--package", "wedgelab-fmu"];
     shell::run(workspace.cargo(["build", "--release"]).args(packages))?;
     let tests = workspace.root.join(TESTS);

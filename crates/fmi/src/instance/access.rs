@@ -155,11 +155,11 @@ impl Instance {
         }
     }
 
-    /// Sets a real variable.
+    /// Whether a real variable can be set to a value now, as far as that can be said without setting it.
     ///
     /// # Errors
     /// There is no such variable, it cannot be set now, or the value is not finite.
-    pub fn set_float(&mut self, reference: u32, value: f64) -> Result<(), Error> {
+    pub fn may_set_float(&self, reference: u32, value: f64) -> Result<(), Error> {
         let variable = self.find(reference, Type::Float)?;
         self.check_settable(variable)?;
         if !value.is_finite() {
@@ -168,7 +168,16 @@ impl Instance {
                 variable.name
             )));
         }
-        let role = variable.role;
+        Ok(())
+    }
+
+    /// Sets a real variable.
+    ///
+    /// # Errors
+    /// There is no such variable, it cannot be set now, or the value is not finite.
+    pub fn set_float(&mut self, reference: u32, value: f64) -> Result<(), Error> {
+        self.may_set_float(reference, value)?;
+        let role = self.find(reference, Type::Float)?.role;
         match role {
             Role::Input(i) => {
                 if let Some(input) = self.values.inputs.get_mut(i) {
@@ -200,18 +209,23 @@ impl Instance {
         Ok(())
     }
 
-    fn set_option(&mut self, reference: u32, value: i32, wanted: Type) -> Result<(), Error> {
+    fn may_set_option(&self, reference: u32, value: i32, wanted: Type) -> Result<(), Error> {
         let variable = self.find(reference, wanted)?;
         self.check_settable(variable)?;
-        if let Some([least, greatest]) = variable.reach
-            && !(least..=greatest).contains(&f64::from(value))
-        {
-            return Err(Error::new(format!(
-                "`{}` cannot be set to {value}: it goes from {least} to {greatest}",
-                variable.name
-            )));
+        if let Some([least, greatest]) = variable.reach {
+            if !(least..=greatest).contains(&f64::from(value)) {
+                return Err(Error::new(format!(
+                    "`{}` cannot be set to {value}: it goes from {least} to {greatest}",
+                    variable.name
+                )));
+            }
         }
-        if let Role::Option(i) = variable.role {
+        Ok(())
+    }
+
+    fn set_option(&mut self, reference: u32, value: i32, wanted: Type) -> Result<(), Error> {
+        self.may_set_option(reference, value, wanted)?;
+        if let Role::Option(i) = self.find(reference, wanted)?.role {
             if let Some(option) = self.values.options.get_mut(i) {
                 *option = value;
             }
@@ -219,6 +233,22 @@ impl Instance {
             self.changed();
         }
         Ok(())
+    }
+
+    /// Whether an integer variable can be set to a value now.
+    ///
+    /// # Errors
+    /// There is no such variable, it cannot be set now, or the value is outside its reach.
+    pub fn may_set_integer(&self, reference: u32, value: i32) -> Result<(), Error> {
+        self.may_set_option(reference, value, Type::Integer)
+    }
+
+    /// Whether a Boolean variable can be set now.
+    ///
+    /// # Errors
+    /// There is no such variable, or it cannot be set now.
+    pub fn may_set_boolean(&self, reference: u32, value: bool) -> Result<(), Error> {
+        self.may_set_option(reference, i32::from(value), Type::Boolean)
     }
 
     /// Sets an integer variable.

@@ -291,7 +291,8 @@ pub unsafe extern "C" fn fmi3SetFloat64(
         call(instance, |component| {
             same(n, count)?;
             let (vr, values) = (slice(vr, n, "the references")?, slice(values, n, "the values")?);
-            write(vr, values, |vr, value| component.instance.set_float(vr, value))
+            let instance = &mut component.instance;
+            write(instance, vr, values, Instance::may_set_float, Instance::set_float)
         })
     }
 }
@@ -332,7 +333,14 @@ pub unsafe extern "C" fn fmi3SetInt32(
         call(instance, |component| {
             same(n, count)?;
             let (vr, values) = (slice(vr, n, "the references")?, slice(values, n, "the values")?);
-            write(vr, values, |vr, value| component.instance.set_integer(vr, value))
+            let instance = &mut component.instance;
+            write(
+                instance,
+                vr,
+                values,
+                Instance::may_set_integer,
+                Instance::set_integer,
+            )
         })
     }
 }
@@ -373,9 +381,13 @@ pub unsafe extern "C" fn fmi3SetBoolean(
         call(instance, |component| {
             same(n, count)?;
             let (vr, values) = (slice(vr, n, "the references")?, slice(values, n, "the values")?);
-            write(vr, values, |vr, value| {
-                component.instance.set_boolean(vr, value != 0)
-            })
+            write(
+                &mut component.instance,
+                vr,
+                values,
+                |instance, vr, value| instance.may_set_boolean(vr, value != 0),
+                |instance, vr, value| instance.set_boolean(vr, value != 0),
+            )
         })
     }
 }
