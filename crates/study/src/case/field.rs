@@ -42,7 +42,7 @@ pub enum Input {
     /// Three numbers in a list.
     Triple {
         /// The numbers.
-        numbers: [Measured; 3],
+        numbers: Box<[Measured; 3]>,
     },
     /// One of several names.
     Choice {
@@ -194,7 +194,7 @@ impl Written {
         Self {
             toml: format!("[{a}, {b}, {c}]"),
             input: Input::Triple {
-                numbers: quantities.each_ref().map(|one| Measured::of(one, kind, reach)),
+                numbers: Box::new(quantities.each_ref().map(|one| Measured::of(one, kind, reach))),
             },
         }
     }
