@@ -87,7 +87,7 @@ pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
             .into_iter()
             .map(|number| {
                 let column = &equations.columns()[number];
-                let about = match column.reference {
+                let about = match &*column.reference {
                     "" => String::new(),
                     reference => format!(" ({reference})"),
                 };
