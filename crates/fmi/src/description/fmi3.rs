@@ -109,7 +109,8 @@ fn write_variable(xml: &mut Xml, description: &Description, variable: &Variable)
 }
 
 fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
-    let lists: [(&str, fn(Role) -> bool); 2] = [
+    type Belongs = fn(Role) -> bool;
+    let lists: [(&str, Belongs); 2] = [
         ("Output", |role| matches!(role, Role::Output(_) | Role::Mode(_))),
         ("ContinuousStateDerivative", |role| matches!(role, Role::Rate(_))),
     ];
