@@ -27,7 +27,10 @@ pub(super) fn write(description: &Description) -> Result<String, Error> {
                 ("modelIdentifier", description.model.name().to_owned()),
                 yes("canGetAndSetFMUState"),
                 yes("canSerializeFMUState"),
-                yes("providesDirectionalDerivatives"),
+                (
+                    "providesDirectionalDerivatives",
+                    description.model.has_derivatives().to_string(),
+                ),
             ]
         };
         xml.empty("ModelExchange", &common())?;
