@@ -261,3 +261,77 @@ impl Problem for Loaded {
         self.system.next_mode(time, x, index, mode)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    fn truck() -> Loaded {
+        Loaded::new(&wedge::thesis::parameters(wedge::parameters::Damping::Constant, 0.0, 0.0)).unwrap()
+    }
+
+    #[test]
+    fn energy_loads_at_wedges_do_the_work_of_their_points() {
+        let mut truck = truck();
+        // Numbers without pattern.
+        let number = |k: usize| f64::from(((k * 7919 + 13) % 101) as u32) - 50.0;
+        let loads = std::array::from_fn(|w| {
+            std::array::from_fn(|n| std::array::from_fn(|k| number(12 * w + 6 * n + k)))
+        });
+        let speeds: Vec<f64> = (0..truck.system.layout().speeds)
+            .map(|k| number(k + 61))
+            .collect();
+        truck.set_loads(&loads, [0.0; 6]);
+        let of_points: f64 = (0..4)
+            .flat_map(|w| (0..2).map(move |n| (w, n)))
+            .map(|(w, n)| {
+                let rates = truck.neighbour(w, n, &speeds);
+                let load: &Six = &loads[w][n];
+                load.iter()
+                    .zip(rates)
+                    .map(|(load, rate)| load * rate)
+                    .sum::<f64>()
+            })
+            .sum();
+        let of_bodies = truck.work(speeds.iter().copied());
+        assert!(
+            (of_points - of_bodies).abs() < 1e-12 * of_points.abs(),
+            "{of_points} {of_bodies}"
+        );
+    }
+
+    #[test]
+    fn analytic_the_springs_carry_the_truck_where_it_is_drawn() {
+        let truck = truck();
+        let mut system = truck.system.clone();
+        let start = system.initial_state();
+        let rest = system
+            .equilibrium(0.0, &start, mechanics::small::StaticFriction::Without)
+            .unwrap();
+        let height = rest[system.position_of(BODY, 2).unwrap()];
+        // 319.175 lb s²/in · 386.09 in/s² on springs of about 51,000 lb/in, preloaded by eight times 15,403.78 lb.
+        assert!(height.abs() < 0.5e-3, "{height} m");
+    }
+
+    #[test]
+    fn limits_a_load_from_outside_moves_the_body_alone() {
+        let mut truck = truck();
+        let x = truck.system.initial_state();
+        let mut without = vec![0.0; x.len()];
+        truck.segment(0.0);
+        truck.derivative(0.0, &x, &mut without);
+        truck.set_loads(&[[[0.0; 6]; 2]; 4], [0.0, 0.0, 1000.0, 0.0, 0.0, 0.0]);
+        let mut with = vec![0.0; x.len()];
+        truck.derivative(0.0, &x, &mut with);
+        let speeds = truck.system.layout().speeds;
+        let place = speeds + truck.system.position_of(BODY, 2).unwrap();
+        // 319.175 lb s²/in in kg.
+        let mass = 319.175 * 0.453_592_37 * 9.806_65 / 0.0254;
+        assert!(((with[place] - without[place]) * mass / 1000.0 - 1.0).abs() < 1e-9);
+        for k in (0..x.len()).filter(|k| *k != place) {
+            assert_eq!(with[k].to_bits(), without[k].to_bits());
+        }
+    }
+}
