@@ -14,17 +14,19 @@ OUTPUT = ["side_frame_friction_loss", "vertical_wedge_force", "force_on_side_fra
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("version", ["2", "3"])
 def test_cross_code_an_fmu_gives_the_averages_of_a_run(fmus, run, signal, version, kind):
+    # CVode makes no more than 500 steps between two outputs, and the contacts ring: short intervals.
+    step, tolerance = (STEP, 1e-6) if kind == "CoSimulation" else (2e-4, 1e-8)
     result = simulate_fmu(
         fmus(version),
         fmi_type=kind,
         stop_time=DURATION,
-        output_interval=STEP if kind == "CoSimulation" else 0.01,
-        relative_tolerance=1e-6,
+        output_interval=step,
+        relative_tolerance=tolerance,
         input=signal,
         output=OUTPUT,
         record_events=False,
     )
-    every = 10 if kind == "CoSimulation" else 1
+    every = round(0.01 / step)
     found = averages(
         result["time"][::every], result["side_frame_friction_loss"][::every], result["vertical_wedge_force"][::every]
     )
