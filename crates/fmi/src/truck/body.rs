@@ -269,7 +269,12 @@ mod tests {
     use super::*;
 
     fn truck() -> Loaded {
-        Loaded::new(&wedge::thesis::parameters(wedge::parameters::Damping::Constant, 0.0, 0.0)).unwrap()
+        Loaded::new(&wedge::thesis::parameters(
+            wedge::parameters::Damping::Constant,
+            0.0,
+            0.0,
+        ))
+        .unwrap()
     }
 
     #[test]
