@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::quasi_static::QuasiStaticState;
+use crate::truck::TruckState;
 use crate::unit::Unit;
 use crate::variable::Start;
 use crate::wedge::WedgeState;
@@ -90,6 +91,8 @@ pub struct Entries {
     pub inputs: Vec<Entry>,
     /// Outputs.
     pub outputs: Vec<Entry>,
+    /// Outputs depend on states alone, not on inputs.
+    pub outputs_of_states: bool,
     /// Continuous states.
     pub states: Vec<Entry>,
     /// How many of them, at the end of the list, are only accumulated: nothing depends on them.
@@ -128,6 +131,8 @@ pub enum ElementState {
     Wedge(Box<WedgeState>),
     /// A quasi-static wedge.
     QuasiStatic(QuasiStaticState),
+    /// A truck without wedges.
+    Truck(Box<TruckState>),
 }
 
 /// Derivatives of rates and outputs along a direction.

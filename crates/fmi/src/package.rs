@@ -190,7 +190,7 @@ fn unpack(path: &Path) -> Result<Vec<(String, Vec<u8>)>, Error> {
 }
 
 /// Writes an archive beside its place, and moves it there when it is whole.
-fn pack(path: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Error> {
+pub(crate) fn pack(path: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Error> {
     let failed =
         |error: &dyn std::fmt::Display| Error::new(format!("{} cannot be written: {error}", path.display()));
     let folder = match path.parent() {

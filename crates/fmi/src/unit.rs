@@ -77,6 +77,23 @@ impl Unit {
         }
     }
 
+    /// Its exponents of base units that are not zero, as descriptions name them.
+    #[must_use]
+    pub fn base(self) -> Vec<(&'static str, String)> {
+        let dimension = self.dimension();
+        let exponents = [
+            ("kg", dimension.mass),
+            ("m", dimension.length),
+            ("s", dimension.time),
+            ("rad", dimension.angle),
+        ];
+        exponents
+            .into_iter()
+            .filter(|(_, exponent)| *exponent != 0)
+            .map(|(name, exponent)| (name, exponent.to_string()))
+            .collect()
+    }
+
     /// What it is shown in, if not in itself.
     #[must_use]
     pub fn display(self) -> Option<Display> {

@@ -31,7 +31,10 @@ pub(super) fn write(description: &Description) -> Result<String, Error> {
                 ("modelIdentifier", description.model.name().to_owned()),
                 yes("canGetAndSetFMUstate"),
                 yes("canSerializeFMUstate"),
-                yes("providesDirectionalDerivative"),
+                (
+                    "providesDirectionalDerivative",
+                    description.model.has_derivatives().to_string(),
+                ),
             ]
         };
         xml.empty("ModelExchange", &common())?;

@@ -27,7 +27,10 @@ pub(super) fn write(description: &Description) -> Result<String, Error> {
                 ("modelIdentifier", description.model.name().to_owned()),
                 yes("canGetAndSetFMUState"),
                 yes("canSerializeFMUState"),
-                yes("providesDirectionalDerivatives"),
+                (
+                    "providesDirectionalDerivatives",
+                    description.model.has_derivatives().to_string(),
+                ),
             ]
         };
         xml.empty("ModelExchange", &common())?;
@@ -109,13 +112,13 @@ fn write_variable(xml: &mut Xml, description: &Description, variable: &Variable)
 }
 
 fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
-    type Belongs = fn(Role) -> bool;
-    let lists: [(&str, Belongs); 2] = [
-        ("Output", |role| matches!(role, Role::Output(_) | Role::Mode(_))),
-        ("ContinuousStateDerivative", |role| matches!(role, Role::Rate(_))),
-    ];
-    for (name, is) in lists {
-        for variable in description.those(is) {
+    for name in ["Output", "ContinuousStateDerivative"] {
+        let rates = name != "Output";
+        for variable in description.those(|role| match role {
+            Role::Output(_) | Role::Mode(_) => !rates,
+            Role::Rate(_) => rates,
+            _ => false,
+        }) {
             let dependencies = list(description.dependencies(variable.role).into_iter());
             let attributes = vec![
                 ("valueReference", variable.reference.to_string()),

@@ -2,7 +2,7 @@
 
 mod fmi2;
 mod fmi3;
-mod xml;
+pub(crate) mod xml;
 
 use sha2::{Digest, Sha256};
 use study::case::Case;
@@ -28,6 +28,8 @@ pub enum Model {
     Wedge,
     /// The quasi-static wedge.
     QuasiStatic,
+    /// A half-truck without its wedges.
+    Truck,
 }
 
 impl Model {
@@ -37,13 +39,20 @@ impl Model {
         match self {
             Self::Wedge => "FrictionWedge",
             Self::QuasiStatic => "FrictionWedgeQS",
+            Self::Truck => "FrictionTruck",
         }
+    }
+
+    /// Whether it gives directional derivatives.
+    #[must_use]
+    pub fn has_derivatives(self) -> bool {
+        self != Self::Truck
     }
 
     /// The model of this name.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
-        [Self::Wedge, Self::QuasiStatic]
+        [Self::Wedge, Self::QuasiStatic, Self::Truck]
             .into_iter()
             .find(|model| model.name() == name)
     }
@@ -81,6 +90,7 @@ impl Description {
         let entries = match model {
             Model::Wedge => crate::wedge::entries(case)?,
             Model::QuasiStatic => crate::quasi_static::entries(case)?,
+            Model::Truck => crate::truck::entries(case)?,
         };
         let text = match model {
             Model::Wedge => {
@@ -89,6 +99,9 @@ impl Description {
             }
             Model::QuasiStatic => {
                 "Friction wedge of a three-piece truck between bolster and side frame: quasi-static, without mass"
+            }
+            Model::Truck => {
+                "Loaded half of a three-piece truck without its four friction wedges: half a car on a bolster, side frames, springs"
             }
         };
         let text = if case.title.is_empty() {
@@ -167,7 +180,7 @@ impl Description {
         let depends = |variable: &&Variable| match (role, variable.role) {
             // Work and losses are accumulated: nothing depends on them.
             (Role::Output(_), Role::State(state)) => state < states,
-            (Role::Output(_), Role::Input(_)) => true,
+            (Role::Output(_), Role::Input(_)) => !entries.outputs_of_states,
             (Role::Rate(rate), other) => match entries.kinematic.iter().find(|(q, _)| *q == rate) {
                 Some((_, speed)) => other == Role::State(*speed),
                 None => match other {

@@ -9,12 +9,12 @@ use crate::Error;
 use crate::unit::Unit;
 
 /// Writes XML, two blanks a level.
-pub(super) struct Xml {
+pub(crate) struct Xml {
     writer: Writer<Cursor<Vec<u8>>>,
 }
 
 /// Attributes: names and values.
-pub(super) type Attributes<'a> = Vec<(&'a str, String)>;
+pub(crate) type Attributes<'a> = Vec<(&'a str, String)>;
 
 impl Xml {
     pub fn new() -> Result<Self, Error> {
@@ -58,19 +58,7 @@ impl Xml {
             for unit in Unit::ALL {
                 let Some(name) = unit.name() else { continue };
                 xml.element("Unit", &[("name", name.to_owned())], |xml| {
-                    let dimension = unit.dimension();
-                    let exponents = [
-                        ("kg", dimension.mass),
-                        ("m", dimension.length),
-                        ("s", dimension.time),
-                        ("rad", dimension.angle),
-                    ];
-                    let base: Attributes<'_> = exponents
-                        .into_iter()
-                        .filter(|(_, exponent)| *exponent != 0)
-                        .map(|(name, exponent)| (name, exponent.to_string()))
-                        .collect();
-                    xml.empty("BaseUnit", &base)?;
+                    xml.empty("BaseUnit", &unit.base())?;
                     match unit.display() {
                         Some(display) => xml.empty(
                             "DisplayUnit",
@@ -101,11 +89,11 @@ fn failed(error: std::io::Error) -> Error {
 }
 
 /// A number that reads back to the last bit.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
 /// References, as lists in attributes have them.
-pub(super) fn list(references: impl Iterator<Item = u32>) -> String {
+pub(crate) fn list(references: impl Iterator<Item = u32>) -> String {
     references.map(|r| r.to_string()).collect::<Vec<_>>().join(" ")
 }

@@ -212,15 +212,14 @@ impl Instance {
     fn may_set_option(&self, reference: u32, value: i32, wanted: Type) -> Result<(), Error> {
         let variable = self.find(reference, wanted)?;
         self.check_settable(variable)?;
-        if let Some([least, greatest]) = variable.reach
-            && !(least..=greatest).contains(&f64::from(value))
-        {
-            return Err(Error::new(format!(
+        let value = f64::from(value);
+        match variable.reach {
+            Some([least, greatest]) if !(least..=greatest).contains(&value) => Err(Error::new(format!(
                 "`{}` cannot be set to {value}: it goes from {least} to {greatest}",
                 variable.name
-            )));
+            ))),
+            _ => Ok(()),
         }
-        Ok(())
     }
 
     fn set_option(&mut self, reference: u32, value: i32, wanted: Type) -> Result<(), Error> {

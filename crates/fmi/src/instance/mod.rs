@@ -19,6 +19,7 @@ use study::case::Case;
 use crate::description::{Description, Model, Version};
 use crate::element::{Element, Interface, Setting};
 use crate::quasi_static::QuasiStaticElement;
+use crate::truck::TruckElement;
 use crate::variable::Start;
 use crate::wedge::WedgeElement;
 use crate::{Category, Error, Severity, resources};
@@ -290,6 +291,7 @@ impl Instance {
             let element: Box<dyn Element> = match self.description.model {
                 Model::Wedge => Box::new(WedgeElement::new(&self.case, entries, &setting)?),
                 Model::QuasiStatic => Box::new(QuasiStaticElement::new(&self.case, entries, &setting)?),
+                Model::Truck => Box::new(TruckElement::new(&self.case, &setting)?),
             };
             self.stale = false;
             self.element = Some(element);

@@ -78,6 +78,7 @@ pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
         options: options(case),
         inputs: inputs(&start),
         outputs: outputs(),
+        outputs_of_states: false,
         accumulators: system.layout().quadratures,
         kinematic: (0..system.layout().speeds)
             .map(|q| (q, q + system.layout().speeds))

@@ -32,6 +32,9 @@ pub struct Arguments {
     /// The quasi-static wedge: without mass, contact stiffness and moments
     #[arg(long)]
     quasi_static: bool,
+    /// The truck without its wedges: half a car on a bolster, side frames, springs; with room for four wedges of the case
+    #[arg(long, conflicts_with = "quasi_static")]
+    truck: bool,
     /// Set one value over those of the case; VALUE is TOML (quotes around text may be left out)
     #[arg(long, value_name = "PATH.KEY=VALUE")]
     set: Vec<String>,
@@ -55,24 +58,11 @@ fn version(text: &str) -> Result<Version, String> {
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let case = run::read(&arguments.case, &arguments.set)?;
     may_write(&arguments.out, arguments.force)?;
-    let Some(platform) = Platform::here() else {
-        let message = format!(
-            "FMUs know no platform {}-{}",
-            std::env::consts::ARCH,
-            std::env::consts::OS
-        );
-        return Err(Message::new(message, "export on Linux, Windows or macOS").into());
-    };
-    let library = match &arguments.library {
-        Some(library) if library.is_file() => library.clone(),
-        Some(library) => {
-            let message = format!("there is no library {}", library.display());
-            return Err(Message::new(message, BUILD).into());
-        }
-        None => beside()?,
-    };
+    let (platform, library) = parts(arguments.library.as_deref())?;
     let model = if arguments.quasi_static {
         Model::QuasiStatic
+    } else if arguments.truck {
+        Model::Truck
     } else {
         Model::Wedge
     };
@@ -96,6 +86,27 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
 const BUILD: &str = "`cargo build --release -p wedgelab-fmu` makes it, in the folder target/release; `--library FILE` names it where it lies \
      elsewhere";
+
+/// The platform of this program, and the library for it: the one that is named, or the one beside the program.
+pub(super) fn parts(library: Option<&Path>) -> Result<(Platform, PathBuf), Failure> {
+    let Some(platform) = Platform::here() else {
+        let message = format!(
+            "FMUs know no platform {}-{}",
+            std::env::consts::ARCH,
+            std::env::consts::OS
+        );
+        return Err(Message::new(message, "export on Linux, Windows or macOS").into());
+    };
+    let library = match library {
+        Some(library) if library.is_file() => library.to_path_buf(),
+        Some(library) => {
+            let message = format!("there is no library {}", library.display());
+            return Err(Message::new(message, BUILD).into());
+        }
+        None => beside()?,
+    };
+    Ok((platform, library))
+}
 
 /// Whether a file may be written.
 pub(super) fn may_write(path: &Path, force: bool) -> Result<(), Failure> {

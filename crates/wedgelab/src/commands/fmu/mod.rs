@@ -2,6 +2,7 @@
 
 mod export;
 mod merge;
+mod ssp;
 
 use std::process::ExitCode;
 
@@ -23,6 +24,7 @@ pub struct Arguments {
 enum Command {
     Export(export::Arguments),
     Merge(merge::Arguments),
+    Ssp(ssp::Arguments),
 }
 
 /// Does it.
@@ -30,5 +32,6 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     match &arguments.command {
         Command::Export(arguments) => export::execute(arguments),
         Command::Merge(arguments) => merge::execute(arguments),
+        Command::Ssp(arguments) => ssp::execute(arguments),
     }
 }
