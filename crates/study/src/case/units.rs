@@ -51,7 +51,7 @@ mod tests {
             ("9 in", Kind::Length, System::Us, "9 in"),
             ("25.4 mm", Kind::Length, System::Us, "1 in"),
             ("32 deg", Kind::Angle, System::Si, "32 deg"),
-            ("50 lbf", Kind::Force, System::Si, "222.411080763025 N"),
+            ("50 lbf", Kind::Force, System::Si, "222.41108076302498 N"),
             ("-0.5 ft", Kind::Length, System::Si, "-0.1524 m"),
             ("0 lbf/in", Kind::Stiffness, System::Si, "0 N/m"),
         ] {

@@ -43,7 +43,7 @@ fn force_and_moment_times_the_rates_are_the_power_of_the_motions() {
 fn action_and_reaction_balance() {
     for name in [YAWED, "vdrun_toe_0.2_psi_0.012"] {
         let case = case(name, &[]);
-        let mut wedge = at(&case, 0.3, 1e-3);
+        let mut wedge = at(&case, 2.2, 1e-3);
         let seen = {
             let parameters = case.parameters.clone();
             let mut equations = Equations::new(
