@@ -131,6 +131,10 @@ impl Quantities {
                     let square = |sum: f64, value: f64| sum + value * value;
                     let difference = found.iter().zip(exact).map(|(a, b)| a - b).fold(0.0, square);
                     let size = exact[..found.len()].iter().copied().fold(0.0, square);
+                    // A wedge that hangs free has no force at all.
+                    if size == 0.0 && difference == 0.0 {
+                        return 0.0;
+                    }
                     (difference / size).sqrt()
                 });
                 each.fold(0.0, worse)

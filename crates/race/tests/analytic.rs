@@ -73,6 +73,8 @@ fn errors_by_hand() {
     assert!((error - 2.0_f64.sqrt() / 5.0).abs() < 1e-15);
     assert!(series(&[f64::NAN, 3.0]).error(&reference).is_infinite());
     assert!(series(&[]).error(&reference).is_infinite());
+    assert_eq!(series(&[0.0]).error(&series(&[0.0, 1.0])), 0.0);
+    assert!(series(&[1.0]).error(&series(&[0.0, 1.0])).is_infinite());
     let means = Quantities::Means([100.0, -200.0, 50.0]);
     assert_eq!(means.error(&means), 0.0);
     assert_eq!(Quantities::Means([90.0, -200.0, 50.0]).error(&means), 0.05);
