@@ -15,7 +15,25 @@ _ColumnUnit = tuple[str, str, float]
 _Six = list[float]
 _Load = tuple[list[float], list[float]]
 
-__all__: list[str]
+__all__ = [
+    "NativeCase",
+    "NativeFile",
+    "NativeResult",
+    "NativeTruckCase",
+    "NativeWedge",
+    "Quantity",
+    "__version__",
+    "_fail_inside",
+    "built_in_groups",
+    "built_in_trucks",
+    "check_files",
+    "read_file",
+    "report_figures",
+    "run_figures",
+    "run_many",
+    "slide",
+    "to_si",
+]
 __version__: str
 
 @final
