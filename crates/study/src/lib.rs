@@ -7,6 +7,8 @@ pub mod assumptions;
 pub mod case;
 pub mod closed_form;
 pub mod cycles;
+pub mod design;
+pub mod measures;
 pub mod metrics;
 pub mod result;
 pub mod run;

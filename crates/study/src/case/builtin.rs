@@ -95,6 +95,14 @@ pub fn case(name: &str) -> Result<Case, CaseError> {
     case_with(name, &[])
 }
 
+/// The text of a built-in case's file.
+pub(crate) fn text(name: &str) -> Option<&'static str> {
+    CASES
+        .iter()
+        .find(|case| case.name == name)
+        .map(|case| case.text.as_str())
+}
+
 /// The built-in case of this name with `--set` overrides (`path.key=value`).
 ///
 /// # Errors

@@ -12,14 +12,14 @@ mod defaults;
 mod document;
 mod field;
 mod motion;
-mod name;
+pub(crate) mod name;
 mod overrides;
-mod problem;
+pub(crate) mod problem;
 mod read;
 mod resolve;
-mod section;
+pub(crate) mod section;
 mod table;
-mod tree;
+pub(crate) mod tree;
 mod write;
 
 pub use document::{
