@@ -56,7 +56,11 @@ fn rate() -> Result<(), String> {
         let wall = clock.elapsed().as_secs_f64() / f64::from(repeats);
         total += wall;
         runs += 1;
-        print!("{name:26} {:6.2} ms {:6} steps ", wall * 1e3, found.get("steps").unwrap_or(0.0));
+        print!(
+            "{name:26} {:6.2} ms {:6} steps ",
+            wall * 1e3,
+            found.get("steps").unwrap_or(0.0)
+        );
         for (number, definition) in ALL.iter().enumerate() {
             if compared(definition.name) {
                 let error = found.0[number] / reference.0[number] - 1.0;

@@ -50,7 +50,8 @@ impl Value {
     }
 
     /// A text of a case file under `path`: a quantity or a toe, if it is one.
-    pub(super) fn of_text(path: &str, text: &str) -> Self {
+    #[must_use]
+    pub fn of_text(path: &str, text: &str) -> Self {
         let quoted = || Self::Toml(toml::Value::from(text).to_string());
         let (magnitude, sign) = match (path == TOE).then(|| text.trim_end().rsplit_once(char::is_whitespace))
         {
@@ -70,8 +71,21 @@ impl Value {
         }
     }
 
+    /// What was typed without quotes: a pure number, or as [`Value::of_text`].
+    #[must_use]
+    pub fn of_number(path: &str, text: &str) -> Self {
+        match text.trim().parse::<f64>() {
+            Ok(value) if value.is_finite() => Self::Number {
+                value,
+                unit: String::new(),
+            },
+            _ => Self::of_text(path, text),
+        }
+    }
+
     /// The same number in another unit; `None` if it measures something else.
-    pub(super) fn in_unit(&self, unit: &str) -> Option<f64> {
+    #[must_use]
+    pub fn in_unit(&self, unit: &str) -> Option<f64> {
         let Self::Number { value, unit: own } = self else {
             return None;
         };

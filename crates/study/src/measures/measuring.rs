@@ -79,7 +79,7 @@ struct Measuring<'c> {
     rows: u64,
     buffer: Vec<f64>,
     /// Sums and counts of the branches: down, up.
-    sums: [[f64; 3]; 2],
+    sums: [[f64; 4]; 2],
     counts: [u64; 2],
     peaks: [f64; 6],
     events: u64,
@@ -111,7 +111,7 @@ impl<'c> Measuring<'c> {
             next_row: 0,
             rows: row_count(duration, case.simulation.output_interval),
             buffer: start,
-            sums: [[0.0; 3]; 2],
+            sums: [[0.0; 4]; 2],
             counts: [0; 2],
             peaks: [0.0; 6],
             events: 0,
@@ -196,6 +196,11 @@ impl<'c> Measuring<'c> {
             values[place::STICK + face] = self.clock.sticking[face] / self.clock.touching[face];
         }
         let quasi_static = closed_form::wedge(&self.case.parameters);
+        for (side, direction) in [Direction::Up, Direction::Down].into_iter().enumerate() {
+            if let Some(slide) = quasi_static.slide(direction, quasi_static.branch(direction), 1.0) {
+                values[place::QUASI_STATIC_RATIOS + side] = slide.column_normal * libm::cos(quasi_static.toe);
+            }
+        }
         let margins = [Direction::Down, Direction::Up]
             .map(|direction| quasi_static.jam_margin(direction, quasi_static.branch(direction)));
         values[place::JAM_MARGIN] = margins[0].min(margins[1]);
@@ -221,10 +226,16 @@ impl<'c> Measuring<'c> {
     fn averages(&self, values: &mut [f64; super::COUNT]) {
         let Some(cycle) = self.cycle else { return };
         for (branch, (sums, count)) in self.sums.iter().zip(self.counts).enumerate() {
-            for (number, sum) in sums.iter().enumerate() {
-                if count > 0 {
-                    values[place::MEANS + 2 * number + 1 - branch] = sum / count as f64;
-                }
+            if count == 0 {
+                continue;
+            }
+            let side = 1 - branch;
+            let [means @ .., load] = sums;
+            for (number, sum) in means.iter().enumerate() {
+                values[place::MEANS + 2 * number + side] = sum / count as f64;
+            }
+            if *load > 0.0 {
+                values[place::RATIOS + side] = means[2] / load;
             }
         }
         let (Some((start, end, cycles)), [from, to]) = (self.window, self.probes.as_slice()) else {

@@ -7,6 +7,9 @@
 //! - *stick share* of a face: of the time in which corners touch, counted corner by corner, the part in which they stick;
 //! - *wear power* of a face: energy lost in its friction over time;
 //! - *peak moments*: the largest size at any output time;
+//! - *column force ratio*: of the sums over a branch, the column's normal forces along x over the load on the wedge
+//!   ([`closed_form::load`](crate::closed_form::load)); beside it that of the massless wedge, which depends on angles and
+//!   frictions alone;
 //! - *jam margin*: of the massless wedge ([`mechanics::quasi_static`]), going down, going up, and the smaller one.
 //!
 //! Stick share and wear power are taken over the whole cycles after the first half period, as energies are; where there
@@ -122,6 +125,26 @@ pub const ALL: [Measure; COUNT] = [
         "of the time in which corners touch the column, the part in which they stick",
     ),
     define("stick_share_slope", Kind::Dimensionless, "the same at the slope"),
+    define(
+        "column_force_ratio_up",
+        Kind::Dimensionless,
+        "normal forces of the column along x over the coil's force less the wedge's weight; means while the bolster rises",
+    ),
+    define(
+        "column_force_ratio_down",
+        Kind::Dimensionless,
+        "the same while the bolster falls",
+    ),
+    define(
+        "quasi_static_column_force_ratio_up",
+        Kind::Dimensionless,
+        "the same of the massless wedge in steady sliding (eq. 5-1); none where it jams",
+    ),
+    define(
+        "quasi_static_column_force_ratio_down",
+        Kind::Dimensionless,
+        "the same while the bolster falls",
+    ),
     define("jam_margin", Kind::Angle, "the smaller of the next two"),
     define(
         "jam_margin_down",
@@ -145,7 +168,7 @@ pub const ALL: [Measure; COUNT] = [
 ];
 
 /// Number of measures.
-pub const COUNT: usize = 30;
+pub const COUNT: usize = 34;
 
 /// Places of the measures.
 pub(crate) mod place {
@@ -159,11 +182,14 @@ pub(crate) mod place {
     pub const PEAKS: usize = 12;
     pub const LIFT_OFF: usize = 18;
     pub const STICK: usize = 20;
-    pub const JAM_MARGIN: usize = 22;
-    pub const WEAR: usize = 25;
-    pub const RESIDUAL: usize = 27;
-    pub const EVENTS: usize = 28;
-    pub const STEPS: usize = 29;
+    /// Up and down by turns.
+    pub const RATIOS: usize = 22;
+    pub const QUASI_STATIC_RATIOS: usize = 24;
+    pub const JAM_MARGIN: usize = 26;
+    pub const WEAR: usize = 29;
+    pub const RESIDUAL: usize = 31;
+    pub const EVENTS: usize = 32;
+    pub const STEPS: usize = 33;
 }
 
 /// The measures of a run, SI, in the order of [`ALL`]; `NaN` for what it does not have.
@@ -183,8 +209,9 @@ impl Measures {
 }
 
 impl PartialEq for Measures {
-    /// The same bits.
+    /// The same bits, but any `NaN` equals any other.
     fn eq(&self, other: &Self) -> bool {
-        self.0.map(f64::to_bits) == other.0.map(f64::to_bits)
+        let mut pairs = self.0.iter().zip(&other.0);
+        pairs.all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
     }
 }
