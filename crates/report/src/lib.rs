@@ -25,6 +25,7 @@ pub mod csv;
 pub mod drawing;
 pub mod figures;
 pub mod files;
+pub mod fit_files;
 pub mod mat;
 pub mod mat5;
 mod overlay;
