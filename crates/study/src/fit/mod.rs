@@ -219,8 +219,12 @@ pub fn course(case: &Case, column: &str, times: &[f64]) -> Result<Vec<f64>, Stri
         .collect())
 }
 
-/// Finds the free parameters of a case; `case` gives it with values set, `each` computes several models at a time, in any
-/// order, each by calling its argument with a number from 0 on.
+/// The model of this number, of several.
+pub type Model<'m> = &'m (dyn Fn(usize) -> Result<Vec<f64>, String> + Sync);
+/// Computes so many models, side by side if it can, and gives them in order.
+pub type Each<'e> = &'e dyn Fn(usize, Model<'_>) -> Vec<Result<Vec<f64>, String>>;
+
+/// Finds the free parameters of a case; `case` gives it with values set, `each` computes several models at a time.
 ///
 /// # Errors
 /// The case has no such parameters, or no values beside its start.
@@ -229,9 +233,7 @@ pub fn fit(
     measured: &Measured,
     free: &[Free],
     confidence: f64,
-    each: &(
-         dyn Fn(usize, &(dyn Fn(usize) -> Result<Vec<f64>, String> + Sync)) -> Vec<Result<Vec<f64>, String>>
-     ),
+    each: Each<'_>,
 ) -> Result<Fit, FitError> {
     if measured.values.len() <= free.len() {
         return Err(FitError::TooFew {
@@ -244,7 +246,7 @@ pub fn fit(
         pairs.map(|(free, scaled)| free.set(free.at(*scaled))).collect()
     };
     // Both ends of each range must make a case: the message is about what was typed.
-    for (number, _) in free.iter().enumerate() {
+    for number in 0..free.len() {
         for end in [0.0, 1.0] {
             let mut scaled = vec![0.5; free.len()];
             scaled[number] = end;

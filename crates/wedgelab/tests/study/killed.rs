@@ -126,13 +126,19 @@ fn limits_the_number_of_jobs_changes_nothing() {
 fn limits_interrupted_it_says_so_and_goes_on() {
     let folder = tempdir().unwrap();
     let path = folder.path();
-    fs::write(path.join("long.toml"), SMALL.replace("0.12 s", "1 s")).unwrap();
+    fs::write(path.join("long.toml"), SMALL.replace("0.12 s", "2 s")).unwrap();
     let child = command(path, &["study", "long.toml", "--out", "a", "--jobs", "1"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    std::thread::sleep(Duration::from_millis(700));
+    let parts = path.join("a/parts");
+    for _ in 0..3000 {
+        if parts.exists() && kept(&path.join("a")) > 0 {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
     let interrupt = Command::new("kill")
         .args(["-INT", &child.id().to_string()])
         .status();
@@ -150,6 +156,10 @@ fn input_a_full_disk_loses_nothing() {
     let folder = tempdir().unwrap();
     let path = folder.path();
     fs::write(path.join("small.toml"), SMALL).unwrap();
+    // Begun, without a run.
+    done(path, &["study", "small.toml", "--out", "a", "--quiet"]);
+    fs::remove_dir_all(path.join("a/parts")).unwrap();
+    fs::remove_file(path.join("a/table.parquet")).unwrap();
     // No file may grow beyond 4 KiB: as a full disk it refuses to be written to.
     let limited = format!(
         "trap '' XFSZ; ulimit -f 8; exec '{}' study small.toml --out a --quiet",

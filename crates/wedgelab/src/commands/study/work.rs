@@ -36,8 +36,12 @@ pub fn all(study: &Study, folder: &StudyFolder, jobs: usize, quiet: bool) -> Res
     let (mut before, mut lost) = (0, 0);
     for part in 0..folder.parts() {
         let found = folder.part(part)?;
-        before += found.records.len() as u64;
-        lost += found.lost;
+        let count = found.records.len() as u64;
+        before += count;
+        // What was computed again since then needs no word.
+        if count < folder.numbers(part).end - folder.numbers(part).start {
+            lost += found.lost;
+        }
     }
     let stop = on_interrupt();
     let progress = Progress::new(study.count(), before, quiet);
