@@ -82,6 +82,8 @@ struct Measuring<'c> {
     sums: [[f64; 4]; 2],
     counts: [u64; 2],
     peaks: [f64; 6],
+    /// Peaks count from here on, s: the release at the start is none of the motion's.
+    peaks_from: f64,
     events: u64,
     series: Series,
 }
@@ -114,6 +116,7 @@ impl<'c> Measuring<'c> {
             sums: [[0.0; 4]; 2],
             counts: [0; 2],
             peaks: [0.0; 6],
+            peaks_from: averaged.0,
             events: 0,
             series,
             case,
@@ -168,6 +171,7 @@ impl<'c> Measuring<'c> {
             seen.bodies[BOLSTER].velocity.0[2],
         );
         let moments = found.moments.iter().flat_map(|moment| moment.0);
+        let moments = moments.take(if time >= self.peaks_from { 6 } else { 0 });
         for (peak, moment) in self.peaks.iter_mut().zip(moments) {
             *peak = peak.max(moment.abs());
         }

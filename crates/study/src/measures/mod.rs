@@ -6,7 +6,8 @@
 //! - *lift-off time* of a face: time of the whole run in which none of its corners touches, from the contact events;
 //! - *stick share* of a face: of the time in which corners touch, counted corner by corner, the part in which they stick;
 //! - *wear power* of a face: energy lost in its friction over time;
-//! - *peak moments*: the largest size at any output time;
+//! - *peak moments*: the largest size at any output time after the first half period, so that the release at the start does
+//!   not count; where there is no whole cycle, of the whole run;
 //! - *column force ratio*: of the sums over a branch, the column's normal forces along x over the load on the wedge
 //!   ([`closed_form::load`](crate::closed_form::load)); beside it that of the massless wedge, which depends on angles and
 //!   frictions alone;
