@@ -178,7 +178,13 @@ impl<'c> Measuring<'c> {
         let Some(cycle) = self.cycle else { return };
         if let Some(up) = cycle.branch(self.case.parameters.damping, time, displacement, speed) {
             let branch = usize::from(up);
-            let forces = [found.vertical, found.vertical_on_side_frame, found.longitudinal];
+            let load = closed_form::load(&self.case.parameters, displacement);
+            let forces: [f64; 4] = [
+                found.vertical,
+                found.vertical_on_side_frame,
+                found.longitudinal,
+                load,
+            ];
             for (sum, force) in self.sums[branch].iter_mut().zip(forces) {
                 *sum += force;
             }
