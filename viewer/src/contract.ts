@@ -44,7 +44,7 @@ export interface Chart {
 }
 
 export interface Column {
-  text: string;
+  text?: string;
   quantity: string;
   data?: number;
   value?: number;
@@ -55,8 +55,17 @@ export interface PlotChoice {
   curves: [string, string][];
 }
 
+export interface Look {
+  name: string;
+  from: Triple;
+  /** A point and the radius about it; everything if there is none. */
+  at?: [Triple, number];
+}
+
 export interface Body {
   id: string;
+  /** The body in whose axes place and angles are; the fixed ones if there is none. */
+  on?: string;
   position: Triple;
   coordinates: (string | null)[];
   steady: (string | null)[];
@@ -101,12 +110,14 @@ export interface Contact {
   normal_force: string;
   friction: [string, string, string];
   state: string;
-  gap: string;
+  gap: string | null;
 }
 
 export interface SceneData {
   factor: number;
   limit: number;
+  arrow: number;
+  looks: Look[];
   bodies: Body[];
   solids: Solid[];
   coils: Coil[];
@@ -122,11 +133,14 @@ export interface Run {
   scene: SceneData | null;
 }
 
+/** 32-bit numbers as base64, or multiples of a step by their second differences. */
+export type List = string | { step: number; differences: string };
+
 export interface ViewDocument {
   schema: string;
   units: System;
   quantities: Record<string, Quantity>;
-  data: string[];
+  data: List[];
   figures: Record<string, Chart>;
   runs: Run[];
 }

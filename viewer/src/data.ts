@@ -1,13 +1,35 @@
 // The document's lists of numbers, decoded when they are first asked for.
 
-import type { Run, ViewDocument } from "./contract.js";
+import type { List, Run, ViewDocument } from "./contract.js";
 import { SCHEMA } from "./contract.js";
 
-/** Little-endian 32-bit numbers as base64. */
-export function decode(text: string): Float32Array {
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+const bytesOf = (text: string): Uint8Array => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+
+/** Little-endian 32-bit numbers as base64, or second differences of multiples of a step, seven bits a byte. */
+export function decode(list: List): Float32Array {
+  if (typeof list !== "string") {
+    return summed(bytesOf(list.differences), list.step);
+  }
+  const bytes = bytesOf(list);
   const view = new DataView(bytes.buffer);
   return Float32Array.from({ length: bytes.length >> 2 }, (_, i) => view.getFloat32(4 * i, true));
+}
+
+function summed(bytes: Uint8Array, step: number): Float32Array {
+  const values = new Float32Array(bytes.reduce((count, byte) => count + (byte < 128 ? 1 : 0), 0));
+  let [last, slope, place, shift, number] = [0, 0, 0, 0, 0];
+  for (const byte of bytes) {
+    number |= (byte & 127) << shift;
+    shift += 7;
+    if (byte < 128) {
+      slope += (number >>> 1) ^ -(number & 1);
+      last += slope;
+      values[place] = last * step;
+      place += 1;
+      [shift, number] = [0, 0];
+    }
+  }
+  return values;
 }
 
 export class Data {

@@ -1,14 +1,15 @@
 // A run on the page: the 3D view and plots on one clock.
 
+import type { Vector3 } from "three";
+
 import { Clock, SPEEDS } from "./clock.js";
 import type { RunData } from "./data.js";
 import { element, icon, select } from "./dom.js";
 import { keyboard } from "./keyboard.js";
-import { RunPlot } from "./plots/run-plot.js";
+import { RunPlot, type Shown } from "./plots/run-plot.js";
 import type { Range } from "./plots/curves.js";
 import { FRICTION, NORMAL, STATES } from "./scene/arrows.js";
-import { VIEWS } from "./scene/cameras.js";
-import { LONGEST, SceneView } from "./scene/view.js";
+import { LONGEST, SceneView, type Eye } from "./scene/view.js";
 import { Store } from "./store.js";
 import { digits, type Units } from "./units.js";
 
@@ -18,6 +19,22 @@ const PLAY = "M3 1v14l11-7z";
 const PAUSE = "M3 1h3.5v14H3zM9.5 1H13v14H9.5z";
 const START = "M2 1h2.5v14H2zM14 1v14L5 8z";
 const FILL = "M1 1h5v2H3v3H1zM10 1h5v5h-2V3h-3zM1 10h2v3h3v2H1zM13 10h2v5h-5v-2h3z";
+
+/** What a reader chose, for the view of the next run. */
+export interface Chosen {
+  time: number;
+  playing: boolean;
+  speed: number;
+  loop: boolean;
+  /** The part of the time that plots show; all of it if it is missing. */
+  window: Range | undefined;
+  plots: Shown[];
+  eye: Eye | undefined;
+  factor: number | undefined;
+  arrows: number | undefined;
+  filled: boolean;
+  focused: boolean;
+}
 
 export class RunView {
   readonly root = element("div", { class: "wl-run", tabindex: "0", role: "group" });
@@ -47,9 +64,16 @@ export class RunView {
     private readonly run: RunData,
     private readonly units: Store<Units>,
     private readonly switchUnits: () => void,
+    private readonly before?: Chosen,
   ) {
     this.clock = new Clock(run.start, run.end);
-    this.window = new Store<Range>([run.start, run.end]);
+    const [from, to] = before?.window ?? [run.start, run.end];
+    this.window = new Store<Range>(from < run.end ? [from, Math.min(to, run.end)] : [run.start, run.end]);
+    if (before) {
+      this.clock.speed = before.speed;
+      this.clock.loop = before.loop;
+      this.clock.set(before.time);
+    }
     this.root.setAttribute("aria-label", `Animation and plots of ${run.run.name}`);
     const button = (text: string | Node, label: string, act: () => void): HTMLButtonElement =>
       element("button", { type: "button", "aria-label": label, title: label, onclick: act }, text);
@@ -78,6 +102,10 @@ export class RunView {
     this.loopBox = element("input", { type: "checkbox", checked: true, onchange: () => this.clock.setLoop(this.loopBox.checked) });
 
     this.scene = this.make();
+    if (this.scene && before) {
+      this.scene.factor = before.factor ?? this.scene.factor;
+      this.scene.arrowFactor = before.arrows ?? this.scene.arrowFactor;
+    }
     const first = this.scene?.factor ?? 1;
     const factors = [...new Set([...FACTORS, first])].sort((a, b) => a - b);
     this.factorList = select(
@@ -89,7 +117,7 @@ export class RunView {
     const arrows = select(
       { "aria-label": "length of arrows" },
       [0, 0.5, 1, 2, 4].map((factor) => [String(factor), factor === 0 ? "no arrows" : `arrows ${factor}×`]),
-      "1",
+      String(this.scene?.arrowFactor ?? 1),
       (factor) => {
         if (this.scene) {
           this.scene.arrowFactor = Number(factor);
@@ -97,7 +125,7 @@ export class RunView {
         }
       },
     );
-    const views = VIEWS.map(({ id, name }, k) => button(name, `view: ${name} (${k + 1})`, () => this.scene?.look(id)));
+    const views = (run.run.scene?.looks ?? []).map(({ name }, k) => button(name, `view: ${name} (${k + 1})`, () => this.scene?.look(k)));
     this.unitsButton = button("", "inch-pound or SI (U)", this.switchUnits);
     const fill = button(icon(FILL), "fill the window (F)", () => this.fill());
     this.root.append(
@@ -121,7 +149,7 @@ export class RunView {
     }
     this.plots = Array.from({ length: PLOTS }, (_, k) => k)
       .filter((k) => k < run.run.plots.length)
-      .map((k) => new RunPlot(run, this.clock, units, this.window, k));
+      .map((k) => new RunPlot(run, this.clock, units, this.window, k, before?.plots[k]));
     this.root.append(
       element("div", { class: "wl-columns" }, stage, element("div", { class: "wl-plots" }, ...this.plots.map((plot) => plot.root))),
       help(),
@@ -143,6 +171,37 @@ export class RunView {
       }
     };
     this.request = requestAnimationFrame(frame);
+    if (before?.playing) {
+      this.clock.play(true);
+    }
+  }
+
+  /** After it was put into the page: as large as the one before, and with the keys. */
+  takePlace(): void {
+    if (this.before?.filled) {
+      this.fill(true);
+    } else if (this.before?.focused) {
+      this.root.focus({ preventScroll: true });
+    }
+  }
+
+  /** What the reader chose so far. */
+  get chosen(): Chosen {
+    const { clock, run, scene } = this;
+    const [from, to] = this.window.value;
+    return {
+      time: clock.time,
+      playing: clock.playing,
+      speed: clock.speed,
+      loop: clock.loop,
+      window: from === run.start && to === run.end ? undefined : [from, to],
+      plots: this.plots.map(({ shown }) => shown),
+      eye: this.root.dataset.ready ? scene?.eye : this.before?.eye,
+      factor: scene?.factor,
+      arrows: scene?.arrowFactor,
+      filled: this.root.classList.contains("wl-filled"),
+      focused: this.root.contains(document.activeElement),
+    };
   }
 
   dispose(): void {
@@ -169,10 +228,7 @@ export class RunView {
   }
 
   look(number: number): void {
-    const view = VIEWS[number];
-    if (view) {
-      this.scene?.look(view.id);
-    }
+    this.scene?.look(number);
   }
 
   orbit(about: number, up: number, nearer: number): void {
@@ -220,7 +276,7 @@ export class RunView {
       return undefined;
     }
     scene.canvas.setAttribute("role", "img");
-    scene.canvas.setAttribute("aria-label", "Wedge between column and pocket, with corner forces");
+    scene.canvas.setAttribute("aria-label", `What moves in ${this.run.run.name}, with the forces of its contacts`);
     const colour = (text: string, style: string, shape: string): HTMLElement => {
       const mark = element("i", { class: shape });
       mark.style.background = style;
@@ -235,7 +291,7 @@ export class RunView {
     this.bar.style.background = "#1b1b1b";
     this.barText.title = `Arrows longer than ${LONGEST} times this bar are cut.`;
     this.stage.append(scene.canvas, this.triad);
-    scene.controls.addEventListener("change", () => this.overlay());
+    scene.controls.addEventListener("change", () => this.show());
     // The wheel scrolls the page until the view is clicked or Ctrl is held.
     scene.canvas.addEventListener(
       "wheel",
@@ -244,7 +300,15 @@ export class RunView {
       },
       { capture: true, passive: true },
     );
-    scene.canvas.addEventListener("pointerdown", () => this.root.focus({ preventScroll: true }));
+    scene.canvas.addEventListener(
+      "pointerdown",
+      () => {
+        // Two fingers zoom whatever the wheel does.
+        scene.controls.enableZoom = true;
+        this.root.focus({ preventScroll: true });
+      },
+      { capture: true },
+    );
     return scene;
   }
 
@@ -256,7 +320,11 @@ export class RunView {
     const first = !this.root.dataset.ready;
     this.scene.resize(width, height, devicePixelRatio);
     if (first) {
-      this.scene.look("oblique");
+      if (this.before?.eye) {
+        this.scene.eye = this.before.eye;
+      } else {
+        this.scene.look(0);
+      }
       this.root.dataset.ready = "yes";
     }
     this.show();
@@ -289,11 +357,12 @@ export class RunView {
     state.factor = String(scene.factor);
     state.visibleArrows = scene.pressed.join(" ");
     state.states = scene.states(at).join(" ");
-    const wedge = scene.placeOf("wedge");
-    if (wedge) {
-      state.wedge = wedge.position.toArray().map((x) => x.toFixed(6)).join(" ");
-      state.wedgePixel = wedge.pixel.map((x) => x.toFixed(1)).join(" ");
-    }
+    const places = [...scene.places()];
+    const told = (digits: number, of: (place: Vector3) => number[]): string =>
+      JSON.stringify(Object.fromEntries(places.map(([id, place]) => [id, of(place).map((x) => Number(x.toFixed(digits)))])));
+    state.eye = JSON.stringify(scene.eye.position.toArray().map((x) => Number(x.toFixed(5))));
+    state.places = told(7, (place) => place.toArray());
+    state.pixels = told(1, (place) => scene.project(place));
   }
 
   /** The texts over the picture. */
@@ -370,6 +439,7 @@ function help(): HTMLElement {
       {},
       row("drag", "orbits the 3D view; with the right button or two fingers it pans"),
       row("wheel", "zooms the 3D view or the time axis once it was clicked, or with Ctrl"),
+      row("two fingers", "zoom the 3D view and the plots"),
       row("drag in a plot", "moves the time; a double click shows the whole run"),
       row("space", "play, pause"),
       row("← →", "one output time back or on; with Shift ten"),

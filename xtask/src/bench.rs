@@ -44,6 +44,8 @@ fn everything(workspace: &Workspace) -> Result<(), String> {
     shell::run(&mut workspace.cargo(["build", "--release", "--package", "benchmarks", "--bins"]))?;
     let program = |name: &str| workspace.target.join("release").join(name);
     shell::run(&mut Command::new(program("thesis_runs")))?;
+    println!("\nOne communication step of 1 ms of an FMU, yawed cases (target 50 µs):");
+    shell::run(&mut Command::new(program("steps")))?;
     if shell::output(Command::new("valgrind").arg("--version")).is_none() {
         println!("\nNo instruction counts: valgrind is not installed (Debian: apt-get install valgrind).");
         return Ok(());

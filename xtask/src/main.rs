@@ -3,9 +3,13 @@
 //! One module a command. Exit codes: 0, 1 (a check failed), 2 (the call itself is wrong).
 
 mod bench;
+mod debian;
+mod race;
 mod shell;
 mod test;
+mod venv;
 mod viewer;
+mod wheel;
 
 use std::env;
 use std::process::ExitCode;
@@ -31,9 +35,19 @@ const COMMANDS: &[Command] = &[
         run: bench::run,
     },
     Command {
+        name: "race",
+        about: "run other people's solvers and ours on the same equations, fetching what they need",
+        run: race::run,
+    },
+    Command {
         name: "viewer",
         about: "bundle the interactive part of the report's page (needs Node.js)",
         run: viewer::run,
+    },
+    Command {
+        name: "wheel",
+        about: "build a wheel of the Python package (needs Python 3.10)",
+        run: wheel::run,
     },
 ];
 

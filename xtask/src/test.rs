@@ -2,15 +2,19 @@
 
 mod deny;
 mod floors;
+mod fmu;
 mod octave;
 mod page;
 mod prose;
+mod python;
+mod race;
 mod viewer;
 
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use crate::shell::{self, Workspace};
+pub use python::path_with;
 
 /// What a passed check wants to say in the table, or why it failed.
 type Outcome = Result<Option<String>, String>;
@@ -69,6 +73,22 @@ const CHECKS: &[Check] = &[
         "octave",
         "Octave and SciPy read the results, the plotting scripts draw them",
         octave::check,
+    ),
+    // After `test`, which has built most of it.
+    Check::new(
+        "python",
+        "the Python package installs, its tests, types, stubs and notebooks pass (needs Python 3.10)",
+        python::check,
+    ),
+    Check::new(
+        "fmu",
+        "FMUs are valid and give what runs give, in FMPy (needs Python 3)",
+        fmu::check,
+    ),
+    Check::new(
+        "race",
+        "the race's driver in C compiles, and CVODE agrees with our integrator (installs SUNDIALS)",
+        race::check,
     ),
     Check::new("doctest", "the examples in the documentation run", doc_tests),
     Check::new("doc", "the documentation builds without a warning", docs),

@@ -117,13 +117,7 @@ impl<P: Problem> Integrator<P> {
         options.check()?;
         let n = problem.dimension();
         let stride = n.next_multiple_of(LANES);
-        if !state.time.is_finite() {
-            return Err(SetupError::Time(state.time));
-        }
-        state.check(n, problem.switch_count())?;
-        if let Some((index, &value)) = state.x.iter().enumerate().find(|(_, v)| !v.is_finite()) {
-            return Err(SetupError::NotFiniteState { index, value });
-        }
+        check_state(&state, n, problem.switch_count())?;
         let scales = problem.scales();
         if scales.len() != n {
             return Err(SetupError::Dimension {
@@ -143,13 +137,7 @@ impl<P: Problem> Integrator<P> {
         for (weight, scale) in weights.iter_mut().zip(scales) {
             *weight = 1.0 / (options.relative_tolerance * scale);
         }
-        let segment_end = problem.segment(state.segment_start);
-        if segment_end.is_nan() || segment_end <= state.segment_start || segment_end < state.time {
-            return Err(SetupError::Segment {
-                start: state.segment_start,
-                end: segment_end,
-            });
-        }
+        let segment_end = enter(&mut problem, &state)?;
         let tableau = options.method.tableau();
         let extends = (0..tableau.stages())
             .map(|i| i > 1 && tableau.a[i][..i - 1] == *tableau.a[i - 1] && tableau.a[i][i - 1] == 1.0)
@@ -333,10 +321,73 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
+    /// Tells the integrator that the right-hand side has changed, but not by a jump: it is evaluated anew, the memory of the step-size
+    /// control is kept. So a motion that a caller continues piece by piece costs no restart.
+    pub fn renew(&mut self) {
+        self.evaluate_derivative();
+    }
+
+    /// Whether a saved state can belong to this problem.
+    ///
+    /// # Errors
+    /// The state does not fit to this program or to the problem.
+    pub fn admits(&self, state: &State) -> Result<(), SetupError> {
+        check_state(state, self.dimension, self.switches.modes.len())
+    }
+
+    /// Goes back to a saved state of the same problem and options, with the same bits as [`Integrator::resume`], in the memory that is
+    /// there. The last step is forgotten: nothing can be interpolated.
+    ///
+    /// # Errors
+    /// The state does not fit to this program or to the problem; nothing has changed then.
+    pub fn restore(&mut self, state: &State) -> Result<(), SetupError> {
+        self.admits(state)?;
+        let segment_end = enter(&mut self.problem, state)?;
+        let n = self.dimension;
+        self.x[..n].copy_from_slice(&state.x);
+        self.previous_x.copy_from_slice(&self.x);
+        self.switches.modes.copy_from_slice(&state.modes);
+        self.switches.before.copy_from_slice(&state.modes);
+        self.switches.events.clear();
+        (self.time, self.previous_time) = (state.time, state.time);
+        (self.segment_start, self.segment_end) = (state.segment_start, segment_end);
+        self.proposed_step = state.proposed_step;
+        self.controller.clone_from(&state.controller);
+        self.statistics.clone_from(&state.statistics);
+        let counted = self.statistics.derivatives;
+        self.evaluate_derivative();
+        self.statistics.derivatives = counted;
+        Ok(())
+    }
+
     /// Tells the integrator that the right-hand side has changed: it is evaluated anew, and the memory of the
     /// step-size control is dropped.
     pub fn refresh(&mut self) {
         self.evaluate_derivative();
         self.controller.restart();
     }
+}
+
+/// Whether a state can belong to a problem of this size.
+fn check_state(state: &State, dimension: usize, switches: usize) -> Result<(), SetupError> {
+    if !state.time.is_finite() {
+        return Err(SetupError::Time(state.time));
+    }
+    state.check(dimension, switches)?;
+    match state.x.iter().enumerate().find(|(_, v)| !v.is_finite()) {
+        Some((index, &value)) => Err(SetupError::NotFiniteState { index, value }),
+        None => Ok(()),
+    }
+}
+
+/// Brings a problem to the smooth piece in which a state lies; the end of the piece.
+fn enter<P: Problem>(problem: &mut P, state: &State) -> Result<f64, SetupError> {
+    let end = problem.segment(state.segment_start);
+    if end.is_nan() || end <= state.segment_start || end < state.time {
+        return Err(SetupError::Segment {
+            start: state.segment_start,
+            end,
+        });
+    }
+    Ok(end)
 }

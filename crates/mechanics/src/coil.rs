@@ -28,6 +28,12 @@ pub enum CoilLaw {
     },
     /// A table of compression (m) and force (N), straight between its points and on beyond them.
     Table(Characteristic),
+    /// A force that comes from outside the model, whatever the compression. Its energy is not the model's: the ledger does not hold
+    /// its work.
+    Given {
+        /// The force, N: positive pushes.
+        force: f64,
+    },
 }
 
 /// Where the coil's force acts on the body that it carries.
@@ -78,10 +84,33 @@ pub struct CoilForce<S> {
     pub guide_power: S,
 }
 
+impl CoilLaw {
+    /// The force (N) at a compression (m); negative where it pulls.
+    #[inline(always)]
+    #[must_use]
+    pub fn force<S: Real>(&self, compression: S) -> S {
+        match self {
+            Self::Linear { stiffness } => compression * *stiffness,
+            Self::Table(table) => table.evaluate(compression),
+            Self::Given { force } => S::from(*force),
+        }
+    }
+}
+
 impl Coil {
     /// The coil's force.
     #[inline(always)]
     pub fn evaluate<S: Real>(&self, relative: &Relative<S>) -> CoilForce<S> {
+        self.evaluate_with(relative, |length| self.spring(length))
+    }
+
+    /// The same with a spring force (N) by the length (m) of the caller's own.
+    #[inline(always)]
+    pub fn evaluate_with<S: Real>(
+        &self,
+        relative: &Relative<S>,
+        spring: impl FnOnce(S) -> S,
+    ) -> CoilForce<S> {
         // A coil that ends at the body's origin, as in a wedge, needs no lever.
         let central = self.end == Vector::zero();
         let (mut arm, mut d, mut rate) = (Vector::zero(), relative.position, relative.velocity);
@@ -91,7 +120,7 @@ impl Coil {
             rate += relative.angular_velocity.cross(arm);
         }
         let length = d.dot(d).sqrt();
-        let spring = self.spring(length);
+        let spring = spring(length);
         let along = d.scale(spring / length);
         let force = along - rate.scale(self.damping);
         let turn = relative.angular_velocity;
@@ -116,14 +145,11 @@ impl Coil {
         }
     }
 
-    /// Spring force at a length, N.
+    /// Spring force at a length (m), N.
     #[inline(always)]
-    fn spring<S: Real>(&self, length: S) -> S {
+    pub fn spring<S: Real>(&self, length: S) -> S {
         let compression = -length + self.free_length;
-        let force = match &self.law {
-            CoilLaw::Linear { stiffness } => compression * *stiffness,
-            CoilLaw::Table(table) => table.evaluate(compression),
-        };
+        let force = self.law.force(compression);
         if self.pulls || force.value() > 0.0 {
             force
         } else {
@@ -139,10 +165,11 @@ impl Coil {
             _ if !self.pulls && self.spring(length) <= 0.0 => match &self.law {
                 // The energy that is left where the force has come to zero.
                 CoilLaw::Table(table) => table.energy_at_zero_force(),
-                CoilLaw::Linear { .. } => 0.0,
+                CoilLaw::Linear { .. } | CoilLaw::Given { .. } => 0.0,
             },
             CoilLaw::Linear { stiffness } => 0.5 * stiffness * compression * compression,
             CoilLaw::Table(table) => table.energy(compression),
+            CoilLaw::Given { .. } => 0.0,
         }
     }
 }

@@ -87,10 +87,10 @@ impl<F: Surface> ContactFace<F> {
     ///
     /// `deflections` holds the internal states, two a point, or is empty.
     #[inline(always)]
-    pub fn evaluate<S: Real>(
+    pub fn evaluate<S: Real + From<D>, D: Copy>(
         &self,
         relative: &Relative<S>,
-        deflections: &[f64],
+        deflections: &[D],
         mut each: impl FnMut(usize, &PointContact<S>),
     ) -> FaceResultant<S> {
         let mut sum = FaceResultant {

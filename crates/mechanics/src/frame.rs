@@ -72,8 +72,15 @@ impl Frame {
     /// The frame's motion at `time`, on the smooth piece that holds `reference`.
     #[must_use]
     pub fn evaluate<S: Real>(&self, time: S, reference: f64) -> FrameMotion<S> {
+        self.moved(&std::array::from_fn(|k| {
+            self.motions[k].evaluate(time, reference)
+        }))
+    }
+
+    /// The frame where its six motions have these values, rates and second derivatives.
+    #[must_use]
+    pub fn moved<S: Real>(&self, jets: &[Jet<S>; 6]) -> FrameMotion<S> {
         let base: Matrix<S> = Matrix::lift(crate::turn::fixed(self.orientation));
-        let jets: [Jet<S>; 6] = std::array::from_fn(|k| self.motions[k].evaluate(time, reference));
         let translation = |order: usize| Vector([jets[0][order], jets[1][order], jets[2][order]]);
         let angles = |order: usize| [jets[3][order], jets[4][order], jets[5][order]];
         let turn = Turn::new(angles(0), true);

@@ -67,6 +67,14 @@ pub enum Motion {
         /// Time from peak to peak (s).
         spacing: f64,
     },
+    /// `c0 + c1 τ + c2 τ² + c3 τ³` with τ the time since `start`, at all times: a motion that a caller gives piece by piece (see
+    /// [`Motion::between`]).
+    Polynomial {
+        /// Where τ begins (s).
+        start: f64,
+        /// The coefficients c0 to c3 (m or rad, per power of s).
+        coefficients: [f64; 4],
+    },
     /// Motions one after the other, each from its own start. Before the first one its value at its start is held; values
     /// may jump.
     Sequence(Vec<Piece>),
@@ -99,6 +107,30 @@ pub enum RampProfile {
 pub type Jet<S> = [S; 3];
 
 impl Motion {
+    /// The cubic that has a value (m or rad) and a rate at `start`, and another value and rate after `duration` (s, positive).
+    #[must_use]
+    pub fn between(start: f64, duration: f64, [from, from_rate]: [f64; 2], [to, to_rate]: [f64; 2]) -> Self {
+        let mean_rate = (to - from) / duration;
+        Self::Polynomial {
+            start,
+            coefficients: [
+                from,
+                from_rate,
+                (3.0 * mean_rate - 2.0 * from_rate - to_rate) / duration,
+                (from_rate + to_rate - 2.0 * mean_rate) / (duration * duration),
+            ],
+        }
+    }
+
+    /// The straight line that has a value (m or rad) and a rate at `start`.
+    #[must_use]
+    pub fn line(start: f64, [value, rate]: [f64; 2]) -> Self {
+        Self::Polynomial {
+            start,
+            coefficients: [value, rate, 0.0, 0.0],
+        }
+    }
+
     /// Value, rate and second derivative at `time`, on the smooth piece that holds `reference`.
     #[must_use]
     pub fn evaluate<S: Real>(&self, time: S, reference: f64) -> Jet<S> {
@@ -204,6 +236,15 @@ impl Motion {
                     (None, None) => [S::zero(); 3],
                 }
             }
+            Self::Polynomial { start, coefficients } => {
+                let [c0, c1, c2, c3] = *coefficients;
+                let t = time - *start;
+                [
+                    ((t * c3 + c2) * t + c1) * t + c0,
+                    (t * (3.0 * c3) + 2.0 * c2) * t + c1,
+                    t * (6.0 * c3) + 2.0 * c2,
+                ]
+            }
             Self::Sum(motions) => {
                 let mut sum = [S::zero(); 3];
                 for motion in motions {
@@ -265,7 +306,7 @@ impl Motion {
                 .iter()
                 .filter_map(|motion| motion.next_break(time))
                 .min_by(f64::total_cmp),
-            Self::Constant(_) | Self::Sine { .. } | Self::Table(_) => None,
+            Self::Constant(_) | Self::Sine { .. } | Self::Table(_) | Self::Polynomial { .. } => None,
         }
     }
 
@@ -286,6 +327,7 @@ impl Motion {
             | Self::Ramp { amplitude, .. }
             | Self::Cusps { amplitude, .. } => *amplitude *= factor,
             Self::Table(spline) => *spline = spline.scaled(factor),
+            Self::Polynomial { coefficients, .. } => coefficients.iter_mut().for_each(|c| *c *= factor),
             Self::Sequence(pieces) => pieces.iter_mut().for_each(|piece| piece.motion.scale(factor)),
             Self::Sum(motions) => motions.iter_mut().for_each(|motion| motion.scale(factor)),
         }

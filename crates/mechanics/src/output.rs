@@ -1,18 +1,21 @@
 //! The output table: one description a column, from which every writer takes its names, units and texts.
 
+use std::borrow::Cow;
+
 use quantity::{Kind, System as Units};
+use serde::{Deserialize, Serialize};
 
 /// What a column of a result holds. Values are kept in SI units.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     /// Its name without the unit, such as `wedge_x`.
     pub name: String,
     /// What kind of quantity it is.
     pub kind: Kind,
     /// The axes in which components are given.
-    pub frame: &'static str,
+    pub frame: Cow<'static, str>,
     /// The point that it refers to (of moments, displacements).
-    pub reference: &'static str,
+    pub reference: Cow<'static, str>,
     /// What it is, in a few words.
     pub text: String,
 }

@@ -16,6 +16,8 @@
 //! Limits: no mass, no moments, the faces flat on each other. Rigid kinematics choose b: toe out b = -a, toe in
 //! b = +a; with no toe the slope does not slip, and the industry's elements take the toe-out branch.
 
+use integrate::scalar::Real;
+
 /// A massless wedge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuasiStaticWedge {
@@ -116,6 +118,46 @@ impl QuasiStaticWedge {
             column_friction: self.column_friction * column_normal,
             slope_normal: coil_force * across / sine,
         })
+    }
+
+    /// Normal forces (N) at column and slope under a load (N: coil force less weight) while a part of the friction is mobilized:
+    /// `mobilized` goes from -1 (steady sliding up) over 0 (no friction) to +1 (steady sliding down), at both faces alike, the slope's
+    /// friction acting as on the [`QuasiStaticWedge::branch`]. `None` where the wedge jams.
+    ///
+    /// It is the same balance as [`QuasiStaticWedge::slide`], with `μ = mobilized · coefficient` for `tan ψ`:
+    ///
+    /// ```text
+    /// N_c = F (cos θ + b μ_s sin θ) / (sin(θ+φ) (1 - a μ_c b μ_s) - cos(θ+φ) (a μ_c + b μ_s))
+    /// N_s = F (cos φ + a μ_c sin φ) / (the same)
+    /// ```
+    #[must_use]
+    pub fn normal_forces<S: Real>(&self, mobilized: S, load: S) -> Option<[S; 2]> {
+        let [column, slope] = self.mobilize(mobilized);
+        let (sin, cos) = libm::sincos(self.angle + self.toe);
+        let denominator = -(column * slope * sin) + sin - (column + slope) * cos;
+        let (sin_angle, cos_angle) = libm::sincos(self.angle);
+        let (sin_toe, cos_toe) = libm::sincos(self.toe);
+        let [on_column, on_slope] = [slope * sin_angle + cos_angle, column * sin_toe + cos_toe];
+        if [denominator, on_column, on_slope]
+            .iter()
+            .any(|part| part.value().is_nan() || part.value() <= 0.0)
+        {
+            return None;
+        }
+        Some([load * on_column / denominator, load * on_slope / denominator])
+    }
+
+    /// Friction force over normal force at column (positive: up on the wedge) and slope (positive: up the slope on the wedge), see
+    /// [`QuasiStaticWedge::normal_forces`].
+    pub fn mobilize<S: Real>(&self, mobilized: S) -> [S; 2] {
+        let way = match self.branch(Direction::Down) {
+            SlopeFriction::UpSlope => 1.0,
+            SlopeFriction::DownSlope => -1.0,
+        };
+        [
+            mobilized * self.column_friction,
+            mobilized * (way * self.slope_friction),
+        ]
     }
 
     /// The friction coefficient (equal at both faces) at which loading with the slope's friction up the slope

@@ -6,7 +6,7 @@
 //! - [`mod@write`]: tree to text,
 //! - [`check`]: what a tree lacks or contradicts, alone and together with the files it belongs to,
 //! - [`show`]: a system as tables,
-//! - [`files`]: finding the files that a run names,
+//! - [`files`]: finding the files that a run names; [`together`]: files that belong together,
 //! - [`truck`]: a system and its inputs as a model that can be run,
 //! - [`builtin`]: the half-truck of Steets (2007), appendices A and B.
 //!
@@ -45,6 +45,7 @@ mod number;
 pub mod read;
 pub mod show;
 pub mod source;
+pub mod together;
 pub mod tree;
 pub mod truck;
 pub mod write;

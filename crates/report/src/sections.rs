@@ -23,6 +23,8 @@ pub struct Plan {
     pub folded: bool,
     /// The run that it is about, if it is about one.
     pub run: Option<String>,
+    /// What folded sections of one kind are put under; may be empty.
+    pub group: String,
 }
 
 /// The sections of the report on these runs of the thesis's kind.
@@ -35,6 +37,7 @@ pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
         exhibits: figures::model::exhibits(outcomes),
         folded: false,
         run: None,
+        group: String::new(),
     }];
     for chapter in figures::thesis::chapters(outcomes) {
         let (damping, yawed) = (chapter.damping, chapter.yawed);
@@ -51,6 +54,7 @@ pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
             exhibits: chapter.exhibits,
             folded: false,
             run: None,
+            group: String::new(),
         });
     }
     plans.extend(outcomes.iter().map(|outcome| Plan {
@@ -60,6 +64,7 @@ pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
         exhibits: figures::run::exhibits(outcome),
         folded: true,
         run: Some(outcome.0.name.clone()),
+        group: "The thesis's runs".to_owned(),
     }));
     plans.retain(|plan| !plan.exhibits.is_empty());
     plans
@@ -88,9 +93,36 @@ pub fn beyond(outcomes: &[Outcome]) -> Vec<Plan> {
             }],
             folded: false,
             run: None,
+            group: String::new(),
         });
     }
     plans
+}
+
+/// The sections of runs that are only seen moving: those beyond the thesis, and those of the half-truck.
+#[must_use]
+pub fn moving(others: &[Outcome], trucks: &[TruckOutcome]) -> Vec<Plan> {
+    let plan = |name: &str, title: &str, group: &str| Plan {
+        id: format!("run-{name}"),
+        title: format!("{name}: {title}"),
+        intro: String::new(),
+        exhibits: Vec::new(),
+        folded: true,
+        run: Some(name.to_owned()),
+        group: group.to_owned(),
+    };
+    let others = others.iter().map(|(case, _)| {
+        let group = builtin::group_of(&case.name).map_or("", |group| group.title);
+        plan(&case.name, &case.title, group)
+    });
+    let trucks = trucks.iter().map(|(entry, _)| {
+        plan(
+            &entry.name(),
+            &entry.title(),
+            "Half-truck of the comparison program's files",
+        )
+    });
+    others.chain(trucks).collect()
 }
 
 /// The section that compares these runs with those of the half-truck; `None` where there are none to be compared.
@@ -106,6 +138,7 @@ pub fn comparison(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Option<Plan>
         exhibits,
         folded: false,
         run: None,
+        group: String::new(),
     })
 }
 
@@ -137,6 +170,7 @@ pub fn drawn(plan: &Plan, svgs: impl IntoIterator<Item = String>) -> Section {
         intro: plan.intro.clone(),
         folded: plan.folded,
         run: plan.run.clone(),
+        group: plan.group.clone(),
         figures: plan
             .exhibits
             .iter()

@@ -10,9 +10,12 @@ use report::figures::Outcome;
 use report::page::{self, Contents, Viewer};
 use report::sections;
 use report::view::View;
+use report::view::run::{Detail, Recording};
 use serde_json::Value;
 use study::case::builtin;
 use study::run::Run;
+use study::truck::catalog;
+use study::truck::{TruckResult, run as run_truck};
 
 /// A run to its end, which figures need, or a short one.
 fn outcome(name: &str, set: &[&str]) -> Outcome {
@@ -22,17 +25,30 @@ fn outcome(name: &str, set: &[&str]) -> Outcome {
     (case, result)
 }
 
+fn full(outcomes: &[Outcome]) -> Vec<Recording> {
+    let record = |outcome| Recording::of_wedge(outcome, Detail::Full);
+    outcomes.iter().map(record).collect()
+}
+
 /// The document as another program reads it.
 fn document(outcomes: &[Outcome]) -> Value {
     let plans = sections::thesis(outcomes);
     let exhibits: Vec<_> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
-    let json = View::new(outcomes, exhibits).to_json().unwrap();
+    let json = View::new(Units::Us, full(outcomes), exhibits).to_json().unwrap();
     assert!(!json.contains('<'), "it stands in a script element");
     serde_json::from_str(&json).unwrap()
 }
 
-/// Base64 by hand: little-endian 32-bit numbers.
+/// Little-endian 32-bit numbers.
 fn decode(text: &str) -> Vec<f32> {
+    bytes(text)
+        .chunks_exact(4)
+        .map(|four| f32::from_le_bytes(four.try_into().unwrap()))
+        .collect()
+}
+
+/// Base64 by hand.
+fn bytes(text: &str) -> Vec<u8> {
     let alphabet = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let digits: Vec<u32> = text
         .bytes()
@@ -48,14 +64,38 @@ fn decode(text: &str) -> Vec<f32> {
         bytes.extend_from_slice(&bits.to_be_bytes()[1..group.len()]);
     }
     bytes
-        .chunks_exact(4)
-        .map(|four| f32::from_le_bytes(four.try_into().unwrap()))
-        .collect()
 }
 
 fn list(document: &Value, place: &Value) -> Vec<f32> {
-    let place = place.as_u64().unwrap() as usize;
-    decode(document["data"][place].as_str().unwrap())
+    let list = &document["data"][place.as_u64().unwrap() as usize];
+    match list.as_str() {
+        Some(text) => decode(text),
+        None => summed(
+            list["step"].as_f64().unwrap(),
+            &bytes(list["differences"].as_str().unwrap()),
+        ),
+    }
+}
+
+/// Second differences by hand: seven bits a byte, the sign in the lowest one.
+fn summed(step: f64, bytes: &[u8]) -> Vec<f32> {
+    let (mut values, mut last, mut slope) = (Vec::new(), 0, 0);
+    let (mut number, mut shift) = (0_i64, 0);
+    for byte in bytes {
+        number |= i64::from(byte & 127) << shift;
+        shift += 7;
+        if byte & 128 == 0 {
+            slope += if number & 1 == 1 {
+                -(number + 1) / 2
+            } else {
+                number / 2
+            };
+            last += slope;
+            values.push((last as f64 * step) as f32);
+            (number, shift) = (0, 0);
+        }
+    }
+    values
 }
 
 /// A run's columns, constant ones filled up.
@@ -249,7 +289,7 @@ fn figures_hold_their_curves_in_si() {
 #[test]
 fn the_page_takes_viewer_and_data_or_does_without() {
     let outcomes = [outcome("cdrun_toe_0_psi_0", &["simulation.duration=0.1 s"])];
-    let view = View::new(&outcomes, []).to_json().unwrap();
+    let view = View::new(Units::Us, full(&outcomes), []).to_json().unwrap();
     let viewer = Viewer {
         script: "start()",
         style: ".a{}",
@@ -274,4 +314,138 @@ fn the_page_takes_viewer_and_data_or_does_without() {
     }
     assert!(!page(None).contains("<script"));
     assert_eq!(outcomes[0].1.summary.units, Units::Us);
+}
+
+/// A half-truck's run of two seconds.
+fn truck(name: &str, detail: Detail) -> (Value, TruckResult) {
+    let entry = catalog::entry(name).unwrap();
+    let case = entry.case(&nucars::truck::Choices::default(), 2.0).unwrap();
+    let result = run_truck::run(&case, |_| ()).unwrap();
+    let view = View::new(Units::Us, [Recording::of_truck(&case, &result, detail)], []);
+    (serde_json::from_str(&view.to_json().unwrap()).unwrap(), result)
+}
+
+/// Forces as the arrows show them: the wedges have no mass, so that those of column, slope and coil must be in balance.
+#[test]
+fn the_forces_drawn_on_a_half_trucks_wedges_are_in_balance() {
+    for name in [
+        "nucars_69_variable_toe_out",
+        "nucars_69_constant_toe_none",
+        "nucars_69_variable_toe_out_yaw",
+    ] {
+        let (document, result) = truck(name, Detail::Full);
+        let run = &document["runs"][0];
+        let (scene, columns) = (&run["scene"], columns(&document, run));
+        let contacts = scene["contacts"].as_array().unwrap();
+        assert_eq!(contacts.len(), 8, "two at each of four wedges");
+        for wedge in ["wedge_127", "wedge_128", "wedge_129", "wedge_130"] {
+            let own: Vec<&Value> = contacts
+                .iter()
+                .filter(|contact| contact["body"] == wedge)
+                .collect();
+            let coil = &columns[&format!("{wedge}_coil_force")];
+            let mut pressed = 0;
+            for row in (0..coil.len()).step_by(3) {
+                if columns[&format!("{wedge}_jammed")][row] > 0.0 {
+                    continue;
+                }
+                let mut sum = [0.0, 0.0, coil[row]];
+                let mut size = coil[row].abs();
+                for contact in &own {
+                    let solid = find(&scene["solids"], &contact["on"]);
+                    let normal = turned(triple(&solid["mount"]["angles"]), triple(&contact["normal"]));
+                    let force = columns[contact["normal_force"].as_str().unwrap()][row];
+                    let friction = [0, 1, 2].map(|k| columns[contact["friction"][k].as_str().unwrap()][row]);
+                    sum = plus(plus(sum, normal.map(|part| part * force)), friction);
+                    size = size.max(force);
+                }
+                // Friction at the column is drawn upright, 0.2 degrees off; across the track the pocket holds the wedge.
+                assert!(
+                    sum[0].abs() < 2e-3 * size + 1e-3 && sum[2].abs() < 2e-3 * size + 1e-3,
+                    "{name}, {wedge}, row {row}: {sum:?} of {size}"
+                );
+                pressed += usize::from(size > 1000.0);
+            }
+            assert!(pressed > 10, "{name}, {wedge} is pressed");
+        }
+        let rises = result.column("wedge_127_rise").unwrap();
+        assert!(
+            rises.iter().any(|rise| rise.abs() > 0.0),
+            "{name}: it rises in its pocket"
+        );
+    }
+}
+
+#[test]
+fn a_half_trucks_scene_has_its_bodies_wedges_and_springs_and_all_their_columns() {
+    for name in ["nucars_68_variable_toe_in", "nucars_69_constant_toe_out"] {
+        let (document, result) = truck(name, Detail::Thinned);
+        let run = &document["runs"][0];
+        let (scene, columns) = (&run["scene"], columns(&document, run));
+        let names = |what: &str| -> Vec<&str> {
+            let all = scene[what].as_array().unwrap().iter();
+            all.map(|own| own["id"].as_str().unwrap()).collect()
+        };
+        assert_eq!(
+            names("bodies"),
+            [
+                "body_1",
+                "body_3",
+                "body_4",
+                "wedge_127",
+                "wedge_128",
+                "wedge_129",
+                "wedge_130"
+            ]
+        );
+        for side_frame in ["body_3", "body_4"] {
+            for part in ["seat", "chord"] {
+                find(&scene["solids"], &Value::from(format!("{side_frame}_{part}")));
+            }
+        }
+        // Eight springs, four control coils.
+        assert_eq!(scene["coils"].as_array().unwrap().len(), 12);
+        for contact in scene["contacts"].as_array().unwrap() {
+            for key in ["normal_force", "state"] {
+                assert!(columns.contains_key(contact[key].as_str().unwrap()), "{contact}");
+            }
+            for k in 0..3 {
+                assert!(
+                    columns.contains_key(contact["friction"][k].as_str().unwrap()),
+                    "{contact}"
+                );
+            }
+            find(&scene["solids"], &contact["on"]);
+        }
+        for (name, values) in columns {
+            let Some(own) = result.column(&name) else { continue };
+            let most = own.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+            assert_eq!(values.len(), own.len());
+            for (found, wanted) in values.iter().zip(own) {
+                assert!(
+                    (found - wanted).abs() <= 3.1e-5 * most,
+                    "{name}: {found} is not {wanted}"
+                );
+            }
+        }
+    }
+}
+
+/// Thinned: every n-th row, at its own time.
+#[test]
+fn a_long_run_is_thinned_to_rows_of_its_table() {
+    let outcome = outcome(
+        "cdrun_toe_0_psi_0",
+        &["simulation.duration=3 s", "simulation.output_interval=0.001 s"],
+    );
+    let view = View::new(Units::Us, [Recording::of_wedge(&outcome, Detail::Thinned)], []);
+    let document: Value = serde_json::from_str(&view.to_json().unwrap()).unwrap();
+    let run = &document["runs"][0];
+    let (times, columns) = (list(&document, &run["time"]), columns(&document, run));
+    assert_eq!(times.len(), 1001);
+    let own = outcome.1.column("wedge_z").unwrap();
+    for (row, time) in times.iter().enumerate() {
+        assert!((f64::from(*time) - 0.003 * row as f64).abs() < 1e-6);
+        assert!((columns["wedge_z"][row] - own[3 * row]).abs() < 3.1e-5 * 0.0254 * 1.1);
+    }
 }

@@ -41,6 +41,7 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
             CoilLaw::Table(_) => {
                 "The coil's table goes on beyond its ends with their slopes, also into tension.".to_owned()
             }
+            CoilLaw::Given { .. } => "The coil's force is given from outside.".to_owned(),
         });
     }
     for (face, friction) in [("column", &p.column_friction), ("slope", &p.slope_friction)] {

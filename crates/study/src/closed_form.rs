@@ -39,6 +39,7 @@ pub fn load(parameters: &Parameters, bolster: f64) -> f64 {
     let force = match &coil.law {
         CoilLaw::Linear { stiffness } => stiffness * compression,
         CoilLaw::Table(table) => table.evaluate(compression),
+        CoilLaw::Given { force } => *force,
     };
     (force - parameters.wedge.mass * parameters.gravity).max(0.0)
 }

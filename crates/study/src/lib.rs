@@ -8,6 +8,7 @@ pub mod case;
 pub mod closed_form;
 pub mod cycles;
 pub mod design;
+pub mod driven;
 pub mod fit;
 pub mod measures;
 pub mod metrics;

@@ -108,3 +108,82 @@ fn mistakes_name_the_path_that_was_set() {
     let error = Case::parse("a.toml", "[wedge]\ndamping = 3\n", Path::new(""), &[]).unwrap_err();
     assert_eq!(error.problems()[0].set_path(), None);
 }
+
+/// Every part of a sum and every point of a short table has a field; quantities stand in them in both systems of units.
+#[test]
+fn sums_and_tables_have_fields_and_fields_have_both_units() {
+    let overrides = [
+        "bolster.vertical=[{shape=\"sine\", amplitude=\"1 in\", frequency=\"2 rad/s\"}, {shape=\"ramp\", amplitude=\"0.5 in\", duration=\"1 s\"}, \"0.1 in\"]",
+        "bolster.yaw={shape=\"table\", points=[[\"0 s\", \"0 rad\"], [\"1 s\", \"0.01 rad\"], [\"2 s\", \"0 rad\"], [\"10 s\", \"0.01 rad\"]]}",
+    ];
+    let case = builtin::case_with("vdrun_toe_0_psi_0", &overrides.map(str::to_owned)).unwrap();
+    let fields = fields(&case);
+    let find = |path: &str| {
+        fields
+            .iter()
+            .find(|field| field.path == path)
+            .unwrap_or_else(|| panic!("{path}"))
+    };
+    for path in [
+        "bolster.vertical.0.amplitude",
+        "bolster.vertical.0.frequency",
+        "bolster.vertical.0.phase",
+        "bolster.vertical.1.amplitude",
+        "bolster.vertical.1.start",
+        "bolster.vertical.1.duration",
+        "bolster.vertical.1.profile",
+        "bolster.vertical.2",
+        "bolster.yaw.points.1.1",
+        "bolster.yaw.points.3.1",
+    ] {
+        find(path);
+    }
+    let Input::Number(number) = &find("bolster.vertical.1.amplitude").input else {
+        panic!()
+    };
+    assert_eq!(number.in_us, None);
+    let si = number.in_si.as_ref().unwrap();
+    assert_eq!(
+        (si.text.as_str(), si.unit.as_str(), si.value),
+        ("0.0127 m", "m", 0.0127)
+    );
+    assert!((si.high - 0.0254).abs() < 1e-15 && (si.low + 0.0254).abs() < 1e-15);
+    let Input::Toml { us, si } = &find("bolster.vertical").input else {
+        panic!()
+    };
+    assert_eq!(*us, None);
+    assert!(
+        si.as_ref()
+            .unwrap()
+            .contains("amplitude = \"0.0254 m\", frequency = \"2 rad/s\""),
+        "{si:?}"
+    );
+    let Input::Number(angle) = &find("wedge.angle").input else {
+        panic!()
+    };
+    assert_eq!((&angle.in_us, &angle.in_si), (&None, &None), "degrees serve both");
+    // As they say, typed in the other units: the same case in SI.
+    let all: Vec<String> = overrides
+        .iter()
+        .map(|text| (*text).to_owned())
+        .chain(fields.iter().filter_map(|field| {
+            let Input::Number(number) = &field.input else {
+                return None;
+            };
+            let other = number.in_si.as_ref()?;
+            let word = number
+                .signs
+                .filter(|_| number.value != 0.0)
+                .map_or("", |signs| signs[usize::from(number.value > 0.0)]);
+            Some(format!("{}={} {word}", field.path, other.text))
+        }))
+        .collect();
+    let again = builtin::case_with("vdrun_toe_0_psi_0", &all).unwrap();
+    let near = |a: f64, b: f64| (a - b).abs() <= 2.3e-16 * b.abs();
+    assert!(near(again.parameters.wedge.height, case.parameters.wedge.height));
+    assert!(near(
+        again.parameters.coil.free_length,
+        case.parameters.coil.free_length
+    ));
+    assert!(near(again.parameters.wedge.mass, case.parameters.wedge.mass));
+}

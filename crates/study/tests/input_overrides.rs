@@ -35,6 +35,41 @@ fn overrides() {
     );
 }
 
+/// Parts of a sum and points of a table by their numbers, from 0.
+#[test]
+fn items_of_lists_are_set_by_their_numbers() {
+    let sum = "bolster.vertical=[{shape=\"sine\", amplitude=\"1 in\", frequency=\"2 rad/s\"}, \"0.1 in\"]";
+    let case = set(&[
+        sum,
+        "bolster.vertical.0.amplitude=2 in",
+        "bolster.vertical.1=0.3 in",
+    ])
+    .unwrap();
+    let text = case.document.to_toml();
+    assert!(
+        text.contains("amplitude = \"2 in\", frequency = \"2 rad/s\""),
+        "{text}"
+    );
+    assert!(text.contains("\"0.3 in\",\n]"), "{text}");
+    let table = "control_coil.table=[[\"0 in\", \"0 lbf\"], [\"1 in\", \"3000 lbf\"]]";
+    let case = set(&[table, "control_coil.table.1.1=2000 lbf"]).unwrap();
+    assert!(case.document.to_toml().contains("[\"1 in\", \"2000 lbf\"]"));
+
+    for (text, message) in [
+        (
+            "bolster.vertical.2.amplitude=2 in",
+            "`vertical` is a list of 2; it has no `2`",
+        ),
+        (
+            "bolster.vertical.first=2 in",
+            "`vertical` is a list of 2; it has no `first`",
+        ),
+    ] {
+        let error = set(&[sum, text]).unwrap_err();
+        assert_eq!(only(&error).message(), message);
+    }
+}
+
 #[test]
 fn bad_overrides_show_what_was_set() {
     for (text, message, marked, help) in [

@@ -243,8 +243,8 @@ impl Outputs {
         self.columns.push(Column {
             name: name.into(),
             kind,
-            frame,
-            reference,
+            frame: frame.into(),
+            reference: reference.into(),
             text: text.into(),
         });
         self.values.push(Box::new(value));

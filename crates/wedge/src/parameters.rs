@@ -208,6 +208,7 @@ impl Parameters {
         match &c.law {
             CoilLaw::Linear { stiffness } => positive("control_coil.stiffness", *stiffness)?,
             CoilLaw::Table(_) => {}
+            CoilLaw::Given { force } => check("control_coil.force", *force, force.is_finite(), "finite")?,
         }
         positive("control_coil.free_length", c.free_length)?;
         positive("control_coil.nominal_length", c.nominal_length)?;

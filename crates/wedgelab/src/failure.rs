@@ -4,6 +4,7 @@ use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
 use miette::{Diagnostic, MietteHandlerOpts, Report};
+use nucars::together::LoadError;
 use report::comparison::ComparisonError;
 use report::files::FileError;
 use report::table::TableError;
@@ -59,6 +60,12 @@ impl From<TableError> for Failure {
 
 impl From<ComparisonError> for Failure {
     fn from(error: ComparisonError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
+impl From<LoadError> for Failure {
+    fn from(error: LoadError) -> Self {
         Self::Input(error.into())
     }
 }

@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{case, compare, explore, fit, nucars, plot, quasi_static, reproduce, run, study};
+use commands::{case, compare, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, study};
 use failure::Failure;
 
 /// A laboratory for railway friction wedges.
@@ -53,6 +53,7 @@ enum Command {
     Explore(explore::Arguments),
     QuasiStatic(quasi_static::Arguments),
     Nucars(nucars::Arguments),
+    Fmu(fmu::Arguments),
 }
 
 impl Cli {
@@ -68,6 +69,7 @@ impl Cli {
             Command::Explore(arguments) => explore::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Nucars(arguments) => nucars::execute(&arguments),
+            Command::Fmu(arguments) => fmu::execute(&arguments),
         }
     }
 }

@@ -2,6 +2,15 @@
 
 import type { ViewDocument } from "../contract.js";
 
+/** A number with its range in a unit. */
+export interface InUnits {
+  text: string;
+  value: number;
+  unit: string;
+  low: number;
+  high: number;
+}
+
 export interface Measured {
   value: number;
   unit: string;
@@ -11,6 +20,9 @@ export interface Measured {
   high: number;
   logarithmic: boolean;
   signs: [string, string] | null;
+  /** The same in the other units, where it is typed in those of one system. */
+  in_us?: InUnits;
+  in_si?: InUnits;
 }
 
 export type Input =
@@ -19,7 +31,7 @@ export type Input =
   | { type: "choice"; choices: string[] }
   | { type: "several"; choices: string[]; chosen: string[] }
   | { type: "text" }
-  | { type: "toml" };
+  | { type: "toml"; us?: string; si?: string };
 
 export interface Field {
   path: string;

@@ -4,7 +4,7 @@ import { element, select } from "../dom.js";
 import type { Store } from "../store.js";
 import type { Units } from "../units.js";
 import type { Field, Measured } from "./api.js";
-import { place, quoted, STEPS, typed, valueAt, widened } from "./numbers.js";
+import { place, quoted, shownIn, STEPS, typed, valueAt, widened, words } from "./numbers.js";
 
 /** `live` while a slider is being moved. */
 export type Changed = (path: string, text: string, live: boolean) => void;
@@ -29,7 +29,7 @@ export class FieldView {
     this.id = `field-${field.path.replaceAll(".", "-")}`;
     this.message.id = `${this.id}-mistake`;
     const key = field.path.slice(field.path.indexOf(".") + 1);
-    const name = key.replaceAll("_", " ").replaceAll(".", ": ");
+    const name = words(key);
     this.reset = element(
       "button",
       { type: "button", class: "wx-reset", "aria-label": `${name}: back to the case's value`, title: "back to the case's value", onclick: () => back(field.path) },
@@ -48,7 +48,7 @@ export class FieldView {
     help.hidden = field.help === "";
     this.complain("");
     this.mark(false);
-    this.stop = units.watch(() => this.tell());
+    this.stop = units.watch(() => this.rewrite());
   }
 
   dispose(): void {
@@ -85,9 +85,24 @@ export class FieldView {
     this.root.classList.toggle("wx-set", set);
   }
 
-  /** The value in the units that are shown, where it was typed in others. */
+  /** Writes the same values in the units that are shown now; what was typed wrongly stays. */
+  private rewrite(): void {
+    if (this.message.textContent === "") {
+      for (const write of this.writers) {
+        write(this.field);
+      }
+    }
+    this.tell();
+  }
+
+  /** A number in the units that are shown. */
+  private shown(measured: Measured): Measured {
+    return shownIn(measured, this.units.value.system);
+  }
+
+  /** The value in the units that results are shown in, where it stands there in others. */
   private tell(): void {
-    const { measured } = this;
+    const measured = this.measured && this.shown(this.measured);
     const label = measured && this.units.value.label(measured.kind);
     this.also.textContent = measured && label && label !== measured.unit ? `= ${this.units.value.text(measured.si, measured.kind)}` : "";
   }
@@ -127,7 +142,8 @@ export class FieldView {
         const slider = element("input", { type: "range", "aria-label": `${name}, slider`, min: 0, max: STEPS, step: 1 });
         const slide = (live: boolean): void => {
           if (this.measured) {
-            line.value = typed(this.measured, valueAt(this.measured, Number(slider.value)));
+            const shown = this.shown(this.measured);
+            line.value = typed(shown, valueAt(shown, Number(slider.value)));
             slider.setAttribute("aria-valuetext", line.value);
             this.send(line.value, live);
           }
@@ -135,22 +151,27 @@ export class FieldView {
         slider.addEventListener("input", () => slide(true));
         slider.addEventListener("change", () => slide(false));
         this.writers.push(({ text, input: now }) => {
-          line.value = text;
-          if (this.measured && now.type === "number") {
-            slider.value = String(place(this.measured, now.value));
-            slider.setAttribute("aria-valuetext", text);
+          const shown = now.type === "number" ? this.shown(now) : undefined;
+          line.value = shown && now.type === "number" && shown.unit !== now.unit ? typed(shown, shown.value) : text;
+          if (this.measured && shown) {
+            slider.value = String(place(this.shown(this.measured), shown.value));
+            slider.setAttribute("aria-valuetext", line.value);
           }
         });
         this.writers[0]?.(field);
         return element("div", { class: "wx-number" }, slider, line);
       }
       case "triple": {
-        const texts = (now: Field): string[] =>
-          now.input.type === "triple" ? now.input.numbers.map((number) => typed(number, number.value)) : [];
+        const numbers = (now: Field): Measured[] => (now.input.type === "triple" ? now.input.numbers : []);
+        const texts = (now: Field): string[] => numbers(now).map((number) => this.shown(number)).map((number) => typed(number, number.value));
+        // Numbers that nobody touched are sent as they were typed.
+        const send = (): void => {
+          const before = texts(this.field);
+          const own = numbers(this.field).map((number) => typed(number, number.value));
+          this.send(`[${lines.map(({ value }, k) => quoted(value === before[k] ? (own[k] ?? value) : value)).join(", ")}]`);
+        };
         const lines = texts(field).map((text, k) =>
-          this.line({ class: "wx-typed", ...(k === 0 ? { id } : { "aria-label": `${name}, ${k + 1}` }) }, text, () =>
-            this.send(`[${lines.map(({ value }) => quoted(value)).join(", ")}]`),
-          ),
+          this.line({ class: "wx-typed", ...(k === 0 ? { id } : { "aria-label": `${name}, ${k + 1}` }) }, text, send),
         );
         this.writers.push((now) => texts(now).forEach((text, k) => lines[k] && (lines[k].value = text)));
         return element("div", { class: "wx-triple" }, ...lines);
@@ -193,9 +214,11 @@ export class FieldView {
           rows: Math.min(8, Math.max(2, field.text.split("\n").length)),
           "aria-describedby": `${id}-help ${id}-mistake`,
         });
-        area.value = field.text;
         area.addEventListener("change", () => this.send(area.value));
-        this.writers.push(({ text }) => (area.value = text));
+        this.writers.push(({ text, input: now }) => {
+          area.value = (now.type === "toml" ? now[this.units.value.system] : undefined) ?? text;
+        });
+        this.writers[0]?.(field);
         return element("div", {}, area);
       }
     }

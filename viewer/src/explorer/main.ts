@@ -92,7 +92,7 @@ class Explorer {
     const units = button("", () => this.switchUnits(), { class: "wl-units" });
     this.units.watch(({ system }) => {
       units.textContent = system === "us" ? "Units: inch-pound" : "Units: SI";
-      units.title = `show ${system === "us" ? "SI" : "inch-pound"} units in plots and 3D view; what was typed stays (Alt+U)`;
+      units.title = `show ${system === "us" ? "SI" : "inch-pound"} units in fields, plots and 3D view; the case stays as it is (Alt+U)`;
       this.root.dataset.units = system;
     });
     document.addEventListener("keydown", (event) => {
@@ -249,18 +249,16 @@ class Explorer {
     this.timer = window.setTimeout(() => this.scene(view, summary.name), this.view ? REST : 0);
   }
 
-  /** The plots and the 3D view of a run, at the time and with the exaggeration of the one before. */
+  /** The plots and the 3D view of a run, as those of the one before were left. */
   private scene(view: ViewDocument, name: string): void {
     const data = new Data(view).run(name);
-    const time = this.view?.clock.time;
+    const before = this.view?.chosen;
     this.view?.dispose();
     this.view = undefined;
     if (data) {
-      this.view = new RunView(data, this.units, () => this.switchUnits());
-      if (time !== undefined) {
-        this.view.clock.set(Math.min(time, data.end));
-      }
+      this.view = new RunView(data, this.units, () => this.switchUnits(), before);
       this.stage.replaceChildren(this.view.root);
+      this.view.takePlace();
     }
   }
 

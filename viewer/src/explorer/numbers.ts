@@ -1,6 +1,9 @@
 // Numbers of sliders: places, texts as they are typed.
 
+import type { System } from "../contract.js";
 import type { Measured } from "./api.js";
+
+type Range = Pick<Measured, "value" | "unit" | "low" | "high">;
 
 /** Steps of a slider. */
 export const STEPS = 200;
@@ -30,13 +33,38 @@ export function typed({ unit, signs }: Measured, value: number): string {
   return [size, unit, word].filter(Boolean).join(" ");
 }
 
+/** The number in the units of a system; as typed if its unit belongs to both. */
+export function shownIn(measured: Measured, system: System): Measured {
+  return { ...measured, ...measured[system === "us" ? "in_us" : "in_si"] };
+}
+
 /** The range of a slider that is there, wider if the value is outside. */
 export function widened(first: Measured, now: Measured): Measured {
-  if (first.unit !== now.unit) {
+  const ranges = [first, first.in_us, first.in_si];
+  const inside = (own: Range): boolean => {
+    const old = ranges.find((range) => range?.unit === own.unit);
+    return old !== undefined && own.value >= old.low && own.value <= old.high;
+  };
+  const kept = <T extends Range>(own: T): T => {
+    const { low, high } = ranges.find((range) => range?.unit === own.unit) ?? own;
+    return { ...own, low, high };
+  };
+  if (!inside(now)) {
     return now;
   }
-  const inside = now.value >= first.low && now.value <= first.high;
-  return { ...now, ...(inside ? { low: first.low, high: first.high } : {}) };
+  return { ...kept(now), ...(now.in_us && { in_us: kept(now.in_us) }), ...(now.in_si && { in_si: kept(now.in_si) }) };
+}
+
+/** A path's key in words: `vertical.0.amplitude`, `vertical.points.2.1`. */
+export function words(key: string): string {
+  const parts = key.split(".").map((part, k, all) => {
+    if (!/^\d+$/.test(part)) {
+      return part.replaceAll("_", " ");
+    }
+    const inTable = all.slice(0, k).some((before) => before === "points" || before === "table");
+    return !inTable ? `part ${Number(part) + 1}` : k === all.length - 1 ? "value" : `point ${Number(part) + 1}`;
+  });
+  return parts.join(": ");
 }
 
 /** A text as TOML. */

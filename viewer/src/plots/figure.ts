@@ -21,6 +21,7 @@ import {
   type Points,
   type Range,
 } from "./curves.js";
+import { pinchZoom } from "./pinch.js";
 
 // The enumeration exists in uPlot's types only.
 // eslint-disable-next-line @typescript-eslint/no-unsafe-enum-assignment
@@ -195,10 +196,13 @@ export class FigurePlots {
     plot.over.tabIndex = -1;
     plot.over.addEventListener("pointerdown", () => plot.over.focus({ preventScroll: true }));
     plot.over.addEventListener("dblclick", reset);
-    wheelZoom(plot, named ? "x" : "xy", (name, [min, max]) => {
+    const axes = named ? "x" : "xy";
+    const zoom = (name: "x" | "y", [min, max]: Range): void => {
       this.touched = true;
       plot.setScale(name, { min, max });
-    });
+    };
+    wheelZoom(plot, axes, zoom);
+    pinchZoom(plot, axes, zoom);
     plot.over.addEventListener("mousemove", (event) => {
       readout.textContent = this.read(plot, panel, curves, units, event.offsetX, event.offsetY);
     });

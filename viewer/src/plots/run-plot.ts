@@ -9,6 +9,7 @@ import type { Store } from "../store.js";
 import { digits, type Units } from "../units.js";
 import { around, AXIS, extremes, scaled, tickRoom, tickTexts, wheelZoom, type Range } from "./curves.js";
 import { swatch } from "./figure.js";
+import { pinchZoom } from "./pinch.js";
 
 /** Colours (Okabe and Ito, 2008) and lines, as in the static figures. */
 const STYLES: [string, number[]][] = [
@@ -17,6 +18,12 @@ const STYLES: [string, number[]][] = [
   ["#D55E00", [10, 3, 2, 3]],
   ["#009E73", [2, 3]],
 ];
+
+/** What a plot shows: its title, and the columns that are hidden. */
+export interface Shown {
+  title: string;
+  hidden: string[];
+}
 
 export class RunPlot {
   readonly root = element("div", { class: "wl-plot" });
@@ -36,9 +43,15 @@ export class RunPlot {
     /** The part of the run that all its plots show. */
     private readonly window: Store<Range>,
     private choice: number,
+    before?: Shown,
   ) {
+    const same = run.run.plots.findIndex(({ title }) => title === before?.title);
+    if (before && same >= 0) {
+      this.choice = same;
+      before.hidden.forEach((name) => this.hidden.add(name));
+    }
     const options = run.run.plots.map(({ title }, k): [string, string] => [String(k), title]);
-    const chooser = select({ "aria-label": "What this plot shows", class: "wl-choice" }, options, String(choice), (chosen) => {
+    const chooser = select({ "aria-label": "What this plot shows", class: "wl-choice" }, options, String(this.choice), (chosen) => {
       this.choice = Number(chosen);
       this.hidden.clear();
       this.build(units.value);
@@ -51,6 +64,10 @@ export class RunPlot {
     ];
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.body);
+  }
+
+  get shown(): Shown {
+    return { title: this.run.run.plots[this.choice]?.title ?? "", hidden: [...this.hidden] };
   }
 
   dispose(): void {
@@ -117,19 +134,24 @@ export class RunPlot {
       this.clock.set(plot.posToVal(event.clientX - over.getBoundingClientRect().left, "x"));
     };
     over.addEventListener("pointerdown", (event) => {
+      if (!event.isPrimary) {
+        return;
+      }
       over.setPointerCapture(event.pointerId);
       this.clock.play(false);
       scrub(event);
     });
     over.addEventListener("pointermove", (event) => {
-      if (event.buttons & 1) {
+      if (event.buttons & 1 && event.isPrimary && !pinching()) {
         scrub(event);
       }
     });
     over.addEventListener("dblclick", () => this.window.set([this.run.start, this.run.end]));
-    wheelZoom(plot, "x", (_scale, [min, max]) => {
+    const zoom = (_scale: "x" | "y", [min, max]: Range): void => {
       this.window.set([Math.max(this.run.start, min), Math.min(this.run.end, max)]);
-    });
+    };
+    wheelZoom(plot, "x", zoom);
+    const pinching = pinchZoom(plot, "x", zoom);
   }
 
   private entries(curves: [string, string][]): void {

@@ -66,6 +66,8 @@ export function solidMesh(solid: Solid): Group {
     opacity: look.opacity,
     depthWrite: !clear,
     side: clear ? DoubleSide : FrontSide,
+    // Backs and fronts together: half the calls, and behind glass of one colour the order is not seen.
+    forceSinglePass: true,
     polygonOffset: true,
     // Where faces touch, that of the wedge is in front.
     polygonOffsetFactor: clear ? 4 : 1,
@@ -78,9 +80,9 @@ export function solidMesh(solid: Solid): Group {
   return group;
 }
 
-/** A coil of length 1 along z, from the origin; its wire is round at the nominal length. */
-export function coilMesh(coil: Coil): Mesh {
-  const steps = Math.round(coil.turns * 20);
+/** A coil of length 1 along z, from the origin; its wire is round at the nominal length. One of many is drawn with fewer faces. */
+export function coilMesh(coil: Coil, many: boolean): Mesh {
+  const steps = Math.round(coil.turns * (many ? 12 : 20));
   const wire = coil.radius * 0.14;
   const points = Array.from({ length: steps + 1 }, (_, k) => {
     const share = k / steps;
@@ -88,7 +90,7 @@ export function coilMesh(coil: Coil): Mesh {
     const z = wire + share * (coil.nominal_length - 2 * wire);
     return new Vector3(coil.radius * Math.cos(angle), coil.radius * Math.sin(angle), z);
   });
-  const geometry = new TubeGeometry(new CatmullRomCurve3(points), steps, wire, 6);
+  const geometry = new TubeGeometry(new CatmullRomCurve3(points), steps, wire, many ? 4 : 6);
   paint(geometry, 0x8d979f);
   geometry.scale(1, 1, 1 / coil.nominal_length);
   const mesh = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true }));

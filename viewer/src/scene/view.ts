@@ -19,7 +19,6 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Coil, Contact, SceneData } from "../contract.js";
 import type { Instant, RunData } from "../data.js";
 import { Arrow, Dot, FRICTION, NORMAL } from "./arrows.js";
-import { VIEWS } from "./cameras.js";
 import { poser, type Poser } from "./pose.js";
 import { coilMesh, solidMesh, turn } from "./solids.js";
 
@@ -33,6 +32,12 @@ interface Mounted {
   /** Its group turns with its angles, times the factor. */
   group: Group;
   angles: [number, number, number];
+}
+
+/** Where the eye is and what it looks at. */
+export interface Eye {
+  position: Vector3;
+  target: Vector3;
 }
 
 interface Touch {
@@ -62,8 +67,14 @@ export const LONGEST = 2.5;
 /** Milliseconds of rest before a fine picture. */
 const REST = 250;
 
-/** Whether WebGL is computed without a graphics processor. */
+let software: boolean | undefined;
+
+/** Whether WebGL is computed without a graphics processor; asked once, for the answer takes a while. */
 function drawsInSoftware(): boolean {
+  return (software ??= asksForSoftware());
+}
+
+function asksForSoftware(): boolean {
   const context = document.createElement("canvas").getContext("webgl2");
   if (!context) {
     return false;
@@ -111,7 +122,8 @@ export class SceneView {
       const group = new Group();
       bodies.set(body.id, group);
       this.moved.push({ id: body.id, group, pose: poser(body, run) });
-      this.scene.add(group);
+      // A body stands in the list after the one it is on.
+      (bodies.get(body.on ?? "") ?? this.scene).add(group);
     }
     const none = new Group();
     const solids = new Map<string, Group>();
@@ -123,24 +135,24 @@ export class SceneView {
       solids.set(solid.id, group);
     }
     for (const coil of data.coils) {
-      const mesh = coilMesh(coil);
+      const mesh = coilMesh(coil, data.coils.length > 4);
       this.scene.add(mesh);
       this.sprung.push({ coil, mesh, from: bodies.get(coil.from.body) ?? none, to: bodies.get(coil.to.body) ?? none });
     }
     // The nominal position gives the view and the sizes.
     this.place({ time: 0, row: 0, share: 0 }, 1);
     this.ball = new Box3().setFromObject(this.scene).getBoundingSphere(new Sphere());
-    this.arrow = 0.42 * this.ball.radius;
+    this.arrow = data.arrow;
     this.scaleForce = typicalForce(data, run);
     for (const contact of data.contacts) {
-      const thickness = 0.009 * this.ball.radius;
+      const thickness = 0.0214 * this.arrow;
       const touch: Touch = {
         contact,
         body: bodies.get(contact.body) ?? none,
         on: solids.get(contact.on) ?? none,
         normal: new Arrow(NORMAL, thickness),
         friction: new Arrow(FRICTION, thickness),
-        dot: new Dot(0.02 * this.ball.radius),
+        dot: new Dot(0.048 * this.arrow),
         readNormal: run.reader(contact.normal_force),
         readFriction: contact.friction.map((name) => run.reader(name)),
         readState: run.reader(contact.state, true),
@@ -152,8 +164,10 @@ export class SceneView {
     this.camera.up.copy(Z);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.enableDamping = false;
-    this.controls.minDistance = 0.4 * this.ball.radius;
+    this.controls.minDistance = 2 * this.arrow;
     this.controls.maxDistance = 20 * this.ball.radius;
+    this.camera.near = 0.2 * this.arrow;
+    this.camera.far = 22 * this.ball.radius;
     this.controls.addEventListener("change", () => this.refresh());
   }
 
@@ -186,17 +200,35 @@ export class SceneView {
     this.refresh();
   }
 
-  /** Looks from a named view, all in sight. */
-  look(id: string): void {
-    const view = VIEWS.find((own) => own.id === id) ?? VIEWS[0];
-    if (!view) {
+  /** Looks from a named view, what it shows in sight. */
+  look(number: number): void {
+    const look = this.data.looks[number];
+    if (!look) {
       return;
     }
+    const [center, radius] = look.at ? [new Vector3(...look.at[0]), look.at[1]] : [this.ball.center, 0.93 * this.ball.radius];
     const half = (FIELD / 2) * (Math.PI / 180);
     const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
-    const distance = (0.93 * this.ball.radius) / Math.sin(narrow);
-    this.controls.target.copy(this.ball.center);
-    this.camera.position.copy(view.from).normalize().multiplyScalar(distance).add(this.ball.center);
+    const from = new Vector3(...look.from).normalize();
+    if (Math.abs(from.z) > 0.9999) {
+      // Straight from above the camera would not know which way is up.
+      from.y -= 0.001;
+    }
+    this.controls.target.copy(center);
+    this.camera.position.copy(from).multiplyScalar(radius / Math.sin(narrow)).add(center);
+    this.controls.update();
+    this.camera.updateMatrixWorld();
+    this.refresh();
+  }
+
+  /** Where the eye is and what it looks at. */
+  get eye(): Eye {
+    return { position: this.camera.position.clone(), target: this.controls.target.clone() };
+  }
+
+  set eye({ position, target }: Eye) {
+    this.controls.target.copy(target);
+    this.camera.position.copy(position);
     this.controls.update();
     this.camera.updateMatrixWorld();
     this.refresh();
@@ -253,7 +285,7 @@ export class SceneView {
       const friction = new Vector3(...(touch.readFriction.map((read) => read(at)) as [number, number, number]));
       const rubbed = pressed > 0 ? friction.length() : 0;
       touch.friction.show(corner, friction.normalize(), length(rubbed));
-      touch.dot.show(corner.addScaledVector(normal, -0.02 * this.ball.radius), state);
+      touch.dot.show(corner.addScaledVector(normal, -0.048 * this.arrow), state);
     }
     this.stale = true;
   }
@@ -288,10 +320,9 @@ export class SceneView {
     return this.touches.map(({ readState }) => readState(at));
   }
 
-  /** Where a body's origin is drawn, m, and on the canvas, from its upper left corner. */
-  placeOf(id: string): { position: Vector3; pixel: [number, number] } | undefined {
-    const body = this.moved.find((own) => own.id === id)?.group;
-    return body && { position: body.position.clone(), pixel: this.project(body.position) };
+  /** Where the bodies' origins are drawn, m, by their names. */
+  places(): Map<string, Vector3> {
+    return new Map(this.moved.map(({ id, group }) => [id, group.getWorldPosition(new Vector3())]));
   }
 
   /** Directions of the axes on the screen, x to the right and y down. */
@@ -303,7 +334,8 @@ export class SceneView {
     });
   }
 
-  private project(place: Vector3): [number, number] {
+  /** Where a place is seen on the canvas, from its upper left corner. */
+  project(place: Vector3): [number, number] {
     const seen = place.clone().project(this.camera);
     return [((seen.x + 1) / 2) * this.canvas.clientWidth, ((1 - seen.y) / 2) * this.canvas.clientHeight];
   }

@@ -16,6 +16,8 @@ const RUN = "vdrun_toe_0_psi_0.012";
 const ANCHOR = `#run-${RUN.replaceAll(".", "_")}`;
 const NOMINAL = 10.25;
 const INCH = 0.0254;
+/** A half-truck whose bolster is yawed: everything moves. */
+const TRUCK = "nucars_69_variable_toe_out_yaw";
 
 let browser;
 let faults = [];
@@ -59,9 +61,9 @@ async function open(hash = "", size = { width: 1280, height: 900 }) {
   return page;
 }
 
-async function openRun(size) {
-  const page = await open(ANCHOR, size);
-  const run = page.locator(`details[data-run="${RUN}"] .wl-run`);
+async function openRun(size, name = RUN) {
+  const page = await open(name === RUN ? ANCHOR : `#run-${name.replaceAll(".", "_")}`, size);
+  const run = page.locator(`details[data-run="${name}"] .wl-run`);
   await run.and(page.locator("[data-ready]")).waitFor();
   return { page, run };
 }
@@ -161,11 +163,11 @@ test("at a time, wedge, plots and playhead are where the table says", async () =
     await scrub(run, time);
     const now = await state(run);
     assert.ok(Math.abs(Number(now.time) - time) < 1e-4);
-    const [x, y, z] = now.wedge.split(" ").map(Number);
+    const [x, y, z] = JSON.parse(now.places).wedge;
     assert.ok(Math.abs(x - columns.wedge_x_in[row] * INCH) < 1e-5, `x at ${time}`);
     assert.ok(Math.abs(y) < 1e-5);
     assert.ok(Math.abs(z - (NOMINAL + columns.wedge_z_in[row]) * INCH) < 1e-5, `z at ${time}`);
-    heights.push({ z, pixel: Number(now.wedgePixel.split(" ")[1]) });
+    heights.push({ z, pixel: JSON.parse(now.pixels).wedge[1] });
     const told = await run.locator('output[data-column="vertical_wedge_force"]').textContent();
     const value = Number(told.replace("\u2212", "-").replace(" lbf", ""));
     const wanted = columns.vertical_wedge_force_lbf[row];
@@ -299,20 +301,141 @@ test("keys play, step, look, exaggerate and switch units", async () => {
   await page.close();
 });
 
-test("playing at 1280 by 720 without a graphics processor", async (t) => {
-  const { page, run } = await openRun({ width: 1300, height: 760 });
-  await page.addStyleTag({ content: ".wl-stage { position: fixed !important; left: 0; top: 0; width: 1280px; height: 720px; z-index: 20; }" });
-  await page.waitForTimeout(600);
+for (const [what, name] of [["wedge", RUN], ["half-truck", TRUCK]]) {
+  test(`playing a ${what} at 1280 by 720 without a graphics processor`, async (t) => {
+    const { page, run } = await openRun({ width: 1300, height: 760 }, name);
+    await page.addStyleTag({ content: ".wl-stage { position: fixed !important; left: 0; top: 0; width: 1280px; height: 720px; z-index: 20; }" });
+    await page.waitForTimeout(600);
+    await run.evaluate((element) => element.focus());
+    await page.keyboard.press(" ");
+    await page.waitForTimeout(5000);
+    const { frameRate, playing } = await state(run);
+    const size = await run.locator("canvas").first().evaluate((canvas) => `${canvas.width}x${canvas.height}`);
+    t.diagnostic(`${frameRate} frames a second at ${size}`);
+    assert.equal(size, "1280x720");
+    assert.equal(playing, "true");
+    // 30 on an idle machine (docs/benchmarks.md); others may be busy.
+    assert.ok(Number(frameRate) >= 8, frameRate);
+    await page.close();
+  });
+}
+
+test("a half-truck is there with bolster, side frames, four wedges, springs and coils", async () => {
+  const { page, run } = await openRun(undefined, TRUCK);
+  assert.deepEqual(faults, []);
+  const names = Object.keys(JSON.parse((await state(run)).places));
+  assert.deepEqual(names, ["body_1", "body_3", "body_4", "wedge_127", "wedge_128", "wedge_129", "wedge_130"]);
+  // Along the track: the two side frames stand left and right, the bolster lies between them, the upper corners are empty.
   await run.evaluate((element) => element.focus());
-  await page.keyboard.press(" ");
-  await page.waitForTimeout(5000);
-  const { frameRate, playing } = await state(run);
-  const size = await run.locator("canvas").first().evaluate((canvas) => `${canvas.width}x${canvas.height}`);
-  t.diagnostic(`${frameRate} frames a second at ${size}`);
-  assert.equal(size, "1280x720");
-  assert.equal(playing, "true");
-  // 30 on an idle machine (docs/benchmarks.md); others may be busy.
-  assert.ok(Number(frameRate) >= 8, frameRate);
+  await page.keyboard.press("3");
+  const filled = async (part) => {
+    const seen = await pixels(page, run, part);
+    return 1 - seen.empty / seen.all;
+  };
+  const { pixels: places } = await state(run).then((now) => ({ pixels: JSON.parse(now.pixels) }));
+  const { width, height } = await run.locator("canvas").first().boundingBox();
+  const about = ([x, y]) => [x / width - 0.04, y / height - 0.04, x / width + 0.04, y / height + 0.04];
+  const [left, right] = [places.wedge_127, places.wedge_128];
+  const middle = [(left[0] + right[0]) / 2, (left[1] + right[1]) / 2];
+  assert.ok(Math.abs(left[0] - right[0]) > 0.4 * width, JSON.stringify(places));
+  for (const place of [left, right, middle]) {
+    assert.ok((await filled(about(place))) > 0.5, `${place}`);
+  }
+  assert.ok((await filled([0, 0, 0.08, 0.08])) < 0.01);
+  await page.close();
+});
+
+test("at a time, the half-truck's bodies, wedges, forces and plots are where its table says", async () => {
+  const { page, run } = await openRun(undefined, TRUCK);
+  await run.getByLabel("exaggeration").selectOption("1");
+  const columns = table(TRUCK);
+  const length = (name, row) => columns[`${name}_in`][row] * INCH;
+  const near = (found, wanted, what) => assert.ok(Math.abs(found - wanted) < 2e-5, `${what}: ${found} is not ${wanted}`);
+  // The centres of gravity of the files.
+  const drawn = { body_1: [-35, 0, 83], body_3: [-35, 39.5, 18], body_4: [-35, -39.5, 18] };
+  const seen = [];
+  for (const row of [120, 333, 700]) {
+    const time = columns.time_s[row];
+    await scrub(run, time);
+    const now = await state(run);
+    assert.ok(Math.abs(Number(now.time) - time) < 1e-4);
+    const places = JSON.parse(now.places);
+    for (const [body, at] of Object.entries(drawn)) {
+      ["x", "y", "z"].forEach((axis, k) => near(places[body][k], at[k] * INCH + length(`${body}_${axis}`, row), `${body} ${axis} at ${time}`));
+    }
+    // The wedge rises in the pocket, which stands at (8.5, 39.5, -65) in from the bolster's centre, and turns with it.
+    const [roll, pitch] = ["roll", "pitch"].map((angle) => columns[`body_1_${angle}_rad`][row]);
+    const point = [8.5, 39.5, -65].map((inches) => inches * INCH);
+    const up = places.body_1[2] + point[2] + roll * point[1] - pitch * point[0] + length("wedge_127_rise", row);
+    assert.ok(Math.abs(places.wedge_127[2] - up) < 1e-4, `wedge at ${time}: ${places.wedge_127[2]} is not ${up}`);
+    const states = now.states.split(" ").map(Number);
+    const wedges = [127, 128, 129, 130];
+    assert.deepEqual(wedges.map((_, k) => states[2 * k]), wedges.map((number) => columns[`wedge_${number}_state`][row]));
+    const arrows = now.visibleArrows.split(" ");
+    for (const number of wedges) {
+      const pressed = columns[`wedge_${number}_state`][row] > 0 && columns[`wedge_${number}_column_normal_force_lbf`][row] > 10;
+      assert.equal(arrows.includes(`wedge_${number}_column`), pressed, `wedge ${number} at ${time}`);
+    }
+    const told = await run.locator('output[data-column="wedge_128_column_friction"]').textContent();
+    const value = Number(told.replace("\u2212", "-").replace(" lbf", ""));
+    const all = columns.wedge_128_column_friction_lbf;
+    const most = Math.max(...all.map(Math.abs));
+    assert.ok(Math.abs(value - all[row]) <= 1e-4 * most + 1e-3, `${told} is not ${all[row]}`);
+    seen.push(places.body_1[2]);
+  }
+  assert.ok(Math.max(...seen) - Math.min(...seen) > 0.01, "the bolster moves");
+  await page.close();
+});
+
+test("a run beyond the thesis moves, too", async () => {
+  const page = await open();
+  const names = await page.locator("details[data-run]").evaluateAll((all) => all.map((own) => own.dataset.run));
+  assert.equal(names.length, 79, "every run");
+  await page.close();
+  const beyond = names.find((own) => own.startsWith("sweep"));
+  const { page: other, run } = await openRun(undefined, beyond);
+  const columns = table(beyond);
+  await run.getByLabel("exaggeration").selectOption("1");
+  for (const row of [100, 200]) {
+    await scrub(run, columns.time_s[row]);
+    const [x, , z] = JSON.parse((await state(run)).places).wedge;
+    assert.ok(Math.abs(x - columns.wedge_x_in[row] * INCH) < 1e-5, `x at row ${row}`);
+    assert.ok(Number.isFinite(z));
+  }
+  assert.deepEqual(faults, []);
+  await other.close();
+});
+
+test("two fingers zoom the 3D view and the plots", async () => {
+  const page = await browser.newPage({ viewport: { width: 390, height: 800 }, hasTouch: true });
+  await page.goto(address + ANCHOR);
+  const run = page.locator(`details[data-run="${RUN}"] .wl-run`);
+  await run.and(page.locator("[data-ready]")).waitFor();
+  const session = await page.context().newCDPSession(page);
+  const pinch = async (target, from, to) => {
+    await target.scrollIntoViewIfNeeded();
+    const box = await target.boundingBox();
+    const at = (spread) => [-0.5, 0.5].map((side) => ({ x: box.x + box.width / 2 + side * spread, y: box.y + box.height / 2 }));
+    await session.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: at(from) });
+    for (let k = 1; k <= 5; k++) {
+      await session.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: at(from + ((to - from) * k) / 5) });
+    }
+    await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+    await page.waitForTimeout(300);
+  };
+  const distance = async () => {
+    const [x, y, z] = JSON.parse((await state(run)).eye);
+    return Math.hypot(x, y, z);
+  };
+  const far = await distance();
+  await pinch(run.locator("canvas").first(), 60, 180);
+  assert.ok((await distance()) < 0.8 * far, `${await distance()} is not nearer than ${far}`);
+  const over = run.locator(".wl-plot .u-over").first();
+  const ticks = () => run.locator(".wl-plot canvas").first().screenshot();
+  const before = await ticks();
+  await pinch(over, 50, 150);
+  assert.ok(!before.equals(await ticks()), "the plot's time is zoomed");
+  assert.equal(await page.evaluate(() => window.visualViewport.scale), 1, "the page is not");
   await page.close();
 });
 

@@ -36,6 +36,12 @@ test("numbers come back", () => {
   assert.deepEqual([...decode(encode([0, -1.5, 3e7, NaN]))], [0, -1.5, 3e7, NaN]);
 });
 
+test("rounded lists are sums of sums of their differences", () => {
+  // 3, 5, 4, -300 steps of 0.5: second differences 3, -1, -3, -303, signs in the lowest bit, seven bits a byte.
+  const bytes = Buffer.from([6, 1, 5, (605 & 127) | 128, 605 >> 7]);
+  assert.deepEqual([...decode({ step: 0.5, differences: bytes.toString("base64") })], [1.5, 2.5, 2, -150]);
+});
+
 test("columns are straight between rows, states are those of the row before", () => {
   const run = new Data(view).run("a");
   assert.ok(run);

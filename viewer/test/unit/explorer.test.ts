@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import type { Measured } from "../../src/explorer/api.js";
-import { place, quoted, STEPS, typed, valueAt, widened } from "../../src/explorer/numbers.js";
+import { place, quoted, shownIn, STEPS, typed, valueAt, widened, words } from "../../src/explorer/numbers.js";
 
 const angle: Measured = { value: 32, unit: "deg", si: 0.5585, kind: "angle", low: 20, high: 55, logarithmic: false, signs: null };
 const toe: Measured = { ...angle, value: -0.2, low: -0.4, high: 0.4, signs: ["in", "out"] };
@@ -39,4 +39,30 @@ test("a slider keeps its range until a value is outside it, or has another unit"
   assert.deepEqual([widened(angle, now).low, widened(angle, now).high], [20, 55]);
   assert.equal(widened(angle, { ...now, value: 60 }).high, 80);
   assert.equal(widened(angle, { ...now, unit: "rad" }).high, 80);
+});
+
+const height: Measured = {
+  ...angle, value: 6.125, unit: "in", kind: "length", low: 3, high: 12,
+  in_si: { text: "0.155575 m", value: 0.155575, unit: "m", low: 0.0762, high: 0.3048 },
+};
+
+test("numbers stand in the units that are shown, with their range", () => {
+  assert.equal(typed(shownIn(height, "si"), 0.155575), "0.155575 m");
+  assert.equal(place(shownIn(height, "si"), 0.155575), place(height, 6.125));
+  assert.deepEqual(shownIn(height, "us"), height);
+  assert.deepEqual(shownIn(angle, "si"), angle);
+});
+
+test("a slider keeps its range when a value is typed in the other units", () => {
+  const now: Measured = {
+    ...angle, value: 0.2, unit: "m", kind: "length", low: 0.1, high: 0.4,
+    in_us: { text: "7.874 in", value: 7.874, unit: "in", low: 3.9, high: 15.7 },
+  };
+  const kept = widened(height, now);
+  assert.deepEqual([kept.low, kept.high, kept.in_us?.low, kept.in_us?.high], [0.0762, 0.3048, 3, 12]);
+});
+
+test("paths are told in words", () => {
+  assert.equal(words("vertical.0.start_frequency"), "vertical: part 1: start frequency");
+  assert.equal(words("vertical.points.2.1"), "vertical: points: point 3: value");
 });

@@ -15,10 +15,17 @@ const FLOORS: &[(&str, &[&str])] = &[
     ("mechanics", &["mechanics"]),
     ("systems", &["wedge", "nucars"]),
     ("asking", &["study"]),
-    ("telling", &["report"]),
+    ("telling", &["report", "fmi"]),
     (
         "front doors",
-        &["wedgelab", "wedgelab-py", "wedgelab-fmu", "benchmarks", "xtask"],
+        &[
+            "wedgelab",
+            "wedgelab-py",
+            "wedgelab-fmu",
+            "benchmarks",
+            "race",
+            "xtask",
+        ],
     ),
 ];
 

@@ -36,7 +36,7 @@ fn octave() -> Result<String, String> {
         return Ok(program);
     }
     println!("An Octave that can draw is missing and is installed now, once (90 MB to fetch).");
-    install().map_err(|error| format!("{}\n{error}", advice()))?;
+    shell::install(&PACKAGES).map_err(|error| format!("{}\n{error}", advice()))?;
     if draws(&program) {
         Ok(program)
     } else {
@@ -48,21 +48,6 @@ fn draws(program: &str) -> bool {
     let mut command = Command::new(program);
     command.args(["--no-init-file", "--quiet", "--eval", DRAW]);
     shell::output(&mut command).is_some()
-}
-
-fn install() -> Result<(), String> {
-    let apt = |arguments: &[&str]| {
-        let mut command = Command::new("apt-get");
-        command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive");
-        shell::run(&mut command)
-    };
-    // Lists of packages may be missing or old; if they cannot be fetched, those that are there may do.
-    if let Err(error) = apt(&["update"]) {
-        println!("{error}");
-    }
-    let mut arguments = vec!["install", "-y", "--no-install-recommends"];
-    arguments.extend(PACKAGES);
-    apt(&arguments)
 }
 
 fn advice() -> String {

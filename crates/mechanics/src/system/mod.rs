@@ -3,12 +3,15 @@
 //! State vector `(q, u, s, w)`: free coordinates of all free bodies, their rates, internal states of the elements
 //! (bristle deflections), and quadratures (work of the prescribed motions, every dissipation). SI units.
 
+mod along;
+mod drive;
 mod equilibrium;
 mod forces;
 mod jacobian;
 mod model;
 mod modes;
 mod observe;
+mod sense;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
 use integrate::{Problem, Singular};
@@ -22,10 +25,13 @@ use crate::link::{Mount, Sight};
 use crate::surface::Plane;
 use crate::vector::{Matrix, Vector};
 
+pub use along::{Along, Direction, DriveChange};
+pub use drive::DriveError;
 pub use equilibrium::NoEquilibrium;
 pub use model::{Channel, ChannelKind, Model, ModelError, Mounted};
 pub use modes::{CLOSING_GAP, Mode, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
 pub use observe::{BodyPlace, CoilState, Energies, FaceState, Observation};
+pub use sense::{CoilSense, Load, PointSense, Sense};
 
 /// Fixed error scales, by kind of state: the error of a step is measured against `relative tolerance × scale`.
 ///

@@ -29,7 +29,7 @@ fn normal_force_of_a_contact() {
             let velocity: [f64; 3] = random.vector(2.0);
             let relative = seen_from_origin([gap, 0.3, -0.2], velocity, [0.0; 3]);
             let mut contacts = Vec::new();
-            let sum = one.evaluate(&relative, &[], |_, contact| contacts.push(*contact));
+            let sum = one.evaluate::<f64, f64>(&relative, &[], |_, contact| contacts.push(*contact));
             if gap >= 0.0 {
                 open += 1;
                 assert!(contacts.is_empty());
@@ -77,7 +77,7 @@ fn moment_of_a_contact_about_the_body() {
     for _ in 0..50 {
         let relative = seen_from_origin([-0.5, 0.1, 0.2], random.vector(1.0), random.vector(1.0));
         let (mut force, mut moment) = ([0.0; 3], [0.0; 3]);
-        let sum = one.evaluate(&relative, &[], |i, contact| {
+        let sum = one.evaluate::<f64, f64>(&relative, &[], |i, contact| {
             let f = [
                 contact.normal,
                 contact.friction.force[0],

@@ -153,3 +153,33 @@ fn massless_wedge_in_force_balance() {
     }
     assert!(sliding > 1000 && jammed > 100);
 }
+
+#[test]
+fn partly_mobilized_friction_ends_in_steady_sliding() {
+    for toe in [-0.2_f64, 0.0, 0.2, 5.0] {
+        let wedge = QuasiStaticWedge {
+            angle: 32.0_f64.to_radians(),
+            toe: toe.to_radians(),
+            column_friction: 0.35,
+            slope_friction: 0.2,
+        };
+        for (mobilized, direction) in [(1.0, Direction::Down), (-1.0, Direction::Up)] {
+            let steady = wedge.slide(direction, wedge.branch(direction), 3000.0).unwrap();
+            let [column, slope] = wedge.normal_forces(mobilized, 3000.0).unwrap();
+            assert!((column / steady.column_normal - 1.0).abs() < 1e-12);
+            assert!((slope / steady.slope_normal - 1.0).abs() < 1e-12);
+        }
+        // Without friction: the balance of three forces.
+        let [column, slope] = wedge.normal_forces(0.0, 3000.0).unwrap();
+        let sum = wedge.angle + wedge.toe;
+        assert!((column - 3000.0 * wedge.angle.cos() / sum.sin()).abs() < 1e-9);
+        assert!((slope - 3000.0 * wedge.toe.cos() / sum.sin()).abs() < 1e-9);
+    }
+    let jams = QuasiStaticWedge {
+        angle: 0.3,
+        toe: -0.1,
+        column_friction: 0.4,
+        slope_friction: 0.4,
+    };
+    assert!(jams.normal_forces(1.0, 1.0).is_none());
+}

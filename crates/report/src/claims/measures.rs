@@ -256,7 +256,7 @@ pub(super) fn natural_frequency(run: View<'_>) -> f64 {
     let parameters = &run.case().parameters;
     let value = match &parameters.coil.law {
         CoilLaw::Linear { stiffness } => (stiffness / parameters.wedge.mass).sqrt(),
-        CoilLaw::Table(_) => f64::NAN,
+        CoilLaw::Table(_) | CoilLaw::Given { .. } => f64::NAN,
     };
     let label = format!("natural frequency of the wedge on its coil, {}", run.name());
     run.note(label, value, Kind::Frequency)

@@ -179,7 +179,8 @@ impl Figure {
     }
 
     /// The grid: for each panel its row, first cell, and number of cells; then the numbers of rows and columns.
-    fn grid(&self) -> (Vec<(usize, usize, usize)>, usize, usize) {
+    #[must_use]
+    pub fn grid(&self) -> (Vec<(usize, usize, usize)>, usize, usize) {
         let span = |panel: &Panel| panel.span.max(1);
         let all: usize = self.panels.iter().map(span).sum();
         let columns = if self.columns == 0 { all } else { self.columns }.max(1);

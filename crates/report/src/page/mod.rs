@@ -47,6 +47,8 @@ pub struct Section {
     pub folded: bool,
     /// The run that it is about, if it is about one.
     pub run: Option<String>,
+    /// What folded sections of one kind are put under; may be empty.
+    pub group: String,
 }
 
 /// What the page tells.
@@ -126,13 +128,16 @@ pub fn render(contents: &Contents<'_>) -> String {
                                 p { "Open a run to see it move in 3D, with its plots on the same clock." }
                             }
                             p {
-                                "What the thesis does not show: the energy ledger, the state of each contact, the forces at the \
-                                 corners, how much of the contact sticks, and the power that wears the faces."
+                                "Of the thesis's runs, what the thesis does not show: the energy ledger, the state of each contact, the \
+                                 forces at the corners, how much of the contact sticks, and the power that wears the faces."
                             }
-                            @for section in &folded {
-                                details id=(anchor(&section.id)) data-run=[section.run.as_deref()] {
-                                    summary { (section.title) }
-                                    (body(section))
+                            @for sections in folded.chunk_by(|a, b| a.group == b.group) {
+                                @if !sections[0].group.is_empty() { h3 { (sections[0].group) } }
+                                @for section in sections {
+                                    details id=(anchor(&section.id)) data-run=[section.run.as_deref()] {
+                                        summary { (section.title) }
+                                        (body(section))
+                                    }
                                 }
                             }
                         }

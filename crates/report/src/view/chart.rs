@@ -3,7 +3,7 @@
 use quantity::{Kind, System as Units};
 use serde::Serialize;
 
-use super::data::Data;
+use super::data::{Data, Precision};
 use super::kind_name;
 use crate::drawing::{Curve, Figure, Panel};
 use crate::thin::thin;
@@ -112,6 +112,10 @@ fn panel(panel: &Panel, units: Units, data: &mut Data) -> ChartPanel {
 
 fn curve(curve: &Curve, (to_x, to_y): (f64, f64), data: &mut Data) -> ChartCurve {
     let points = thin(&curve.points, COLUMNS);
+    let list = |axis: usize| -> Vec<f64> {
+        let value = |point: &(f64, f64)| [point.0 * to_x, point.1 * to_y][axis];
+        points.iter().map(value).collect()
+    };
     let dashes = curve.line.dashes().unwrap_or_default();
     ChartCurve {
         label: curve.label.clone(),
@@ -121,8 +125,8 @@ fn curve(curve: &Curve, (to_x, to_y): (f64, f64), data: &mut Data) -> ChartCurve
             .split([' ', ','])
             .filter_map(|length| length.parse().ok())
             .collect(),
-        x: data.keep(points.iter().map(|point| point.0 * to_x)),
-        y: data.keep(points.iter().map(|point| point.1 * to_y)),
+        x: data.keep(&list(0), Precision::Exact),
+        y: data.keep(&list(1), Precision::Exact),
     }
 }
 

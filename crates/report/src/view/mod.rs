@@ -3,12 +3,13 @@
 //! - [`data`]: numbers as text, each list once.
 //! - [`chart`]: figures as curves instead of drawings.
 //! - [`run`]: a run's columns, and which belong in one plot.
-//! - [`scene`]: what a run looks like: bodies, solids, coils, contacts.
+//! - [`scene`]: what a run looks like: bodies, solids, coils, contacts; [`half_truck`]: that of a half-truck.
 //!
 //! All numbers are in SI units; how they are shown in either system stands with them.
 
 pub mod chart;
 pub mod data;
+pub mod half_truck;
 pub mod run;
 pub mod scene;
 
@@ -17,8 +18,9 @@ use std::collections::BTreeMap;
 use quantity::{Kind, System as Units};
 use serde::Serialize;
 
-use crate::figures::{Exhibit, Outcome};
-use data::Data;
+use crate::figures::Exhibit;
+use data::{Data, List};
+use run::Recording;
 
 /// The name and version of what is written.
 pub const SCHEMA: &str = "wedgelab.view/1";
@@ -43,8 +45,8 @@ pub struct View {
     pub units: &'static str,
     /// How each kind of quantity is shown.
     pub quantities: BTreeMap<String, Shown>,
-    /// Lists of numbers: little-endian 32-bit floating point as base64. All others name them by their place.
-    pub data: Vec<String>,
+    /// Lists of numbers. All others name them by their place.
+    pub data: Vec<List>,
     /// The figures by name.
     pub figures: BTreeMap<String, chart::Chart>,
     /// The runs.
@@ -52,16 +54,17 @@ pub struct View {
 }
 
 impl View {
-    /// The document of these runs and figures.
+    /// The document of these runs and figures, whose numbers are in `units`, which are shown first.
     #[must_use]
-    pub fn new<'e>(outcomes: &[Outcome], exhibits: impl IntoIterator<Item = &'e Exhibit>) -> Self {
-        let units = outcomes
-            .first()
-            .map_or(Units::Us, |(_, result)| result.summary.units);
+    pub fn new<'e>(
+        units: Units,
+        recordings: impl IntoIterator<Item = Recording>,
+        exhibits: impl IntoIterator<Item = &'e Exhibit>,
+    ) -> Self {
         let mut data = Data::default();
-        let runs = outcomes
-            .iter()
-            .map(|outcome| run::RunView::new(outcome, &mut data))
+        let runs = recordings
+            .into_iter()
+            .map(|recording| recording.into_view(&mut data))
             .collect();
         let figures = exhibits
             .into_iter()
@@ -74,7 +77,7 @@ impl View {
             schema: SCHEMA,
             units: units.name(),
             quantities: quantities(),
-            data: data.into_texts(),
+            data: data.into_lists(),
             figures,
             runs,
         }

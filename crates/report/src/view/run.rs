@@ -4,12 +4,16 @@ use std::collections::BTreeMap;
 
 use mechanics::output::Column;
 use serde::Serialize;
+use study::truck::{TruckCase, TruckResult};
 use wedge::outputs::{CORNERS, FACES};
 
-use super::data::Data;
-use super::kind_name;
+use super::data::{Data, Precision};
 use super::scene::{self, Scene};
+use super::{half_truck, kind_name};
 use crate::figures::Outcome;
+
+/// The most rows of a thinned run.
+const ROWS: usize = 1251;
 
 /// A run.
 #[derive(Clone, Debug, Serialize)]
@@ -31,7 +35,8 @@ pub struct RunView {
 /// A column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ViewColumn {
-    /// What it is, in a few words.
+    /// What it is, in a few words; left out of thinned runs.
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub text: String,
     /// Its kind, a key of `quantities`.
     pub quantity: String,
@@ -52,12 +57,64 @@ pub struct Plot {
     pub curves: Vec<(String, String)>,
 }
 
-impl RunView {
-    /// The run's columns, plots and scene.
+/// How much of a run is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Detail {
+    /// Every row, to seven digits.
+    Full,
+    /// Every row, or every n-th one so that there are at most 1251; rounded to half of 1/2¹⁴ of each column's largest
+    /// value or less.
+    Thinned,
+}
+
+/// A run's view with its lists: made as soon as the run is over, so that its table need not be kept.
+#[derive(Clone, Debug)]
+pub struct Recording {
+    view: RunView,
+    data: Data,
+}
+
+/// A table: descriptions of columns with their values, SI.
+type Table<'t> = Vec<(&'t Column, &'t [f64])>;
+
+impl Recording {
+    /// Of a stand-alone wedge.
     #[must_use]
-    pub fn new((case, result): &Outcome, data: &mut Data) -> Self {
+    pub fn of_wedge((case, result): &Outcome, detail: Detail) -> Self {
+        let table = table(&result.columns, &result.values);
         let scene = scene::stand_alone(&case.parameters, result);
-        let plots = plots();
+        Self::new((&case.name, &case.title), &table, plots(), scene, detail)
+    }
+
+    /// Of a half-truck.
+    #[must_use]
+    pub fn of_truck(case: &TruckCase, result: &TruckResult, detail: Detail) -> Self {
+        let (columns, values) = half_truck::drawn(&case.truck, result);
+        let mut all = table(&result.columns, &result.values);
+        all.extend(table(&columns, &values));
+        let scene = half_truck::scene(&case.truck);
+        let plots = half_truck::plots(&case.truck);
+        Self::new((&case.name, &case.title), &all, plots, scene, detail)
+    }
+
+    fn new(
+        (name, title): (&str, &str),
+        table: &Table<'_>,
+        plots: Vec<Plot>,
+        scene: Option<Scene>,
+        detail: Detail,
+    ) -> Self {
+        let mut data = Data::default();
+        let find = |name: &str| table.iter().find(|(column, _)| column.name == name).copied();
+        let times = find("time").map_or(&[][..], |(_, values)| values);
+        let (stride, precision) = match detail {
+            Detail::Full => (1, Precision::Exact),
+            Detail::Thinned => (
+                times.len().saturating_sub(1).div_ceil(ROWS - 1).max(1),
+                Precision::Rounded,
+            ),
+        };
+        let rows = |values: &[f64]| -> Vec<f64> { values.iter().step_by(stride).copied().collect() };
         let mut columns = BTreeMap::new();
         let named = plots.iter().flat_map(|plot| &plot.curves).map(|(name, _)| name);
         let seen = scene.iter().flat_map(Scene::columns);
@@ -65,42 +122,68 @@ impl RunView {
             if columns.contains_key(name) {
                 continue;
             }
-            let found = result.columns.iter().position(|column| column.name == *name);
-            if let Some(index) = found {
-                let column = column(&result.columns[index], &result.values[index], data);
-                columns.insert(name.clone(), column);
+            if let Some((own, values)) = find(name) {
+                columns.insert(name.clone(), column(own, &rows(values), precision, &mut data));
             }
         }
-        Self {
-            name: case.name.clone(),
-            title: case.title.clone(),
-            time: data.keep(result.column("time").unwrap_or_default().iter().copied()),
+        let view = RunView {
+            name: name.to_owned(),
+            title: title.to_owned(),
+            // Times are exact: rows are found by them.
+            time: data.keep(&rows(times), Precision::Exact),
             columns,
             plots,
             scene,
+        };
+        Self { view, data }
+    }
+
+    /// The view, its lists put to the others.
+    pub(super) fn into_view(self, data: &mut Data) -> RunView {
+        let Self { mut view, data: own } = self;
+        let places = data.absorb(own);
+        view.time = places[view.time];
+        for column in view.columns.values_mut() {
+            column.data = column.data.map(|place| places[place]);
         }
+        view
     }
 }
 
-fn column(column: &Column, values: &[f64], data: &mut Data) -> ViewColumn {
+fn table<'t>(columns: &'t [Column], values: &'t [Vec<f64>]) -> Table<'t> {
+    let values = values.iter().map(Vec::as_slice);
+    columns.iter().zip(values).collect()
+}
+
+fn column(column: &Column, values: &[f64], precision: Precision, data: &mut Data) -> ViewColumn {
     let first = values.first().copied().unwrap_or(0.0);
     let constant = values.iter().all(|value| *value == first);
     ViewColumn {
-        text: column.text.clone(),
+        text: match precision {
+            Precision::Exact => column.text.clone(),
+            Precision::Rounded => String::new(),
+        },
         quantity: kind_name(column.kind),
-        data: (!constant).then(|| data.keep(values.iter().copied())),
+        data: (!constant).then(|| data.keep(values, precision)),
         value: constant.then_some(first),
     }
 }
 
+impl Plot {
+    /// Of these columns with the names of their curves.
+    pub(super) fn new<'p>(title: &str, curves: impl IntoIterator<Item = (&'p str, &'p str)>) -> Self {
+        Self {
+            title: title.to_owned(),
+            curves: curves
+                .into_iter()
+                .map(|(name, label)| (name.to_owned(), label.to_owned()))
+                .collect(),
+        }
+    }
+}
+
 fn plots() -> Vec<Plot> {
-    let plot = |title: &str, curves: &[(&str, &str)]| Plot {
-        title: title.to_owned(),
-        curves: curves
-            .iter()
-            .map(|(name, label)| ((*name).to_owned(), (*label).to_owned()))
-            .collect(),
-    };
+    let plot = |title: &str, curves: &[(&str, &str)]| Plot::new(title, curves.iter().copied());
     let mut plots = vec![
         plot(
             "Vertical force",

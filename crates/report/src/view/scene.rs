@@ -15,7 +15,7 @@ use wedge::parameters::{Damping, Parameters};
 use wedge::{BOLSTER, COLUMN, SIDE_FRAME, SLOPE, WEDGE, Wedge};
 
 /// How much displacements are exaggerated at first.
-const FACTOR: f64 = 10.0;
+pub(super) const FACTOR: f64 = 10.0;
 
 /// Bodies, solids, coils and contacts; m, rad; x longitudinal, y lateral, z up.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -24,6 +24,10 @@ pub struct Scene {
     pub factor: f64,
     /// The exaggerated size (m) beyond which displacements grow to scale.
     pub limit: f64,
+    /// The length (m) of the arrow of a force that few exceed.
+    pub arrow: f64,
+    /// Named views, the first one shown first.
+    pub looks: Vec<Look>,
     /// What moves.
     pub bodies: Vec<SceneBody>,
     /// What is seen of it.
@@ -34,11 +38,37 @@ pub struct Scene {
     pub contacts: Vec<SceneContact>,
 }
 
+/// A named view.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Look {
+    /// Its name.
+    pub name: String,
+    /// From what is looked at towards the eye; any length.
+    pub from: [f64; 3],
+    /// What is looked at: a point and the radius (m) about it that is to be seen; none: everything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<([f64; 3], f64)>,
+}
+
+impl Look {
+    /// A view of everything.
+    pub(super) fn all(name: &str, from: [f64; 3]) -> Self {
+        Self {
+            name: name.to_owned(),
+            from,
+            at: None,
+        }
+    }
+}
+
 /// A body: R = Ry(pitch) Rz(yaw) Rx(roll).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneBody {
     /// Its name.
     pub id: String,
+    /// The body in whose axes place and angles are given; none: the fixed ones.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on: Option<String>,
     /// Its origin in the nominal position.
     pub position: [f64; 3],
     /// The columns of its displacements x, y, z and its angles roll, pitch, yaw.
@@ -144,8 +174,8 @@ pub struct SceneContact {
     pub friction: [String; 3],
     /// The column of the state: 0 open, 1 stick, 2 slip.
     pub state: String,
-    /// The column of the gap.
-    pub gap: String,
+    /// The column of the gap, if there is one.
+    pub gap: Option<String>,
 }
 
 impl Scene {
@@ -160,9 +190,10 @@ impl Scene {
             .iter()
             .flat_map(|coil| coil.force.iter().chain(&coil.length));
         let contacts = self.contacts.iter().flat_map(|contact| {
-            [&contact.normal_force, &contact.state, &contact.gap]
+            [&contact.normal_force, &contact.state]
                 .into_iter()
                 .chain(&contact.friction)
+                .chain(&contact.gap)
         });
         bodies.chain(coils).chain(contacts)
     }
@@ -193,18 +224,21 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
     let bodies = vec![
         SceneBody {
             id: "side_frame".to_owned(),
+            on: None,
             position: origin(SIDE_FRAME),
             coordinates: neighbour("side_frame"),
             steady: [None, None, None],
         },
         SceneBody {
             id: "bolster".to_owned(),
+            on: None,
             position: origin(BOLSTER),
             coordinates: neighbour("bolster"),
             steady: travels.clone(),
         },
         SceneBody {
             id: "wedge".to_owned(),
+            on: None,
             position: origin(WEDGE),
             coordinates: own([
                 "wedge_x",
@@ -321,7 +355,7 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
                 normal_force: format!("{id}_normal_force"),
                 friction: ["x", "y", "z"].map(|axis| format!("{id}_friction_force_{axis}")),
                 state: format!("{id}_state"),
-                gap: format!("{id}_gap"),
+                gap: Some(format!("{id}_gap")),
                 id,
             });
         }
@@ -329,6 +363,8 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
     Some(Scene {
         factor: FACTOR,
         limit: 0.15 * height,
+        arrow: 0.65 * height,
+        looks: looks(),
         bodies,
         solids: vec![column, pocket, seat, wedge_solid],
         coils: vec![coil],
@@ -336,8 +372,22 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
     })
 }
 
+fn looks() -> Vec<Look> {
+    vec![
+        Look::all("Oblique", [0.45, -1.0, 0.28]),
+        Look::all("Side", [0.0, -1.0, 0.0]),
+        Look::all("Column", [-1.0, 0.0, 0.0]),
+        Look::all("Slope", [1.0, 0.0, 0.25]),
+        Look::all("Top", [0.0, 0.0, 1.0]),
+    ]
+}
+
 /// A convex outline in the plane of x and z, anticlockwise with x to the right and z up, drawn out to both sides along y.
-fn extruded((id, name, role, body): (&str, &str, Role, &str), outline: &[[f64; 2]], width: f64) -> Solid {
+pub(super) fn extruded(
+    (id, name, role, body): (&str, &str, Role, &str),
+    outline: &[[f64; 2]],
+    width: f64,
+) -> Solid {
     let count = outline.len();
     let side = |y: f64| outline.iter().map(move |[x, z]| [*x, y, *z]);
     let mut triangles = Vec::new();

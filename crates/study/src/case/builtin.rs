@@ -95,32 +95,30 @@ pub fn case(name: &str) -> Result<Case, CaseError> {
     case_with(name, &[])
 }
 
-/// The text of a built-in case's file.
-pub(crate) fn text(name: &str) -> Option<&'static str> {
-    CASES
-        .iter()
-        .find(|case| case.name == name)
-        .map(|case| case.text.as_str())
-}
-
 /// The built-in case of this name with `--set` overrides (`path.key=value`).
 ///
 /// # Errors
 /// There is none of this name, or an override is wrong.
 pub fn case_with(name: &str, overrides: &[String]) -> Result<Case, CaseError> {
-    match CASES.iter().find(|case| case.name == name) {
-        Some(case) => Case::parse(&format!("{name}.toml"), &case.text, Path::new(""), overrides),
-        None => {
-            let help = match nearest(name, names()) {
-                Some(near) => format!("did you mean {near}?"),
-                None => format!(
-                    "`wedgelab case` lists all; the thesis's are {}",
-                    thesis_names().collect::<Vec<_>>().join(", ")
-                ),
-            };
-            Err(Problem::new(format!("there is no built-in case \"{name}\""))
-                .help(help)
-                .into())
-        }
+    Case::parse(&format!("{name}.toml"), text(name)?, Path::new(""), overrides)
+}
+
+/// The case file of the built-in case of this name.
+///
+/// # Errors
+/// There is none of this name; the help names the nearest, or the thesis's.
+pub fn text(name: &str) -> Result<&'static str, CaseError> {
+    if let Some(case) = CASES.iter().find(|case| case.name == name) {
+        return Ok(&case.text);
     }
+    let help = match nearest(name, names()) {
+        Some(near) => format!("did you mean {near}?"),
+        None => format!(
+            "`wedgelab case` lists all; the thesis's are {}",
+            thesis_names().collect::<Vec<_>>().join(", ")
+        ),
+    };
+    Err(Problem::new(format!("there is no built-in case \"{name}\""))
+        .help(help)
+        .into())
 }

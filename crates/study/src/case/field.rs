@@ -3,10 +3,11 @@
 //! Written from the same lines as the commented case file ([`CaseDocument::to_toml`](super::CaseDocument::to_toml)), so that
 //! texts stand in one place.
 
-use quantity::{Kind, Quantity};
+use quantity::{Kind, Quantity, System};
 use serde::Serialize;
 
 use super::section::{Names, name_of};
+use super::units::in_system;
 
 /// Fields under one heading.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -41,7 +42,7 @@ pub enum Input {
     /// Three numbers in a list.
     Triple {
         /// The numbers.
-        numbers: [Measured; 3],
+        numbers: Box<[Measured; 3]>,
     },
     /// One of several names.
     Choice {
@@ -58,7 +59,14 @@ pub enum Input {
     /// Any text.
     Text,
     /// Anything else, as TOML: a motion, a table.
-    Toml,
+    Toml {
+        /// The text in US customary units, if it is typed in others.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        us: Option<String>,
+        /// The text in SI units, if it is typed in others.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        si: Option<String>,
+    },
 }
 
 /// A number as typed, and a range about it for a slider.
@@ -80,6 +88,27 @@ pub struct Measured {
     pub logarithmic: bool,
     /// Words after the unit that stand for a negative and a positive sign, such as `in` and `out`.
     pub signs: Option<[&'static str; 2]>,
+    /// The same in US customary units, if the unit as typed is no such unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub in_us: Option<InUnits>,
+    /// The same in SI units, if the unit as typed is no such unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub in_si: Option<InUnits>,
+}
+
+/// A number with its range in another unit; read, it gives the same SI value.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InUnits {
+    /// The number with its unit.
+    pub text: String,
+    /// The number before the unit.
+    pub value: f64,
+    /// The unit.
+    pub unit: String,
+    /// Lower end of the suggested range, in this unit.
+    pub low: f64,
+    /// Upper end of it.
+    pub high: f64,
 }
 
 /// How a range is suggested.
@@ -108,7 +137,23 @@ impl Measured {
         let (value, si) = (quantity.value(), quantity.to_si());
         // All units that can be typed are multiples of the SI unit.
         let unit = Quantity::new(1.0, quantity.unit_text()).map_or(1.0, |one| one.to_si());
-        Self::new(value, quantity.unit_text(), si, unit, kind, reach)
+        let mut own = Self::new(value, quantity.unit_text(), si, unit, kind, reach);
+        own.in_us = own.other(quantity, unit, System::Us);
+        own.in_si = own.other(quantity, unit, System::Si);
+        own
+    }
+
+    /// The same in a unit of a system, if that is another one; `size` is that of the unit as typed.
+    fn other(&self, quantity: &Quantity, size: f64, system: System) -> Option<InUnits> {
+        let other = in_system(quantity, self.kind, system);
+        let one = Quantity::new(1.0, other.unit_text()).ok()?.to_si();
+        (other != *quantity).then(|| InUnits {
+            text: other.text().to_owned(),
+            value: other.value(),
+            unit: other.unit_text().to_owned(),
+            low: self.low * size / one,
+            high: self.high * size / one,
+        })
     }
 
     fn new(value: f64, unit: &str, si: f64, size: f64, kind: Kind, reach: Reach) -> Self {
@@ -130,6 +175,8 @@ impl Measured {
             high,
             logarithmic: reach == Reach::Wide,
             signs: None,
+            in_us: None,
+            in_si: None,
         }
     }
 }
@@ -147,7 +194,7 @@ impl Written {
         Self {
             toml: format!("[{a}, {b}, {c}]"),
             input: Input::Triple {
-                numbers: quantities.each_ref().map(|one| Measured::of(one, kind, reach)),
+                numbers: Box::new(quantities.each_ref().map(|one| Measured::of(one, kind, reach))),
             },
         }
     }
@@ -200,7 +247,18 @@ impl Written {
     pub fn toml(toml: String) -> Self {
         Self {
             toml,
-            input: Input::Toml,
+            input: Input::Toml { us: None, si: None },
+        }
+    }
+
+    /// TOML with quantities in it, which `of` writes in the units of a system, or as typed.
+    pub fn toml_in_units(of: impl Fn(Option<System>) -> String) -> Self {
+        let toml = of(None);
+        let other = |system| Some(of(Some(system))).filter(|text| *text != toml);
+        let (us, si) = (other(System::Us), other(System::Si));
+        Self {
+            toml,
+            input: Input::Toml { us, si },
         }
     }
 

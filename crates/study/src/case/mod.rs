@@ -20,6 +20,8 @@ mod resolve;
 pub(crate) mod section;
 mod table;
 pub(crate) mod tree;
+mod units;
+mod values;
 mod write;
 
 pub use document::{
@@ -76,17 +78,7 @@ impl Case {
     /// The file cannot be read, or something in it, in a table it names, or in an override is
     /// wrong; all mistakes are reported together.
     pub fn read(path: &Path, overrides: &[String]) -> Result<Self, CaseError> {
-        let text = std::fs::read_to_string(path).map_err(|error| {
-            let shown = path.display();
-            match error.kind() {
-                std::io::ErrorKind::NotFound => Problem::new(format!("there is no case file {shown}"))
-                    .help("check the path; `wedgelab case NAME` prints a built-in case to start from"),
-                std::io::ErrorKind::InvalidData => Problem::new(format!("the case file {shown} is not text"))
-                    .help("a case file is TOML, saved as UTF-8"),
-                _ => Problem::new(format!("the case file {shown} cannot be read: {error}"))
-                    .help("name a file that you may read"),
-            }
-        })?;
+        let text = text_of(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         Self::parse(&path.display().to_string(), &text, folder, overrides)
     }
@@ -99,7 +91,17 @@ impl Case {
     pub fn parse(source: &str, text: &str, folder: &Path, overrides: &[String]) -> Result<Self, CaseError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut tree = tree::parse(&Source::new(source, text)).map_err(CaseError::new)?;
-        let mut problems = overrides::apply(&mut tree, overrides);
+        let problems = overrides::apply(&mut tree, overrides);
+        Self::of_tree(tree, source, folder, problems)
+    }
+
+    /// Completes, reads and checks a tree; `problems` are those found on the way to it.
+    fn of_tree(
+        mut tree: tree::Table,
+        source: &str,
+        folder: &Path,
+        mut problems: Vec<Problem>,
+    ) -> Result<Self, CaseError> {
         let stem = Path::new(source)
             .file_stem()
             .and_then(|stem| stem.to_str())
@@ -142,4 +144,23 @@ impl Case {
         case.document = document.clone();
         Ok(case)
     }
+}
+
+/// The text of a case file.
+///
+/// # Errors
+/// There is no such file, or it cannot be read, or it is not text.
+pub fn text_of(path: &Path) -> Result<String, CaseError> {
+    std::fs::read_to_string(path).map_err(|error| {
+        let shown = path.display();
+        let problem = match error.kind() {
+            std::io::ErrorKind::NotFound => Problem::new(format!("there is no case file {shown}"))
+                .help("check the path; `wedgelab case NAME` prints a built-in case to start from"),
+            std::io::ErrorKind::InvalidData => Problem::new(format!("the case file {shown} is not text"))
+                .help("a case file is TOML, saved as UTF-8"),
+            _ => Problem::new(format!("the case file {shown} cannot be read: {error}"))
+                .help("name a file that you may read"),
+        };
+        problem.into()
+    })
 }

@@ -5,7 +5,8 @@ use super::problem::Problem;
 use super::section::{self, Range, Section, name_of};
 use super::table::{self, QuantityTable};
 use super::tree::{Node, Value};
-use quantity::{Kind, Quantity, nearest};
+use super::units::in_system;
+use quantity::{Kind, Quantity, System, nearest};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -202,6 +203,30 @@ fn read_shape(
 }
 
 impl Motion {
+    /// As written in a case file, without the key; its values measure `kind`. In the units of a system, or as typed.
+    pub(super) fn to_toml_in(&self, kind: Kind, system: Option<System>) -> String {
+        system.map_or_else(|| self.to_toml(), |system| self.in_system(kind, system).to_toml())
+    }
+
+    /// The same motion, its quantities in the units of a system.
+    fn in_system(&self, kind: Kind, system: System) -> Self {
+        let mut own = self.clone();
+        match &mut own {
+            Motion::Constant(value)
+            | Motion::Sine { amplitude: value, .. }
+            | Motion::Triangle { amplitude: value, .. }
+            | Motion::SweptSine { amplitude: value, .. }
+            | Motion::Ramp { amplitude: value, .. } => *value = in_system(value, kind, system),
+            Motion::Table(table) => *table = table.in_system([Kind::Time, kind], system),
+            Motion::Sum(parts) => {
+                for part in parts {
+                    *part = part.in_system(kind, system);
+                }
+            }
+        }
+        own
+    }
+
     /// As written in a case file, without the key.
     pub(super) fn to_toml(&self) -> String {
         let text = |quantity: &Quantity| toml::Value::from(quantity.text()).to_string();

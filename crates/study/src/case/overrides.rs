@@ -105,18 +105,47 @@ fn set(tree: &mut Table, path: &[Entry], entry: Entry) -> Result<(), Vec<Problem
     let Some(own) = tree.entries.iter_mut().find(|own| own.key == first.key) else {
         return Ok(());
     };
-    match &mut own.node.value {
-        Value::Table(table) => set(table, rest, entry),
+    set_inside(&mut own.node.value, first, rest, entry)
+}
+
+/// Sets a key of a table, or an item of a list by its number, counted from 0: `bolster.vertical.1.amplitude`.
+fn set_inside(within: &mut Value, named: &Entry, path: &[Entry], entry: Entry) -> Result<(), Vec<Problem>> {
+    match within {
+        Value::Table(table) => set(table, path, entry),
+        Value::List(items) => {
+            let key = path.first().unwrap_or(&entry);
+            let (count, number) = (items.len(), key.key.parse::<usize>().ok());
+            let Some(item) = number.and_then(|number| items.get_mut(number)) else {
+                let last = count.saturating_sub(1);
+                let message = format!("`{}` is a list of {count}; it has no `{}`", named.key, key.key);
+                return Err(vec![
+                    Problem::new(message)
+                        .at(&key.key_place)
+                        .label("no number of an item")
+                        .help(format!(
+                            "items have the numbers 0 to {last}; or set all of it at once: `{}=...`",
+                            named.key
+                        )),
+                ]);
+            };
+            match path.split_first() {
+                Some((first, rest)) => set_inside(&mut item.value, first, rest, entry),
+                None => {
+                    *item = entry.node;
+                    Ok(())
+                }
+            }
+        }
         other => Err(vec![
             Problem::new(format!(
                 "`{}` is {} in this case, it has no `{}`",
-                first.key,
+                named.key,
                 other.describe(),
-                entry.key
+                path.first().unwrap_or(&entry).key
             ))
-            .at(&first.key_place)
+            .at(&named.key_place)
             .label("this is no table")
-            .help(format!("set all of it at once: `{}=...`", first.key)),
+            .help(format!("set all of it at once: `{}=...`", named.key)),
         ]),
     }
 }

@@ -11,15 +11,26 @@ pub(crate) struct Source {
     /// The file as the user named it, or `--set`.
     pub name: String,
     pub named: NamedSource<String>,
+    /// Whether a bare number where a quantity is expected is one in SI units.
+    pub bare_numbers_are_si: bool,
 }
 
 impl Source {
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
-        let name = name.into();
-        Arc::new(Source {
-            named: NamedSource::new(&name, text.into()),
+        Arc::new(Self::of(name.into(), text.into(), false))
+    }
+
+    /// A text that a program made, in which bare numbers are in SI units.
+    pub fn in_si(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
+        Arc::new(Self::of(name.into(), text.into(), true))
+    }
+
+    fn of(name: String, text: String, bare_numbers_are_si: bool) -> Self {
+        Source {
+            named: NamedSource::new(&name, text),
             name,
-        })
+            bare_numbers_are_si,
+        }
     }
 
     pub fn text(&self) -> &str {

@@ -358,6 +358,11 @@ fn read_toe(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<Toe> {
                         \"0.2 deg in\", or \"0 deg\"";
     let node = s.require("toe", HELP, problems)?;
     let path = s.path_of("toe");
+    if let Value::Number(angle) = node.value
+        && node.place.source.bare_numbers_are_si
+    {
+        return signed_toe(angle, node, &path, problems);
+    }
     let Value::Text(text) = &node.value else {
         let message = format!(
             "`{path}` is {}; an angle with its direction is expected",
@@ -407,6 +412,20 @@ fn read_toe(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<Toe> {
         return bad(problem, &node.place, "too large");
     }
     Some(Toe { angle, direction })
+}
+
+/// A toe that a program gives: a number in rad, positive out.
+fn signed_toe(angle: f64, node: &Node, path: &str, problems: &mut Vec<Problem>) -> Option<Toe> {
+    let mut size = node.clone();
+    size.value = Value::Number(angle.abs());
+    Some(Toe {
+        angle: section::quantity(&size, path, Kind::Angle, TOE, problems)?,
+        direction: match angle {
+            _ if angle > 0.0 => Some(ToeDirection::Out),
+            _ if angle < 0.0 => Some(ToeDirection::In),
+            _ => None,
+        },
+    })
 }
 
 fn read_neighbour(s: &Section<'_>, folder: &Path, problems: &mut Vec<Problem>) -> Option<NeighbourSection> {

@@ -331,19 +331,14 @@ pub(crate) fn quantity(
     range: Range,
     problems: &mut Vec<Problem>,
 ) -> Option<Quantity> {
-    let error = match &node.value {
-        Value::Text(text) => match Quantity::parse_as(text, kind) {
-            Ok(quantity) => {
-                let problem = out_of_range(&quantity, path, kind, range);
-                let inside = problem.is_none();
-                problems.extend(problem.map(|problem| problem.at(&node.place).label(range.words())));
-                return inside.then_some(quantity);
-            }
-            Err(error) => error,
-        },
+    let read = match &node.value {
+        Value::Text(text) => Quantity::parse_as(text, kind),
+        Value::Number(value) if node.place.source.bare_numbers_are_si && value.is_finite() => {
+            Quantity::new(*value, kind.unit(System::Si))
+        }
         Value::Number(value) => {
             let (text, span) = (node.place.text().to_string(), 0..node.place.span.len());
-            if value.is_finite() {
+            Err(if value.is_finite() {
                 UnitError::MissingUnit {
                     number: text,
                     expected: Some(kind),
@@ -351,7 +346,7 @@ pub(crate) fn quantity(
                 }
             } else {
                 UnitError::NotFinite { text, span }
-            }
+            })
         }
         other => {
             let message = format!(
@@ -369,8 +364,18 @@ pub(crate) fn quantity(
             return None;
         }
     };
-    problems.push(unit_problem(&error, path, kind, &inner_place(node, &error)));
-    None
+    match read {
+        Ok(quantity) => {
+            let problem = out_of_range(&quantity, path, kind, range);
+            let inside = problem.is_none();
+            problems.extend(problem.map(|problem| problem.at(&node.place).label(range.words())));
+            inside.then_some(quantity)
+        }
+        Err(error) => {
+            problems.push(unit_problem(&error, path, kind, &inner_place(node, &error)));
+            None
+        }
+    }
 }
 
 /// The mistake of a quantity, at its place.

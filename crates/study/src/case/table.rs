@@ -6,6 +6,7 @@
 use super::problem::{Place, Problem, Source};
 use super::section::{self, Range, Section};
 use super::tree::{Node, Value};
+use super::units::in_system;
 use quantity::{Kind, Quantity, System};
 use std::path::Path;
 use std::sync::Arc;
@@ -20,6 +21,16 @@ pub struct QuantityTable {
 }
 
 impl QuantityTable {
+    /// The same points in the units of a system; `kinds` are those of the columns.
+    #[must_use]
+    pub(super) fn in_system(&self, kinds: [Kind; 2], system: System) -> Self {
+        let row = |[a, b]: &[Quantity; 2]| [in_system(a, kinds[0], system), in_system(b, kinds[1], system)];
+        Self {
+            file: self.file.clone(),
+            rows: self.rows.iter().map(row).collect(),
+        }
+    }
+
     /// The points as a list, as written in a case file.
     pub(super) fn points_to_toml(&self) -> String {
         let text = |quantity: &Quantity| toml::Value::from(quantity.text()).to_string();

@@ -1,12 +1,13 @@
 //! A document as a complete, commented case file.
 
 use super::document::{
-    ActsAt, CaseDocument, CoilForce, Coordinate, Damping, FrictionLaw, METHODS, NeighbourSection, SYSTEMS,
-    Start, Toe, ToeDirection,
+    ActsAt, CaseDocument, CoilForce, Coordinate, Damping, FrictionLaw, METHODS, NeighbourSection, PROFILES,
+    SYSTEMS, Start, Toe, ToeDirection,
 };
 use super::field::{Field, FieldSection, Input, Measured, Reach, Written, quoted};
 use super::motion::Motion;
-use quantity::Kind;
+use super::table::QuantityTable;
+use quantity::{Kind, System};
 use std::fmt::Write;
 
 impl CaseDocument {
@@ -127,15 +128,18 @@ impl CaseDocument {
                 );
             }
             CoilForce::Table(table) => {
-                let value = table
-                    .file
-                    .as_ref()
-                    .map_or_else(|| table.points_to_toml(), |file| quoted(file));
+                let kinds = [Kind::Length, Kind::Force];
+                let written = |system: Option<System>| match (&table.file, system) {
+                    (Some(file), _) => quoted(file),
+                    (None, None) => table.points_to_toml(),
+                    (None, Some(system)) => table.in_system(kinds, system).points_to_toml(),
+                };
                 page.line(
                     "table",
-                    Written::toml(value),
+                    Written::toml_in_units(written),
                     "compression and force; straight between the points",
                 );
+                write_points(page, "table", table, kinds[1], Reach::FromZero(4448.0));
             }
         }
         page.line(
@@ -358,22 +362,72 @@ fn write_neighbour(page: &mut Page, section: &NeighbourSection, center: &str) {
         } else {
             (Kind::Angle, TURN)
         };
-        let signed = Reach::Signed(most);
         if let Motion::Constant(value) = motion {
-            page.line(key, Written::quantity(value, kind, signed), "");
+            page.line(key, Written::quantity(value, kind, Reach::Signed(most)), "");
             continue;
         }
-        page.line(key, Written::toml(motion.to_toml()), "");
-        for (part, value) in motion.parts() {
-            let written = match part {
-                "amplitude" => Written::quantity(value, kind, signed),
-                "phase" => Written::quantity(value, Kind::Angle, Reach::Signed(std::f64::consts::PI)),
-                "start" => Written::quantity(value, Kind::Time, Reach::FromZero(1.0)),
-                "duration" => Written::quantity(value, Kind::Time, Reach::Positive),
-                _ => Written::quantity(value, Kind::Frequency, Reach::Positive),
-            };
-            page.field(&format!("{key}.{part}"), &written, "");
+        page.line(
+            key,
+            Written::toml_in_units(|system| motion.to_toml_in(kind, system)),
+            "",
+        );
+        write_motion(page, key, motion, kind, most);
+    }
+}
+
+/// Fields of the quantities of a motion, also of each part of a sum: `vertical.amplitude`, `vertical.0.amplitude`.
+fn write_motion(page: &mut Page, path: &str, motion: &Motion, kind: Kind, most: f64) {
+    let signed = Reach::Signed(most);
+    for (part, value) in motion.parts() {
+        let written = match part {
+            "amplitude" => Written::quantity(value, kind, signed),
+            "phase" => Written::quantity(value, Kind::Angle, Reach::Signed(std::f64::consts::PI)),
+            "start" => Written::quantity(value, Kind::Time, Reach::FromZero(1.0)),
+            "duration" => Written::quantity(value, Kind::Time, Reach::Positive),
+            _ => Written::quantity(value, Kind::Frequency, Reach::Positive),
+        };
+        page.field(&format!("{path}.{part}"), &written, "");
+    }
+    match motion {
+        Motion::Ramp { profile, .. } => {
+            page.field(
+                &format!("{path}.profile"),
+                &Written::choice(PROFILES, profile),
+                "",
+            );
         }
+        Motion::Table(table) if table.file.is_none() => {
+            write_points(page, &format!("{path}.points"), table, kind, signed);
+        }
+        Motion::Sum(parts) => {
+            for (number, part) in parts.iter().enumerate() {
+                let path = format!("{path}.{number}");
+                match part {
+                    Motion::Constant(value) => {
+                        page.field(&path, &Written::quantity(value, kind, signed), "");
+                    }
+                    _ => write_motion(page, &path, part, kind, most),
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+/// A table with more points than this has no fields of its own for them.
+const POINTS: usize = 12;
+
+/// Fields of the second column of a table in the case: `points.3.1`.
+fn write_points(page: &mut Page, path: &str, table: &QuantityTable, kind: Kind, reach: Reach) {
+    if table.file.is_some() || table.rows.len() > POINTS {
+        return;
+    }
+    for (number, [_, value]) in table.rows.iter().enumerate() {
+        page.field(
+            &format!("{path}.{number}.1"),
+            &Written::quantity(value, kind, reach),
+            "",
+        );
     }
 }
 

@@ -319,7 +319,7 @@ fn whole(top: &Section<'_>, key: &str, least: f64, problems: &mut Vec<Problem>) 
 fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Vec<Problem>) -> Option<CaseSource> {
     let path = folder.join(case);
     if !path.is_file()
-        && let Some(text) = builtin::text(case)
+        && let Ok(text) = builtin::text(case)
     {
         return Some(CaseSource {
             name: format!("{case}.toml"),

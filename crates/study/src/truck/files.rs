@@ -1,8 +1,13 @@
 //! A run from files: what the run file says, and what is asked for besides.
 
+use std::path::Path;
+
+use nucars::Severity;
+use nucars::together::RunFiles;
 use nucars::tree::{DataFile, InputFile, RunFile, SystemFile};
 use nucars::truck::{BuildError, Choices, Truck, Yaw};
 use quantity::System as Units;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::{TruckCase, TruckStart, requests, yaw};
@@ -24,7 +29,7 @@ pub struct Files<'t> {
 }
 
 /// What is asked for besides the files.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// What the files leave open.
     pub choices: Choices,
@@ -62,6 +67,9 @@ pub enum FilesError {
     /// The files make no model.
     #[error(transparent)]
     Build(#[from] BuildError),
+    /// There is no system file, or it has mistakes.
+    #[error("there is no system file that can be read")]
+    NoSystem,
     /// Nothing says how long the run is.
     #[error("nothing says how long the run is: the run file has no \\STEPPING CONSTANTS")]
     NoDuration,
@@ -146,6 +154,46 @@ pub fn case(name: &str, title: &str, files: Files<'_>, settings: &Settings) -> R
         relative_tolerance: settings.relative_tolerance,
         units: settings.units,
     })
+}
+
+/// The run of a run file, read from `path`, and what belongs to it. Errors in the files are for the caller to refuse.
+///
+/// # Errors
+/// What [`FilesError`] names.
+pub fn case_of_run(path: &Path, files: &RunFiles, settings: &Settings) -> Result<TruckCase, FilesError> {
+    let mut name = path
+        .file_stem()
+        .map_or_else(|| "nucars".to_owned(), |stem| stem.to_string_lossy().into_owned());
+    if settings.choices.yaw != Yaw::AsPrinted {
+        name.push_str("_yaw_as_intended");
+    }
+    let trees = Files {
+        system: files.system().ok_or(FilesError::NoSystem)?,
+        input: files.input(),
+        data: files.data(),
+        run: files.run(),
+    };
+    let title = files.run().map_or("", |run| run.title.text.trim());
+    let mut case = case(&name, title, trees, settings)?;
+    let warnings = files.count(Severity::Warning);
+    if warnings > 0 {
+        case.assumptions.push(format!(
+            "{warnings} warnings of `wedgelab nucars check` about the files were passed over"
+        ));
+    }
+    if settings.choices.yaw == Yaw::AsPrinted && yaw::is_commanded(&case.truck) {
+        case.assumptions.push(
+            "the yaw input is taken as printed; --yaw drop or --yaw drive reach what it commands".to_owned(),
+        );
+    }
+    if !case.truck.left_out.is_empty() {
+        let numbers: Vec<String> = case.truck.left_out.iter().map(u32::to_string).collect();
+        case.assumptions.push(format!(
+            "connections left out for the intended yaw: {}",
+            numbers.join(", ")
+        ));
+    }
+    Ok(case)
 }
 
 #[cfg(test)]

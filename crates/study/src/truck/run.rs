@@ -1,6 +1,7 @@
 //! Running a half-truck.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 use integrate::{Integrator, Options, SetupError};
 use mechanics::motion::Motion;
@@ -46,6 +47,21 @@ pub fn start(system: &mut System, start: TruckStart) -> Result<Vec<f64>, NoEquil
 /// # Errors
 /// The run cannot begin.
 pub fn run(case: &TruckCase, mut progress: impl FnMut(f64)) -> Result<TruckResult, TruckError> {
+    let keep_on = |time| {
+        progress(time);
+        ControlFlow::Continue(())
+    };
+    run_while(case, keep_on)
+}
+
+/// As [`run`], but asks after each step, with the time reached, whether to go on; when not, the result is incomplete.
+///
+/// # Errors
+/// The run cannot begin.
+pub fn run_while(
+    case: &TruckCase,
+    mut progress: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<TruckResult, TruckError> {
     let mut system = System::new(case.truck.model.clone())?;
     let x = start(&mut system, case.start)?;
     let start_energy = system.observe(0.0, &x).energies.total();
@@ -83,7 +99,14 @@ pub fn run(case: &TruckCase, mut progress: impl FnMut(f64)) -> Result<TruckResul
             table.read(&system.observe(time, &buffer), &mut values);
             row += 1;
         }
-        progress(integrator.time());
+        if progress(integrator.time()).is_break() {
+            stopped = Some(Stopped {
+                time: integrator.time(),
+                reason: "it was stopped from outside".to_owned(),
+                contacts: BTreeMap::new(),
+            });
+            break;
+        }
     }
     let mut result = TruckResult {
         columns: table.columns,

@@ -89,8 +89,8 @@ impl Table {
         self.columns.push(Column {
             name: name.into(),
             kind,
-            frame: "x forward, y left, z up",
-            reference: "",
+            frame: "x forward, y left, z up".into(),
+            reference: "".into(),
             text: text.into(),
         });
         self.values.push(Box::new(value));
@@ -110,6 +110,18 @@ impl Table {
             Kind::Force,
             "normal force of the column",
             move |seen| inside(seen).column_normal,
+        );
+        self.add(
+            format!("{wedge}_slope_normal_force"),
+            Kind::Force,
+            "normal force of the slope",
+            move |seen| inside(seen).slope_normal,
+        );
+        self.add(
+            format!("{wedge}_slope_friction"),
+            Kind::Force,
+            "friction of the slope on the wedge, positive up the slope",
+            move |seen| inside(seen).slope_friction,
         );
         self.add(
             format!("{wedge}_coil_force"),

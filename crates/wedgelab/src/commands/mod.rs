@@ -4,6 +4,7 @@ pub mod case;
 pub mod compare;
 pub mod explore;
 pub mod fit;
+pub mod fmu;
 pub mod nucars;
 pub mod plot;
 pub mod quasi_static;

@@ -16,6 +16,7 @@ use report::figures::{Exhibit, Outcome};
 use report::files::{FileError, Folder, check_all};
 use report::page::{self, Contents, Viewer};
 use report::view::View;
+use report::view::run::{Detail, Recording};
 use report::{beyond, run_files, sections};
 use study::case::{Case, builtin};
 
@@ -58,6 +59,8 @@ pub struct Arguments {
 /// A run whose files are written.
 struct Kept {
     outcome: Outcome,
+    /// What the page shows of it, if it is interactive.
+    recording: Option<Recording>,
     wall: Duration,
 }
 
@@ -86,12 +89,16 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         rayon::join(|| work.collect(), || trucks::trucks(half_trucks, &progress))
     });
     progress.finish();
-    let half_trucks = half_trucks?;
+    let (half_trucks, of_trucks): (Vec<TruckOutcome>, Vec<_>) = half_trucks?.into_iter().unzip();
     let kept = kept.into_iter().collect::<Result<Vec<Kept>, Failure>>()?;
     let walls: Vec<Duration> = kept.iter().map(|kept| kept.wall).collect();
-    let outcomes: Vec<Outcome> = kept.into_iter().map(|kept| kept.outcome).collect();
+    let (outcomes, recordings): (Vec<Outcome>, Vec<_>) = kept
+        .into_iter()
+        .map(|kept| (kept.outcome, kept.recording))
+        .unzip();
+    let recordings = recordings.into_iter().chain(of_trucks).flatten().collect();
 
-    let figures = pool.install(|| tell(&outcomes, &half_trucks, &places))?;
+    let figures = pool.install(|| tell(&outcomes, &half_trucks, recordings, &places))?;
 
     let mut out = io::stdout().lock();
     let summaries = outcomes.iter().map(|(_, result)| &result.summary);
@@ -121,13 +128,18 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 fn keep(case: Case, folder: &Folder, progress: &Progress) -> Result<Kept, Failure> {
-    let mut done = execute_case(&case, folder, progress)?;
-    if !is_of_thesis(&case) {
-        done.result.keep_columns(beyond::needs);
+    let done = execute_case(&case, folder, progress)?;
+    let mut outcome = (case, done.result);
+    let of_thesis = is_of_thesis(&outcome.0);
+    let detail = if of_thesis { Detail::Full } else { Detail::Thinned };
+    let recording = Viewer::embedded().map(|_| Recording::of_wedge(&outcome, detail));
+    if !of_thesis {
+        outcome.1.keep_columns(beyond::needs);
     }
     Ok(Kept {
+        outcome,
+        recording,
         wall: done.wall,
-        outcome: (case, done.result),
     })
 }
 
@@ -167,7 +179,13 @@ fn draw(exhibits: &[&Exhibit], folder: &Folder) -> Result<Vec<String>, Failure> 
 }
 
 /// Draws all figures and writes them and the page; gives the number of figures.
-fn tell(outcomes: &[Outcome], half_trucks: &[TruckOutcome], places: &Places) -> Result<usize, Failure> {
+fn tell(
+    outcomes: &[Outcome],
+    half_trucks: &[TruckOutcome],
+    recordings: Vec<Recording>,
+    places: &Places,
+) -> Result<usize, Failure> {
+    let units = outcomes.first().map(|(_, result)| result.summary.units);
     // The thesis's runs come first in the list of cases.
     let first_beyond = outcomes.partition_point(|(case, _)| is_of_thesis(case));
     let (outcomes, others) = outcomes.split_at(first_beyond);
@@ -175,12 +193,15 @@ fn tell(outcomes: &[Outcome], half_trucks: &[TruckOutcome], places: &Places) -> 
     let run_by_run = plans.partition_point(|plan| !plan.folded);
     let more = sections::comparison(outcomes, half_trucks).into_iter();
     plans.splice(run_by_run..run_by_run, more.chain(sections::beyond(others)));
+    if Viewer::embedded().is_some() {
+        plans.extend(sections::moving(others, half_trucks));
+    }
     let exhibits: Vec<&Exhibit> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
     let svgs = draw(&exhibits, &places.figures)?;
     let count = exhibits.len();
     let interactive = Viewer::embedded()
         .map(|viewer| {
-            let view = View::new(outcomes, exhibits.iter().copied()).to_json();
+            let view = View::new(units.unwrap_or_default(), recordings, exhibits.iter().copied()).to_json();
             view.map(|view| (viewer, view))
         })
         .transpose()
@@ -197,7 +218,6 @@ fn tell(outcomes: &[Outcome], half_trucks: &[TruckOutcome], places: &Places) -> 
         .with_trucks(half_trucks.iter().map(|(entry, result)| (entry, result)));
     let verdicts = Claims::of(claims::evaluate(&evidence));
     let groups = agreement::groups(outcomes, half_trucks);
-    let units = outcomes.first().map(|(_, result)| result.summary.units);
     let comparison = units.filter(|_| !half_trucks.is_empty());
     let page = page::render(&Contents {
         outcomes,

@@ -141,6 +141,8 @@ pub struct WedgeState {
     pub lateral_friction: f64,
     /// Normal force of the slope.
     pub slope_normal: f64,
+    /// Friction of the slope along it, on the wedge, positive up.
+    pub slope_friction: f64,
     /// Signed fraction of the mobilised friction, x.
     pub mobilised: f64,
     /// Limit of the friction in its present direction.
@@ -340,6 +342,7 @@ impl WedgeLaw {
             column_friction: up.value(),
             lateral_friction: slip.force[1].value(),
             slope_normal: slope_normal.value(),
+            slope_friction: (slope * slope_normal).value(),
             mobilised: x.value(),
             ..inside
         });

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use report::view::View;
+use report::view::run::{Detail, Recording};
 use report::{csv, mat, run_files, summary};
 use serde::{Deserialize, Serialize};
 use study::case::{Case, CaseError, FieldSection, builtin};
@@ -170,7 +171,8 @@ impl Explorer {
         let outcome = self.outcome(wanted, number)?;
         let seconds = begun.elapsed().as_secs_f64();
         let (case, result) = &*outcome;
-        let view = View::new(std::slice::from_ref(&*outcome), []);
+        let recording = Recording::of_wedge(&outcome, Detail::Full);
+        let view = View::new(result.summary.units, [recording], []);
         let mut summary = result.summary.clone();
         summary.events.listed.clear();
         Ok(Answer {

@@ -7,9 +7,10 @@ use std::process::ExitCode;
 use clap::Args;
 use nucars::Severity;
 use nucars::read::FileKind;
+use nucars::together::{Files, find};
 
-use super::files::{Files, Instead};
-use super::load::{find, tell};
+use super::files::Instead;
+use super::load::tell;
 use crate::failure::{Failure, INPUT};
 
 /// Say what is wrong or doubtful with files, with line and column
@@ -38,16 +39,17 @@ pub struct Arguments {
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let instead = arguments.instead.files();
     let mut files = Files::default();
     for file in &arguments.files {
         files.add(&find(file)?, None)?;
     }
     for kind in [FileKind::System, FileKind::Data, FileKind::Input] {
-        if let (_, Some(path)) = arguments.instead.of(kind) {
+        if let (_, Some(path)) = instead.of(kind) {
             files.add(&find(path)?, Some(kind))?;
         }
     }
-    let teams = files.teams(&arguments.instead)?;
+    let teams = files.teams(&instead)?;
     files.check(&teams);
     report(&files, arguments.no_notes)
 }

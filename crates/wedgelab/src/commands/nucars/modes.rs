@@ -9,9 +9,10 @@ use mechanics::small::{COORDINATES, Held, Kind, StaticFriction, System, Vibratio
 use nucars::Severity;
 use nucars::check;
 use nucars::read::{FileKind, read_system};
+use nucars::together::{find, kind, load};
 use nucars::truck::{Choices, Truck};
 
-use super::load::{find, kind, load, tell};
+use super::load::tell;
 use crate::failure::{Failure, INPUT, Message};
 use crate::table::Table;
 

@@ -7,17 +7,18 @@ use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 use nucars::Severity;
+use nucars::together::{RunFiles, find, kind, load};
 use nucars::truck::{Choices, Yaw};
 use quantity::{Kind, Quantity, System as Units, nearest};
 use report::files::Folder;
 use report::truck_files;
 use study::truck::catalog::{self, Entry, OUTPUT_INTERVAL, YawCase};
-use study::truck::files::{Files, Settings, case};
+use study::truck::files::{Settings, case_of_run};
 use study::truck::run::run;
-use study::truck::{TruckCase, TruckStart, TruckSummary, options, yaw};
+use study::truck::{TruckCase, TruckStart, TruckSummary, options};
 
-use super::files::{Instead, RunFiles};
-use super::load::{find, kind, load, tell};
+use super::files::Instead;
+use super::load::tell;
 use crate::failure::{Failure, Message, say};
 use crate::progress::Progress;
 use crate::table::Table;
@@ -202,7 +203,7 @@ impl Arguments {
     }
 
     fn built_in(&self, entry: Entry, settings: Settings) -> Result<TruckCase, Message> {
-        if let Some(option) = self.instead.given().first() {
+        if let Some(option) = self.instead.files().given().first() {
             return Err(Message::new(
                 format!(
                     "the built-in run {} has its own files, and {option} is given",
@@ -238,73 +239,37 @@ impl Arguments {
             )
             .into());
         }
-        let files = RunFiles::read(&path, &self.instead)?;
-        let mut warnings = 0;
-        let mut wrong = false;
+        let instead = self.instead.files();
+        let files = RunFiles::read(&path, &instead)?;
         for findings in files.findings() {
             tell(findings, |finding| finding.severity() == Severity::Error);
-            warnings += findings.count(Severity::Warning);
-            wrong |= findings.has_errors();
         }
         let again = std::iter::once(format!("wedgelab nucars check {}", path.display()))
-            .chain(self.instead.given())
+            .chain(instead.given())
             .collect::<Vec<_>>()
             .join(" ");
-        let (false, Some(run_file), Some(system)) = (wrong, files.run(), files.system()) else {
+        if files.has_errors() {
             return Err(Message::new(
                 format!("{} cannot be run", path.display()),
                 format!("mend the errors above; `{again}` tells warnings and notes too"),
             )
             .into());
-        };
+        }
+        let warnings = files.count(Severity::Warning);
         if warnings > 0 {
             let s = if warnings == 1 { "" } else { "s" };
             say(&format!(
                 "{warnings} warning{s} about the files; `{again}` tells them"
             ));
         }
-        let mut name = path
-            .file_stem()
-            .map_or_else(|| "nucars".to_owned(), |stem| stem.to_string_lossy().into_owned());
-        if settings.choices.yaw != Yaw::AsPrinted {
-            name.push_str("_yaw_as_intended");
-        }
-        let trees = Files {
-            system,
-            input: files.input(),
-            data: files.data(),
-            run: Some(run_file),
-        };
-        let title = run_file.title.text.trim();
-        let mut case = case(&name, title, trees, settings).map_err(|error| {
+        let case = case_of_run(&path, &files, settings).map_err(|error| {
             Message::new(
                 format!("{} cannot be run: {error}", path.display()),
                 format!("`{again}` tells what is doubtful about the files"),
             )
         })?;
-        if warnings > 0 {
-            case.assumptions.push(format!(
-                "{warnings} warnings of `wedgelab nucars check` about the files were passed over"
-            ));
-        }
-        if settings.choices.yaw == Yaw::AsPrinted && yaw::is_commanded(&case.truck) {
-            case.assumptions.push(
-                "the yaw input is taken as printed; --yaw drop or --yaw drive reach what it commands"
-                    .to_owned(),
-            );
-        }
-        if !case.truck.left_out.is_empty() {
-            let numbers: Vec<String> = case.truck.left_out.iter().map(u32::to_string).collect();
-            case.assumptions.push(format!(
-                "connections left out for the intended yaw: {}",
-                numbers.join(", ")
-            ));
-        }
-        let interval = run_file
-            .stepping
-            .as_ref()
-            .map_or(0.0, |stepping| *stepping.output);
-        Ok((case, interval))
+        let stepping = files.run().and_then(|run| run.stepping.as_ref());
+        Ok((case, stepping.map_or(0.0, |stepping| *stepping.output)))
     }
 }
 

@@ -8,8 +8,9 @@ use clap::Args;
 use nucars::Severity;
 use nucars::read::{FileKind, read_system};
 use nucars::show;
+use nucars::together::{find, kind, load};
 
-use super::load::{find, kind, load, tell};
+use super::load::tell;
 use crate::failure::{Failure, INPUT, Message};
 use crate::table::Table;
 

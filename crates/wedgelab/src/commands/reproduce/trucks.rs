@@ -7,7 +7,9 @@ use nucars::truck::Choices;
 use rayon::prelude::*;
 use report::agreement::TruckOutcome;
 use report::files::{Folder, check_all};
+use report::page::Viewer;
 use report::truck_files;
+use report::view::run::{Detail, Recording};
 use study::truck::catalog::{self, Entry};
 use study::truck::{TruckCase, run};
 
@@ -45,8 +47,11 @@ pub fn plan(out: &Path, force: bool) -> Result<Vec<Planned>, Failure> {
         .collect())
 }
 
+/// A run with what the page shows of it, if it is interactive.
+pub type Kept = (TruckOutcome, Option<Recording>);
+
 /// Runs them and writes their files, as many at a time as the pool has threads.
-pub fn trucks(planned: Vec<Planned>, progress: &Progress) -> Result<Vec<TruckOutcome>, Failure> {
+pub fn trucks(planned: Vec<Planned>, progress: &Progress) -> Result<Vec<Kept>, Failure> {
     planned
         .into_par_iter()
         .with_max_len(1)
@@ -54,7 +59,7 @@ pub fn trucks(planned: Vec<Planned>, progress: &Progress) -> Result<Vec<TruckOut
         .collect()
 }
 
-fn one(planned: Planned, progress: &Progress) -> Result<TruckOutcome, Failure> {
+fn one(planned: Planned, progress: &Progress) -> Result<Kept, Failure> {
     let Planned { entry, case, folder } = planned;
     let start = Instant::now();
     let result = run::run(&case, progress.of_run(case.duration)).map_err(|error| {
@@ -67,5 +72,6 @@ fn one(planned: Planned, progress: &Progress) -> Result<TruckOutcome, Failure> {
         None => format!("{:.2} s", start.elapsed().as_secs_f64()),
     };
     progress.done(&case.name, &how);
-    Ok((entry, result))
+    let recording = Viewer::embedded().map(|_| Recording::of_truck(&case, &result, Detail::Thinned));
+    Ok(((entry, result), recording))
 }

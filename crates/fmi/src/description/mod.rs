@@ -1,0 +1,280 @@
+//! What an importer reads: variables in their order, structure, identity; and as `modelDescription.xml`.
+
+mod fmi2;
+mod fmi3;
+pub(crate) mod xml;
+
+use sha2::{Digest, Sha256};
+use study::case::Case;
+
+use crate::Error;
+use crate::element::{Entries, Entry};
+use crate::unit::Unit;
+use crate::variable::{Causality, Role, Start, Variability, Variable};
+
+/// The version of the standard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Version {
+    /// FMI 2.0.
+    Two,
+    /// FMI 3.0.
+    Three,
+}
+
+/// Which element an FMU holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Model {
+    /// The wedge with mass.
+    Wedge,
+    /// The quasi-static wedge.
+    QuasiStatic,
+    /// A half-truck without its wedges.
+    Truck,
+}
+
+impl Model {
+    /// Its name: of the model, and of the library in an FMU.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Wedge => "FrictionWedge",
+            Self::QuasiStatic => "FrictionWedgeQS",
+            Self::Truck => "FrictionTruck",
+        }
+    }
+
+    /// Whether it gives directional derivatives.
+    #[must_use]
+    pub fn has_derivatives(self) -> bool {
+        self != Self::Truck
+    }
+
+    /// The model of this name.
+    #[must_use]
+    pub fn of(name: &str) -> Option<Self> {
+        [Self::Wedge, Self::QuasiStatic, Self::Truck]
+            .into_iter()
+            .find(|model| model.name() == name)
+    }
+}
+
+/// Everything an importer can know of an FMU.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Description {
+    /// The element.
+    pub model: Model,
+    /// The case's name.
+    pub case: String,
+    /// What it is, in one line.
+    pub text: String,
+    /// The variables; each value reference is a place in this list.
+    pub variables: Vec<Variable>,
+    /// The quantities of the element.
+    pub entries: Entries,
+    /// Length of the default experiment, s.
+    pub stop_time: f64,
+    /// Its tolerance.
+    pub tolerance: f64,
+    /// Its step, s.
+    pub step: f64,
+    /// The case as TOML: what the element is made of.
+    pub toml: String,
+}
+
+impl Description {
+    /// The description of a case's element.
+    ///
+    /// # Errors
+    /// The case makes no such element.
+    pub fn new(model: Model, case: &Case) -> Result<Self, Error> {
+        let entries = match model {
+            Model::Wedge => crate::wedge::entries(case)?,
+            Model::QuasiStatic => crate::quasi_static::entries(case)?,
+            Model::Truck => crate::truck::entries(case)?,
+        };
+        let text = match model {
+            Model::Wedge => {
+                "Friction wedge of a three-piece truck between bolster and side frame: rigid body with mass, unilateral \
+                 contact at eight corners, stick-slip friction"
+            }
+            Model::QuasiStatic => {
+                "Friction wedge of a three-piece truck between bolster and side frame: quasi-static, without mass"
+            }
+            Model::Truck => {
+                "Loaded half of a three-piece truck without its four friction wedges: half a car on a bolster, side frames, springs"
+            }
+        };
+        let text = if case.title.is_empty() {
+            format!("{text}. Case: {}", case.name)
+        } else {
+            format!("{text}. Case: {}, {}", case.name, case.title)
+        };
+        Ok(Self {
+            model,
+            case: case.name.clone(),
+            text,
+            variables: variables(&entries),
+            entries,
+            stop_time: case.simulation.duration,
+            tolerance: case.simulation.relative_tolerance,
+            step: 1e-3,
+            toml: case.document.clone().with_tables_embedded().to_toml(),
+        })
+    }
+
+    /// The variable with a reference.
+    #[must_use]
+    pub fn variable(&self, reference: u32) -> Option<&Variable> {
+        self.variables.get(reference as usize)
+    }
+
+    /// The reference of what stands behind a variable.
+    #[must_use]
+    pub fn reference(&self, role: Role) -> Option<u32> {
+        self.variables
+            .iter()
+            .find(|variable| variable.role == role)
+            .map(|variable| variable.reference)
+    }
+
+    /// The token that ties the description to what the library computes: a hash of the case, of all variables, of the library's
+    /// version and of the version of the standard, written as a GUID.
+    #[must_use]
+    pub fn token(&self, version: Version) -> String {
+        let mut hash = Sha256::new();
+        hash.update(env!("CARGO_PKG_VERSION"));
+        hash.update(self.model.name());
+        hash.update(match version {
+            Version::Two => "2.0",
+            Version::Three => "3.0",
+        });
+        hash.update(&self.toml);
+        for variable in &self.variables {
+            hash.update(format!("{variable:?}"));
+        }
+        let hex: String = hash
+            .finalize()
+            .iter()
+            .take(16)
+            .map(|byte| format!("{byte:02x}"))
+            .collect();
+        let parts = [&hex[..8], &hex[8..12], &hex[12..16], &hex[16..20], &hex[20..]];
+        format!("{{{}}}", parts.join("-"))
+    }
+
+    /// The text of `modelDescription.xml`.
+    ///
+    /// # Errors
+    /// The text cannot be written: a name or text holds what XML cannot.
+    pub fn xml(&self, version: Version) -> Result<String, Error> {
+        match version {
+            Version::Two => fmi2::write(self),
+            Version::Three => fmi3::write(self),
+        }
+    }
+
+    /// On which variables an unknown depends; each list in the order of references.
+    fn dependencies(&self, role: Role) -> Vec<u32> {
+        let entries = &self.entries;
+        let states = entries.states.len() - entries.accumulators;
+        let depends = |variable: &&Variable| match (role, variable.role) {
+            // Work and losses are accumulated: nothing depends on them.
+            (Role::Output(_), Role::State(state)) => state < states,
+            (Role::Output(_), Role::Input(_)) => !entries.outputs_of_states,
+            (Role::Rate(rate), other) => match entries.kinematic.iter().find(|(q, _)| *q == rate) {
+                Some((_, speed)) => other == Role::State(*speed),
+                None => match other {
+                    Role::State(state) => state < states,
+                    Role::Input(_) => true,
+                    _ => false,
+                },
+            },
+            (Role::Indicator(_), Role::State(state)) => state < states,
+            (Role::Indicator(_), Role::Input(_)) => true,
+            _ => false,
+        };
+        self.variables
+            .iter()
+            .filter(depends)
+            .map(|variable| variable.reference)
+            .collect()
+    }
+
+    /// Variables with a role of a kind, in the order of references.
+    fn those(&self, is: impl Fn(Role) -> bool) -> impl Iterator<Item = &Variable> {
+        self.variables.iter().filter(move |variable| is(variable.role))
+    }
+}
+
+fn variables(entries: &Entries) -> Vec<Variable> {
+    let mut variables = vec![Variable {
+        reference: 0,
+        name: "time".to_owned(),
+        text: "time".to_owned(),
+        role: Role::Time,
+        unit: Some(Unit::Of(quantity::Kind::Time)),
+        causality: Causality::Independent,
+        variability: Variability::Continuous,
+        start: Start::Float(None),
+        nominal: None,
+        reach: None,
+    }];
+    let mut add = |entry: &Entry, role: Role, causality: Causality, variability: Variability| {
+        variables.push(Variable {
+            reference: variables.len() as u32,
+            name: entry.name.clone(),
+            text: entry.text.clone(),
+            role,
+            unit: entry.unit.filter(|unit| unit.name().is_some()),
+            causality,
+            variability,
+            start: entry.start,
+            nominal: entry.nominal,
+            reach: entry.reach,
+        });
+    };
+    for (i, entry) in entries.inputs.iter().enumerate() {
+        add(entry, Role::Input(i), Causality::Input, Variability::Continuous);
+    }
+    for (i, entry) in entries.outputs.iter().enumerate() {
+        add(entry, Role::Output(i), Causality::Output, Variability::Continuous);
+    }
+    for (i, entry) in entries.modes.iter().enumerate() {
+        add(entry, Role::Mode(i), Causality::Output, Variability::Discrete);
+    }
+    for (i, entry) in entries.options.iter().enumerate() {
+        add(entry, Role::Option(i), Causality::Parameter, Variability::Fixed);
+    }
+    for (i, entry) in entries.parameters.iter().enumerate() {
+        let variability = if entry.tunable {
+            Variability::Tunable
+        } else {
+            Variability::Fixed
+        };
+        add(entry, Role::Parameter(i), Causality::Parameter, variability);
+    }
+    for (i, entry) in entries.states.iter().enumerate() {
+        add(entry, Role::State(i), Causality::Local, Variability::Continuous);
+    }
+    for (i, state) in entries.states.iter().enumerate() {
+        let rate = Entry::real(
+            format!("der({})", state.name),
+            state.unit.map(Unit::rate),
+            None,
+            format!("rate of {}", state.name),
+        );
+        add(&rate, Role::Rate(i), Causality::Local, Variability::Continuous);
+    }
+    for (i, entry) in entries.columns.iter().enumerate() {
+        add(entry, Role::Column(i), Causality::Local, Variability::Continuous);
+    }
+    for (i, entry) in entries.indicators.iter().enumerate() {
+        add(
+            entry,
+            Role::Indicator(i),
+            Causality::Local,
+            Variability::Continuous,
+        );
+    }
+    variables
+}

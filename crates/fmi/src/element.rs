@@ -1,0 +1,201 @@
+//! What stands behind the variables.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Error;
+use crate::quasi_static::QuasiStaticState;
+use crate::truck::TruckState;
+use crate::unit::Unit;
+use crate::variable::Start;
+use crate::wedge::WedgeState;
+
+/// How an instance is used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Interface {
+    /// The importer integrates.
+    ModelExchange,
+    /// The instance integrates itself from one communication point to the next.
+    CoSimulation,
+}
+
+/// A quantity of an element, as a variable shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub text: String,
+    /// Its unit.
+    pub unit: Option<Unit>,
+    /// Type and start value.
+    pub start: Start,
+    /// Its usual size.
+    pub nominal: Option<f64>,
+    /// Least and greatest admissible value.
+    pub reach: Option<[f64; 2]>,
+    /// Whether it may change while a simulation runs (parameters).
+    pub tunable: bool,
+    /// For a position the input that is its rate.
+    pub rate: Option<usize>,
+}
+
+impl Entry {
+    /// A real number.
+    #[must_use]
+    pub fn real(
+        name: impl Into<String>,
+        unit: Option<Unit>,
+        start: Option<f64>,
+        text: impl Into<String>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            text: text.into(),
+            unit,
+            start: Start::Float(start),
+            nominal: None,
+            reach: None,
+            tunable: false,
+            rate: None,
+        }
+    }
+
+    /// An integer between two values.
+    #[must_use]
+    pub fn integer(name: &str, start: Option<i32>, reach: [i32; 2], text: impl Into<String>) -> Self {
+        Self {
+            start: Start::Integer(start),
+            reach: Some(reach.map(f64::from)),
+            ..Self::real(name, None, None, text)
+        }
+    }
+
+    /// A truth value.
+    #[must_use]
+    pub fn boolean(name: &str, start: bool, text: impl Into<String>) -> Self {
+        Self {
+            start: Start::Boolean(start),
+            ..Self::real(name, None, None, text)
+        }
+    }
+}
+
+/// All quantities of an element.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Entries {
+    /// Real parameters.
+    pub parameters: Vec<Entry>,
+    /// Options: integers and truth values.
+    pub options: Vec<Entry>,
+    /// Inputs, positions and rates of neighbours first.
+    pub inputs: Vec<Entry>,
+    /// Outputs.
+    pub outputs: Vec<Entry>,
+    /// Outputs depend on states alone, not on inputs.
+    pub outputs_of_states: bool,
+    /// Continuous states.
+    pub states: Vec<Entry>,
+    /// How many of them, at the end of the list, are only accumulated: nothing depends on them.
+    pub accumulators: usize,
+    /// States whose rate is another state, by number; the others' rates depend on everything.
+    pub kinematic: Vec<(usize, usize)>,
+    /// Values to look at.
+    pub columns: Vec<Entry>,
+    /// Contact states.
+    pub modes: Vec<Entry>,
+    /// Event indicators.
+    pub indicators: Vec<Entry>,
+}
+
+/// What an element starts from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// How it is used.
+    pub interface: Interface,
+    /// Values of the real parameters.
+    pub parameters: Vec<f64>,
+    /// Values of the options; truth values are 0 and 1.
+    pub options: Vec<i32>,
+    /// Values of the inputs.
+    pub inputs: Vec<f64>,
+    /// Tolerance of the experiment, if the importer has given one.
+    pub tolerance: Option<f64>,
+    /// Time at the start, s.
+    pub start_time: f64,
+}
+
+/// The saved state of an element.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ElementState {
+    /// A wedge.
+    Wedge(Box<WedgeState>),
+    /// A quasi-static wedge.
+    QuasiStatic(QuasiStaticState),
+    /// A truck without wedges.
+    Truck(Box<TruckState>),
+}
+
+/// Derivatives of rates and outputs along a direction.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Slopes {
+    /// Of the rates of the states.
+    pub rates: Vec<f64>,
+    /// Of the outputs.
+    pub outputs: Vec<f64>,
+}
+
+/// An element at work, from the initialization on. Lists have the lengths and orders of [`Entries`]; SI units.
+pub trait Element: Send {
+    /// The continuous states.
+    fn states(&self) -> &[f64];
+    /// Sets time and continuous states (model exchange).
+    ///
+    /// # Errors
+    /// Values that are not finite, or too many or few.
+    fn set_states(&mut self, time: f64, states: &[f64]) -> Result<(), Error>;
+    /// Sets the inputs at this instant.
+    ///
+    /// # Errors
+    /// Values that are not finite, or outside their reach.
+    fn set_inputs(&mut self, inputs: &[f64]) -> Result<(), Error>;
+    /// Takes over tunable parameters; the others are as they were.
+    ///
+    /// # Errors
+    /// Values outside their reach.
+    fn tune(&mut self, parameters: &[f64]) -> Result<(), Error>;
+    /// Integrates to a time (co-simulation), the inputs going smoothly from where they are to `end`.
+    ///
+    /// # Errors
+    /// The integration cannot go on.
+    fn step(&mut self, end: &[f64], time: f64) -> Result<(), Error>;
+    /// The rates of the states.
+    ///
+    /// # Errors
+    /// `out` has another length.
+    fn rates(&mut self, out: &mut [f64]) -> Result<(), Error>;
+    /// The event indicators: never exactly zero.
+    fn indicators(&mut self, out: &mut [f64]);
+    /// The contact states.
+    fn modes(&self) -> &[u8];
+    /// Brings the contact states up to date.
+    fn update_modes(&mut self) -> bool;
+    /// The outputs.
+    ///
+    /// # Errors
+    /// Never, with an element that was built here.
+    fn outputs(&mut self, out: &mut [f64]) -> Result<(), Error>;
+    /// The values to look at.
+    fn columns(&mut self, out: &mut [f64]);
+    /// Derivatives along a direction of states and inputs.
+    ///
+    /// # Errors
+    /// Lists of other lengths.
+    fn along(&mut self, states: &[f64], inputs: &[f64]) -> Result<Slopes, Error>;
+    /// Its state, to go on from with the same bits.
+    fn save(&self) -> ElementState;
+    /// Goes back to a saved state.
+    ///
+    /// # Errors
+    /// The state is of another element.
+    fn restore(&mut self, state: &ElementState) -> Result<(), Error>;
+}

@@ -1,0 +1,72 @@
+//! What an instance says when it cannot do what it is asked.
+
+use thiserror::Error;
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Done, with a remark.
+    Warning,
+    /// Not done; nothing has changed, the instance goes on.
+    Error,
+}
+
+/// What a message is about: the log categories of the description.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Category {
+    /// Something was refused or failed.
+    Error,
+    /// Something is doubtful.
+    Warning,
+    /// A corner opened, closed, stuck or slipped.
+    Events,
+}
+
+impl Category {
+    /// All categories.
+    pub const ALL: [Category; 3] = [Category::Error, Category::Warning, Category::Events];
+
+    /// Its name in the description.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Category::Error => "logStatusError",
+            Category::Warning => "logStatusWarning",
+            Category::Events => "logEvents",
+        }
+    }
+
+    /// What it is about.
+    #[must_use]
+    pub fn text(self) -> &'static str {
+        match self {
+            Category::Error => "calls that are refused, and steps that fail",
+            Category::Warning => "what is doubtful",
+            Category::Events => "which corner opens, closes, sticks or slips, and when",
+        }
+    }
+}
+
+/// Why a call is refused, or has failed.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{message}")]
+pub struct Error {
+    /// The whole message.
+    pub message: String,
+}
+
+impl Error {
+    /// An error of this message.
+    #[must_use]
+    pub fn new(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+        }
+    }
+}
+
+impl From<study::driven::DrivenError> for Error {
+    fn from(error: study::driven::DrivenError) -> Self {
+        Self::new(error.to_string())
+    }
+}

@@ -1,0 +1,352 @@
+//! One instance of an FMU: the state machine of the standard, for both versions and both kinds of interface.
+//!
+//! Every call returns a result; a refused call changes nothing. What is to be logged is collected in [`Instance::take_log`].
+
+mod access;
+mod phase;
+mod save;
+mod step;
+
+pub use phase::Phase;
+pub use save::Saved;
+pub use step::EventUpdate;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use study::case::Case;
+
+use crate::description::{Description, Model, Version};
+use crate::element::{Element, Interface, Setting};
+use crate::quasi_static::QuasiStaticElement;
+use crate::truck::TruckElement;
+use crate::variable::Start;
+use crate::wedge::WedgeElement;
+use crate::{Category, Error, Severity, resources};
+
+/// A message for the importer's log.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// How bad it is.
+    pub severity: Severity,
+    /// What it is about.
+    pub category: Category,
+    /// The text.
+    pub text: String,
+}
+
+/// Times of the experiment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Experiment {
+    start: f64,
+    stop: Option<f64>,
+    tolerance: Option<f64>,
+}
+
+/// What an importer has set.
+#[derive(Clone, Debug, PartialEq)]
+struct Values {
+    parameters: Vec<f64>,
+    options: Vec<i32>,
+    inputs: Vec<f64>,
+    /// Derivatives of the inputs, for the next step only.
+    slopes: Vec<Option<f64>>,
+    /// Inputs one communication step earlier, and its length, s.
+    before: Option<(Vec<f64>, f64)>,
+}
+
+/// An instance.
+pub struct Instance {
+    description: Arc<Description>,
+    token: String,
+    case: Case,
+    version: Version,
+    interface: Interface,
+    name: String,
+    phase: Phase,
+    experiment: Experiment,
+    values: Values,
+    time: f64,
+    element: Option<Box<dyn Element>>,
+    /// Inputs have been set that the element does not know yet.
+    stale: bool,
+    /// Outputs and columns as computed last, if they are those of now.
+    outputs: Option<Vec<f64>>,
+    columns: Option<Vec<f64>>,
+    /// Whether changes of contact states are logged.
+    log_events: bool,
+    log: Vec<Message>,
+}
+
+impl std::fmt::Debug for Instance {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Instance")
+            .field("name", &self.name)
+            .field("model", &self.description.model)
+            .field("interface", &self.interface)
+            .field("phase", &self.phase)
+            .field("time", &self.time)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Instance {
+    /// An instance of the FMU whose `resources` lie in a folder.
+    ///
+    /// # Errors
+    /// The folder is not that of an FMU of this program, or the token is not that of its description.
+    pub fn new(
+        name: &str,
+        token: &str,
+        folder: &Path,
+        version: Version,
+        interface: Interface,
+    ) -> Result<Self, Error> {
+        let (model, case) = resources::read(folder)?;
+        Self::of_case(name, Some(token), model, case, version, interface)
+    }
+
+    /// An instance of a case's element; the token is compared if there is one.
+    ///
+    /// # Errors
+    /// The case makes no such element, or the token is another one.
+    pub fn of_case(
+        name: &str,
+        token: Option<&str>,
+        model: Model,
+        case: Case,
+        version: Version,
+        interface: Interface,
+    ) -> Result<Self, Error> {
+        let description = Description::new(model, &case)?;
+        let own = description.token(version);
+        if let Some(token) = token.filter(|token| *token != own) {
+            return Err(Error::new(format!(
+                "the token {token} is not that of this FMU, {own}: modelDescription.xml and library do not belong together"
+            )));
+        }
+        let values = Values::of(&description);
+        Ok(Self {
+            description: Arc::new(description),
+            token: own,
+            case,
+            version,
+            interface,
+            name: name.to_owned(),
+            phase: Phase::Instantiated,
+            experiment: Experiment {
+                start: 0.0,
+                stop: None,
+                tolerance: None,
+            },
+            time: 0.0,
+            values,
+            element: None,
+            stale: false,
+            outputs: None,
+            columns: None,
+            log_events: false,
+            log: Vec::new(),
+        })
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+    /// What it shows.
+    #[must_use]
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+    /// How it is used.
+    #[must_use]
+    pub fn interface(&self) -> Interface {
+        self.interface
+    }
+    /// The version of the standard that it is used by.
+    #[must_use]
+    pub fn version(&self) -> Version {
+        self.version
+    }
+    /// Where it stands.
+    #[must_use]
+    pub fn phase(&self) -> Phase {
+        self.phase
+    }
+    /// Time, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+    /// Messages collected since the last call.
+    pub fn take_log(&mut self) -> Vec<Message> {
+        std::mem::take(&mut self.log)
+    }
+    /// Says whether changes of contact states are logged.
+    pub fn log_events(&mut self, on: bool) {
+        self.log_events = on;
+    }
+
+    /// Sets times and tolerance of the experiment.
+    ///
+    /// # Errors
+    /// Called too late, or values that are not finite or out of order.
+    pub fn set_experiment(
+        &mut self,
+        start: f64,
+        stop: Option<f64>,
+        tolerance: Option<f64>,
+    ) -> Result<(), Error> {
+        self.require("the experiment is set up", &[Phase::Instantiated])?;
+        if !start.is_finite() {
+            return Err(Error::new(format!(
+                "the start time is {start}; it must be finite"
+            )));
+        }
+        if let Some(stop) = stop.filter(|stop| stop.is_nan() || *stop < start) {
+            return Err(Error::new(format!(
+                "the stop time is {stop}; it must not be before the start time {start}"
+            )));
+        }
+        if let Some(tolerance) = tolerance.filter(|tolerance| !(*tolerance > 0.0 && *tolerance < 1.0)) {
+            return Err(Error::new(format!(
+                "the tolerance is {tolerance}; it must lie between 0 and 1"
+            )));
+        }
+        self.experiment = Experiment {
+            start,
+            stop,
+            tolerance,
+        };
+        self.time = start;
+        Ok(())
+    }
+
+    /// Begins the initialization.
+    ///
+    /// # Errors
+    /// Called out of order.
+    pub fn enter_initialization(&mut self) -> Result<(), Error> {
+        self.require("initialization begins", &[Phase::Instantiated])?;
+        self.phase = Phase::Initialization;
+        Ok(())
+    }
+
+    /// Ends the initialization: the element starts from what has been set.
+    ///
+    /// # Errors
+    /// Called out of order, or no element starts from these values.
+    pub fn exit_initialization(&mut self) -> Result<(), Error> {
+        self.require("initialization ends", &[Phase::Initialization])?;
+        self.build()?;
+        self.phase = match self.interface {
+            Interface::ModelExchange => Phase::Event,
+            Interface::CoSimulation => Phase::Step,
+        };
+        Ok(())
+    }
+
+    /// Ends the simulation.
+    ///
+    /// # Errors
+    /// Called out of order.
+    pub fn terminate(&mut self) -> Result<(), Error> {
+        self.require(
+            "the simulation ends",
+            &[Phase::Event, Phase::Continuous, Phase::Step, Phase::Failed],
+        )?;
+        self.phase = Phase::Terminated;
+        Ok(())
+    }
+
+    /// Goes back to the state after instantiation: all start values are those of the description again.
+    pub fn reset(&mut self) {
+        self.phase = Phase::Instantiated;
+        self.experiment = Experiment {
+            start: 0.0,
+            stop: None,
+            tolerance: None,
+        };
+        self.values = Values::of(&self.description);
+        self.time = 0.0;
+        self.element = None;
+        self.changed();
+        self.stale = false;
+    }
+
+    /// The element under the values set so far.
+    fn build(&mut self) -> Result<&mut Box<dyn Element>, Error> {
+        if self.element.is_none() {
+            let setting = Setting {
+                interface: self.interface,
+                parameters: self.values.parameters.clone(),
+                options: self.values.options.clone(),
+                inputs: self.values.inputs.clone(),
+                tolerance: self.experiment.tolerance,
+                start_time: self.experiment.start,
+            };
+            let entries = &self.description.entries;
+            let element: Box<dyn Element> = match self.description.model {
+                Model::Wedge => Box::new(WedgeElement::new(&self.case, entries, &setting)?),
+                Model::QuasiStatic => Box::new(QuasiStaticElement::new(&self.case, entries, &setting)?),
+                Model::Truck => Box::new(TruckElement::new(&self.case, &setting)?),
+            };
+            self.stale = false;
+            self.element = Some(element);
+        }
+        self.element
+            .as_mut()
+            .ok_or_else(|| Error::new("the element is missing"))
+    }
+
+    /// The element, knowing all inputs that have been set.
+    fn fresh(&mut self) -> Result<&mut Box<dyn Element>, Error> {
+        if self.stale && self.interface == Interface::ModelExchange {
+            let inputs = self.values.inputs.clone();
+            self.build()?.set_inputs(&inputs)?;
+            self.stale = false;
+        }
+        self.build()
+    }
+
+    /// What was computed is not what would be computed now.
+    fn changed(&mut self) {
+        self.outputs = None;
+        self.columns = None;
+    }
+
+    fn say(&mut self, severity: Severity, category: Category, text: String) {
+        self.log.push(Message {
+            severity,
+            category,
+            text,
+        });
+    }
+}
+
+impl Values {
+    fn of(description: &Description) -> Self {
+        let entries = &description.entries;
+        let real = |entry: &crate::element::Entry| match entry.start {
+            Start::Float(Some(start)) => start,
+            _ => 0.0,
+        };
+        Self {
+            parameters: entries.parameters.iter().map(real).collect(),
+            options: entries
+                .options
+                .iter()
+                .map(|entry| match entry.start {
+                    Start::Integer(Some(start)) => start,
+                    Start::Boolean(start) => i32::from(start),
+                    _ => 0,
+                })
+                .collect(),
+            inputs: entries.inputs.iter().map(real).collect(),
+            slopes: vec![None; entries.inputs.len()],
+            before: None,
+        }
+    }
+}

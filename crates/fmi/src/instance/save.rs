@@ -1,0 +1,185 @@
+//! Saving and restoring an instance.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Experiment, Instance, Phase};
+use crate::Error;
+use crate::element::{ElementState, Interface};
+
+/// Version of [`Saved`].
+const VERSION: u32 = 1;
+
+/// A saved instance: plain data, restorable in another process.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Saved {
+    version: u32,
+    /// The description that the instance belongs to.
+    token: String,
+    interface: Interface,
+    phase: Phase,
+    start: f64,
+    stop: Option<f64>,
+    tolerance: Option<f64>,
+    time: f64,
+    parameters: Vec<f64>,
+    options: Vec<i32>,
+    inputs: Vec<f64>,
+    slopes: Vec<Option<f64>>,
+    before: Option<(Vec<f64>, f64)>,
+    stale: bool,
+    element: Option<ElementState>,
+}
+
+impl Saved {
+    /// As bytes: JSON, whose numbers read back to the last bit.
+    ///
+    /// # Errors
+    /// Never, with what an instance has given.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
+        serde_json::to_vec(self).map_err(|error| Error::new(format!("the state cannot be written: {error}")))
+    }
+
+    /// Reads what [`Saved::to_bytes`] wrote.
+    ///
+    /// # Errors
+    /// These are no bytes of such a state.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        serde_json::from_slice(bytes)
+            .map_err(|error| Error::new(format!("these bytes are no saved state: {error}")))
+    }
+}
+
+impl Instance {
+    /// Its state.
+    #[must_use]
+    pub fn save(&self) -> Saved {
+        Saved {
+            version: VERSION,
+            token: self.token.clone(),
+            interface: self.interface,
+            phase: self.phase,
+            start: self.experiment.start,
+            stop: self.experiment.stop,
+            tolerance: self.experiment.tolerance,
+            time: self.time,
+            parameters: self.values.parameters.clone(),
+            options: self.values.options.clone(),
+            inputs: self.values.inputs.clone(),
+            slopes: self.values.slopes.clone(),
+            before: self.values.before.clone(),
+            stale: self.stale,
+            element: self.element.as_ref().map(|element| element.save()),
+        }
+    }
+
+    /// Goes back to a saved state, of this or of another instance of the same FMU and kind of interface.
+    ///
+    /// # Errors
+    /// The state is of another version, FMU or kind of interface, or damaged; nothing has changed then.
+    pub fn restore(&mut self, saved: &Saved) -> Result<(), Error> {
+        if saved.version != VERSION {
+            return Err(Error::new(format!(
+                "the saved state has version {}; this library reads version {VERSION}",
+                saved.version
+            )));
+        }
+        if saved.token != self.token {
+            return Err(Error::new("the saved state belongs to another FMU"));
+        }
+        if saved.interface != self.interface {
+            return Err(Error::new(
+                "the saved state belongs to the other kind of interface (model exchange or co-simulation)",
+            ));
+        }
+        let values = &self.values;
+        let same = [
+            (values.parameters.len(), saved.parameters.len()),
+            (values.options.len(), saved.options.len()),
+            (values.inputs.len(), saved.inputs.len()),
+            (values.slopes.len(), saved.slopes.len()),
+            (
+                values.inputs.len(),
+                saved
+                    .before
+                    .as_ref()
+                    .map_or(values.inputs.len(), |(before, _)| before.len()),
+            ),
+        ];
+        if same.iter().any(|(own, saved)| own != saved) {
+            return Err(Error::new(
+                "the saved state is damaged: it has other numbers of values",
+            ));
+        }
+        // Parameters that were set before the start make another element.
+        let keeps = saved.element.is_some()
+            && self.element.is_some()
+            && !self.phase.is_before_start()
+            && same_bits(&saved.parameters, &self.values.parameters)
+            && saved.options == self.values.options
+            && (saved.start, saved.tolerance) == (self.experiment.start, self.experiment.tolerance);
+        let mut fresh = None;
+        if let Some(state) = &saved.element {
+            if keeps {
+                if let Some(element) = &mut self.element {
+                    element.restore(state)?;
+                }
+            } else {
+                let mut other = self.twin(saved);
+                other.build()?.restore(state)?;
+                fresh = other.element.take();
+            }
+        }
+        if !keeps {
+            self.element = fresh;
+        }
+        self.phase = saved.phase;
+        self.experiment = Experiment {
+            start: saved.start,
+            stop: saved.stop,
+            tolerance: saved.tolerance,
+        };
+        self.time = saved.time;
+        self.values.parameters.clone_from(&saved.parameters);
+        self.values.options.clone_from(&saved.options);
+        self.values.inputs.clone_from(&saved.inputs);
+        self.values.slopes.clone_from(&saved.slopes);
+        self.values.before.clone_from(&saved.before);
+        self.stale = saved.stale;
+        self.changed();
+        Ok(())
+    }
+
+    /// An instance beside this one, with the values of a saved one and no element yet.
+    fn twin(&self, saved: &Saved) -> Self {
+        let mut values = self.values.clone();
+        values.parameters.clone_from(&saved.parameters);
+        values.options.clone_from(&saved.options);
+        Self {
+            description: self.description.clone(),
+            token: self.token.clone(),
+            case: self.case.clone(),
+            version: self.version,
+            interface: self.interface,
+            name: self.name.clone(),
+            phase: Phase::Initialization,
+            experiment: Experiment {
+                start: saved.start,
+                stop: saved.stop,
+                tolerance: saved.tolerance,
+            },
+            values,
+            time: saved.start,
+            element: None,
+            stale: false,
+            outputs: None,
+            columns: None,
+            log_events: false,
+            log: Vec::new(),
+        }
+    }
+}
+
+fn same_bits(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+}

@@ -1,0 +1,272 @@
+//! Writing a whole FMU: description, library, case, documentation, licences; all of it or nothing.
+
+use std::fs;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+
+use study::case::Case;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
+
+use crate::Error;
+use crate::description::{Description, Model, Version};
+use crate::resources::{CASE, MODEL};
+
+const LICENSES: [(&str, &str); 2] = [
+    ("LICENSE-MIT", include_str!("../../../LICENSE-MIT")),
+    ("LICENSE-APACHE", include_str!("../../../LICENSE-APACHE")),
+];
+
+/// A platform that an FMU may hold a library for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Platform {
+    /// Its folder in FMI 2.0.
+    pub two: &'static str,
+    /// Its folder in FMI 3.0.
+    pub three: &'static str,
+    /// The ending of its libraries.
+    pub ending: &'static str,
+}
+
+/// The platforms.
+pub const PLATFORMS: [Platform; 5] = [
+    Platform {
+        two: "linux64",
+        three: "x86_64-linux",
+        ending: "so",
+    },
+    Platform {
+        two: "linux64-aarch64",
+        three: "aarch64-linux",
+        ending: "so",
+    },
+    Platform {
+        two: "win64",
+        three: "x86_64-windows",
+        ending: "dll",
+    },
+    Platform {
+        two: "darwin64",
+        three: "x86_64-darwin",
+        ending: "dylib",
+    },
+    Platform {
+        two: "darwin64-aarch64",
+        three: "aarch64-darwin",
+        ending: "dylib",
+    },
+];
+
+impl Platform {
+    /// The one that this program runs on.
+    #[must_use]
+    pub fn here() -> Option<Self> {
+        let system = match std::env::consts::OS {
+            "macos" => "darwin",
+            other => other,
+        };
+        let name = format!("{}-{system}", std::env::consts::ARCH);
+        PLATFORMS.into_iter().find(|platform| platform.three == name)
+    }
+
+    /// Its folder in an FMU of a version.
+    #[must_use]
+    pub fn folder(self, version: Version) -> &'static str {
+        match version {
+            Version::Two => self.two,
+            Version::Three => self.three,
+        }
+    }
+}
+
+/// Writes the FMU of a case's element, with the library for one platform.
+///
+/// # Errors
+/// The case makes no such element, the library cannot be read, or the file cannot be written; there is no file then.
+pub fn write(
+    path: &Path,
+    model: Model,
+    version: Version,
+    case: &Case,
+    library: &Path,
+    platform: Platform,
+) -> Result<Description, Error> {
+    let description = Description::new(model, case)?;
+    let binary = fs::read(library).map_err(|error| {
+        Error::new(format!(
+            "the library {} cannot be read: {error}",
+            library.display()
+        ))
+    })?;
+    let library = format!(
+        "binaries/{}/{}.{}",
+        platform.folder(version),
+        model.name(),
+        platform.ending
+    );
+    let mut files: Vec<(String, Vec<u8>)> = vec![
+        (
+            "modelDescription.xml".to_owned(),
+            description.xml(version)?.into_bytes(),
+        ),
+        (library, binary),
+        (format!("resources/{CASE}"), description.toml.clone().into_bytes()),
+        (
+            format!("resources/{MODEL}"),
+            format!("{}\n", model.name()).into_bytes(),
+        ),
+        (
+            "documentation/index.html".to_owned(),
+            page(&description).into_bytes(),
+        ),
+    ];
+    for (name, text) in LICENSES {
+        files.push((
+            format!("documentation/licenses/{name}.txt"),
+            text.as_bytes().to_vec(),
+        ));
+    }
+    pack(path, &files)?;
+    Ok(description)
+}
+
+/// Joins FMUs that differ only in their libraries into one that holds them all.
+///
+/// # Errors
+/// They differ otherwise, hold two libraries for one platform, or cannot be read; there is no file then.
+pub fn merge(path: &Path, parts: &[PathBuf]) -> Result<usize, Error> {
+    let mut files: Vec<(String, Vec<u8>)> = Vec::new();
+    for part in parts {
+        for (name, bytes) in unpack(part)? {
+            match files.iter().find(|(known, _)| *known == name) {
+                None if files.is_empty() || name.starts_with("binaries/") || *part == parts[0] => {
+                    files.push((name, bytes));
+                }
+                None => {
+                    return Err(Error::new(format!(
+                        "{} holds {name}, which {} does not: only FMUs of the same case and version can be merged",
+                        part.display(),
+                        parts[0].display()
+                    )));
+                }
+                Some((_, known)) if *known == bytes => {}
+                Some(_) => {
+                    return Err(Error::new(format!(
+                        "{name} in {} is not that of the FMUs before it: only FMUs of the same case and version, for \
+                         different platforms, can be merged",
+                        part.display()
+                    )));
+                }
+            }
+        }
+    }
+    pack(path, &files)?;
+    Ok(files
+        .iter()
+        .filter(|(name, _)| name.starts_with("binaries/"))
+        .count())
+}
+
+fn unpack(path: &Path) -> Result<Vec<(String, Vec<u8>)>, Error> {
+    let failed = |error: &dyn std::fmt::Display| Error::new(format!("{} is no FMU: {error}", path.display()));
+    let file = fs::File::open(path)
+        .map_err(|error| Error::new(format!("{} cannot be opened: {error}", path.display())))?;
+    let mut archive = ZipArchive::new(file).map_err(|error| failed(&error))?;
+    let mut files = Vec::new();
+    for index in 0..archive.len() {
+        let mut entry = archive.by_index(index).map_err(|error| failed(&error))?;
+        if entry.is_dir() {
+            continue;
+        }
+        let mut bytes = Vec::new();
+        entry.read_to_end(&mut bytes).map_err(|error| failed(&error))?;
+        let name = entry.name().map_err(|error| failed(&error))?.into_owned();
+        files.push((name, bytes));
+    }
+    if files.iter().all(|(name, _)| name != "modelDescription.xml") {
+        return Err(failed(&"it holds no modelDescription.xml"));
+    }
+    Ok(files)
+}
+
+/// Writes an archive beside its place, and moves it there when it is whole.
+pub(crate) fn pack(path: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Error> {
+    let failed =
+        |error: &dyn std::fmt::Display| Error::new(format!("{} cannot be written: {error}", path.display()));
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let file = tempfile::Builder::new()
+        .prefix(".wedgelab-")
+        .suffix(".tmp")
+        .tempfile_in(folder)
+        .map_err(|error| failed(&error))?;
+    let mut archive = ZipWriter::new(file);
+    // No times: the same FMU has the same bytes.
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .last_modified_time(zip::DateTime::default())
+        .unix_permissions(0o644);
+    for (name, bytes) in files {
+        let options = if name.starts_with("binaries/") {
+            options.unix_permissions(0o755)
+        } else {
+            options
+        };
+        archive
+            .start_file(name.as_str(), options)
+            .map_err(|error| failed(&error))?;
+        archive.write_all(bytes).map_err(|error| failed(&error))?;
+    }
+    let file = archive.finish().map_err(|error| failed(&error))?;
+    let kept = file.persist(path).map_err(|error| failed(&error.error))?;
+    readable(&kept).map_err(|error| failed(&error))
+}
+
+/// Temporary files are for their owner alone; an FMU is an ordinary file.
+#[cfg(unix)]
+fn readable(file: &fs::File) -> std::io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.set_permissions(fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn readable(_: &fs::File) -> std::io::Result<()> {
+    Ok(())
+}
+
+/// The page that documents an FMU.
+fn page(description: &Description) -> String {
+    let escape = |text: &str| {
+        text.replace('&', "&amp;")
+            .replace('<', "&lt;")
+            .replace('>', "&gt;")
+    };
+    let mut rows = String::new();
+    for variable in &description.variables {
+        let unit = variable.unit.and_then(crate::unit::Unit::name).unwrap_or("");
+        rows += &format!(
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{unit}</td><td>{}</td></tr>\n",
+            escape(&variable.name),
+            variable.causality.name(),
+            variable.variability.name(),
+            escape(&variable.text)
+        );
+    }
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title>\n\
+         <style>body {{ font-family: sans-serif; max-width: 70em; margin: 2em auto; padding: 0 1em }} \
+         td, th {{ text-align: left; padding: 0.1em 0.8em 0.1em 0; vertical-align: top }}</style></head>\n\
+         <body>\n<h1>{name}</h1>\n<p>{text}</p>\n\
+         <p>Made by wedgelab {version}. Fixed frame: x longitudinal, positive from the column towards the bolster; y lateral; z up. \
+         Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). Forces act on the named neighbour, along the fixed axes; moments are taken \
+         about the neighbour's turning center, the point whose displacements are the inputs. All values are in SI units.</p>\n\
+         <p>The case is in <code>resources/{CASE}</code>; licences are in <code>documentation/licenses</code>.</p>\n\
+         <table>\n<tr><th>variable</th><th>causality</th><th>variability</th><th>unit</th><th></th></tr>\n{rows}</table>\n\
+         </body>\n</html>\n",
+        name = description.model.name(),
+        text = escape(&description.text),
+        version = env!("CARGO_PKG_VERSION"),
+    )
+}

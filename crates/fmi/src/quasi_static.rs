@@ -1,0 +1,474 @@
+//! The quasi-static wedge behind the variables. Its only states are what it accumulates: work and losses.
+
+use integrate::scalar::{Dual, Real};
+use mechanics::system::scales;
+use quantity::Kind;
+use serde::{Deserialize, Serialize};
+use study::case::Case;
+use study::driven::{CoilDrive, Neighbours};
+use wedge::Parameters;
+use wedge::outputs::FACES;
+use wedge::quasi_static::{PlanePlace, PlaneReading, read};
+
+use crate::Error;
+use crate::element::{Element, ElementState, Entries, Entry, Setting, Slopes};
+use crate::unit::Unit;
+use crate::wedge::entries::NEIGHBOURS;
+use crate::wedge::parameters;
+
+/// Inputs of positions and rates: for each neighbour x, z, and their rates.
+const PLACES: usize = 8;
+const COIL_STIFFNESS: usize = PLACES;
+const COIL_FORCE: usize = PLACES + 1;
+/// How many parts a step is cut into to accumulate work and losses (Simpson's rule on each).
+const PARTS: usize = 8;
+/// Work and losses.
+const STATES: usize = 3;
+
+/// The saved state of a quasi-static wedge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct QuasiStaticState {
+    time: f64,
+    states: Vec<f64>,
+    inputs: Vec<f64>,
+    friction: [f64; 2],
+}
+
+/// A quasi-static wedge behind the variables.
+#[derive(Clone, Debug)]
+pub struct QuasiStaticElement {
+    parameters: Parameters,
+    coil_mode: i32,
+    time: f64,
+    states: Vec<f64>,
+    inputs: Vec<f64>,
+    friction: [Option<usize>; 2],
+}
+
+fn unit(kind: Kind) -> Option<Unit> {
+    Some(Unit::Of(kind))
+}
+
+/// All quantities of the quasi-static wedge of a case.
+///
+/// # Errors
+/// The wedge jams.
+pub fn entries(case: &Case) -> Result<Entries, Error> {
+    let start = Neighbours::of(&case.parameters, 0.0);
+    let mut inputs = Vec::new();
+    for (name, place) in NEIGHBOURS.into_iter().zip([&start.bolster, &start.side_frame]) {
+        let first = inputs.len();
+        let words = name.replace('_', " ");
+        for (number, (axis, k, long)) in [("x", 0, "longitudinal"), ("z", 2, "vertical")]
+            .into_iter()
+            .enumerate()
+        {
+            let mut entry = Entry::real(
+                format!("{name}_{axis}"),
+                unit(Kind::Length),
+                Some(place.position[k]),
+                format!("{long} displacement of the {words} from its nominal position"),
+            );
+            entry.rate = Some(first + 2 + number);
+            inputs.push(entry);
+        }
+        for (axis, k) in [("x", 0), ("z", 2)] {
+            inputs.push(Entry::real(
+                format!("{name}_{axis}_rate"),
+                unit(Kind::Speed),
+                Some(place.rate[k]),
+                format!("rate of {name}_{axis}"),
+            ));
+        }
+    }
+    inputs.push(Entry::real(
+        "coil_stiffness_input",
+        unit(Kind::Stiffness),
+        Some(0.0),
+        "stiffness of the coil, read if coil_mode = 1",
+    ));
+    inputs.push(Entry::real(
+        "coil_force_input",
+        unit(Kind::Force),
+        Some(0.0),
+        "spring force of the coil, positive pushes, read if coil_mode = 2",
+    ));
+    let mut outputs = Vec::new();
+    for name in NEIGHBOURS {
+        for axis in ["x", "z"] {
+            outputs.push(Entry::real(
+                format!("force_on_{name}_{axis}"),
+                unit(Kind::Force),
+                None,
+                format!(
+                    "force of wedge and coil on the {}, {axis} axis of the fixed frame",
+                    name.replace('_', " ")
+                ),
+            ));
+        }
+    }
+    outputs.push(Entry::real(
+        "coil_compression",
+        unit(Kind::Length),
+        None,
+        "compression of the coil: free length less length",
+    ));
+    outputs.push(Entry::real(
+        "coil_force",
+        unit(Kind::Force),
+        None,
+        "spring force of the coil, positive pushes",
+    ));
+    for face in FACES {
+        let text = format!("normal force of the {face}");
+        outputs.push(Entry::real(
+            format!("{face}_normal_force"),
+            unit(Kind::Force),
+            None,
+            text,
+        ));
+    }
+    for face in FACES {
+        let text = format!("power lost in friction at the {face}");
+        outputs.push(Entry::real(
+            format!("{face}_friction_loss_power"),
+            unit(Kind::Power),
+            None,
+            text,
+        ));
+    }
+    let states = [
+        (
+            "motion_work",
+            "work that bolster and side frame have done on the wedge",
+        ),
+        (
+            "side_frame_friction_loss",
+            "energy lost in friction at the column",
+        ),
+        ("bolster_friction_loss", "energy lost in friction at the slope"),
+    ]
+    .map(|(name, text)| {
+        let mut entry = Entry::real(name, unit(Kind::Energy), None, text);
+        entry.nominal = Some(scales::ENERGY);
+        entry
+    });
+    let entries = Entries {
+        parameters: parameters::entries(&case.parameters)
+            .into_iter()
+            .filter(|entry| is_used(&entry.name))
+            .collect(),
+        options: crate::wedge::entries::options(case)
+            .into_iter()
+            .filter(|entry| entry.name != "start")
+            .collect(),
+        inputs,
+        outputs,
+        accumulators: STATES,
+        states: states.to_vec(),
+        ..Entries::default()
+    };
+    Ok(entries)
+}
+
+/// Whether a parameter of the wedge means anything without mass and elasticity.
+fn is_used(name: &str) -> bool {
+    [
+        "wedge_angle",
+        "wedge_mass",
+        "column_wear",
+        "slope_wear",
+        "coil_stiffness",
+        "coil_free_length",
+        "coil_nominal_length",
+        "column_friction",
+        "slope_friction",
+        "column_reference_speed",
+        "toe",
+        "gravity",
+    ]
+    .contains(&name)
+}
+
+/// The readings that are outputs, in their order.
+fn outputs_of<S: Real>(reading: &PlaneReading<S>) -> [S; 10] {
+    let [bx, bz] = reading.on_bolster;
+    let [sx, sz] = reading.on_side_frame;
+    let [column, slope] = reading.normal_forces;
+    let [column_loss, slope_loss] = reading.friction_losses;
+    [
+        bx,
+        bz,
+        sx,
+        sz,
+        reading.coil_compression,
+        reading.coil_force,
+        column,
+        slope,
+        column_loss,
+        slope_loss,
+    ]
+}
+
+impl QuasiStaticElement {
+    /// The quasi-static wedge of a case under these settings, at its start.
+    ///
+    /// # Errors
+    /// Values outside their reach, or the wedge jams.
+    pub fn new(case: &Case, entries: &Entries, setting: &Setting) -> Result<Self, Error> {
+        // The values by name among all of the wedge's parameters.
+        let all = parameters::entries(&case.parameters);
+        let values: Vec<f64> = all
+            .iter()
+            .map(|entry| {
+                let place = entries.parameters.iter().position(|used| used.name == entry.name);
+                let value = place.and_then(|place| setting.parameters.get(place)).copied();
+                value.or(match entry.start {
+                    crate::variable::Start::Float(start) => start,
+                    _ => None,
+                })
+            })
+            .map(|value| value.unwrap_or(0.0))
+            .collect();
+        let parameters = parameters::apply(&case.parameters, &values);
+        parameters
+            .validate()
+            .map_err(|error| Error::new(error.to_string()))?;
+        let place = |name: &str| entries.parameters.iter().position(|entry| entry.name == name);
+        let mut element = Self {
+            parameters,
+            coil_mode: setting.options.first().copied().unwrap_or(0),
+            time: setting.start_time,
+            states: vec![0.0; STATES],
+            inputs: setting.inputs.clone(),
+            friction: [place("column_friction"), place("slope_friction")],
+        };
+        element.check_slides()?;
+        element.set_inputs(&setting.inputs)?;
+        Ok(element)
+    }
+
+    /// Whether the wedge slides both ways, whatever part of the friction is mobilized.
+    fn check_slides(&self) -> Result<(), Error> {
+        let wedge = wedge::quasi_static::massless(&self.parameters);
+        for mobilized in [-1.0, 0.0, 1.0] {
+            if wedge.normal_forces(mobilized, 1.0).is_none() {
+                return Err(Error::new(wedge::quasi_static::Jams.to_string()));
+            }
+        }
+        Ok(())
+    }
+
+    fn coil(&self, inputs: &[f64]) -> CoilDrive {
+        let input = |index: usize| inputs.get(index).copied().unwrap_or(0.0);
+        match self.coil_mode {
+            1 => CoilDrive::Stiffness(input(COIL_STIFFNESS)),
+            2 => CoilDrive::Force(input(COIL_FORCE)),
+            _ => CoilDrive::Internal,
+        }
+    }
+
+    fn read<S: Real>(
+        &self,
+        inputs: &[f64],
+        place: impl Fn(usize) -> S,
+        coil_change: S,
+    ) -> Result<PlaneReading<S>, Error> {
+        let plane = |first: usize| PlanePlace {
+            position: [place(first), place(first + 1)],
+            rate: [place(first + 2), place(first + 3)],
+        };
+        read(
+            &self.parameters,
+            &plane(0),
+            &plane(4),
+            &self.coil(inputs),
+            coil_change,
+        )
+        .map_err(|error| Error::new(error.to_string()))
+    }
+
+    fn here(&self) -> Result<PlaneReading<f64>, Error> {
+        self.at(&self.inputs)
+    }
+
+    fn at(&self, inputs: &[f64]) -> Result<PlaneReading<f64>, Error> {
+        self.read(inputs, |k| inputs.get(k).copied().unwrap_or(0.0), 0.0)
+    }
+
+    /// Power of the motions, and the losses.
+    fn powers(&self, inputs: &[f64]) -> Result<[f64; STATES], Error> {
+        let reading = self.at(inputs)?;
+        let [column, slope] = reading.friction_losses;
+        Ok([reading.motion_power, column, slope])
+    }
+}
+
+impl Element for QuasiStaticElement {
+    fn states(&self) -> &[f64] {
+        &self.states
+    }
+
+    fn set_states(&mut self, time: f64, states: &[f64]) -> Result<(), Error> {
+        if states.len() != STATES || !states.iter().chain([&time]).all(|value| value.is_finite()) {
+            return Err(Error::new(format!(
+                "time and {STATES} finite states are expected"
+            )));
+        }
+        self.time = time;
+        self.states.copy_from_slice(states);
+        Ok(())
+    }
+
+    fn set_inputs(&mut self, inputs: &[f64]) -> Result<(), Error> {
+        if let Some(bad) = inputs.iter().find(|value| !value.is_finite()) {
+            return Err(Error::new(format!("an input is {bad}; it must be finite")));
+        }
+        if !self.coil(inputs).is_valid() {
+            return Err(Error::new(
+                "the coil's stiffness is negative; it must be zero or positive".to_owned(),
+            ));
+        }
+        self.inputs.copy_from_slice(inputs);
+        Ok(())
+    }
+
+    fn tune(&mut self, parameters: &[f64]) -> Result<(), Error> {
+        let before = self.parameters.clone();
+        let value = |place: Option<usize>| place.and_then(|place| parameters.get(place)).copied();
+        if let Some(column) = value(self.friction[0]) {
+            self.parameters.column_friction.coefficient = column;
+        }
+        if let Some(slope) = value(self.friction[1]) {
+            self.parameters.slope_friction.coefficient = slope;
+        }
+        let valid = self
+            .parameters
+            .validate()
+            .map_err(|error| Error::new(error.to_string()))
+            .and_then(|()| self.check_slides());
+        if valid.is_err() {
+            self.parameters = before;
+        }
+        valid
+    }
+
+    fn step(&mut self, end: &[f64], time: f64) -> Result<(), Error> {
+        let start = self.inputs.clone();
+        let length = time - self.time;
+        if !(length > 0.0 && length.is_finite()) {
+            return Err(Error::new(format!("a step of {length} s is none")));
+        }
+        self.set_inputs(end)?;
+        // Cubics between both ends, as for the wedge with mass; the coil's input holds within the step.
+        let cubics: Vec<_> = [0, 1, 4, 5]
+            .into_iter()
+            .map(|k| {
+                let motion = mechanics::motion::Motion::between(
+                    0.0,
+                    length,
+                    [start[k], start[k + 2]],
+                    [end[k], end[k + 2]],
+                );
+                (k, motion)
+            })
+            .collect();
+        let mut inputs = end.to_vec();
+        let mut sums = [0.0; STATES];
+        for number in 0..=2 * PARTS {
+            let weight = match number {
+                0 => 1.0,
+                last if last == 2 * PARTS => 1.0,
+                odd if odd % 2 == 1 => 4.0,
+                _ => 2.0,
+            };
+            for (k, motion) in &cubics {
+                let [value, rate, _] = motion.evaluate(length * number as f64 / (2 * PARTS) as f64, 0.0);
+                (inputs[*k], inputs[k + 2]) = (value, rate);
+            }
+            for (sum, power) in sums.iter_mut().zip(self.powers(&inputs)?) {
+                *sum += weight * power;
+            }
+        }
+        for (state, sum) in self.states.iter_mut().zip(sums) {
+            *state += sum * length / (6 * PARTS) as f64;
+        }
+        self.time = time;
+        Ok(())
+    }
+
+    fn rates(&mut self, out: &mut [f64]) -> Result<(), Error> {
+        out.copy_from_slice(&self.powers(&self.inputs)?);
+        Ok(())
+    }
+
+    fn indicators(&mut self, _: &mut [f64]) {}
+
+    fn modes(&self) -> &[u8] {
+        &[]
+    }
+
+    fn update_modes(&mut self) -> bool {
+        false
+    }
+
+    fn outputs(&mut self, out: &mut [f64]) -> Result<(), Error> {
+        for (target, value) in out.iter_mut().zip(outputs_of(&self.here()?)) {
+            *target = value;
+        }
+        Ok(())
+    }
+
+    fn columns(&mut self, _: &mut [f64]) {}
+
+    fn along(&mut self, _: &[f64], inputs: &[f64]) -> Result<Slopes, Error> {
+        let change = |k: usize| inputs.get(k).copied().unwrap_or(0.0);
+        let dual = |value: f64, change: f64| Dual::<1> {
+            value,
+            derivative: [change],
+        };
+        let compression = self.here()?.coil_compression;
+        let coil_change = match self.coil(&self.inputs) {
+            CoilDrive::Internal => 0.0,
+            CoilDrive::Stiffness(_) => change(COIL_STIFFNESS) * compression,
+            CoilDrive::Force(_) => change(COIL_FORCE),
+        };
+        let here = &self.inputs;
+        let place = |k: usize| dual(here.get(k).copied().unwrap_or(0.0), change(k));
+        let reading = self.read(here, place, dual(0.0, coil_change))?;
+        let slope = |value: Dual<1>| value.derivative[0];
+        let [column, slope_loss] = reading.friction_losses;
+        Ok(Slopes {
+            rates: [reading.motion_power, column, slope_loss].map(slope).to_vec(),
+            outputs: outputs_of(&reading).map(slope).to_vec(),
+        })
+    }
+
+    fn save(&self) -> ElementState {
+        ElementState::QuasiStatic(QuasiStaticState {
+            time: self.time,
+            states: self.states.clone(),
+            inputs: self.inputs.clone(),
+            friction: [
+                self.parameters.column_friction.coefficient,
+                self.parameters.slope_friction.coefficient,
+            ],
+        })
+    }
+
+    fn restore(&mut self, state: &ElementState) -> Result<(), Error> {
+        let ElementState::QuasiStatic(state) = state else {
+            return Err(Error::new("the saved state belongs to another model"));
+        };
+        if state.inputs.len() != self.inputs.len() {
+            return Err(Error::new("the saved state is damaged"));
+        }
+        self.set_states(state.time, &state.states)?;
+        self.set_inputs(&state.inputs)?;
+        [
+            self.parameters.column_friction.coefficient,
+            self.parameters.slope_friction.coefficient,
+        ] = state.friction;
+        Ok(())
+    }
+}

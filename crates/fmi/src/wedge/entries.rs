@@ -1,0 +1,365 @@
+//! The quantities of a wedge.
+
+use mechanics::body::COORDINATES;
+use mechanics::system::{ChannelKind, System, scales};
+use quantity::Kind;
+use study::case::Case;
+use study::driven::{CoilDrive, Equations, Neighbours};
+use wedge::WEDGE;
+use wedge::driven::Place;
+use wedge::outputs::{CORNERS, FACES};
+use wedge::parameters::Start as StartOfRun;
+
+use super::parameters;
+use crate::Error;
+use crate::element::{Entries, Entry};
+use crate::unit::Unit;
+
+/// Neighbours, in the order of the inputs.
+pub(crate) const NEIGHBOURS: [&str; 2] = ["bolster", "side_frame"];
+/// Inputs of positions and rates: for each neighbour six positions, then six rates.
+pub(crate) const PLACES: usize = 24;
+/// The input with the coil's stiffness.
+pub(crate) const COIL_STIFFNESS: usize = PLACES;
+/// The input with the coil's force.
+pub(crate) const COIL_FORCE: usize = PLACES + 1;
+/// Options, in their order.
+pub(crate) const OPTIONS: [&str; 4] = ["coil_mode", "start", "derive_rates", "inputs_at_end"];
+
+fn unit(kind: Kind) -> Option<Unit> {
+    Some(Unit::Of(kind))
+}
+
+/// Columns of a run's table that are worth looking at and are no variable yet.
+const COLUMNS: [&str; 15] = [
+    "longitudinal_wedge_force",
+    "vertical_wedge_force",
+    "vertical_force_on_side_frame",
+    "side_frame_friction_power",
+    "bolster_friction_power",
+    "side_frame_dissipation",
+    "bolster_dissipation",
+    "coil_length",
+    "kinetic_energy",
+    "coil_energy",
+    "contact_energy",
+    "bristle_energy",
+    "gravity_energy",
+    "stored_energy_change",
+    "ledger_residual",
+];
+
+/// Whether a column of a run's table becomes a variable.
+fn is_column(name: &str) -> bool {
+    let corner = ["column_", "slope_"].iter().any(|face| name.starts_with(face));
+    COLUMNS.contains(&name) || corner && !name.ends_with("_state")
+}
+
+/// The numbers of the columns that become variables.
+pub(crate) fn column_numbers(equations: &Equations) -> Vec<usize> {
+    let columns = equations.columns().iter().enumerate();
+    columns
+        .filter(|(_, column)| is_column(&column.name))
+        .map(|(number, _)| number)
+        .collect()
+}
+
+/// All quantities of the wedge of a case.
+///
+/// # Errors
+/// The case makes no wedge.
+pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
+    let start = Neighbours::of(&case.parameters, 0.0);
+    let equations = Equations::new(&case.parameters, &start, CoilDrive::Internal)?;
+    let system = equations.system();
+    let states = states(system);
+    Ok(Entries {
+        parameters: parameters::entries(&case.parameters),
+        options: options(case),
+        inputs: inputs(&start),
+        outputs: outputs(),
+        outputs_of_states: false,
+        accumulators: system.layout().quadratures,
+        kinematic: (0..system.layout().speeds)
+            .map(|q| (q, q + system.layout().speeds))
+            .collect(),
+        states,
+        columns: column_numbers(&equations)
+            .into_iter()
+            .map(|number| {
+                let column = &equations.columns()[number];
+                let about = match &*column.reference {
+                    "" => String::new(),
+                    reference => format!(" ({reference})"),
+                };
+                Entry::real(
+                    &column.name,
+                    unit(column.kind),
+                    None,
+                    format!("{}{about}", column.text),
+                )
+            })
+            .collect(),
+        modes: corners("_state", |corner| {
+            Entry::integer(
+                "",
+                None,
+                [0, 2],
+                format!("contact state of the {corner} corner: 0 open, 1 stick, 2 slip"),
+            )
+        }),
+        indicators: corners("_event_indicator", |corner| {
+            Entry::real(
+                "",
+                None,
+                None,
+                format!("event indicator: positive while the contact state of the {corner} corner lasts"),
+            )
+        }),
+    })
+}
+
+fn corners(ending: &str, entry: impl Fn(&str) -> Entry) -> Vec<Entry> {
+    let names = FACES
+        .iter()
+        .flat_map(|face| CORNERS.iter().map(move |corner| (face, corner)));
+    names
+        .map(|(face, corner)| {
+            let mut entry = entry(&format!("{face}'s {}", corner.replace('_', " ")));
+            entry.name = format!("{face}_{corner}{ending}");
+            entry
+        })
+        .collect()
+}
+
+/// Options of a wedge.
+pub(crate) fn options(case: &Case) -> Vec<Entry> {
+    let start = match case.parameters.start {
+        StartOfRun::Rest => 0,
+        StartOfRun::Touching => 1,
+        StartOfRun::Equilibrium => 2,
+    };
+    vec![
+        Entry::integer(
+            OPTIONS[0],
+            Some(0),
+            [0, 2],
+            "where the coil's spring force comes from: 0 the coil of the case, 1 coil_stiffness_input times coil_compression, \
+             2 coil_force_input",
+        ),
+        Entry::integer(
+            OPTIONS[1],
+            Some(start),
+            [0, 2],
+            "the wedge at the start: 0 nominal position, 1 the same with column and pocket moved apart until nothing penetrates, \
+             2 frictionless static equilibrium",
+        ),
+        Entry::boolean(
+            OPTIONS[2],
+            false,
+            "co-simulation: rates of bolster and side frame are found from their positions, the inputs *_rate are not read",
+        ),
+        Entry::boolean(
+            OPTIONS[3],
+            false,
+            "co-simulation: inputs are those of the end of a communication step (else of its beginning, and continued)",
+        ),
+    ]
+}
+
+fn inputs(start: &Neighbours) -> Vec<Entry> {
+    let mut inputs = Vec::new();
+    for (name, place) in NEIGHBOURS.into_iter().zip([&start.bolster, &start.side_frame]) {
+        let first = inputs.len();
+        let words = name.replace('_', " ");
+        for (k, axis) in COORDINATES.into_iter().enumerate() {
+            let (kind, text) = if k < 3 {
+                let axis = ["longitudinal", "lateral", "vertical"][k];
+                (
+                    Kind::Length,
+                    format!("{axis} displacement of the {words}'s turning center from its nominal position"),
+                )
+            } else {
+                (Kind::Angle, format!("{axis} angle of the {words}"))
+            };
+            let mut entry = Entry::real(
+                format!("{name}_{axis}"),
+                unit(kind),
+                Some(place.position[k]),
+                text,
+            );
+            entry.rate = Some(first + 6 + k);
+            inputs.push(entry);
+        }
+        for (k, axis) in COORDINATES.into_iter().enumerate() {
+            let kind = if k < 3 { Kind::Speed } else { Kind::AngularSpeed };
+            inputs.push(Entry::real(
+                format!("{name}_{axis}_rate"),
+                unit(kind),
+                Some(place.rate[k]),
+                format!("rate of {name}_{axis}"),
+            ));
+        }
+    }
+    inputs.push(Entry::real(
+        "coil_stiffness_input",
+        unit(Kind::Stiffness),
+        Some(0.0),
+        "stiffness of the coil, read if coil_mode = 1",
+    ));
+    inputs.push(Entry::real(
+        "coil_force_input",
+        unit(Kind::Force),
+        Some(0.0),
+        "spring force of the coil, positive pushes, read if coil_mode = 2",
+    ));
+    inputs
+}
+
+/// Positions and rates of the neighbours from the inputs.
+pub(crate) fn neighbours(inputs: &[f64]) -> Neighbours {
+    let place = |first: usize| Place {
+        position: std::array::from_fn(|k| inputs.get(first + k).copied().unwrap_or(0.0)),
+        rate: std::array::from_fn(|k| inputs.get(first + 6 + k).copied().unwrap_or(0.0)),
+    };
+    Neighbours {
+        bolster: place(0),
+        side_frame: place(12),
+    }
+}
+
+fn outputs() -> Vec<Entry> {
+    let mut outputs = Vec::new();
+    for name in NEIGHBOURS {
+        let words = name.replace('_', " ");
+        for axis in ["x", "y", "z"] {
+            outputs.push(Entry::real(
+                format!("force_on_{name}_{axis}"),
+                unit(Kind::Force),
+                None,
+                format!("force of wedge and coil on the {words}, {axis} axis of the fixed frame"),
+            ));
+        }
+        for (moment, axis) in [("roll", "x"), ("pitch", "y"), ("yaw", "z")] {
+            outputs.push(Entry::real(
+                format!("moment_on_{name}_{moment}"),
+                unit(Kind::Moment),
+                None,
+                format!(
+                    "moment of wedge and coil on the {words} about its turning center, {axis} axis of the fixed frame"
+                ),
+            ));
+        }
+    }
+    outputs.push(Entry::real(
+        "coil_compression",
+        unit(Kind::Length),
+        None,
+        "compression of the coil: free length less length",
+    ));
+    outputs.push(Entry::real(
+        "coil_force",
+        unit(Kind::Force),
+        None,
+        "spring force of the coil, positive pushes",
+    ));
+    for face in FACES {
+        outputs.push(Entry::real(
+            format!("{face}_normal_force"),
+            unit(Kind::Force),
+            None,
+            format!("sum of the {face}'s normal forces"),
+        ));
+    }
+    for face in FACES {
+        outputs.push(Entry::real(
+            format!("{face}_friction_loss_power"),
+            unit(Kind::Power),
+            None,
+            format!("power lost in friction at the {face}, never negative"),
+        ));
+    }
+    outputs
+}
+
+/// Names, units and nominal values of the states.
+fn states(system: &System) -> Vec<Entry> {
+    let layout = system.layout();
+    let mut states = Vec::with_capacity(layout.len());
+    let free: Vec<usize> = (0..6)
+        .filter(|k| system.position_of(WEDGE, *k).is_some())
+        .collect();
+    let mut add = |name: String, kind: Kind, nominal: f64, text: String| {
+        let mut entry = Entry::real(name, unit(kind), None, text);
+        entry.nominal = Some(nominal);
+        states.push(entry);
+    };
+    for &k in &free {
+        let name = format!("wedge_{}", COORDINATES[k]);
+        if k < 3 {
+            let text = "displacement of the wedge frame's origin from its nominal position".to_owned();
+            add(name, Kind::Length, scales::DISPLACEMENT, text);
+        } else {
+            add(name, Kind::Angle, scales::ANGLE, "angle of the wedge".to_owned());
+        }
+    }
+    for &k in &free {
+        let name = format!("wedge_{}_rate", COORDINATES[k]);
+        let text = format!("rate of wedge_{}", COORDINATES[k]);
+        if k < 3 {
+            add(name, Kind::Speed, scales::VELOCITY, text);
+        } else {
+            add(name, Kind::AngularSpeed, scales::ANGULAR_VELOCITY, text);
+        }
+    }
+    for (face, mounted) in FACES.iter().zip(system.faces()) {
+        for internal in 0..mounted.internal_count {
+            let corner = CORNERS[(internal / 2) % CORNERS.len()];
+            add(
+                format!("{face}_{corner}_bristle_{}", internal % 2 + 1),
+                Kind::Length,
+                scales::DEFLECTION,
+                format!(
+                    "deflection of the friction bristle of the {face}'s corner, direction {}",
+                    internal % 2 + 1
+                ),
+            );
+        }
+    }
+    for channel in system.channels() {
+        let side = if channel.element == FACES[0] {
+            "side_frame"
+        } else {
+            "bolster"
+        };
+        let (name, text, nominal) = match channel.kind {
+            ChannelKind::MotionWork => (
+                "motion_work".to_owned(),
+                "work that bolster and side frame have done on the wedge".to_owned(),
+                scales::ENERGY,
+            ),
+            ChannelKind::FrictionLoss => (
+                format!("{side}_friction_loss"),
+                format!("energy lost in friction at the {}", channel.element),
+                scales::ENERGY,
+            ),
+            ChannelKind::ContactDampingLoss => (
+                format!("{}_contact_damping_loss", channel.element),
+                format!("energy lost in contact damping at the {}", channel.element),
+                scales::CONTACT_DAMPING_LOSS,
+            ),
+            ChannelKind::CoilDampingLoss => (
+                "coil_damping_loss".to_owned(),
+                "energy lost in the coil's damping".to_owned(),
+                scales::ENERGY,
+            ),
+            ChannelKind::CoilGuideWork => (
+                "coil_guide_work".to_owned(),
+                "work of the couple that guides the coil's force".to_owned(),
+                scales::ENERGY,
+            ),
+        };
+        add(name, Kind::Energy, nominal, text);
+    }
+    states
+}

@@ -1,0 +1,176 @@
+//! Directional derivatives: how rates and everything that elements feel change when states, the places of driven bodies and coils
+//! change together. They come from the lines that compute the values, with one derivative each.
+
+use integrate::Problem;
+use integrate::scalar::Dual;
+use nalgebra::{DMatrix, DVector};
+
+use super::System;
+use super::sense::{Sense, Stage};
+use crate::body::Kinematics;
+use crate::frame::FrameMotion;
+use crate::motion::Jet;
+
+/// How a driven body changes its place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DriveChange {
+    /// The body's number.
+    pub body: usize,
+    /// Changes of x, y, z (m), roll, pitch, yaw (rad).
+    pub position: [f64; 6],
+    /// Changes of their rates.
+    pub rate: [f64; 6],
+}
+
+/// A direction.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Direction<'d> {
+    /// Changes of the states; empty: none of them changes.
+    pub state: &'d [f64],
+    /// Changes of driven bodies.
+    pub drives: &'d [DriveChange],
+    /// Changes of the spring force of each coil at its present length, N; empty: none.
+    pub coil_forces: &'d [f64],
+}
+
+/// Derivatives along a direction.
+#[derive(Clone, Debug, Default)]
+pub struct Along {
+    /// Of the rates of all states.
+    pub rates: Vec<f64>,
+    /// Values, and derivatives as the only component, of what elements do and feel.
+    pub sense: Sense<Dual<1>>,
+}
+
+fn dual(value: f64, change: f64) -> Dual<1> {
+    Dual {
+        value,
+        derivative: [change],
+    }
+}
+
+impl System {
+    /// The derivatives along a direction at `time` and state `x`; `None` if the direction does not have the state's length.
+    ///
+    /// At a kink (a corner that just touches, a bristle at its limit) they are those of the side that the state counts for.
+    pub fn along(&mut self, time: f64, x: &[f64], direction: &Direction<'_>) -> Option<Along> {
+        let n = x.len();
+        if n != self.layout.len() || !(direction.state.is_empty() || direction.state.len() == n) {
+            return None;
+        }
+        let mut dx = vec![0.0; n];
+        self.derivative(time, x, &mut dx);
+        let no_change = vec![0.0; n];
+        let change = if direction.state.is_empty() {
+            &no_change[..]
+        } else {
+            direction.state
+        };
+
+        let frames: Vec<FrameMotion<Dual<1>>> = (0..self.bodies.len())
+            .map(|body| self.frame_along(body, time, direction))
+            .collect();
+        let kinematics: Vec<Kinematics<Dual<1>>> = (0..self.bodies.len())
+            .map(|body| self.kinematics_along(body, x, change))
+            .collect();
+        let [_, speed_change, internal_change, _] = self.layout.split(change);
+        let [_, _, internal, _] = self.layout.split(x);
+        let internal: Vec<Dual<1>> = internal
+            .iter()
+            .zip(internal_change)
+            .map(|(value, change)| dual(*value, *change))
+            .collect();
+        let mut sense = Sense::default();
+        let stage = Stage {
+            frames: &|body| frames[body],
+            kinematics: &kinematics,
+            internal: &internal,
+            coil_change: &|coil| dual(0.0, direction.coil_forces.get(coil).copied().unwrap_or(0.0)),
+        };
+        self.feel(&stage, &mut sense);
+
+        let mut rates = vec![0.0; n];
+        let [d_positions, d_speeds, d_internal, d_quadratures] = self.layout.split_mut(&mut rates);
+        d_positions.copy_from_slice(speed_change);
+        for (target, rate) in d_internal.iter_mut().zip(&sense.internal_rates) {
+            *target = rate.derivative[0];
+        }
+        for (target, power) in d_quadratures.iter_mut().zip(&sense.powers) {
+            *target = power.derivative[0];
+        }
+        for number in 0..self.free.len() {
+            self.accelerations_along(number, &dx, &frames, &kinematics, &sense, d_speeds);
+        }
+        Some(Along { rates, sense })
+    }
+
+    fn frame_along(&self, body: usize, time: f64, direction: &Direction<'_>) -> FrameMotion<Dual<1>> {
+        let frame = &self.bodies[body].frame;
+        let mut jets: [Jet<Dual<1>>; 6] =
+            std::array::from_fn(|k| frame.motions[k].evaluate(time, self.reference).map(Dual::from));
+        for drive in direction.drives.iter().filter(|drive| drive.body == body) {
+            for (k, jet) in jets.iter_mut().enumerate() {
+                jet[0].derivative[0] += drive.position[k];
+                jet[1].derivative[0] += drive.rate[k];
+            }
+        }
+        frame.moved(&jets)
+    }
+
+    fn kinematics_along(&self, body: usize, x: &[f64], change: &[f64]) -> Kinematics<Dual<1>> {
+        let mut coordinates = self.bodies[body].initial.map(Dual::from);
+        let mut speeds = [Dual::from(0.0); 6];
+        if let Some(number) = self.free_number[body] {
+            let free = &self.free[number];
+            for (j, &k) in free.free.iter().enumerate() {
+                let (q, u) = (free.offset + j, self.layout.speeds + free.offset + j);
+                coordinates[k] = dual(x[q], change[q]);
+                speeds[k] = dual(x[u], change[u]);
+            }
+        }
+        Kinematics::new(coordinates, speeds, self.bodies[body].rolls())
+    }
+
+    /// `M δu˙ = δ(Q - b - M u˙)` at fixed u˙.
+    fn accelerations_along(
+        &self,
+        number: usize,
+        dx: &[f64],
+        frames: &[FrameMotion<Dual<1>>],
+        kinematics: &[Kinematics<Dual<1>>],
+        sense: &Sense<Dual<1>>,
+        d_speeds: &mut [f64],
+    ) {
+        let free = &self.free[number];
+        let (body, kinematics) = (&self.bodies[free.body], &kinematics[free.body]);
+        let frame = &frames[free.body];
+        let mut accelerations = [0.0; 6];
+        for (j, &k) in free.free.iter().enumerate() {
+            accelerations[k] = dx[self.layout.speeds + free.offset + j];
+        }
+        let (force, moment) = kinematics.inertia(
+            body,
+            frame,
+            !self.frames[free.body].fixed,
+            self.gravity,
+            &accelerations,
+        );
+        let load = &sense.loads[free.body];
+        let force = frame.rotation.apply_transposed::<Dual<1>, Dual<1>>(load.force) - force;
+        let moment = frame.rotation.apply_transposed::<Dual<1>, Dual<1>>(load.moment) - moment;
+        let n = free.free.len();
+        let mut mass = vec![0.0; n * n];
+        self.kinematics[free.body].mass_matrix(body, &free.free, &mut mass);
+        let residual = free
+            .free
+            .iter()
+            .map(|&k| kinematics.generalized(k, &force, &moment).derivative[0]);
+        let right = DVector::from_iterator(n, residual);
+        let solved = DMatrix::from_row_slice(n, n, &mass)
+            .cholesky()
+            .map(|m| m.solve(&right));
+        for j in 0..n {
+            d_speeds[free.offset + j] = solved.as_ref().map_or(f64::NAN, |solved| solved[j]);
+        }
+    }
+}

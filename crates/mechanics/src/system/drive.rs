@@ -1,0 +1,97 @@
+//! What a caller may change in a system between two steps: motions of prescribed bodies, coils, friction.
+//!
+//! After a change the right-hand side is another one: [`integrate::Integrator::renew`] tells the integrator so.
+
+use thiserror::Error;
+
+use super::System;
+use crate::coil::CoilLaw;
+use crate::motion::Motion;
+
+/// Why a system cannot be driven so.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum DriveError {
+    /// There is no such body, coil or face.
+    #[error("there is no {what} {number}; there are {count} (counted from 0)")]
+    NoSuch {
+        /// What was asked for.
+        what: &'static str,
+        /// Its number.
+        number: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// The body was built with a frame that stands still or only translates, or has free coordinates.
+    #[error(
+        "{body} cannot be driven: it must be prescribed, and all its motions must be able to move from the start on"
+    )]
+    NotDriven {
+        /// Its name.
+        body: String,
+    },
+}
+
+impl System {
+    /// Replaces the motions of a prescribed body that was built with motions which can all move and turn it, such as
+    /// [`Motion::line`]. States stay what they are; no memory is allocated for polynomials.
+    ///
+    /// # Errors
+    /// There is no such body, or it was not built to be driven.
+    pub fn drive(&mut self, body: usize, motions: [Motion; 6]) -> Result<(), DriveError> {
+        let count = self.bodies.len();
+        let Some(moved) = self.bodies.get_mut(body) else {
+            return Err(DriveError::NoSuch {
+                what: "body",
+                number: body,
+                count,
+            });
+        };
+        let frame = &self.frames[body];
+        if frame.fixed || frame.keeps_orientation || self.free_number[body].is_some() {
+            return Err(DriveError::NotDriven {
+                body: moved.name.clone(),
+            });
+        }
+        moved.frame.motions = motions;
+        self.frames_at = f64::NAN;
+        Ok(())
+    }
+
+    /// Replaces the law of a coil.
+    ///
+    /// # Errors
+    /// There is no such coil.
+    pub fn set_coil_law(&mut self, coil: usize, law: CoilLaw) -> Result<(), DriveError> {
+        let count = self.coils.len();
+        match self.coils.get_mut(coil) {
+            Some(mounted) => {
+                mounted.element.law = law;
+                Ok(())
+            }
+            None => Err(DriveError::NoSuch {
+                what: "coil",
+                number: coil,
+                count,
+            }),
+        }
+    }
+
+    /// Replaces the coefficient of friction of a face.
+    ///
+    /// # Errors
+    /// There is no such face.
+    pub fn set_friction(&mut self, face: usize, coefficient: f64) -> Result<(), DriveError> {
+        let count = self.faces.len();
+        match self.faces.get_mut(face) {
+            Some(mounted) => {
+                mounted.element.coefficient = coefficient;
+                Ok(())
+            }
+            None => Err(DriveError::NoSuch {
+                what: "face",
+                number: face,
+                count,
+            }),
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! The solver race: other people's solvers and ours on the same equations, side by side.
+//!
+//! - [`problem`]: the problems by name.
+//! - [`equations`]: state, rates and Jacobian matrix, as every other solver gets them; [`c_interface`] for drivers in C,
+//!   Python and Octave (`drivers/`).
+//! - [`own`], [`diffsol`]: the drivers in Rust; [`outcome`]: what every driver reports.
+//! - [`contest`]: who runs; [`runner`]: runs them; [`measure`], [`standings`]: errors, fronts, ratios; [`tables`], [`figures`]: what is
+//!   shown of them.
+
+pub mod c_interface;
+pub mod clock;
+pub mod contest;
+pub mod diffsol;
+pub mod equations;
+pub mod figures;
+pub mod measure;
+pub mod outcome;
+pub mod own;
+pub mod problem;
+pub mod runner;
+pub mod standings;
+pub mod tables;

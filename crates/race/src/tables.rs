@@ -1,0 +1,239 @@
+//! The race's tables, as text with Markdown tables.
+
+use std::fmt::Write;
+
+use crate::contest::{COMMON_OPTIONS, SOLVERS};
+use crate::runner::REFERENCE;
+use crate::standings::{Judgement, Standing};
+
+/// What must be read first.
+pub const CAVEATS: &str = "\
+Read this first.
+
+- Times are CPU times of the integration alone, the least of up to five repetitions, on a machine that may do other things: trust ratios
+  of 1.5 and more within one run of the race.
+- The drivers of the other solvers are ours (`crates/race/drivers`, `crates/race/src/diffsol.rs`). Who knows a solver better may set it
+  better.
+- All solvers get the same compiled right-hand side and the same analytic Jacobian matrix; SciPy and Octave call them from their
+  languages, which is where most of their time goes. Others integrate positions, speeds, bristles and one energy; ours integrates all
+  energies of the ledger and locates changes of contact besides.
+- The equations are those of this project: nothing here says how a solver does on others.
+- Runs without bolster yaw ring and are chaotic in detail: only means are compared there. Every error is compared only down to the
+  floor, which is how far the reference's own solver at 1e-9 and 1e-10 is from itself at 1e-11. Where means scatter, one lucky run
+  can win a line.
+- Octave's ode15s gets one second of simulated time, and is compared with ours over the same second, whose first part is the
+  release from the start. Right-hand side and Jacobian matrix are compiled for it as well; with a right-hand side in Octave's own
+  language it would take many times longer.
+";
+
+/// A time in words.
+fn seconds(value: f64) -> String {
+    if value < 1.0 {
+        format!("{:.1} ms", value * 1e3)
+    } else {
+        format!("{value:.1} s")
+    }
+}
+
+fn power(value: f64) -> String {
+    format!("{value:.0e}")
+}
+
+/// The options of every solver.
+#[must_use]
+pub fn options() -> String {
+    let mut text = format!(
+        "All: {COMMON_OPTIONS}; reference: {} at {}.\n\n",
+        REFERENCE.0, REFERENCE.1
+    );
+    text.push_str("| solver | options beyond its defaults |\n|---|---|\n");
+    for solver in SOLVERS {
+        let _ = writeln!(text, "| {} | {} |", solver.name, solver.options);
+    }
+    text
+}
+
+/// How many times faster ours is, case by case and solver by solver: the least and the middle of all error levels.
+#[must_use]
+pub fn ratios(standings: &[Standing]) -> String {
+    let mut text = String::new();
+    let full = standings.iter().map(|one| one.span).fold(0.0, f64::max);
+    let rows: Vec<&Standing> = standings.iter().filter(|one| one.span == full).collect();
+    let mut columns: Vec<(String, Vec<&str>)> = vec![("CVODE".to_owned(), vec!["CVODE BDF"])];
+    columns.push((
+        "diffsol's best".to_owned(),
+        vec!["diffsol BDF", "diffsol TR-BDF2", "diffsol ESDIRK34"],
+    ));
+    columns.push((
+        "SciPy's best".to_owned(),
+        vec!["SciPy LSODA", "SciPy BDF", "SciPy Radau"],
+    ));
+    let heads: Vec<&str> = columns.iter().map(|(head, _)| head.as_str()).collect();
+    let _ = writeln!(text, "| case | floor | {} | Octave ode15s |", heads.join(" | "));
+    let _ = writeln!(text, "|---|---|{}---|", "---|".repeat(columns.len()));
+    for one in rows {
+        let mut cells = vec![one.case.clone(), power(one.floor)];
+        for (_, names) in &columns {
+            cells.push(cell(&one.ratios(names, &one.ours())));
+        }
+        let short = standings.iter().find(|other| {
+            other.case == one.case && other.span < full && other.solvers().contains(&"Octave ode15s")
+        });
+        cells.push(short.map_or("-".to_owned(), |short| {
+            cell(&short.ratios(&["Octave ode15s"], &short.ours()))
+        }));
+        let _ = writeln!(text, "| {} |", cells.join(" | "));
+    }
+    text
+}
+
+/// The least ratio with its level, and the greatest.
+fn cell(ratios: &[(f64, f64)]) -> String {
+    let least = ratios.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    let most = ratios.iter().map(|(_, ratio)| *ratio).fold(0.0, f64::max);
+    match least {
+        Some((level, least)) => format!("{least:.1} (at {}) to {most:.1}", power(*level)),
+        None => "never as exact".to_owned(),
+    }
+}
+
+/// Case by case the cheapest run of each solver whose error is not above `level`, or the floor.
+#[must_use]
+pub fn at_level(standings: &[Standing], level: f64) -> String {
+    let mut text = String::from(
+        "| case | solver | tolerance | error | time | steps | right-hand sides | Jacobians | times ours |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
+    );
+    for one in standings {
+        let ours = one.cheapest(&one.ours(), level);
+        for name in one.solvers() {
+            let mut case = one.case.clone();
+            if one.span < 10.0 {
+                let _ = write!(case, ", {} s", one.span);
+            }
+            let Some(run) = one.cheapest(&[name], level) else {
+                let _ = writeln!(
+                    text,
+                    "| {case} | {name} | never as exact, or not in time | | | | | | |"
+                );
+                continue;
+            };
+            let outcome = &run.entry.outcome;
+            let times = ours.map_or("-".to_owned(), |ours| {
+                format!("{:.1}", outcome.cpu / ours.entry.outcome.cpu)
+            });
+            let _ = writeln!(
+                text,
+                "| {case} | {name} | {} | {} | {} | {} | {} | {} | {times} |",
+                run.entry.tolerance,
+                power(run.error.unwrap_or(f64::INFINITY)),
+                seconds(outcome.cpu),
+                outcome.steps,
+                outcome.derivatives,
+                outcome.jacobians,
+            );
+        }
+    }
+    text
+}
+
+/// Every failure, case by case.
+#[must_use]
+pub fn failures(standings: &[Standing]) -> String {
+    let mut text = String::from("| case | solver | tolerances | why |\n|---|---|---|---|\n");
+    for one in standings {
+        for name in one.solvers() {
+            let failed = |run: &&Judgement| run.entry.solver == name && !run.entry.outcome.failure.is_empty();
+            let runs: Vec<&Judgement> = one.runs.iter().filter(failed).collect();
+            let Some(first) = runs.first() else { continue };
+            let tolerances: Vec<&str> = runs.iter().map(|run| run.entry.tolerance.as_str()).collect();
+            let _ = writeln!(
+                text,
+                "| {} | {name} | {} | {} |",
+                one.case,
+                tolerances.join(", "),
+                first.entry.outcome.failure
+            );
+        }
+    }
+    text
+}
+
+/// All runs of a case: the cheapest of each solver at each level, and its failures.
+#[must_use]
+pub fn standing(one: &Standing) -> String {
+    let mut text = format!(
+        "Judged by {}; floor {}; {} s of simulated time.\n\n",
+        one.judged,
+        power(one.floor),
+        one.span
+    );
+    text.push_str(
+        "| solver | tolerance | error | time | steps | rejected | right-hand sides | Jacobians |\n",
+    );
+    text.push_str("|---|---|---|---|---|---|---|---|\n");
+    let mut failures = Vec::new();
+    for name in one.solvers() {
+        let runs: Vec<&Judgement> = one.runs.iter().filter(|run| run.entry.solver == name).collect();
+        for run in runs {
+            let (entry, outcome) = (&run.entry, &run.entry.outcome);
+            if !run.finished() {
+                failures.push(format!("{name} at {}: {}", entry.tolerance, outcome.failure));
+                continue;
+            }
+            // Off the front: another run of the same solver is at least as exact and as quick.
+            let error = run.error.unwrap_or(f64::INFINITY).max(one.floor);
+            let front = one
+                .cheapest(&[name], error)
+                .is_none_or(|best| best.entry.tolerance == entry.tolerance);
+            let told = |count: u64| {
+                if count == 0 {
+                    "-".to_owned()
+                } else {
+                    count.to_string()
+                }
+            };
+            let _ = writeln!(
+                text,
+                "| {name} | {}{} | {} | {} | {} | {} | {} | {} |",
+                entry.tolerance,
+                if front { " *" } else { "" },
+                power(run.error.unwrap_or(f64::INFINITY)),
+                seconds(outcome.cpu),
+                told(outcome.steps),
+                told(outcome.rejected),
+                told(outcome.derivatives),
+                told(outcome.jacobians),
+            );
+        }
+    }
+    text.push_str("\n`*`: on the solver's own front.\n");
+    if !failures.is_empty() {
+        text.push_str("\nFailures:\n\n");
+        for failure in failures {
+            let _ = writeln!(text, "- {failure}");
+        }
+    }
+    text
+}
+
+/// The whole text.
+#[must_use]
+pub fn everything(standings: &[Standing]) -> String {
+    let mut text = format!("# The race\n\n{CAVEATS}\n## Options\n\n{}", options());
+    text.push_str(
+        "\n## How many times longer the others take at equal error\n\nThe least ratio over all errors that both reach, with that error, \
+         and the greatest; each solver at its best tolerance.\n\n",
+    );
+    text.push_str(&ratios(standings));
+    let _ = write!(
+        text,
+        "\n## Each solver's cheapest run with an error of at most 1 %\n\n{}\n## Failures\n\n{}",
+        at_level(standings, 1e-2),
+        failures(standings)
+    );
+    for one in standings {
+        let _ = write!(text, "\n## {}, {} s\n\n{}", one.case, one.span, standing(one));
+    }
+    text
+}

@@ -1,0 +1,347 @@
+//! The wedge as an element of somebody else's simulation: the caller moves bolster and side frame, step by step or instant by
+//! instant, and reads the forces on them.
+//!
+//! [`DrivenWedge`] integrates itself from one call to the next; [`Equations`] gives rates, margins and derivatives for
+//! a solver of the caller's. Coordinates, axes and reference points are those of [`wedge::driven`]. SI units.
+//!
+//! ```
+//! use study::case::Case;
+//! use study::driven::{DrivenWedge, Neighbours};
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let case = Case::parse("case.toml", "[wedge]\ndamping = \"constant\"\n", std::path::Path::new(""), &[])?;
+//! let mut wedge = DrivenWedge::new(&case)?;
+//! let mut place = *wedge.neighbours();
+//! for _ in 0..20 {
+//!     place.bolster.position[2] += 50e-6; // the bolster rises by 0.05 m/s
+//!     place.bolster.rate[2] = 0.05;
+//!     wedge.step(&place, 0.001)?;
+//! }
+//! assert!(wedge.reading()?.on_side_frame.force.0[2] > 0.0, "it drags the side frame up");
+//! # Ok(())
+//! # }
+//! ```
+
+mod equations;
+mod state;
+
+pub use equations::{DrivenError, Equations};
+pub use state::{DRIVEN_STATE_VERSION, DrivenState};
+pub use wedge::driven::{CoilDrive, Neighbours, Place, Reading};
+
+use integrate::{Integrator, Options, Statistics};
+use mechanics::output::Column;
+use mechanics::system::{Along, Energies, Sense, System};
+
+use crate::case::{Case, Simulation};
+use wedge::Parameters;
+use wedge::driven::COIL;
+use wedge::outputs::Ledger;
+
+/// A step that needs more steps of the integrator than this is stopped: some seconds of computing.
+pub const MAXIMUM_STEPS: u64 = 1_000_000;
+
+/// A step must be longer, s: below, times are rounding.
+const SHORTEST_STEP: f64 = 1e-15;
+
+/// A wedge whose neighbours are moved by the caller, and which integrates itself.
+///
+/// During a step each coordinate of a neighbour is the cubic through its values and rates at both ends. Steps may have any
+/// lengths; a smooth motion does not restart the integrator.
+#[derive(Debug)]
+pub struct DrivenWedge {
+    equations: Equations,
+    integrator: Integrator<System>,
+    options: Options,
+    failed: bool,
+}
+
+impl DrivenWedge {
+    /// The wedge of a case at time zero, its neighbours where the case's motions begin.
+    ///
+    /// # Errors
+    /// The parameters make no wedge, or the integrator refuses the start.
+    pub fn new(case: &Case) -> Result<Self, DrivenError> {
+        let start = Neighbours::of(&case.parameters, 0.0);
+        Self::starting(case, &start)
+    }
+
+    /// The same with the neighbours elsewhere at the start.
+    ///
+    /// # Errors
+    /// As [`DrivenWedge::new`], and values that are not finite.
+    pub fn starting(case: &Case, start: &Neighbours) -> Result<Self, DrivenError> {
+        Self::with(
+            &case.parameters,
+            options(&case.simulation),
+            start,
+            CoilDrive::Internal,
+        )
+    }
+
+    /// The same of parameters, options of the integrator (the largest number of steps is [`MAXIMUM_STEPS`] a step of the
+    /// neighbours) and a coil that may be outside.
+    ///
+    /// # Errors
+    /// As [`DrivenWedge::starting`].
+    pub fn with(
+        parameters: &Parameters,
+        options: Options,
+        start: &Neighbours,
+        coil: CoilDrive,
+    ) -> Result<Self, DrivenError> {
+        let equations = Equations::new(parameters, start, coil)?;
+        let options = Options {
+            maximum_steps: u64::MAX,
+            ..options
+        };
+        let integrator = Integrator::new(
+            equations.system().clone(),
+            options.clone(),
+            equations.time(),
+            equations.states(),
+        )?;
+        Ok(Self {
+            equations,
+            integrator,
+            options,
+            failed: false,
+        })
+    }
+
+    /// Time reached, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.equations.time()
+    }
+
+    /// Where the neighbours are.
+    #[must_use]
+    pub fn neighbours(&self) -> &Neighbours {
+        self.equations.neighbours()
+    }
+
+    /// The state reached.
+    #[must_use]
+    pub fn equations(&self) -> &Equations {
+        &self.equations
+    }
+
+    /// What the wedge does to its neighbours, and what coil and faces feel.
+    ///
+    /// # Errors
+    /// Never, with a wedge that was built here.
+    pub fn reading(&mut self) -> Result<Reading<f64>, DrivenError> {
+        self.equations.reading()
+    }
+
+    /// What all corners and the coil feel.
+    pub fn sense(&mut self) -> &Sense<f64> {
+        self.equations.sense()
+    }
+
+    /// The rates of the states, see [`Equations::rates`].
+    ///
+    /// # Errors
+    /// `out` does not have the length of the states.
+    pub fn rates(&mut self, out: &mut [f64]) -> Result<(), DrivenError> {
+        self.equations.rates(out)
+    }
+
+    /// The margins of the contact states, see [`Equations::margins`].
+    pub fn margins(&mut self) -> &[f64] {
+        self.equations.margins()
+    }
+
+    /// The columns of [`DrivenWedge::row`].
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        self.equations.columns()
+    }
+
+    /// A row of the table that a run writes, SI.
+    #[must_use]
+    pub fn row(&mut self) -> Vec<f64> {
+        self.equations.row()
+    }
+
+    /// Stored energies and the ledger since the start, see [`Equations::energies`].
+    #[must_use]
+    pub fn energies(&mut self) -> (Energies, Ledger) {
+        self.equations.energies()
+    }
+
+    /// Derivatives along a direction, see [`Equations::along`].
+    ///
+    /// # Errors
+    /// A wrong number of states.
+    pub fn along(
+        &mut self,
+        states: &[f64],
+        neighbours: &Neighbours,
+        coil_force: f64,
+    ) -> Result<Along, DrivenError> {
+        self.equations.along(states, neighbours, coil_force)
+    }
+
+    /// What the integrator has done so far.
+    #[must_use]
+    pub fn statistics(&self) -> &Statistics {
+        self.integrator.statistics()
+    }
+
+    /// One step: within `duration` (s) the neighbours go from where they are to `end`.
+    ///
+    /// # Errors
+    /// A duration that is not positive, values that are not finite; or the integrator cannot go on: the wedge then takes no
+    /// further step until a state is restored.
+    pub fn step(&mut self, end: &Neighbours, duration: f64) -> Result<(), DrivenError> {
+        self.step_to(end, self.time() + duration)
+    }
+
+    /// The same with the time (s) at the step's end.
+    ///
+    /// # Errors
+    /// As [`DrivenWedge::step`].
+    pub fn step_to(&mut self, end: &Neighbours, time: f64) -> Result<(), DrivenError> {
+        if self.failed {
+            return Err(DrivenError::Failed);
+        }
+        let start = self.time();
+        let duration = time - start;
+        if !(duration > SHORTEST_STEP && duration.is_finite()) {
+            return Err(DrivenError::NoStep {
+                step: duration,
+                time: start,
+            });
+        }
+        equations::check_neighbours(end)?;
+        let result = self.advance(end, start, duration, time);
+        self.failed = result.is_err();
+        result
+    }
+
+    fn advance(&mut self, end: &Neighbours, start: f64, duration: f64, time: f64) -> Result<(), DrivenError> {
+        let from = *self.equations.neighbours();
+        from.lead(self.integrator.problem_mut(), start, duration, end)?;
+        self.integrator.renew();
+        let first = self.attempts();
+        while self.integrator.time() < time {
+            self.integrator.step_to(time)?;
+            if self.attempts() - first > MAXIMUM_STEPS {
+                return Err(DrivenError::TooLong {
+                    step: duration,
+                    time: start,
+                    limit: MAXIMUM_STEPS,
+                });
+            }
+        }
+        self.equations
+            .follow(time, self.integrator.x(), self.integrator.modes(), end)
+    }
+
+    fn attempts(&self) -> u64 {
+        let statistics = self.integrator.statistics();
+        statistics.steps + statistics.rejected()
+    }
+
+    /// Says where the coil's force comes from, from now on.
+    ///
+    /// # Errors
+    /// Values that are not finite, or a negative stiffness.
+    pub fn set_coil(&mut self, coil: CoilDrive) -> Result<(), DrivenError> {
+        if coil == *self.equations.coil() {
+            return Ok(());
+        }
+        self.equations.set_coil(coil)?;
+        let law = coil.law(self.equations.parameters());
+        self.integrator.problem_mut().set_coil_law(COIL, law)?;
+        Ok(())
+    }
+
+    /// Sets the coefficients of friction of column and slope, from now on.
+    ///
+    /// # Errors
+    /// Values that are not finite, or negative.
+    pub fn set_friction(&mut self, friction: [f64; 2]) -> Result<(), DrivenError> {
+        if friction == self.equations.friction() {
+            return Ok(());
+        }
+        self.equations.set_friction(friction)?;
+        for (face, coefficient) in friction.into_iter().enumerate() {
+            self.integrator.problem_mut().set_friction(face, coefficient)?;
+        }
+        Ok(())
+    }
+
+    /// All that is needed to go on with the same bits, also in another process.
+    #[must_use]
+    pub fn state(&self) -> DrivenState {
+        DrivenState {
+            version: DRIVEN_STATE_VERSION,
+            fingerprint: state::fingerprint(self.equations.parameters(), &self.options),
+            start: *self.equations.start(),
+            start_coil: self.equations.start_coil(),
+            neighbours: *self.equations.neighbours(),
+            coil: *self.equations.coil(),
+            friction: self.equations.friction(),
+            failed: self.failed,
+            integrator: self.integrator.state(),
+        }
+    }
+
+    /// Goes back (or on) to a saved state of a wedge of the same case.
+    ///
+    /// # Errors
+    /// The state is of another version or another case, or damaged; nothing has changed then.
+    pub fn restore(&mut self, state: &DrivenState) -> Result<(), DrivenError> {
+        if state.version != DRIVEN_STATE_VERSION {
+            return Err(DrivenError::Version {
+                found: state.version,
+                expected: DRIVEN_STATE_VERSION,
+            });
+        }
+        if state.fingerprint != state::fingerprint(self.equations.parameters(), &self.options) {
+            return Err(DrivenError::OtherCase);
+        }
+        equations::check_neighbours(&state.neighbours)?;
+        equations::check_coil(&state.coil)?;
+        equations::check_friction(state.friction)?;
+        // Refused before anything changes.
+        self.integrator.admits(&state.integrator)?;
+        let mut fresh = None;
+        if (state.start, state.start_coil) != (*self.equations.start(), self.equations.start_coil()) {
+            let parameters = self.equations.parameters().clone();
+            fresh = Some(Self::with(
+                &parameters,
+                self.options.clone(),
+                &state.start,
+                state.start_coil,
+            )?);
+        }
+        if let Some(fresh) = fresh {
+            *self = fresh;
+        }
+        self.set_coil(state.coil)?;
+        self.set_friction(state.friction)?;
+        let time = state.integrator.time;
+        state.neighbours.put(self.integrator.problem_mut(), time)?;
+        self.integrator.restore(&state.integrator)?;
+        self.failed = state.failed;
+        self.equations.follow(
+            time,
+            self.integrator.x(),
+            self.integrator.modes(),
+            &state.neighbours,
+        )
+    }
+}
+
+/// How a case is integrated.
+#[must_use]
+pub fn options(simulation: &Simulation) -> Options {
+    Options {
+        method: simulation.method,
+        relative_tolerance: simulation.relative_tolerance,
+        ..Options::default()
+    }
+}

@@ -1,0 +1,84 @@
+//! Saved states of driven wedges.
+
+use integrate::{Options, State};
+use serde::{Deserialize, Serialize};
+use wedge::Parameters;
+use wedge::driven::{CoilDrive, Neighbours};
+use wedge::parameters::NeighbourMotion;
+
+use super::DrivenError;
+
+/// Version of [`DrivenState`].
+pub const DRIVEN_STATE_VERSION: u32 = 1;
+
+/// All that is needed to continue a driven wedge with the same bits, also in another process and on another machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DrivenState {
+    /// [`DRIVEN_STATE_VERSION`].
+    pub version: u32,
+    /// Tells wedges of other parameters or tolerances apart.
+    pub(super) fingerprint: u64,
+    /// Where the neighbours were at time zero.
+    pub(super) start: Neighbours,
+    /// Where the coil's force came from at time zero.
+    pub(super) start_coil: CoilDrive,
+    /// Where the neighbours are.
+    pub neighbours: Neighbours,
+    /// Where the coil's force comes from.
+    pub coil: CoilDrive,
+    /// Coefficients of friction of column and slope.
+    pub friction: [f64; 2],
+    /// Whether a step has failed.
+    pub(super) failed: bool,
+    /// Time, states, contact states and the memory of the step-size control.
+    pub integrator: State,
+}
+
+impl DrivenState {
+    /// The state as bytes: JSON, whose numbers read back to the last bit.
+    ///
+    /// # Errors
+    /// Never, with a state that a wedge has given.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, DrivenError> {
+        serde_json::to_vec(self).map_err(|error| DrivenError::State(error.to_string()))
+    }
+
+    /// Reads what [`DrivenState::to_bytes`] wrote.
+    ///
+    /// # Errors
+    /// These are no bytes of such a state, or of another version.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, DrivenError> {
+        /// All that is looked at first.
+        #[derive(Deserialize)]
+        struct Head {
+            version: u32,
+        }
+        let damaged = |error: serde_json::Error| DrivenError::State(error.to_string());
+        let head: Head = serde_json::from_slice(bytes).map_err(damaged)?;
+        if head.version != DRIVEN_STATE_VERSION {
+            return Err(DrivenError::Version {
+                found: head.version,
+                expected: DRIVEN_STATE_VERSION,
+            });
+        }
+        serde_json::from_slice(bytes).map_err(damaged)
+    }
+}
+
+/// A number for parameters and options; motions and coefficients of friction do not count, since a caller gives them.
+pub(super) fn fingerprint(parameters: &Parameters, options: &Options) -> u64 {
+    let mut still = parameters.clone();
+    for neighbour in [&mut still.side_frame, &mut still.bolster] {
+        neighbour.coordinates = NeighbourMotion::fixed().coordinates;
+    }
+    // Friction may be tuned on the way; it is part of the state.
+    for face in [&mut still.column_friction, &mut still.slope_friction] {
+        face.coefficient = 0.0;
+    }
+    let text = serde_json::to_vec(&(still, options)).unwrap_or_default();
+    // FNV-1a, 64 bits: it tells apart, it does not protect.
+    text.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}

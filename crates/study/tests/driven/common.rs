@@ -1,0 +1,46 @@
+//! Cases and loops of the tests of driven wedges.
+
+use study::case::{Case, builtin};
+use study::driven::{DrivenWedge, Neighbours};
+
+/// A yawed case of each damping, a straight one, and one with bristles.
+pub const YAWED: &str = "cdrun_toe_-0.2_psi_0.012";
+
+/// A built-in case with overrides.
+pub fn case(name: &str, overrides: &[&str]) -> Case {
+    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+    builtin::case_with(name, &overrides).unwrap()
+}
+
+/// Where the case's own motions are.
+pub fn place(case: &Case, time: f64) -> Neighbours {
+    Neighbours::of(&case.parameters, time)
+}
+
+/// Drives a wedge along the case's own motions from where it is to a time, in steps of a length.
+pub fn drive(case: &Case, wedge: &mut DrivenWedge, end: f64, step: f64) {
+    let first = (wedge.time() / step).round() as u64;
+    let last = (end / step).round() as u64;
+    for number in first + 1..=last {
+        let time = number as f64 * step;
+        wedge.step_to(&place(case, time), time).unwrap();
+    }
+}
+
+/// A wedge of a case at a time on its way.
+pub fn at(case: &Case, end: f64, step: f64) -> DrivenWedge {
+    let mut wedge = DrivenWedge::new(case).unwrap();
+    drive(case, &mut wedge, end, step);
+    wedge
+}
+
+/// The value of a column.
+pub fn value(wedge: &mut DrivenWedge, name: &str) -> f64 {
+    let row = wedge.row();
+    let index = wedge
+        .columns()
+        .iter()
+        .position(|column| column.name == name)
+        .unwrap_or_else(|| panic!("no column {name}"));
+    row[index]
+}

@@ -1,0 +1,97 @@
+//! Bad input to driven wedges.
+
+use study::driven::{CoilDrive, DrivenError, DrivenState, DrivenWedge, Neighbours};
+
+use crate::common::{YAWED, case};
+
+fn wedge() -> DrivenWedge {
+    DrivenWedge::new(&case(YAWED, &[])).unwrap()
+}
+
+#[test]
+fn steps_must_be_positive_and_finite() {
+    let mut wedge = wedge();
+    let at = *wedge.neighbours();
+    for step in [0.0, -1e-3, f64::NAN, f64::INFINITY, 1e-320] {
+        let error = wedge.step(&at, step).unwrap_err();
+        assert!(matches!(error, DrivenError::NoStep { .. }), "{step}: {error}");
+        assert!(error.to_string().contains("must be positive"), "{error}");
+    }
+    wedge.step(&at, 1.0).unwrap();
+    assert!(matches!(
+        wedge.step(&at, 1e-300).unwrap_err(),
+        DrivenError::NoStep { .. }
+    ));
+    wedge.step(&at, 1e-3).unwrap();
+}
+
+#[test]
+fn values_that_are_not_finite_are_named() {
+    let mut wedge = wedge();
+    let mut at = *wedge.neighbours();
+    at.bolster.position[5] = f64::NAN;
+    let error = wedge.step(&at, 1e-3).unwrap_err().to_string();
+    assert!(error.contains("yaw of the bolster is NaN"), "{error}");
+    let mut at = *wedge.neighbours();
+    at.side_frame.rate[2] = f64::INFINITY;
+    let error = wedge.step(&at, 1e-3).unwrap_err().to_string();
+    assert!(error.contains("rate of z of the side frame is inf"), "{error}");
+    let error = wedge
+        .set_coil(CoilDrive::Stiffness(-1.0))
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("stiffness is -1"), "{error}");
+    let error = wedge
+        .set_coil(CoilDrive::Force(f64::NAN))
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("force is NaN"), "{error}");
+    let error = wedge.set_friction([0.4, -0.1]).unwrap_err().to_string();
+    assert!(error.contains("friction.slope is -0.1"), "{error}");
+    // Nothing has happened.
+    assert_eq!(wedge.time(), 0.0);
+    wedge
+        .step(&Neighbours::of(&case(YAWED, &[]).parameters, 1e-3), 1e-3)
+        .unwrap();
+}
+
+#[test]
+fn a_wedge_that_cannot_go_on_says_so_until_it_is_restored() {
+    let mut wedge = wedge();
+    let state = wedge.state();
+    let mut far = *wedge.neighbours();
+    far.bolster.position[0] = -1e300;
+    let error = wedge.step(&far, 1e-3).unwrap_err().to_string();
+    assert!(error.contains("go back to a saved state"), "{error}");
+    let at = *wedge.neighbours();
+    assert!(matches!(wedge.step(&at, 1e-3).unwrap_err(), DrivenError::Failed));
+    wedge.restore(&state).unwrap();
+    wedge.step(&at, 1e-3).unwrap();
+}
+
+#[test]
+fn saved_states_of_others_are_refused() {
+    let mut wedge = wedge();
+    let bytes = wedge.state().to_bytes().unwrap();
+    let text = String::from_utf8(bytes.clone()).unwrap();
+    for (bad, what) in [
+        (String::new(), "no saved state"),
+        ("{}".to_owned(), "no saved state"),
+        (text[..text.len() / 2].to_owned(), "no saved state"),
+        (text.replacen("\"version\":1", "\"version\":7", 1), "version 7"),
+        (text.replacen("\"x\":[", "\"x\":[0.0,", 1), ""),
+    ] {
+        let error = match DrivenState::from_bytes(bad.as_bytes()) {
+            Ok(state) => wedge.restore(&state).unwrap_err(),
+            Err(error) => error,
+        };
+        assert!(error.to_string().contains(what), "{error}");
+    }
+    let state = DrivenState::from_bytes(&bytes).unwrap();
+    let mut other = DrivenWedge::new(&case(YAWED, &["contact.stiffness=\"3e5 lbf/in\""])).unwrap();
+    assert!(matches!(
+        other.restore(&state).unwrap_err(),
+        DrivenError::OtherCase
+    ));
+    wedge.restore(&state).unwrap();
+}

@@ -1,0 +1,229 @@
+//! The wedge between neighbours that a caller moves: where they are, and what the wedge does to them.
+//!
+//! Coordinates of a neighbour are those of [`NeighbourMotion`]: x, y, z of its turning centre from the nominal position along
+//! fixed axes (m), roll, pitch, yaw (rad; see [`mechanics::turn`]), and their rates. Force and moment on a neighbour are given along
+//! fixed axes, the moment about the neighbour's turning centre where that is at the time: so, with small angles, force and
+//! moment times the rates are the power that the neighbour takes up.
+
+use integrate::scalar::Real;
+use mechanics::coil::CoilLaw;
+use mechanics::motion::Motion;
+use mechanics::system::{DriveError, Load, Sense, System};
+use serde::{Deserialize, Serialize};
+
+use crate::assemble::{BOLSTER, COLUMN, SIDE_FRAME};
+use crate::parameters::{NeighbourMotion, Parameters};
+
+/// The number of the control coil among the coils.
+pub const COIL: usize = 0;
+
+/// Where a neighbour is, and how it moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// x, y, z (m), roll, pitch, yaw (rad).
+    pub position: [f64; 6],
+    /// Their rates (m/s, rad/s).
+    pub rate: [f64; 6],
+}
+
+/// Both neighbours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Neighbours {
+    /// The side frame.
+    pub side_frame: Place,
+    /// The bolster.
+    pub bolster: Place,
+}
+
+/// Where the coil's spring force comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CoilDrive {
+    /// From the parameters.
+    #[default]
+    Internal,
+    /// A stiffness (N/m) times the compression; what a caller finds from the compression.
+    Stiffness(f64),
+    /// A force (N), positive when it pushes.
+    Force(f64),
+}
+
+impl Place {
+    /// Where a prescribed motion is at a time (s).
+    #[must_use]
+    pub fn of(motion: &NeighbourMotion, time: f64) -> Self {
+        let mut place = Self::default();
+        for (k, motion) in motion.coordinates.iter().enumerate() {
+            // The piece that begins at this time.
+            let reference = match motion.next_break(time) {
+                Some(end) => 0.5 * (time + end),
+                None => time + 1.0,
+            };
+            let [value, rate, _] = motion.evaluate(time, reference);
+            (place.position[k], place.rate[k]) = (value, rate);
+        }
+        place
+    }
+
+    /// The place reached after `duration` (s) where only positions are known: rates are the mean rates on the way.
+    #[must_use]
+    pub fn reached(&self, position: [f64; 6], duration: f64) -> Self {
+        Self {
+            position,
+            rate: std::array::from_fn(|k| (position[k] - self.position[k]) / duration),
+        }
+    }
+
+    /// Whether all values are finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.position
+            .iter()
+            .chain(&self.rate)
+            .all(|value| value.is_finite())
+    }
+
+    /// The straight motions through this place at a time (s).
+    #[must_use]
+    pub fn lines(&self, time: f64) -> [Motion; 6] {
+        std::array::from_fn(|k| Motion::line(time, [self.position[k], self.rate[k]]))
+    }
+
+    /// The cubic motions from this place at `start` (s) to another one `duration` (s) later.
+    #[must_use]
+    pub fn cubics(&self, start: f64, duration: f64, end: &Self) -> [Motion; 6] {
+        std::array::from_fn(|k| {
+            let from = [self.position[k], self.rate[k]];
+            Motion::between(start, duration, from, [end.position[k], end.rate[k]])
+        })
+    }
+}
+
+impl Neighbours {
+    /// Where the prescribed motions of these parameters are at a time (s).
+    #[must_use]
+    pub fn of(parameters: &Parameters, time: f64) -> Self {
+        Self {
+            side_frame: Place::of(&parameters.side_frame, time),
+            bolster: Place::of(&parameters.bolster, time),
+        }
+    }
+
+    /// Whether all values are finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.side_frame.is_finite() && self.bolster.is_finite()
+    }
+
+    /// The places reached after `duration` (s) where only positions are known, see [`Place::reached`].
+    #[must_use]
+    pub fn reached(&self, side_frame: [f64; 6], bolster: [f64; 6], duration: f64) -> Self {
+        Self {
+            side_frame: self.side_frame.reached(side_frame, duration),
+            bolster: self.bolster.reached(bolster, duration),
+        }
+    }
+
+    /// Puts both neighbours of a driven wedge here at a time (s), to move on with their rates.
+    ///
+    /// # Errors
+    /// The system is no driven wedge.
+    pub fn put(&self, system: &mut System, time: f64) -> Result<(), DriveError> {
+        system.drive(SIDE_FRAME, self.side_frame.lines(time))?;
+        system.drive(BOLSTER, self.bolster.lines(time))
+    }
+
+    /// Lets both neighbours of a driven wedge go from here to another place within `duration` (s).
+    ///
+    /// # Errors
+    /// The system is no driven wedge.
+    pub fn lead(&self, system: &mut System, start: f64, duration: f64, end: &Self) -> Result<(), DriveError> {
+        system.drive(
+            SIDE_FRAME,
+            self.side_frame.cubics(start, duration, &end.side_frame),
+        )?;
+        system.drive(BOLSTER, self.bolster.cubics(start, duration, &end.bolster))
+    }
+}
+
+impl CoilDrive {
+    /// Whether its value is usable.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        match self {
+            Self::Internal => true,
+            Self::Stiffness(stiffness) => *stiffness >= 0.0 && stiffness.is_finite(),
+            Self::Force(force) => force.is_finite(),
+        }
+    }
+
+    /// The law of the coil under it.
+    #[must_use]
+    pub fn law(&self, parameters: &Parameters) -> CoilLaw {
+        match self {
+            Self::Internal => parameters.coil.law.clone(),
+            Self::Stiffness(stiffness) => CoilLaw::Linear {
+                stiffness: *stiffness,
+            },
+            Self::Force(force) => CoilLaw::Given { force: *force },
+        }
+    }
+}
+
+impl Parameters {
+    /// The same wedge with neighbours that a caller moves, starting from these places.
+    #[must_use]
+    pub fn driven(&self, start: &Neighbours) -> Self {
+        let mut driven = self.clone();
+        driven.side_frame.coordinates = start.side_frame.lines(0.0);
+        driven.bolster.coordinates = start.bolster.lines(0.0);
+        driven
+    }
+}
+
+/// What the wedge does to its neighbours, and what its coil and faces feel.
+#[derive(Clone, Copy, Debug)]
+pub struct Reading<S> {
+    /// Force and moment on the side frame, about its turning centre.
+    pub on_side_frame: Load<S>,
+    /// Force and moment on the bolster, about its turning centre.
+    pub on_bolster: Load<S>,
+    /// Compression of the coil: free length less length, m.
+    pub coil_compression: S,
+    /// Spring force of the coil, N: positive when it pushes.
+    pub coil_force: S,
+    /// Sum of the normal forces of column and slope, N.
+    pub normal_forces: [S; 2],
+    /// Power lost in friction at column and slope, W.
+    pub friction_losses: [S; 2],
+}
+
+impl<S: Real> Reading<S> {
+    /// Reads what elements feel; `None` if they are not those of a wedge.
+    #[must_use]
+    pub fn of(sense: &Sense<S>, system: &System, parameters: &Parameters) -> Option<Self> {
+        let coil = sense.coils.get(COIL)?;
+        let mut normal_forces = [S::zero(); 2];
+        let mut friction_losses = [S::zero(); 2];
+        let mut first = 0;
+        for (index, face) in system.faces().iter().take(2).enumerate() {
+            let count = face.element.points.len();
+            for point in sense.points.get(first..first + count)? {
+                normal_forces[index] += point.normal;
+            }
+            if let Some(loss) = face.channels[0] {
+                friction_losses[index] = *sense.powers.get(loss)?;
+            }
+            first += count;
+        }
+        debug_assert_eq!(COLUMN, 0);
+        Some(Self {
+            on_side_frame: *sense.loads.get(SIDE_FRAME)?,
+            on_bolster: *sense.loads.get(BOLSTER)?,
+            coil_compression: -coil.length + parameters.coil.free_length,
+            coil_force: coil.spring,
+            normal_forces,
+            friction_losses,
+        })
+    }
+}

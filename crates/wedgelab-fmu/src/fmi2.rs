@@ -1,0 +1,678 @@
+//! The functions of FMI 2.0, in the order of the standard's header.
+//!
+//! # Safety
+//! All functions share the standard's contract: a component comes from [`fmi2Instantiate`] and has not been freed, a pointer to an array
+//! points to as many values as the call says, strings end with a zero byte, and no component is used by two threads at once.
+//! Null pointers are refused.
+#![allow(clippy::missing_safety_doc)]
+
+use std::ffi::{c_char, c_int, c_void};
+use std::ptr::null_mut;
+
+use fmi::description::Version;
+use fmi::element::Interface;
+use fmi::instance::{Instance, Message};
+use fmi::{Category, Error, Severity, resources};
+
+use crate::component::{
+    Component, DISCARD, Logger, Logger2, OK, Status, call, deserialize, free_saved, guard, hand_out, log,
+    none_of, put, read, save, saved, serialize, slice, slice_mut, string, strings, take_back, write,
+};
+
+/// What an importer gives: `fmi2CallbackFunctions`.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct CallbackFunctions {
+    /// Takes messages.
+    pub logger:
+        Option<unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char, ...)>,
+    /// Not used.
+    pub allocate_memory: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
+    /// Not used.
+    pub free_memory: Option<unsafe extern "C" fn(*mut c_void)>,
+    /// Not used: steps are finished when they return.
+    pub step_finished: Option<unsafe extern "C" fn(*mut c_void, c_int)>,
+    /// Given back with every message.
+    pub component_environment: *mut c_void,
+}
+
+/// What event handling says: `fmi2EventInfo`.
+#[repr(C)]
+pub struct EventInfo {
+    /// Another update is needed.
+    pub new_discrete_states_needed: c_int,
+    /// The simulation must end.
+    pub terminate_simulation: c_int,
+    /// Nominal values have changed.
+    pub nominals_of_continuous_states_changed: c_int,
+    /// States have changed.
+    pub values_of_continuous_states_changed: c_int,
+    /// There is a time event ahead.
+    pub next_event_time_defined: c_int,
+    /// When.
+    pub next_event_time: f64,
+}
+
+type References = *const u32;
+
+/// The platform types.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetTypesPlatform() -> *const c_char {
+    c"default".as_ptr()
+}
+
+/// The version of the standard.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetVersion() -> *const c_char {
+    c"2.0".as_ptr()
+}
+
+/// Switches the log.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetDebugLogging(
+    c: *mut c_void,
+    on: c_int,
+    count: usize,
+    categories: *const *const c_char,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            component.set_logging(on != 0, &strings(categories, count, "the log categories")?)?;
+            Ok(OK)
+        })
+    }
+}
+
+/// Makes an instance; null, with a message, if it cannot be made.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Instantiate(
+    name: *const c_char,
+    kind: c_int,
+    guid: *const c_char,
+    resource_location: *const c_char,
+    functions: *const CallbackFunctions,
+    _visible: c_int,
+    logging: c_int,
+) -> *mut c_void {
+    // SAFETY: the standard's contract, see the module; null pointers are looked for.
+    let logger = match unsafe { functions.as_ref() } {
+        Some(CallbackFunctions {
+            logger: Some(logger),
+            component_environment,
+            ..
+        }) => Logger::Two(*logger as Logger2, *component_environment),
+        _ => Logger::None,
+    };
+    let make = || -> Result<Component, Error> {
+        // SAFETY: as above.
+        let (name, guid, location) = unsafe {
+            (
+                string(name, "the instance's name")?,
+                string(guid, "the GUID")?,
+                string(resource_location, "the location of the resources")?,
+            )
+        };
+        let interface = match kind {
+            0 => Interface::ModelExchange,
+            1 => Interface::CoSimulation,
+            other => return Err(Error::new(format!("{other} is no kind of FMU"))),
+        };
+        let folder = resources::folder_of_uri(location)?;
+        let instance = Instance::new(name, guid, &folder, Version::Two, interface)?;
+        Ok(Component::new(instance, logger, name, logging != 0))
+    };
+    let made = guard(
+        Err(Error::new("internal error while the instance was made")),
+        make,
+    );
+    match made {
+        Ok(component) => hand_out(component),
+        Err(error) => {
+            let message = Message {
+                severity: Severity::Error,
+                category: Category::Error,
+                text: error.message,
+            };
+            // SAFETY: the logger is the importer's.
+            unsafe { log(logger, c"", &message) };
+            null_mut()
+        }
+    }
+}
+
+/// Frees an instance.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeInstance(c: *mut c_void) {
+    // SAFETY: the standard's contract, see the module.
+    guard((), || unsafe { take_back::<Component>(c) });
+}
+
+/// Sets tolerance, start and stop time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetupExperiment(
+    c: *mut c_void,
+    tolerance_defined: c_int,
+    tolerance: f64,
+    start: f64,
+    stop_defined: c_int,
+    stop: f64,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            let stop = (stop_defined != 0).then_some(stop);
+            let tolerance = (tolerance_defined != 0).then_some(tolerance);
+            component.instance.set_experiment(start, stop, tolerance)?;
+            Ok(OK)
+        })
+    }
+}
+
+/// Runs a call without results.
+unsafe fn simple(c: *mut c_void, run: impl FnOnce(&mut Instance) -> Result<(), Error>) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { call(c, |component| run(&mut component.instance).map(|()| OK)) }
+}
+
+/// Begins the initialization.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterInitializationMode(c: *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { simple(c, Instance::enter_initialization) }
+}
+
+/// Ends the initialization.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2ExitInitializationMode(c: *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { simple(c, Instance::exit_initialization) }
+}
+
+/// Ends the simulation.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Terminate(c: *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { simple(c, Instance::terminate) }
+}
+
+/// Goes back to the state after instantiation.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Reset(c: *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        simple(c, |instance| {
+            instance.reset();
+            Ok(())
+        })
+    }
+}
+
+/// Reads real variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetReal(c: *mut c_void, vr: References, n: usize, value: *mut f64) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            let (vr, value) = (
+                slice(vr, n, "the references")?,
+                slice_mut(value, n, "the values")?,
+            );
+            read(vr, value, |vr| component.instance.get_float(vr))
+        })
+    }
+}
+
+/// Reads integer variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetInteger(
+    c: *mut c_void,
+    vr: References,
+    n: usize,
+    value: *mut c_int,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            let (vr, value) = (
+                slice(vr, n, "the references")?,
+                slice_mut(value, n, "the values")?,
+            );
+            read(vr, value, |vr| component.instance.get_integer(vr))
+        })
+    }
+}
+
+/// Reads Boolean variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBoolean(
+    c: *mut c_void,
+    vr: References,
+    n: usize,
+    value: *mut c_int,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            let (vr, value) = (
+                slice(vr, n, "the references")?,
+                slice_mut(value, n, "the values")?,
+            );
+            read(vr, value, |vr| {
+                component.instance.get_boolean(vr).map(c_int::from)
+            })
+        })
+    }
+}
+
+/// Reads strings: there are none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetString(
+    c: *mut c_void,
+    _vr: References,
+    n: usize,
+    _value: *mut *const c_char,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { call(c, |_| none_of(n, "string")) }
+}
+
+/// Sets real variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetReal(c: *mut c_void, vr: References, n: usize, value: *const f64) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
+            let instance = &mut component.instance;
+            write(instance, vr, value, Instance::may_set_float, Instance::set_float)
+        })
+    }
+}
+
+/// Sets integer variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetInteger(
+    c: *mut c_void,
+    vr: References,
+    n: usize,
+    value: *const c_int,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
+            let instance = &mut component.instance;
+            write(
+                instance,
+                vr,
+                value,
+                Instance::may_set_integer,
+                Instance::set_integer,
+            )
+        })
+    }
+}
+
+/// Sets Boolean variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetBoolean(
+    c: *mut c_void,
+    vr: References,
+    n: usize,
+    value: *const c_int,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
+            write(
+                &mut component.instance,
+                vr,
+                value,
+                |instance, vr, value| instance.may_set_boolean(vr, value != 0),
+                |instance, vr, value| instance.set_boolean(vr, value != 0),
+            )
+        })
+    }
+}
+
+/// Sets strings: there are none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetString(
+    c: *mut c_void,
+    _vr: References,
+    n: usize,
+    _value: *const *const c_char,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { call(c, |_| none_of(n, "string")) }
+}
+
+/// Saves the state.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetFMUstate(c: *mut c_void, state: *mut *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { call(c, |component| save(component, state)) }
+}
+
+/// Goes back to a saved state.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetFMUstate(c: *mut c_void, state: *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            component.instance.restore(saved(state)?).map(|()| OK)
+        })
+    }
+}
+
+/// Frees a saved state.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeFMUstate(c: *mut c_void, state: *mut *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { call(c, |_| free_saved(state)) }
+}
+
+/// How many bytes a saved state takes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
+    c: *mut c_void,
+    state: *mut c_void,
+    size: *mut usize,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |_| {
+            put(size, saved(state)?.to_bytes()?.len(), "the size")?;
+            Ok(OK)
+        })
+    }
+}
+
+/// Writes a saved state as bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializeFMUstate(
+    c: *mut c_void,
+    state: *mut c_void,
+    bytes: *mut c_char,
+    size: usize,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { call(c, |_| serialize(state, bytes.cast(), size)) }
+}
+
+/// Reads a saved state from bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
+    c: *mut c_void,
+    bytes: *const c_char,
+    size: usize,
+    state: *mut *mut c_void,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { call(c, |_| deserialize(bytes.cast(), size, state)) }
+}
+
+/// Derivatives along a direction.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
+    c: *mut c_void,
+    unknowns: References,
+    unknown_count: usize,
+    knowns: References,
+    known_count: usize,
+    seed: *const f64,
+    out: *mut f64,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            let unknowns = slice(unknowns, unknown_count, "the unknowns")?;
+            let knowns = slice(knowns, known_count, "the knowns")?;
+            let seed = slice(seed, known_count, "the seed")?;
+            let out = slice_mut(out, unknown_count, "the derivatives")?;
+            component
+                .instance
+                .directional_derivative(unknowns, knowns, seed, out)?;
+            Ok(OK)
+        })
+    }
+}
+
+/// Begins event mode.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterEventMode(c: *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { simple(c, Instance::enter_event_mode) }
+}
+
+/// Handles events.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2NewDiscreteStates(c: *mut c_void, info: *mut EventInfo) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            if info.is_null() {
+                return Err(Error::new("the pointer to the event info is null"));
+            }
+            let update = component.instance.update_discrete_states()?;
+            let found = EventInfo {
+                new_discrete_states_needed: c_int::from(update.again),
+                terminate_simulation: 0,
+                nominals_of_continuous_states_changed: 0,
+                values_of_continuous_states_changed: 0,
+                next_event_time_defined: 0,
+                next_event_time: 0.0,
+            };
+            put(info, found, "the event info")?;
+            Ok(OK)
+        })
+    }
+}
+
+/// Begins continuous-time mode.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(c: *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { simple(c, Instance::enter_continuous_time_mode) }
+}
+
+/// An integrator step is complete.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
+    c: *mut c_void,
+    _no_set_state_prior: c_int,
+    enter_event_mode: *mut c_int,
+    terminate: *mut c_int,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            component.instance.completed_integrator_step()?;
+            put(enter_event_mode, 0, "enterEventMode")?;
+            put(terminate, 0, "terminateSimulation")?;
+            Ok(OK)
+        })
+    }
+}
+
+/// Sets time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetTime(c: *mut c_void, time: f64) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { simple(c, |instance| instance.set_time(time)) }
+}
+
+/// Sets the states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetContinuousStates(c: *mut c_void, x: *const f64, n: usize) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { simple(c, |instance| instance.set_states(slice(x, n, "the states")?)) }
+}
+
+/// Reads the rates of the states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDerivatives(c: *mut c_void, out: *mut f64, n: usize) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        simple(c, |instance| {
+            instance.rates(slice_mut(out, n, "the derivatives")?)
+        })
+    }
+}
+
+/// Reads the event indicators.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetEventIndicators(c: *mut c_void, out: *mut f64, n: usize) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        simple(c, |instance| {
+            instance.indicators(slice_mut(out, n, "the event indicators")?)
+        })
+    }
+}
+
+/// Reads the states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetContinuousStates(c: *mut c_void, out: *mut f64, n: usize) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { simple(c, |instance| instance.states(slice_mut(out, n, "the states")?)) }
+}
+
+/// Reads the nominal values of the states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
+    c: *mut c_void,
+    out: *mut f64,
+    n: usize,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        simple(c, |instance| {
+            instance.nominals(slice_mut(out, n, "the nominal values")?)
+        })
+    }
+}
+
+/// Sets derivatives of inputs for the next step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
+    c: *mut c_void,
+    vr: References,
+    n: usize,
+    order: *const c_int,
+    value: *const f64,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            let order = slice(order, n, "the orders")?;
+            let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
+            for ((vr, order), value) in vr.iter().zip(order).zip(value) {
+                component.instance.set_input_derivative(*vr, *order, *value)?;
+            }
+            Ok(OK)
+        })
+    }
+}
+
+/// Derivatives of outputs are not offered (`maxOutputDerivativeOrder` is 0).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+    c: *mut c_void,
+    _vr: References,
+    n: usize,
+    _order: *const c_int,
+    _value: *mut f64,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |_| match n {
+            0 => Ok(OK),
+            _ => Err(Error::new("the FMU gives no derivatives of outputs")),
+        })
+    }
+}
+
+/// Makes a step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DoStep(
+    c: *mut c_void,
+    time: f64,
+    step: f64,
+    _no_set_state_prior: c_int,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { simple(c, |instance| instance.do_step(time, step)) }
+}
+
+/// Steps are finished when they return: there is nothing to cancel.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2CancelStep(c: *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |_| {
+            Err(Error::new(
+                "no step is under way: steps are finished when they return",
+            ))
+        })
+    }
+}
+
+/// The status of a step: there is none under way.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStatus(c: *mut c_void, _kind: c_int, _value: *mut c_int) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { call(c, |_| Ok(DISCARD)) }
+}
+
+/// The last time that was reached (`fmi2LastSuccessfulTime`).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealStatus(c: *mut c_void, kind: c_int, value: *mut f64) -> Status {
+    const LAST_SUCCESSFUL_TIME: c_int = 2;
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |component| {
+            if kind != LAST_SUCCESSFUL_TIME {
+                return Ok(DISCARD);
+            }
+            put(value, component.instance.time(), "the time")?;
+            Ok(OK)
+        })
+    }
+}
+
+/// There is no such status.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetIntegerStatus(c: *mut c_void, _kind: c_int, _value: *mut c_int) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { call(c, |_| Ok(DISCARD)) }
+}
+
+/// Whether the FMU wants the simulation to end (`fmi2Terminated`): never.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBooleanStatus(c: *mut c_void, kind: c_int, value: *mut c_int) -> Status {
+    const TERMINATED: c_int = 3;
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        call(c, |_| {
+            if kind != TERMINATED {
+                return Ok(DISCARD);
+            }
+            put(value, 0, "the value")?;
+            Ok(OK)
+        })
+    }
+}
+
+/// There is no such status.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStringStatus(
+    c: *mut c_void,
+    _kind: c_int,
+    _value: *mut *const c_char,
+) -> Status {
+    // SAFETY: the standard's contract, see the module.
+    unsafe { call(c, |_| Ok(DISCARD)) }
+}

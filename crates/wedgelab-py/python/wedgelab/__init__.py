@@ -1,0 +1,96 @@
+"""Friction wedges of three-piece freight trucks: cases, runs, results, figures.
+
+Units: a text carries its unit (``"32 deg"``), a bare number is in SI units. ``docs/python.md`` is a short tour.
+"""
+
+from . import nucars
+from ._wedgelab import Quantity, __version__
+from .case import Case, Group, built_in
+from .errors import (
+    CaseError,
+    FileError,
+    Finding,
+    InternalError,
+    MissingDependencyError,
+    NucarsError,
+    Problem,
+    RunError,
+    StepError,
+    UnitError,
+    WedgelabError,
+)
+from .figures import Curve, Figure, Mark, Panel, report_figures
+from .many import run_many
+from .nucars import TruckCase
+from .quasi_static import Sliding, quasi_static
+from .result import Column, DataTable, Record, Result, TruckResult, UnknownColumn
+from .sections import (
+    BolsterSection,
+    Constant,
+    ContactSection,
+    ControlCoilSection,
+    EnvironmentSection,
+    FrictionSection,
+    Ramp,
+    SideFrameSection,
+    SimulationSection,
+    Sine,
+    SweptSine,
+    Table,
+    Triangle,
+    WedgeSection,
+)
+from .step import COORDINATES, Forces, Motion, Wedge
+
+__all__ = [
+    "COORDINATES",
+    "BolsterSection",
+    "Case",
+    "CaseError",
+    "Column",
+    "Constant",
+    "ContactSection",
+    "ControlCoilSection",
+    "Curve",
+    "DataTable",
+    "EnvironmentSection",
+    "Figure",
+    "FileError",
+    "Finding",
+    "Forces",
+    "FrictionSection",
+    "Group",
+    "InternalError",
+    "Mark",
+    "MissingDependencyError",
+    "Motion",
+    "NucarsError",
+    "Panel",
+    "Problem",
+    "Quantity",
+    "Ramp",
+    "Record",
+    "Result",
+    "RunError",
+    "SideFrameSection",
+    "SimulationSection",
+    "Sine",
+    "Sliding",
+    "StepError",
+    "SweptSine",
+    "Table",
+    "Triangle",
+    "TruckCase",
+    "TruckResult",
+    "UnitError",
+    "UnknownColumn",
+    "Wedge",
+    "WedgeSection",
+    "WedgelabError",
+    "__version__",
+    "built_in",
+    "nucars",
+    "quasi_static",
+    "report_figures",
+    "run_many",
+]

@@ -1,0 +1,451 @@
+"""Results: arrays by name with units, tables, summary, figures."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._optional import need
+from ._wedgelab import NativeCase, NativeResult
+from .errors import RunError, WedgelabError
+from .figures import Figure, _figures
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from .case import Case
+
+__all__ = ["AnyResult", "Column", "DataTable", "Record", "Result", "TruckResult"]
+
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Column:
+    """What a column of a result holds."""
+
+    name: str
+    """Its name without unit."""
+    kind: str
+    """What kind of quantity it is, such as ``force``."""
+    unit: str
+    """Unit of its values under the bare name: SI."""
+    frame: str
+    """The axes in which components are given."""
+    reference: str
+    """The point that it refers to."""
+    text: str
+    """What it is, in a few words."""
+
+
+class Record(Mapping[str, Any]):
+    """A nested dict whose keys are attributes too: ``summary.averages.cycles``, ``summary["averages"]["cycles"]``."""
+
+    __slots__ = ("_entries",)
+
+    def __init__(self, entries: Mapping[str, Any]) -> None:
+        self._entries = {key: _record(value) for key, value in entries.items()}
+
+    def __getitem__(self, key: str) -> Any:
+        return self._entries[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._entries)
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+    def __getattr__(self, key: str) -> Any:
+        if key.startswith("__") or key == "_entries":
+            raise AttributeError(key)
+        try:
+            return self._entries[key]
+        except KeyError:
+            known = ", ".join(self._entries)
+            raise AttributeError(f"there is no {key!r} here; there are {known}") from None
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._entries]
+
+    def __repr__(self) -> str:
+        return f"Record({self.to_dict()!r})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Record, (self.to_dict(),))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain nested dicts and lists."""
+        return {key: _plain(value) for key, value in self._entries.items()}
+
+
+def _record(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return Record(value)
+    if isinstance(value, list):
+        return [_record(one) for one in value]
+    return value
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Record):
+        return value.to_dict()
+    if isinstance(value, list):
+        return [_plain(one) for one in value]
+    return value
+
+
+class DataTable(Mapping[str, npt.NDArray[Any]]):
+    """A table: arrays of the same length by name. `to_pandas` makes a DataFrame of it."""
+
+    __slots__ = ("_arrays",)
+
+    def __init__(self, arrays: Mapping[str, npt.NDArray[Any]]) -> None:
+        self._arrays = dict(arrays)
+
+    def __getitem__(self, name: str) -> npt.NDArray[Any]:
+        return self._arrays[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        return len(self._arrays)
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return len(next(iter(self._arrays.values()), ()))
+
+    def to_dict(self) -> dict[str, npt.NDArray[Any]]:
+        """A dict of arrays."""
+        return dict(self._arrays)
+
+    def to_pandas(self) -> Any:
+        """A ``pandas.DataFrame``."""
+        return need("pandas", "to_pandas", "pandas").DataFrame(self._arrays)
+
+    def __repr__(self) -> str:
+        return f"<DataTable of {self.rows} rows: {', '.join(self._arrays)}>"
+
+
+class _Base:
+    """What results of wedges and of half-trucks share."""
+
+    __slots__ = ("_columns", "_native", "_places", "_summary")
+
+    _native: NativeResult
+
+    def __init__(self, native: NativeResult) -> None:
+        self._native = native
+        self._columns: list[Any] | None = None
+        self._places: dict[str, tuple[int, str]] = {}
+        self._summary: Record | None = None
+
+    def _described(self) -> list[Any]:
+        """Columns as the native part has them; names with units are noted with their system on the way."""
+        if self._columns is None:
+            columns = self._native.columns()
+            for place, (name, _, _, _, _, us, si) in enumerate(columns):
+                for system, (_, suffix, _) in (("us", us), ("si", si)):
+                    if suffix:
+                        self._places.setdefault(f"{name}_{suffix}", (place, system))
+            # Bare names win.
+            for place, column in enumerate(columns):
+                self._places[column[0]] = (place, "si")
+            self._columns = columns
+        return self._columns
+
+    @property
+    def columns(self) -> dict[str, Column]:
+        """The columns by their names, in the order of ``result.csv``."""
+        return {
+            name: Column(name, kind, si[0], frame, reference, text)
+            for name, kind, frame, reference, text, _, si in self._described()
+        }
+
+    @property
+    def units(self) -> str:
+        """Units of the summary, of figures and of files: ``us`` or ``si``."""
+        return self._native.units
+
+    def _place(self, name: str) -> tuple[int, str]:
+        self._described()
+        try:
+            return self._places[name]
+        except (KeyError, TypeError):
+            import difflib
+
+            near = difflib.get_close_matches(str(name), self._places, n=1)
+            hint = f"did you mean {near[0]}?" if near else "result.columns lists all"
+            raise UnknownColumn(f"there is no column {name!r}; {hint}") from None
+
+    def __getitem__(self, name: str) -> Floats:
+        """A column: under its bare name in SI units, under its name in a file (``wedge_z_in``) in that unit."""
+        place, system = self._place(name)
+        return self._native.values(place, self._described()[place][5 if system == "us" else 6][2])
+
+    def __contains__(self, name: object) -> bool:
+        self._described()
+        return name in self._places
+
+    def __iter__(self) -> Iterator[str]:
+        return (column[0] for column in self._described())
+
+    def __len__(self) -> int:
+        """Number of columns."""
+        return len(self._described())
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return self._native.rows
+
+    def keys(self) -> list[str]:
+        """Names of the columns, without units."""
+        return list(self)
+
+    def array(self, name: str, units: str | None = None) -> tuple[Floats, str]:
+        """A column by its bare name, and its unit: in ``"us"`` or ``"si"`` units, by default those of the summary."""
+        place, _ = self._place(name)
+        label, _, factor = self._described()[place][_system(units or self.units)]
+        return self._native.values(place, factor), label
+
+    def label(self, name: str, units: str | None = None) -> str:
+        """A column's name in words with its unit, as axes have it."""
+        place, _ = self._place(name)
+        column = self._described()[place]
+        unit = column[_system(units or self.units)][0]
+        words = str(column[0]).replace("_", " ")
+        return f"{words} ({unit})" if unit else words
+
+    def to_dict(self, units: str | None = None) -> dict[str, Floats]:
+        """All columns by their names with units, as in ``result.csv``; ``"us"`` or ``"si"``, by default those of the summary."""
+        system = _system(units or self.units)
+        arrays = {}
+        for place, column in enumerate(self._described()):
+            _, suffix, factor = column[system]
+            name = f"{column[0]}_{suffix}" if suffix else column[0]
+            arrays[name] = self._native.values(place, factor)
+        return arrays
+
+    def to_pandas(self, units: str | None = None) -> Any:
+        """A ``pandas.DataFrame`` of `to_dict`, with the time as its index."""
+        frame = need("pandas", "to_pandas", "pandas").DataFrame(self.to_dict(units))
+        return frame.set_index("time_s") if "time_s" in frame else frame
+
+    def to_xarray(self, units: str | None = None) -> Any:
+        """A ``xarray.Dataset``: variables by their bare names over ``time``, with unit and description as attributes."""
+        xarray = need("xarray", "to_xarray", "xarray")
+        system = _system(units or self.units)
+        variables = {}
+        for place, column in enumerate(self._described()):
+            label, _, factor = column[system]
+            attributes = {"units": label, "long_name": column[4], "frame": column[2], "reference_point": column[3]}
+            dimension = "time" if "time" in self else "row"
+            kept = {key: value for key, value in attributes.items() if value}
+            variables[column[0]] = (dimension, self._native.values(place, factor), kept)
+        time = variables.pop("time", None)
+        coordinates = {} if time is None else {"time": time}
+        attributes = {"name": self.summary.name, "title": self.summary.title, "units": units or self.units}
+        return xarray.Dataset(variables, coords=coordinates, attrs=attributes)
+
+    @property
+    def summary(self) -> Record:
+        """What ``summary.json`` holds: averages, extremes, ledger, statistics, assumptions; with attributes for keys."""
+        if self._summary is None:
+            self._summary = Record(self._native.summary())
+        return self._summary
+
+    @property
+    def assumptions(self) -> list[str]:
+        """What the numbers rest on."""
+        return list(self.summary.assumptions)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What makes the numbers doubtful; empty for a sound run."""
+        return list(self.summary.warnings)
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether the run came to its end."""
+        return self._native.stopped is None
+
+    def _energies(self) -> DataTable:
+        names = ["time"] if "time" in self else []
+        names += [column[0] for column in self._described() if column[1] == "energy"]
+        return DataTable({name: self[name] for name in names})
+
+    @property
+    def ledger_history(self) -> DataTable:
+        """The energy ledger over time, J: stored energies, works, losses, and the residual."""
+        return self._energies()
+
+    def _loop(self, ax: Axes | None, over: str, column: str, options: dict[str, Any]) -> Axes:
+        if ax is None:
+            ax = need("matplotlib.pyplot", "plotting", "plot").figure(layout="constrained").add_subplot()
+        options.setdefault("label", self.summary.name)
+        ax.plot(self.array(over)[0], self.array(column)[0], **options)
+        ax.set_xlabel(self.label(over))
+        ax.set_ylabel(self.label(column))
+        return ax
+
+
+class UnknownColumn(WedgelabError, KeyError):
+    """There is no column of this name."""
+
+
+def _system(units: str) -> int:
+    """The place of a system of units in a native column."""
+    try:
+        return {"us": 5, "si": 6}[units]
+    except (KeyError, TypeError):
+        raise WedgelabError(f'units cannot be {units!r}; write "us" or "si"') from None
+
+
+class Result(_Base):
+    """What came out of a case's run.
+
+    ``result["wedge_z"]`` is an array in SI units, ``result["wedge_z_in"]`` the same in inches; `columns` says what there is.
+    """
+
+    __slots__ = ()
+
+    @property
+    def case(self) -> Case:
+        """The case that was run."""
+        from .case import Case
+
+        native = self._native.case
+        if native is None:
+            raise WedgelabError("this result has no case")
+        return Case._of(native)
+
+    @property
+    def events(self) -> DataTable:
+        """Changes of contact states: time (s), face, corner, from, to. The first 500; ``summary.events.total`` counts all."""
+        listed = self.summary.events.listed
+        columns = {"time": float, "face": str, "corner": str, "from": str, "to": str}
+        return DataTable({name: np.array([event[name] for event in listed], dtype=kind) for name, kind in columns.items()})
+
+    @property
+    def ledger(self) -> DataTable:
+        """The energy ledger at the end, in the summary's units: entry, value, unit."""
+        ledger = self.summary.ledger
+        entries = {"stored_at_start": ledger.stored_at_start, **ledger.entries}
+        return DataTable(
+            {
+                "entry": np.array(list(entries)),
+                "value": np.array([measure.value for measure in entries.values()], dtype=float),
+                "unit": np.array([measure.unit for measure in entries.values()]),
+            }
+        )
+
+    def figures(self) -> dict[str, Figure]:
+        """The report's figures of this run by their names."""
+        from ._wedgelab import run_figures
+
+        return _figures(run_figures(self._native))
+
+    def plot_hysteresis(
+        self,
+        ax: Axes | None = None,
+        *,
+        column: str = "vertical_wedge_force",
+        over: str = "bolster_vertical",
+        **options: Any,
+    ) -> Axes:
+        """Draws a column over another, by default the loop of the wedge's vertical force over the bolster's travel.
+
+        In the units of the summary. ``options`` go to Matplotlib's ``plot``. Gives the axes.
+        """
+        return self._loop(ax, over, column, options)
+
+    def write(self, folder: str | os.PathLike[str], *, force: bool = False) -> list[str]:
+        """Writes what ``wedgelab run`` writes into a folder: result.csv, result.mat, case.toml, summary.json.
+
+        Existing results are overwritten only with ``force``.
+        """
+        return self._native.write(folder, force)
+
+    def __repr__(self) -> str:
+        how = "" if self.is_complete else ", incomplete"
+        return f"<Result of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        header, values = self._native.parts()
+        native = self._native.case
+        return (_result_of_parts, (None if native is None else native.to_toml(), header, values))
+
+
+class TruckResult(_Base):
+    """What came out of a half-truck's run; columns and their units as in `Result`."""
+
+    __slots__ = ()
+
+    @property
+    def ledger(self) -> DataTable:
+        """The energy ledger at the end, in the summary's units: entry, value, unit."""
+        entries = self.summary.ledger
+        return DataTable(
+            {
+                "entry": np.array(list(entries)),
+                "value": np.array([measure.value for measure in entries.values()], dtype=float),
+                "unit": np.array([measure.unit for measure in entries.values()]),
+            }
+        )
+
+    def plot_hysteresis(
+        self, wedge: int | None = None, ax: Axes | None = None, *, over: str = "input_vertical", **options: Any
+    ) -> Axes:
+        """Draws the column friction of a wedge (by its number in the file; without it, the first) over the input's travel."""
+        number = next(iter(self.summary.wedges)) if wedge is None else wedge
+        options.setdefault("label", f"{self.summary.name}, wedge {number}")
+        return self._loop(ax, over, f"wedge_{number}_column_friction", options)
+
+    def __repr__(self) -> str:
+        how = "" if self.is_complete else ", incomplete"
+        return f"<TruckResult of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_truck_of_parts, self._native.parts())
+
+
+AnyResult = Union[Result, TruckResult]
+
+
+def _result_of_parts(case: str | None, header: bytes, values: Floats) -> Result:
+    if case is None:
+        raise WedgelabError("this saved result has no case")
+    native = NativeCase.parse(case, "case.toml", "", {})
+    return Result(native.result_of_parts(header, values))
+
+
+def _truck_of_parts(header: bytes, values: Floats) -> TruckResult:
+    return TruckResult(NativeResult.truck_of_parts(header, values))
+
+
+def checked(result: Any, incomplete: str) -> Any:
+    """The result, or, if it is incomplete and that is not wanted, an exception that has it."""
+    if incomplete not in ("raise", "keep"):
+        raise WedgelabError(f'incomplete cannot be {incomplete!r}; write "raise" or "keep"')
+    stopped = result._native.stopped
+    if stopped is None or incomplete == "keep":
+        return result
+    raise incomplete_error(result)
+
+
+def incomplete_error(result: Any) -> RunError:
+    """Why a result is incomplete."""
+    time, reason = result._native.stopped
+    message = f"the run {result.summary.name} stopped at {time} s and is incomplete: {reason}"
+    advice = (
+        "the exception's `result` has what was computed until then; values far from the thesis's are the first suspects: try a softer "
+        "contact.stiffness, a larger friction.reference_speed, a looser simulation.relative_tolerance"
+    )
+    return RunError(message, f"  × {message}\n  help: {advice}", result)

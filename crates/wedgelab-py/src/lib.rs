@@ -1,0 +1,54 @@
+//! The native part of the Python package `wedgelab`: what its Python part calls.
+//!
+//! Python code in `python/wedgelab` gives it names, types and tables; the work is done by lower floors. One module a thing:
+//! [`case`], [`outcome`] (results), [`run`] and [`many`] (running), [`step`] (users' own loops), [`figures`], [`nucars`] and [`truck`], [`quasi_static`], [`quantity`], and
+//! [`values`] and [`errors`] for the way between the languages.
+//!
+//! Nothing panics through: what calls into lower floors runs in [`errors::guarded`].
+
+use pyo3::prelude::*;
+
+mod case;
+mod errors;
+mod figures;
+mod many;
+mod nucars;
+mod outcome;
+mod quantity;
+mod quasi_static;
+mod run;
+mod step;
+mod truck;
+mod values;
+
+/// The native part of `wedgelab`.
+#[pymodule]
+mod _wedgelab {
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use crate::case::{NativeCase, built_in_groups};
+    #[pymodule_export]
+    use crate::errors::fail_inside;
+    #[pymodule_export]
+    use crate::figures::{report_figures, run_figures};
+    #[pymodule_export]
+    use crate::many::run_many;
+    #[pymodule_export]
+    use crate::nucars::{NativeFile, check_files, read_file};
+    #[pymodule_export]
+    use crate::outcome::NativeResult;
+    #[pymodule_export]
+    use crate::quantity::{Quantity, to_si};
+    #[pymodule_export]
+    use crate::quasi_static::slide;
+    #[pymodule_export]
+    use crate::step::NativeWedge;
+    #[pymodule_export]
+    use crate::truck::{NativeTruckCase, built_in_trucks};
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -1,0 +1,163 @@
+//! Many runs at a time: any number of workers gives the same results in the same order.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+use study::case::Case;
+use study::truck::TruckCase;
+
+use crate::case::NativeCase;
+use crate::outcome::{NativeResult, Table};
+use crate::run::{Failure, outcome};
+use crate::truck::{self, NativeTruckCase};
+
+/// How often Python is asked for signals.
+const INTERVAL: Duration = Duration::from_millis(50);
+
+/// A case of either kind.
+enum Work {
+    Wedge(Arc<Case>),
+    Truck(Arc<TruckCase>),
+}
+
+impl Work {
+    fn name(&self) -> &str {
+        match self {
+            Self::Wedge(case) => &case.name,
+            Self::Truck(case) => &case.name,
+        }
+    }
+
+    fn run(&self, columns: Option<&[String]>, cancelled: &AtomicBool) -> Result<Table, Failure> {
+        let go_on = |_: f64| {
+            if cancelled.load(Ordering::Relaxed) {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        match self {
+            Self::Wedge(case) => {
+                let mut table = Table::of_run(outcome(case, go_on)?);
+                table.keep(columns);
+                Ok(table)
+            }
+            Self::Truck(case) => truck::outcome(case, columns, go_on),
+        }
+    }
+}
+
+/// A result or the exception that stands for it.
+type Slot = Result<Table, Failure>;
+
+/// Runs cases on `workers` threads; the list has a result or an exception for each, in their order. `progress` is called
+/// with how many are done.
+#[pyfunction]
+#[pyo3(signature = (cases, workers, columns, progress))]
+pub fn run_many(
+    py: Python<'_>,
+    cases: Vec<Bound<'_, PyAny>>,
+    workers: usize,
+    columns: Option<Vec<String>>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Vec<Py<PyAny>>> {
+    let work = cases.iter().map(|case| {
+        if let Ok(case) = case.cast::<NativeCase>() {
+            return Ok(Work::Wedge(Arc::clone(&case.get().case)));
+        }
+        let case = case.cast::<NativeTruckCase>()?;
+        Ok(Work::Truck(Arc::clone(&case.get().case)))
+    });
+    let work: Vec<Work> = work.collect::<PyResult<_>>()?;
+    let slots = py.detach(|| all(&work, workers, columns.as_deref(), progress.as_ref()))?;
+    let results = work.iter().zip(slots).map(|(work, slot)| match slot {
+        Some(Ok(table)) => {
+            let case = match work {
+                Work::Wedge(case) => Some(Arc::clone(case)),
+                Work::Truck(_) => None,
+            };
+            Ok(Py::new(py, NativeResult::new(case, table))?.into_any())
+        }
+        Some(Err(failure)) => Ok(failure.error(py, work.name()).into_value(py).into_any()),
+        None => {
+            let lost = Failure::Panic("a worker was lost".to_owned());
+            Ok(lost.error(py, work.name()).into_value(py).into_any())
+        }
+    });
+    results.collect()
+}
+
+/// Runs all, telling Python of it; an exception there (Ctrl-C) ends all runs within a step each.
+fn all(
+    work: &[Work],
+    workers: usize,
+    columns: Option<&[String]>,
+    progress: Option<&Py<PyAny>>,
+) -> PyResult<Vec<Option<Slot>>> {
+    let (next, cancelled) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let slots: Vec<Mutex<Option<Slot>>> = work.iter().map(|_| Mutex::new(None)).collect();
+    let (done, finished) = mpsc::channel::<()>();
+    let said = thread::scope(|scope| {
+        for _ in 0..workers.clamp(1, work.len().max(1)) {
+            let done = done.clone();
+            let (next, cancelled, slots) = (&next, &cancelled, &slots);
+            scope.spawn(move || {
+                while !cancelled.load(Ordering::Relaxed) {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let (Some(work), Some(slot)) = (work.get(index), slots.get(index)) else {
+                        return;
+                    };
+                    let result = work.run(columns, cancelled);
+                    *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+                    // Nobody listens only when all is cancelled.
+                    let _ = done.send(());
+                }
+            });
+        }
+        drop(done);
+        let said = listen(&finished, progress);
+        if said.is_err() {
+            cancelled.store(true, Ordering::Relaxed);
+        }
+        said
+    });
+    said?;
+    let slots = slots.into_iter();
+    Ok(slots
+        .map(|slot| slot.into_inner().unwrap_or_else(PoisonError::into_inner))
+        .collect())
+}
+
+/// Until all workers have ended: passes on how many runs are done, and hears signals.
+fn listen(finished: &mpsc::Receiver<()>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+    let (mut count, mut told) = (0_usize, 0_usize);
+    loop {
+        let ended = match finished.recv_timeout(INTERVAL) {
+            Ok(()) => {
+                count += 1;
+                // Many short runs: take all that have ended.
+                count += finished.try_iter().count();
+                // So that they are not told one by one.
+                thread::sleep(Duration::from_millis(2));
+                false
+            }
+            Err(mpsc::RecvTimeoutError::Timeout) => false,
+            Err(mpsc::RecvTimeoutError::Disconnected) => true,
+        };
+        Python::attach(|py| {
+            py.check_signals()?;
+            if let Some(progress) = progress.filter(|_| count > told || ended) {
+                told = count;
+                progress.call1(py, (count,))?;
+            }
+            PyResult::Ok(())
+        })?;
+        if ended {
+            return Ok(());
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! What came out of a run: columns, summary, and files.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use ::quantity::System as Units;
+use mechanics::output::Column;
+use numpy::{PyArray1, PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyList};
+use report::files::Folder;
+use report::run_files;
+use serde::{Deserialize, Serialize};
+use study::case::Case;
+use study::result::RunResult;
+use study::summary::Summary;
+use study::truck::{TruckResult, TruckSummary};
+
+use crate::case::NativeCase;
+use crate::errors::{guarded, simple};
+use crate::values;
+
+/// A summary of either kind.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum AnySummary {
+    /// Of the wedge.
+    Wedge(Box<Summary>),
+    /// Of a half-truck.
+    Truck(Box<TruckSummary>),
+}
+
+/// The table of a run and its summary.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// The columns.
+    pub columns: Vec<Column>,
+    /// The values (SI), one vector a column.
+    pub values: Vec<Vec<f64>>,
+    /// The summary.
+    pub summary: AnySummary,
+}
+
+impl Table {
+    /// Of a wedge's run.
+    pub fn of_run(result: RunResult) -> Self {
+        Self {
+            columns: result.columns,
+            values: result.values,
+            summary: AnySummary::Wedge(Box::new(result.summary)),
+        }
+    }
+
+    /// Forgets all columns but these, by their names without unit.
+    pub fn keep(&mut self, columns: Option<&[String]>) {
+        let Some(wanted) = columns else { return };
+        let all = std::mem::take(&mut self.columns)
+            .into_iter()
+            .zip(std::mem::take(&mut self.values));
+        (self.columns, self.values) = all.filter(|(column, _)| wanted.contains(&column.name)).unzip();
+    }
+
+    /// Of a half-truck's run.
+    pub fn of_truck(result: TruckResult) -> Self {
+        Self {
+            columns: result.columns,
+            values: result.values,
+            summary: AnySummary::Truck(Box::new(result.summary)),
+        }
+    }
+}
+
+/// What a result is taken apart into, besides its values.
+#[derive(Serialize, Deserialize)]
+struct Header {
+    version: u32,
+    columns: Vec<Column>,
+    summary: AnySummary,
+}
+
+const HEADER_VERSION: u32 = 1;
+
+/// A result.
+#[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeResult")]
+pub struct NativeResult {
+    /// The wedge's case; half-trucks have none.
+    pub case: Option<Arc<Case>>,
+    /// What came out.
+    pub table: Table,
+}
+
+impl NativeResult {
+    /// Of a case and what came out of it.
+    pub fn new(case: Option<Arc<Case>>, table: Table) -> Self {
+        Self { case, table }
+    }
+
+    /// Units of its summary.
+    fn units_of(&self) -> Units {
+        match &self.table.summary {
+            AnySummary::Wedge(summary) => summary.units,
+            AnySummary::Truck(summary) => summary.units,
+        }
+    }
+
+    /// Case and result as lower floors have them; `None` for half-trucks.
+    pub fn outcome(&self) -> Option<(Case, RunResult)> {
+        let (Some(case), AnySummary::Wedge(summary)) = (&self.case, &self.table.summary) else {
+            return None;
+        };
+        let result = RunResult {
+            columns: self.table.columns.clone(),
+            values: self.table.values.clone(),
+            summary: (**summary).clone(),
+        };
+        Some(((**case).clone(), result))
+    }
+
+    /// The half-truck's result as lower floors have it; `None` for wedges.
+    pub fn truck(&self) -> Option<TruckResult> {
+        let AnySummary::Truck(summary) = &self.table.summary else {
+            return None;
+        };
+        Some(TruckResult {
+            columns: self.table.columns.clone(),
+            values: self.table.values.clone(),
+            summary: (**summary).clone(),
+        })
+    }
+
+    /// The reverse of [`NativeResult::parts`].
+    pub fn of_parts(
+        py: Python<'_>,
+        case: Option<Arc<Case>>,
+        header: &[u8],
+        values: &PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<Self> {
+        let wrong = |text: String| {
+            let help = "it was saved by another version of wedgelab; run the case again";
+            simple(
+                py,
+                "WedgelabError",
+                &format!("this saved result cannot be read: {text}"),
+                help,
+            )
+        };
+        let header: Header = rmp_serde::from_slice(header).map_err(|error| wrong(error.to_string()))?;
+        if header.version != HEADER_VERSION {
+            return Err(wrong(format!(
+                "it has version {}, not {HEADER_VERSION}",
+                header.version
+            )));
+        }
+        if values.shape()[0] != header.columns.len() {
+            return Err(wrong("columns and values differ in number".to_owned()));
+        }
+        let rows = values.as_array();
+        let values = rows.rows().into_iter().map(|row| row.to_vec()).collect();
+        Ok(Self::new(
+            case,
+            Table {
+                columns: header.columns,
+                values,
+                summary: header.summary,
+            },
+        ))
+    }
+}
+
+#[pymethods]
+impl NativeResult {
+    /// Columns: name, kind, frame, reference, text, (unit, suffix, factor) for US and for SI.
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let columns = self.table.columns.iter().map(|column| {
+            let kind = serde_json::to_value(column.kind).unwrap_or_default();
+            let of = |units| {
+                let factor = column.kind.from_si(units);
+                (column.kind.label(units), column.kind.suffix(units), factor)
+            };
+            (
+                column.name.as_str(),
+                kind.as_str().unwrap_or_default().to_owned(),
+                column.frame.as_ref(),
+                column.reference.as_ref(),
+                column.text.as_str(),
+                of(Units::Us),
+                of(Units::Si),
+            )
+        });
+        PyList::new(py, columns.collect::<Vec<_>>())
+    }
+
+    /// The values of a column, times a factor.
+    fn values<'py>(
+        &self,
+        py: Python<'py>,
+        column: usize,
+        factor: f64,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let Some(values) = self.table.values.get(column) else {
+            return Err(PyIndexError::new_err("there is no such column"));
+        };
+        if factor == 1.0 {
+            return Ok(PyArray1::from_slice(py, values));
+        }
+        Ok(PyArray1::from_iter(py, values.iter().map(|value| value * factor)))
+    }
+
+    #[getter]
+    fn rows(&self) -> usize {
+        self.table.values.first().map_or(0, Vec::len)
+    }
+
+    #[getter]
+    fn units(&self) -> &'static str {
+        self.units_of().name()
+    }
+
+    /// The case of a wedge's run.
+    #[getter]
+    fn case(&self) -> Option<NativeCase> {
+        let case = Arc::clone(self.case.as_ref()?);
+        Some(NativeCase { case })
+    }
+
+    /// Why and when it stopped, if it is not complete.
+    #[getter]
+    fn stopped(&self) -> Option<(f64, String)> {
+        let stopped = match &self.table.summary {
+            AnySummary::Wedge(summary) => summary.stopped.as_ref(),
+            AnySummary::Truck(summary) => summary.stopped.as_ref(),
+        };
+        stopped.map(|stopped| (stopped.time, stopped.reason.clone()))
+    }
+
+    /// The summary as nested dicts, as in `summary.json`.
+    fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let value = match &self.table.summary {
+            AnySummary::Wedge(summary) => serde_json::to_value(summary),
+            AnySummary::Truck(summary) => serde_json::to_value(summary),
+        };
+        let value = value.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        values::from_json(py, &value)
+    }
+
+    /// Everything but the case, as bytes and one array (columns by rows).
+    fn parts<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyArray2<f64>>)> {
+        let header = Header {
+            version: HEADER_VERSION,
+            columns: self.table.columns.clone(),
+            summary: self.table.summary.clone(),
+        };
+        let header =
+            rmp_serde::to_vec_named(&header).map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let values = if self.table.values.is_empty() {
+            PyArray2::zeros(py, [0, 0], false)
+        } else {
+            PyArray2::from_vec2(py, &self.table.values)?
+        };
+        Ok((PyBytes::new(py, &header), values))
+    }
+
+    /// The half-truck's result that was taken apart.
+    #[staticmethod]
+    fn truck_of_parts(py: Python<'_>, header: &[u8], values: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
+        Self::of_parts(py, None, header, &values)
+    }
+
+    /// Writes the files that `wedgelab run` writes.
+    fn write(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<Vec<&'static str>> {
+        guarded(py, || {
+            let Some((case, result)) = self.outcome() else {
+                let message = "only results of wedges can be written";
+                return Err(simple(
+                    py,
+                    "WedgelabError",
+                    message,
+                    "use to_pandas().to_csv(...)",
+                ));
+            };
+            let failed = |error: report::files::FileError| {
+                let text = crate::errors::shown(&error);
+                crate::errors::raise(py, "FileError", (error.to_string(), text))
+            };
+            let folder = Folder::check(folder, &run_files::NAMES, force).map_err(failed)?;
+            run_files::write(&folder, &case, &result).map_err(failed)?;
+            Ok(run_files::NAMES.to_vec())
+        })
+    }
+}

@@ -1,0 +1,150 @@
+//! Running a case without the interpreter lock, but so that Ctrl-C is heard.
+
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use pyo3::prelude::*;
+use study::case::Case;
+use study::result::RunResult;
+use study::run::{Run, RunError};
+use study::summary::Stopped;
+
+use crate::errors::{internal, panic_text, simple};
+use crate::outcome::{NativeResult, Table};
+
+/// How often Python is asked for signals and told of progress.
+const INTERVAL: Duration = Duration::from_millis(50);
+/// How many steps are made before the clock is read.
+const STEPS: u32 = 64;
+
+/// What Python wants to know of a run, and what it says to it.
+pub struct Progress {
+    call: Option<Py<PyAny>>,
+    /// Signals reach the main thread only; elsewhere there is nobody to ask.
+    interruptible: bool,
+    steps: u32,
+    asked: Instant,
+    /// Why the run must end.
+    error: Option<PyErr>,
+}
+
+impl Progress {
+    /// With a function that is called with the time reached (s).
+    pub fn new(call: Option<Py<PyAny>>, interruptible: bool) -> Self {
+        Self {
+            call,
+            interruptible,
+            steps: 0,
+            asked: Instant::now(),
+            error: None,
+        }
+    }
+
+    /// Tells the time reached (s); whether to go on.
+    pub fn tell(&mut self, time: f64) -> ControlFlow<()> {
+        self.steps += 1;
+        if self.steps < STEPS || (self.call.is_none() && !self.interruptible) {
+            return ControlFlow::Continue(());
+        }
+        self.steps = 0;
+        if self.asked.elapsed() < INTERVAL {
+            return ControlFlow::Continue(());
+        }
+        let said = Python::attach(|py| {
+            py.check_signals()?;
+            if let Some(call) = &self.call {
+                call.call1(py, (time,))?;
+            }
+            PyResult::Ok(())
+        });
+        self.asked = Instant::now();
+        match said {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                self.error = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    }
+
+    /// Why the run had to end.
+    pub fn into_error(self) -> Option<PyErr> {
+        self.error
+    }
+}
+
+/// Why there is no result.
+#[derive(Debug)]
+pub enum Failure {
+    /// The run cannot begin.
+    Begin(String),
+    /// A mistake of ours.
+    Panic(String),
+}
+
+impl Failure {
+    /// As an exception.
+    pub fn error(&self, py: Python<'_>, name: &str) -> PyErr {
+        match self {
+            Self::Begin(reason) => simple(
+                py,
+                "RunError",
+                &format!("the run {name} cannot begin: {reason}"),
+                "look for values that are out of proportion; the built-in cases run",
+            ),
+            Self::Panic(text) => internal(py, text),
+        }
+    }
+}
+
+/// Runs a case until its end, or until it is told to stop; panics become failures.
+pub fn outcome(case: &Case, progress: impl FnMut(f64) -> ControlFlow<()>) -> Result<RunResult, Failure> {
+    let run = AssertUnwindSafe(|| drive(case, progress));
+    match catch_unwind(run) {
+        Ok(Ok(result)) => Ok(result),
+        Ok(Err(error)) => Err(Failure::Begin(error.to_string())),
+        Err(panic) => Err(Failure::Panic(panic_text(panic.as_ref()))),
+    }
+}
+
+fn drive(case: &Case, mut progress: impl FnMut(f64) -> ControlFlow<()>) -> Result<RunResult, RunError> {
+    let mut run = Run::new(case)?;
+    let mut reason = None;
+    while reason.is_none() && !run.is_finished() {
+        if let Err(error) = run.advance() {
+            reason = Some(error.to_string());
+        } else if progress(run.time()).is_break() {
+            reason = Some("it was stopped from outside".to_owned());
+        }
+    }
+    let stopped = reason.map(|reason| Stopped {
+        time: run.time(),
+        reason,
+        contacts: run.contact_states(),
+    });
+    Ok(run.result(stopped))
+}
+
+/// Runs a case for Python.
+pub fn run_one(
+    py: Python<'_>,
+    case: &Arc<Case>,
+    columns: Option<&[String]>,
+    mut progress: Progress,
+) -> PyResult<NativeResult> {
+    let done = py.detach(|| {
+        let done = outcome(case, |time| progress.tell(time));
+        done.map(|result| {
+            let mut table = Table::of_run(result);
+            table.keep(columns);
+            table
+        })
+    });
+    if let Some(error) = progress.into_error() {
+        return Err(error);
+    }
+    let table = done.map_err(|failure| failure.error(py, &case.name))?;
+    Ok(NativeResult::new(Some(Arc::clone(case)), table))
+}

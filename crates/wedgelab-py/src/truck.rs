@@ -1,0 +1,295 @@
+//! Half-trucks: cases from files of NUCARS, and their runs.
+
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use ::nucars::together::{Instead, RunFiles, Texts, find};
+use ::nucars::truck::Yaw;
+use ::quantity::{System as Units, nearest};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyType};
+use serde::{Deserialize, Serialize};
+use study::truck::catalog::{self, Entry, YawCase};
+use study::truck::files::{Settings, case_of_run};
+use study::truck::run::run_while;
+use study::truck::{TruckCase, TruckStart, options};
+
+use crate::errors::{findings, guarded, raise, simple};
+use crate::nucars::load_error;
+use crate::outcome::{NativeResult, Table};
+use crate::run::{Failure, Progress};
+
+/// Where a case comes from, and what is needed to make it again elsewhere.
+#[derive(Clone, Serialize, Deserialize)]
+enum Origin {
+    BuiltIn {
+        name: String,
+        settings: Settings,
+    },
+    Files {
+        path: PathBuf,
+        texts: Box<Texts>,
+        settings: Settings,
+    },
+}
+
+/// A half-truck's case.
+#[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeTruckCase")]
+pub struct NativeTruckCase {
+    /// The case.
+    pub case: Arc<TruckCase>,
+    origin: Origin,
+}
+
+fn refused(py: Python<'_>, message: &str, help: &str) -> PyErr {
+    simple(py, "NucarsError", message, help)
+}
+
+fn make(py: Python<'_>, origin: Origin) -> PyResult<NativeTruckCase> {
+    let case = match &origin {
+        Origin::BuiltIn { name, settings } => {
+            let entry = entry(py, name)?;
+            let made = entry.case_with(settings);
+            made.map_err(|error| refused(py, &error, "choose another interval or another option"))?
+        }
+        Origin::Files {
+            path,
+            texts,
+            settings,
+        } => {
+            let files = RunFiles::of_texts(texts).map_err(|error| load_error(py, &error))?;
+            of_files(py, path, &files, settings)?
+        }
+    };
+    Ok(NativeTruckCase {
+        case: Arc::new(case),
+        origin,
+    })
+}
+
+fn entry(py: Python<'_>, name: &str) -> PyResult<Entry> {
+    catalog::entry(name).ok_or_else(|| {
+        let names: Vec<String> = catalog::entries().iter().map(Entry::name).collect();
+        let help = match nearest(name, names.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean {near}? wedgelab.nucars.built_in() lists all"),
+            None => "name a run file, or one of wedgelab.nucars.built_in()".to_owned(),
+        };
+        refused(
+            py,
+            &format!("there is neither a file nor a built-in run `{name}`"),
+            &help,
+        )
+    })
+}
+
+fn of_files(py: Python<'_>, path: &Path, files: &RunFiles, settings: &Settings) -> PyResult<TruckCase> {
+    if files.has_errors() {
+        let all = files.findings().flat_map(|findings| findings.list());
+        let errors: Vec<_> = all
+            .filter(|one| one.severity() == ::nucars::Severity::Error)
+            .collect();
+        let message = format!(
+            "{} cannot be run: {} error(s) in its files",
+            path.display(),
+            errors.len()
+        );
+        let shown: Vec<String> = errors.iter().map(|one| crate::errors::shown(*one)).collect();
+        let list = findings(py, errors.iter().copied())?;
+        let text = format!("  × {message}\n\n{}", shown.join("\n\n"));
+        return Err(raise(py, "NucarsError", (message, text, list)));
+    }
+    case_of_run(path, files, settings).map_err(|error| {
+        let message = format!("{} cannot be run: {error}", path.display());
+        refused(
+            py,
+            &message,
+            "wedgelab.nucars.check tells what is doubtful about the files",
+        )
+    })
+}
+
+#[pymethods]
+impl NativeTruckCase {
+    /// From a run file, or the name of a built-in run.
+    #[classmethod]
+    #[pyo3(signature = (path, system, data, input, yaw, options, duration, interval, start, all_outputs, units, tolerance))]
+    fn read(
+        class: &Bound<'_, PyType>,
+        path: PathBuf,
+        system: Option<PathBuf>,
+        data: Option<PathBuf>,
+        input: Option<PathBuf>,
+        yaw: Option<&str>,
+        options: Vec<(String, String)>,
+        duration: Option<f64>,
+        interval: f64,
+        start: &str,
+        all_outputs: bool,
+        units: &str,
+        tolerance: f64,
+    ) -> PyResult<Self> {
+        let py = class.py();
+        let unknown = |what: &str, value: &str, choices: &str| {
+            refused(
+                py,
+                &format!("{what} cannot be \"{value}\""),
+                &format!("write one of {choices}"),
+            )
+        };
+        if !(tolerance > 0.0 && tolerance < 1.0) {
+            let message =
+                format!("relative_tolerance is {tolerance}; it must be between 0 and 1, both excluded");
+            return Err(refused(py, &message, "write for example 1e-5"));
+        }
+        let mut settings = Settings {
+            start: match start {
+                "drawn" => TruckStart::Drawn,
+                "equilibrium" => TruckStart::Equilibrium,
+                other => return Err(unknown("start", other, "\"drawn\", \"equilibrium\"")),
+            },
+            all_outputs,
+            duration,
+            interval,
+            relative_tolerance: tolerance,
+            units: match units {
+                "us" => Units::Us,
+                "si" => Units::Si,
+                other => return Err(unknown("units", other, "\"us\", \"si\"")),
+            },
+            ..Settings::default()
+        };
+        settings.choices.yaw = match yaw {
+            None | Some("printed") => Yaw::AsPrinted,
+            Some("drop") => Yaw::Dropped,
+            Some("drive") => Yaw::Driven,
+            Some(other) => return Err(unknown("yaw", other, "\"printed\", \"drop\", \"drive\"")),
+        };
+        for (name, value) in options {
+            let known = self::options::all().map(|(name, what)| format!("{name} ({what})"));
+            options::set(&mut settings.choices, &format!("{name}={value}"))
+                .map_err(|error| refused(py, &error.to_string(), &known.collect::<Vec<_>>().join("; ")))?;
+        }
+        guarded(py, || {
+            let name = path.to_str().unwrap_or("");
+            if !path.is_file() && (catalog::entry(name).is_some() || name.starts_with("nucars_")) {
+                let entry = entry(py, name)?;
+                let fits = match yaw {
+                    None => true,
+                    Some("printed") => entry.yaw != YawCase::Intended,
+                    Some(_) => entry.yaw == YawCase::Intended,
+                };
+                if !fits {
+                    return Err(refused(
+                        py,
+                        &format!("yaw does not fit the built-in run {name}"),
+                        "built-in runs with yaw as intended end with _yaw, those as printed with _yaw_as_printed",
+                    ));
+                }
+                if system.is_some() || data.is_some() || input.is_some() {
+                    let message = format!("the built-in run {name} has its own files, and others are given");
+                    return Err(refused(py, &message, "name a run file, or leave them out"));
+                }
+                let name = name.to_owned();
+                return make(py, Origin::BuiltIn { name, settings });
+            }
+            let path = find(&path).map_err(|error| load_error(py, &error))?;
+            let instead = Instead { system, data, input };
+            let files = RunFiles::read(&path, &instead).map_err(|error| load_error(py, &error))?;
+            // Before they are written down: what is missing is told with its place.
+            of_files(py, &path, &files, &settings)?;
+            let texts = Box::new(files.texts());
+            make(
+                py,
+                Origin::Files {
+                    path,
+                    texts,
+                    settings,
+                },
+            )
+        })
+    }
+
+    /// The reverse of `saved`.
+    #[staticmethod]
+    fn load(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
+        let origin = rmp_serde::from_slice(bytes).map_err(|error| {
+            let help = "it was saved by another version of wedgelab; read the files again";
+            refused(py, &format!("this saved case cannot be read: {error}"), help)
+        })?;
+        guarded(py, || make(py, origin))
+    }
+
+    /// All that is needed to make the case again, the texts of its files included.
+    fn saved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = rmp_serde::to_vec_named(&self.origin);
+        let bytes = bytes.map_err(|error| refused(py, &error.to_string(), ""))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.case.name
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.case.title
+    }
+
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.case.duration
+    }
+
+    #[getter]
+    fn assumptions(&self) -> Vec<String> {
+        self.case.assumptions.clone()
+    }
+
+    /// Runs it to its end without the interpreter lock.
+    #[pyo3(signature = (columns, progress, interruptible))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        columns: Option<Vec<String>>,
+        progress: Option<Py<PyAny>>,
+        interruptible: bool,
+    ) -> PyResult<NativeResult> {
+        let mut progress = Progress::new(progress, interruptible);
+        let done = py.detach(|| outcome(&self.case, columns.as_deref(), |time| progress.tell(time)));
+        if let Some(error) = progress.into_error() {
+            return Err(error);
+        }
+        let table = done.map_err(|failure| failure.error(py, &self.case.name))?;
+        Ok(NativeResult::new(None, table))
+    }
+}
+
+/// Runs a case; panics become failures.
+pub fn outcome(
+    case: &TruckCase,
+    columns: Option<&[String]>,
+    progress: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<Table, Failure> {
+    match catch_unwind(AssertUnwindSafe(|| run_while(case, progress))) {
+        Ok(Ok(result)) => {
+            let mut table = Table::of_truck(result);
+            table.keep(columns);
+            Ok(table)
+        }
+        Ok(Err(error)) => Err(Failure::Begin(error.to_string())),
+        Err(panic) => Err(Failure::Panic(crate::errors::panic_text(panic.as_ref()))),
+    }
+}
+
+/// Names and titles of the built-in runs.
+#[pyfunction]
+pub fn built_in_trucks() -> Vec<(String, String)> {
+    let entries = catalog::entries();
+    entries
+        .iter()
+        .map(|entry| (entry.name(), entry.title()))
+        .collect()
+}

@@ -1,0 +1,145 @@
+//! `wedgelab fmu export`: one case as an FMU.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use fmi::description::{Model, Version};
+use fmi::package::{self, Platform};
+
+use crate::commands::run;
+use crate::failure::{Failure, Message};
+
+/// Write one case as an FMU
+///
+/// The file holds the wedge for model exchange and for co-simulation, the case, a page that documents all variables, and the library for
+/// the platform that this program runs on. It needs nothing else.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab fmu export my.toml -o wedge.fmu
+  wedgelab fmu export cdrun_toe_0_psi_0 -o wedge.fmu --fmi 3
+  wedgelab fmu export my.toml -o simple.fmu --quasi-static")]
+pub struct Arguments {
+    /// Case file, or, if there is no such file, the name of a built-in case
+    case: PathBuf,
+    /// File to write
+    #[arg(long, short, value_name = "FILE")]
+    out: PathBuf,
+    /// Version of the standard
+    #[arg(long, value_name = "VERSION", default_value = "2", value_parser = version)]
+    fmi: Version,
+    /// The quasi-static wedge: without mass, contact stiffness and moments
+    #[arg(long)]
+    quasi_static: bool,
+    /// The truck without its wedges: half a car on a bolster, side frames, springs; with room for four wedges of the case
+    #[arg(long, conflicts_with = "quasi_static")]
+    truck: bool,
+    /// Set one value over those of the case; VALUE is TOML (quotes around text may be left out)
+    #[arg(long, value_name = "PATH.KEY=VALUE")]
+    set: Vec<String>,
+    /// The library for the FMU [default: the one beside this program]
+    #[arg(long, value_name = "FILE")]
+    library: Option<PathBuf>,
+    /// Overwrite an existing file
+    #[arg(long)]
+    force: bool,
+}
+
+fn version(text: &str) -> Result<Version, String> {
+    match text {
+        "2" | "2.0" => Ok(Version::Two),
+        "3" | "3.0" => Ok(Version::Three),
+        _ => Err("write 2 or 3".to_owned()),
+    }
+}
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let case = run::read(&arguments.case, &arguments.set)?;
+    may_write(&arguments.out, arguments.force)?;
+    let (platform, library) = parts(arguments.library.as_deref())?;
+    let model = if arguments.quasi_static {
+        Model::QuasiStatic
+    } else if arguments.truck {
+        Model::Truck
+    } else {
+        Model::Wedge
+    };
+    let description = package::write(&arguments.out, model, arguments.fmi, &case, &library, platform)
+        .map_err(|error| Failure::from(Message::new(error.to_string(), "nothing was written")))?;
+    println!(
+        "Written {}: {} of the case {}, FMI {}, model exchange and co-simulation, {} variables, {} states, for {}.",
+        arguments.out.display(),
+        model.name(),
+        description.case,
+        match arguments.fmi {
+            Version::Two => "2.0",
+            Version::Three => "3.0",
+        },
+        description.variables.len(),
+        description.entries.states.len(),
+        platform.folder(arguments.fmi),
+    );
+    Ok(ExitCode::SUCCESS)
+}
+
+const BUILD: &str = "`cargo build --release -p wedgelab-fmu` makes it, in the folder target/release; `--library FILE` names it where it lies \
+     elsewhere";
+
+/// The platform of this program, and the library for it: the one that is named, or the one beside the program.
+pub(super) fn parts(library: Option<&Path>) -> Result<(Platform, PathBuf), Failure> {
+    let Some(platform) = Platform::here() else {
+        let message = format!(
+            "FMUs know no platform {}-{}",
+            std::env::consts::ARCH,
+            std::env::consts::OS
+        );
+        return Err(Message::new(message, "export on Linux, Windows or macOS").into());
+    };
+    let library = match library {
+        Some(library) if library.is_file() => library.to_path_buf(),
+        Some(library) => {
+            let message = format!("there is no library {}", library.display());
+            return Err(Message::new(message, BUILD).into());
+        }
+        None => beside()?,
+    };
+    Ok((platform, library))
+}
+
+/// Whether a file may be written.
+pub(super) fn may_write(path: &Path, force: bool) -> Result<(), Failure> {
+    if path.is_dir() {
+        let message = format!("{} is a folder", path.display());
+        return Err(Message::new(message, "name a file, such as wedge.fmu").into());
+    }
+    if path.exists() && !force {
+        let message = format!("{} exists", path.display());
+        return Err(Message::new(message, "`--force` overwrites it; or write another name after -o").into());
+    }
+    Ok(())
+}
+
+/// The library beside this program, where cargo puts both.
+fn beside() -> Result<PathBuf, Failure> {
+    let name = format!(
+        "{}wedgelab_fmu{}",
+        std::env::consts::DLL_PREFIX,
+        std::env::consts::DLL_SUFFIX
+    );
+    let program = std::env::current_exe().unwrap_or_default();
+    let folder = program.parent().unwrap_or(Path::new(""));
+    // Tests run programs from the folder `deps` beside it.
+    let places = [folder.join(&name), folder.join("..").join(&name)];
+    match places.into_iter().find(|place| place.is_file()) {
+        Some(place) => Ok(place),
+        None => {
+            let message = format!(
+                "the library {name} is missing beside this program, in {}",
+                folder.display()
+            );
+            Err(Message::new(message, BUILD).into())
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! Programs of the system that checks need; on Debian those that are missing are installed.
+
+use std::process::Command;
+
+use crate::shell;
+
+/// Sees to it that programs are there: each is looked for with `--version`, and the packages of the same names are installed with
+/// `apt-get` if one is missing.
+///
+/// # Errors
+/// A program is missing and cannot be installed; the text says what to do.
+pub fn need(programs: &[&str]) -> Result<(), String> {
+    let missing: Vec<&str> = programs.iter().copied().filter(|name| !is_there(name)).collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    println!("{} is missing and is installed now.", missing.join(", "));
+    // Lists of packages may be missing or old; if they cannot be fetched, those that are there may do.
+    if let Err(error) = apt(&["update"]) {
+        println!("{error}");
+    }
+    let mut arguments = vec!["install", "-y", "--no-install-recommends"];
+    arguments.extend(&missing);
+    apt(&arguments).map_err(|error| format!("{}\n{error}", advice(&missing)))?;
+    if missing.iter().all(|name| is_there(name)) {
+        Ok(())
+    } else {
+        Err(advice(&missing))
+    }
+}
+
+fn is_there(program: &str) -> bool {
+    shell::output(Command::new(program).arg("--version")).is_some()
+}
+
+fn apt(arguments: &[&str]) -> Result<(), String> {
+    let mut command = Command::new("apt-get");
+    command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive");
+    shell::run(&mut command)
+}
+
+fn advice(missing: &[&str]) -> String {
+    format!(
+        "Missing, and could not be installed: {}. On Debian an administrator installs it with `apt-get install {}`; \
+         `cargo xtask test --only` runs other checks without it.",
+        missing.join(", "),
+        missing.join(" ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_that_is_there_is_found_and_another_is_not() {
+        assert!(is_there("cargo"));
+        assert!(!is_there("no-such-program-of-this-name"));
+        assert_eq!(need(&["cargo"]), Ok(()));
+    }
+}

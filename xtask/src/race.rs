@@ -1,0 +1,68 @@
+//! `cargo xtask race`: our integrator and other people's solvers on the same equations, side by side in one run.
+
+pub mod tools;
+
+use std::process::{Command, ExitCode};
+
+use crate::shell::{self, Workspace};
+
+const HELP: &str = "\
+Usage: cargo xtask race [--quick] [--again] [options of the race]
+
+Builds the race and its drivers, installs what they need (Debian: SUNDIALS, Octave; into target/tools: SciPy, Exudyn), runs all
+solvers on the thesis's twelve cases, the planar wedge and the stick test, and writes tables and figures into target/race.
+Runs that are there already are kept; --again begins anew.
+
+  --quick             four cases at three tolerances, without Octave: two to three minutes
+  --cases PART,...    problems whose names contain one of the parts
+  --solvers PART,...  solvers likewise
+  --tolerances T,...  some of 1e-3, 1e-4, ... 1e-9
+  --limit SECONDS     CPU time of a run (60)
+  --kept-only yes     run nothing, judge what was kept";
+
+/// What `--quick` runs.
+const QUICK: [&str; 8] = [
+    "--cases",
+    "vdrun_toe_-0.2_psi_0.012,cdrun_toe_0_psi_0.012,planar_constant,stick",
+    "--tolerances",
+    "1e-3,1e-5,1e-7",
+    "--solvers",
+    "wedgelab,CVODE,diffsol,SciPy,Exudyn",
+    "--limit",
+    "5",
+];
+
+/// Runs the command.
+pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
+    if matches!(arguments, [only] if only == "--help" || only == "-h") {
+        println!("{HELP}");
+        return ExitCode::SUCCESS;
+    }
+    match start(workspace, arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn start(workspace: &Workspace, arguments: &[String]) -> Result<(), String> {
+    let has = |name: &str| arguments.iter().any(|argument| argument == name);
+    let quick = has("--quick");
+    let rest = arguments
+        .iter()
+        .filter(|argument| !matches!(argument.as_str(), "--quick" | "--again"));
+    let folder = workspace.target.join(if quick { "race-quick" } else { "race" });
+    if has("--again") && folder.exists() {
+        std::fs::remove_dir_all(&folder)
+            .map_err(|error| format!("cannot remove {}: {error}", folder.display()))?;
+    }
+    let tools = tools::prepare(workspace, !quick)?;
+    let mut race = Command::new(&tools.race);
+    race.arg("all").args(tools.arguments()).arg("--out").arg(folder);
+    if quick {
+        race.args(QUICK);
+    }
+    shell::run(race.args(rest))
+}

@@ -1,0 +1,166 @@
+//! What the race needs: its programs are built, and what they call is installed.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::shell::{self, Workspace};
+
+/// Debian's SUNDIALS; 6.4 in Debian 12.
+const SUNDIALS: [&str; 1] = ["libsundials-dev"];
+/// Octave with what compiles functions for it.
+const OCTAVE: [&str; 2] = ["octave", "octave-dev"];
+/// The libraries that CVODE's driver is linked with.
+const LIBRARIES: [&str; 4] = [
+    "-lsundials_cvode",
+    "-lsundials_nvecserial",
+    "-lsundials_sunmatrixdense",
+    "-lsundials_sunlinsoldense",
+];
+/// The packages that pip may choose from.
+const PYTHON: [&str; 2] = ["scipy>=1.11,<2", "exudyn>=1.9,<2"];
+
+/// The race's programs.
+pub struct Tools {
+    /// The race itself.
+    pub race: PathBuf,
+    library: PathBuf,
+    drivers: PathBuf,
+    cvode: PathBuf,
+    python: PathBuf,
+    octave: Option<PathBuf>,
+}
+
+impl Tools {
+    /// As the race takes them.
+    pub fn arguments(&self) -> Vec<OsString> {
+        let mut list = Vec::new();
+        let mut add = |name: &str, path: &Path| {
+            list.push(OsString::from(name));
+            list.push(path.as_os_str().to_owned());
+        };
+        add("--library", &self.library);
+        add("--drivers", &self.drivers);
+        add("--cvode", &self.cvode);
+        add("--python", &self.python);
+        add("--exudyn", &self.python);
+        if let Some(folder) = &self.octave {
+            add("--octave", Path::new("octave-cli"));
+            add("--mex", folder);
+        }
+        list
+    }
+}
+
+/// Builds the race and the drivers, and installs what is missing.
+pub fn prepare(workspace: &Workspace, octave: bool) -> Result<Tools, String> {
+    shell::run(&mut workspace.cargo(["build", "--release", "--package", "race"]))?;
+    let built = workspace.target.join("release");
+    let made = folder(workspace)?;
+    let cvode = cvode(workspace)?;
+    let octave = if octave {
+        mex(workspace, &built, &made)?;
+        Some(made)
+    } else {
+        None
+    };
+    Ok(Tools {
+        race: built.join("race"),
+        library: built.join("librace.so"),
+        drivers: drivers(workspace),
+        cvode,
+        python: python(workspace)?,
+        octave,
+    })
+}
+
+/// The driver of CVODE alone, for tests.
+pub fn cvode(workspace: &Workspace) -> Result<PathBuf, String> {
+    // With the profile of the other tests, so that little is compiled twice.
+    shell::run(&mut workspace.cargo(["build", "--release", "--package", "race", "--lib"]))?;
+    let driver = folder(workspace)?.join("cvode");
+    compile_cvode(workspace, &workspace.target.join("release"), &driver)?;
+    Ok(driver)
+}
+
+fn drivers(workspace: &Workspace) -> PathBuf {
+    workspace.root.join("crates").join("race").join("drivers")
+}
+
+/// Where compiled drivers go.
+fn folder(workspace: &Workspace) -> Result<PathBuf, String> {
+    let folder = workspace.target.join("race-drivers");
+    match std::fs::create_dir_all(&folder) {
+        Ok(()) => Ok(folder),
+        Err(error) => Err(format!("cannot make {}: {error}", folder.display())),
+    }
+}
+
+/// Compiles the driver of CVODE.
+fn compile_cvode(workspace: &Workspace, built: &Path, driver: &Path) -> Result<(), String> {
+    let header = Path::new("/usr/include/cvode/cvode.h");
+    if !header.is_file() {
+        println!("SUNDIALS is missing and is installed now, once.");
+        shell::install(&SUNDIALS)?;
+    }
+    let mut compile = Command::new("cc");
+    compile
+        .args(["-O3", "-Wall", "-Wextra", "-Werror", "-o"])
+        .arg(driver)
+        .arg(drivers(workspace).join("cvode.c"))
+        .arg("-I")
+        .arg(drivers(workspace))
+        .arg("-L")
+        .arg(built)
+        .arg("-lrace")
+        .arg(format!("-Wl,-rpath,{}", built.display()))
+        .args(LIBRARIES)
+        .arg("-lm");
+    shell::run(&mut compile)
+}
+
+/// Compiles the functions for Octave.
+fn mex(workspace: &Workspace, built: &Path, made: &Path) -> Result<(), String> {
+    if shell::output(Command::new("mkoctfile").arg("--version")).is_none() {
+        println!("Octave, or what compiles functions for it, is missing and is installed now, once.");
+        shell::install(&OCTAVE)?;
+    }
+    let mut compile = Command::new("mkoctfile");
+    compile
+        .arg("--mex")
+        .arg(drivers(workspace).join("race_mex.c"))
+        .arg(format!("-I{}", drivers(workspace).display()))
+        .arg(format!("-L{}", built.display()))
+        .arg("-lrace")
+        .arg(format!("-Wl,-rpath,{}", built.display()))
+        .arg("-o")
+        .arg(made.join("race_mex.mex"))
+        .current_dir(made);
+    shell::run(&mut compile)
+}
+
+/// A Python that has SciPy and Exudyn: the one of an environment in `target/tools`, made if missing.
+fn python(workspace: &Workspace) -> Result<PathBuf, String> {
+    let folder = workspace.target.join("tools").join("race");
+    let program = folder.join("bin").join("python");
+    let complete =
+        || shell::output(Command::new(&program).args(["-c", "import scipy.integrate, exudyn"])).is_some();
+    if complete() {
+        return Ok(program);
+    }
+    println!("SciPy and Exudyn are installed into target/tools now, once (350 MB).");
+    let made = shell::run(
+        Command::new("python3")
+            .args(["-m", "venv", "--clear"])
+            .arg(&folder),
+    )
+    .and_then(|()| {
+        let mut pip = Command::new(&program);
+        pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+        shell::run(pip.args(PYTHON))
+    });
+    made.map_err(|error| {
+        format!("SciPy and Exudyn could not be installed; they need Python 3 with `venv` (Debian: python3-venv) and network.\n{error}")
+    })?;
+    Ok(program)
+}

@@ -1,0 +1,14 @@
+//! The race's driver in C compiles, and agrees with our own integrator. What is missing (SUNDIALS) is installed.
+
+use super::Outcome;
+use crate::race::tools;
+use crate::shell::{self, Workspace};
+
+/// Compiles the driver and runs the tests that need it.
+pub fn check(workspace: &Workspace) -> Outcome {
+    let driver = tools::cvode(workspace)?;
+    let mut tests = workspace.cargo(["test", "--release", "-p", "race", "--test", "drivers"]);
+    tests.args(["--", "--ignored"]).env("RACE_CVODE", driver);
+    shell::run(&mut tests)?;
+    Ok(None)
+}
