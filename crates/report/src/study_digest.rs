@@ -157,7 +157,9 @@ impl Axis {
                 } else {
                     (number - from) / (to - from)
                 };
-                share.is_finite().then(|| ((share * *count as f64).max(0.0) as usize).min(count - 1))
+                share
+                    .is_finite()
+                    .then(|| ((share * *count as f64).max(0.0) as usize).min(count - 1))
             }
         }
     }

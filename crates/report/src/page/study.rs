@@ -70,9 +70,7 @@ fn lead(study: &Study, digest: &Digest) -> String {
     };
     let accuracy = match study.accuracy {
         Accuracy::Case => "the case's accuracy",
-        Accuracy::Engineering => {
-            "engineering accuracy (branch means within 0.5 % in the yawed runs of the thesis)"
-        }
+        Accuracy::Engineering => "engineering accuracy (rodas4p at a relative tolerance of 1e-5)",
     };
     let [complete, refused, stopped] = digest.ended;
     format!(
