@@ -14,8 +14,8 @@ const TESTS: &str = "crates/wedgelab-fmu/tests/python";
 /// Builds program and library, installs `gcc` and `valgrind` if they are missing, makes the environment if it is missing, and runs the tests.
 pub fn check(workspace: &Workspace) -> Outcome {
     debian::need(&["gcc", "valgrind"])?;
-    let packages = ["--package", "wedgelab", "--package", "wedgelab-fmu"];
-    shell::run(workspace.cargo(["build", "--release"]).args(packages))?;
+    // All of it: so the features of dependencies are those that `test` has built with.
+    shell::run(&mut workspace.cargo(["build", "--release", "--workspace"]))?;
     let tests = workspace.root.join(TESTS);
     let python = venv::environment(&workspace.target, "fmu", &tests.join("requirements.txt"))?;
     let program = workspace

@@ -7,7 +7,7 @@ use crate::shell::{self, Workspace};
 /// Compiles the driver and runs the tests that need it.
 pub fn check(workspace: &Workspace) -> Outcome {
     let driver = tools::cvode(workspace)?;
-    let mut tests = workspace.cargo(["test", "--release", "-p", "race", "--test", "drivers"]);
+    let mut tests = workspace.cargo(["test", "--release", "--workspace", "--test", "drivers"]);
     tests.args(["--", "--ignored"]).env("RACE_CVODE", driver);
     shell::run(&mut tests)?;
     Ok(None)
