@@ -12,6 +12,7 @@ mod control;
 mod dense_block;
 mod error;
 mod events;
+pub mod lanes;
 mod layout;
 mod options;
 mod ordinary;

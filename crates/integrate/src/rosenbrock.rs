@@ -3,9 +3,10 @@
 use crate::control::Controller;
 use crate::error::SetupError;
 use crate::events::{Event, Switches};
+use crate::lanes::LANES;
 use crate::options::Options;
 use crate::problem::Problem;
-use crate::stages::{Dense, LANES};
+use crate::stages::Dense;
 use crate::state::{STATE_VERSION, State};
 use crate::statistics::Statistics;
 use crate::tableau::Tableau;

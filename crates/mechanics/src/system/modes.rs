@@ -106,28 +106,11 @@ impl System {
             let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
             let deflections = &internal[face.first_internal..][..face.internal_count];
             let law = usize::from(matches!(face.element.law, FrictionLaw::Bristle { .. }));
-            for (i, point) in face.element.points.iter().enumerate() {
-                let contact = face.element.geometry(point, &relative);
-                let load = if law == 0 || contact.gap < 0.0 {
-                    let elastic = -contact.gap * point.stiffness;
-                    let normal = (elastic - contact.gap_rate * point.damping).max(0.0);
-                    let deflection = deflections
-                        .get(2 * i..2 * i + 2)
-                        .map_or([0.0; 2], |e| [e[0], e[1]]);
-                    face.element.load(point.share, normal, contact.slip, deflection)
-                } else {
-                    0.0
-                };
-                each(
-                    index,
-                    Signs {
-                        gap: contact.gap,
-                        load,
-                        law,
-                    },
-                );
-                index += 1;
-            }
+            face.element
+                .signs(&face.points, &relative, deflections, |i, gap, load| {
+                    each(index + i, Signs { gap, load, law });
+                });
+            index += face.element.points.len();
         }
     }
 
