@@ -216,6 +216,23 @@ impl ContactFace<Plane> {
         }
     }
 
+    /// Gap and slip of every point.
+    #[inline(always)]
+    pub(crate) fn motions(
+        &self,
+        points: &Points,
+        relative: &Relative<f64>,
+        mut each: impl FnMut(usize, f64, [f64; 2]),
+    ) {
+        for (number, quad) in points.quads.iter().enumerate() {
+            let (at, _) = self.locate_quad(quad, relative);
+            let (gap, slip) = (at.gap.to_array(), at.slip.map(Lanes::to_array));
+            for i in 0..quad.count {
+                each(LANES * number + i, gap[i], [slip[0][i], slip[1][i]]);
+            }
+        }
+    }
+
     /// Differentiates the law at every point; for [`Points::change`].
     pub(crate) fn linearize(&self, points: &mut Points, relative: &Relative<f64>, deflections: &[f64]) {
         points.spin = relative.angular_velocity.0;

@@ -260,6 +260,10 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             };
         }
     }
+    let error_bounds = error_scales[..2 * layout.speeds]
+        .iter()
+        .map(|scale| scale * scales::WIDEST_TOLERANCE)
+        .collect();
     let moves = frames.iter().any(|frame| !frame.fixed);
     Ok(System {
         accelerations: vec![[0.0; 6]; bodies.len()],
@@ -273,6 +277,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         channels: parts.channels,
         layout,
         scales: error_scales,
+        error_bounds,
         free,
         free_number,
         frames,

@@ -6,6 +6,8 @@
 //! - it starts to slip where the load of its friction law rises to [`SLIP_LOAD`], and sticks again where it falls to
 //!   [`STICK_LOAD`]. The load is |v|/v0 with tanh and |T|/(μN) with the bristle.
 
+use integrate::KinkSigns;
+
 use super::System;
 use crate::friction::FrictionLaw;
 use crate::link::Relative;
@@ -110,6 +112,24 @@ impl System {
                 .signs(&face.points, &relative, deflections, |i, gap, load| {
                     each(index + i, Signs { gap, load, law });
                 });
+            index += face.element.points.len();
+        }
+    }
+
+    /// What foretells kinks: the gap of every point (m), and the slip of closed points over the reference speed of their law.
+    pub(super) fn kink_signs(&self, signs: &mut KinkSigns) {
+        let mut index = 0;
+        for face in &self.faces {
+            let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
+            let scale = match face.element.law {
+                FrictionLaw::Tanh { reference_speed } => 1.0 / reference_speed,
+                FrictionLaw::Bristle { .. } => 0.0,
+            };
+            face.element.motions(&face.points, &relative, |i, gap, slip| {
+                signs.values[index + i] = gap;
+                let closed = if gap < 0.0 { scale } else { 0.0 };
+                signs.directions[index + i] = slip.map(|part| part * closed);
+            });
             index += face.element.points.len();
         }
     }
