@@ -14,10 +14,17 @@ use crate::stages::Dense;
 const REACH: f64 = 6.0;
 /// A continued dense output is trusted while its error, that of the step times the fifth power of its reach, is below this.
 const TRUST: f64 = 100.0;
-/// How far behind a kink a step lands, and how closely it is located, in lengths of the last step.
+/// How far behind a kink a step lands at most, and how closely it is located, in lengths of the last step; less where the
+/// continued dense output is more exact than the tolerance.
 const OVERSHOOT: f64 = 2e-3;
+/// The least part of it.
+const LEAST_OVERSHOOT: f64 = 1e-6;
+/// A landing nearer than this to where we are, in lengths of the last step, is not worth a step of its own.
+const NEAR_KINK: f64 = 1e-4;
+/// The same before a layer.
+const NEAR_LAYER: f64 = 0.05;
 /// Rounds of the search.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 15;
 /// A direction that reverses: the layer begins at this size.
 const EDGE: f64 = 4.0;
 /// It does reverse if all of it has become smaller than this when its part along the old direction comes to the edge.
@@ -33,12 +40,15 @@ pub struct KinkSigns {
     pub directions: Vec<[f64; 2]>,
 }
 
-/// Where a step should end because of a kink.
+/// What lies ahead.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Landing {
-    pub time: f64,
-    /// Before a thin layer: the time to its middle from there.
-    pub layer: Option<f64>,
+pub(crate) enum Ahead {
+    /// A kink: the next step should end at this time, just behind it.
+    Kink(f64),
+    /// A thin layer: the next step should end at this time, before it, and the one after it should have this length.
+    Layer(f64, f64),
+    /// A thin layer right ahead: the next step should have this length.
+    InLayer(f64),
 }
 
 /// Scratch memory.
@@ -79,7 +89,7 @@ impl Kinks {
         dense: &Dense<'_>,
         length: f64,
         error: f64,
-    ) -> Option<Landing> {
+    ) -> Option<Ahead> {
         if self.now.is_empty() || dense.step <= 0.0 {
             return None;
         }
@@ -90,22 +100,24 @@ impl Kinks {
         }
         self.begin(problem, dense);
         loop {
-            let (low, high, index) = self.locate(problem, dense, 1.0 + reach)?;
+            let (low, high, index) = self.locate(problem, dense, 1.0 + reach, error)?;
             let Some(direction) = index.checked_sub(self.signs.values.len()) else {
-                return Some(Landing {
-                    time: dense.start + (high + OVERSHOOT) * dense.step,
-                    layer: None,
-                });
+                let end = (high + overshoot(error, high)).max(1.0 + NEAR_KINK);
+                return Some(Ahead::Kink(dense.start + end * dense.step));
             };
             self.evaluate(problem, dense, low);
             let [a, b] = self.signs.directions[direction];
             if a * a + b * b < NARROW * NARROW {
                 // Along the line between the ends of the bracket.
-                let fall = (self.low[index] - self.high[index]) / ((high - low) * dense.step);
-                return (low > 1.0).then_some(Landing {
-                    time: dense.start + low * dense.step,
-                    layer: Some((self.low[index] + EDGE) / fall),
-                });
+                let fall = (self.low[index] - self.high[index]) / (high - low);
+                let middle = (self.low[index] + EDGE) / fall * dense.step;
+                return if !(middle > NEAR_KINK * dense.step && middle.is_finite()) {
+                    None
+                } else if low < 1.0 + NEAR_LAYER {
+                    Some(Ahead::InLayer((low - 1.0) * dense.step + middle))
+                } else {
+                    Some(Ahead::Layer(dense.start + low * dense.step, middle))
+                };
             }
             // It only turns.
             self.towards[direction] = [0.0; 2];
@@ -153,6 +165,7 @@ impl Kinks {
         problem: &mut P,
         dense: &Dense<'_>,
         mut high: f64,
+        error: f64,
     ) -> Option<(f64, f64, usize)> {
         let mut low = 1.0;
         self.low.copy_from_slice(&self.now);
@@ -160,18 +173,19 @@ impl Kinks {
         std::mem::swap(&mut self.high, &mut self.trial);
         self.first_zero()?;
         for round in 0..ROUNDS {
-            if high - low <= OVERSHOOT {
+            let width = overshoot(error, high);
+            if high - low <= width {
                 break;
             }
             // The first zero of straight lines, once a little behind it and once before, so that the bracket closes; then the middle.
             let fraction = self.first_zero().map_or(0.5, |(_, fraction)| fraction);
             let guess = low + (high - low) * fraction;
             let theta = match round % 3 {
-                0 => guess + 0.5 * OVERSHOOT,
-                1 => guess - 0.5 * OVERSHOOT,
+                0 => guess + 0.5 * width,
+                1 => guess - 0.5 * width,
                 _ => 0.5 * (low + high),
             };
-            let theta = theta.clamp(low + 0.25 * OVERSHOOT, high - 0.25 * OVERSHOOT);
+            let theta = theta.clamp(low + 0.25 * width, high - 0.25 * width);
             self.evaluate(problem, dense, theta);
             let end = if crossed(&self.now, &self.trial) {
                 high = theta;
@@ -198,6 +212,12 @@ impl Kinks {
         }
         first
     }
+}
+
+/// How far behind a kink at a place on the continued dense output of a step with this error a step should land, in lengths of the step.
+fn overshoot(error: f64, theta: f64) -> f64 {
+    let power = theta * theta * (theta * theta) * theta;
+    OVERSHOOT * (4.0 * error * power).clamp(LEAST_OVERSHOOT, 1.0)
 }
 
 fn crossed(now: &[f64], then: &[f64]) -> bool {

@@ -1,12 +1,15 @@
 //! Problems made of closures.
 
 use crate::block_lu::BlockLu;
+use crate::kinks::KinkSigns;
 use crate::problem::{Problem, Singular};
 
 type Function<'a> = Box<dyn FnMut(f64, &[f64], &mut [f64]) + Send + 'a>;
 type Start<'a> = Box<dyn FnMut(f64, &[f64], &mut [u8]) + Send + 'a>;
 type Margins<'a> = Box<dyn FnMut(f64, &[f64], &[u8], &mut [f64]) + Send + 'a>;
 type NextMode<'a> = Box<dyn FnMut(f64, &[f64], usize, u8) -> u8 + Send + 'a>;
+
+type Kinks<'a> = Box<dyn FnMut(f64, &[f64], &mut KinkSigns) + Send + 'a>;
 
 /// Discrete switches made of closures.
 struct Switches<'a> {
@@ -48,6 +51,8 @@ pub struct Ordinary<'a> {
     jacobian: Function<'a>,
     time_derivative: Option<Function<'a>>,
     switches: Option<Switches<'a>>,
+    /// How many values and directions, and what writes them.
+    kinks: Option<((usize, usize), Kinks<'a>)>,
     /// Ends of segments, ascending.
     breaks: Vec<f64>,
     matrix: BlockLu,
@@ -76,6 +81,7 @@ impl<'a> Ordinary<'a> {
             jacobian: Box::new(jacobian),
             time_derivative: None,
             switches: None,
+            kinks: None,
             breaks: Vec::new(),
             matrix,
         }
@@ -93,6 +99,18 @@ impl<'a> Ordinary<'a> {
     pub fn breaks(mut self, mut times: Vec<f64>) -> Self {
         times.sort_by(f64::total_cmp);
         self.breaks = times;
+        self
+    }
+
+    /// What tells kinks beforehand, see [`KinkSigns`]: as many values and directions as `function(t, x, signs)` writes.
+    #[must_use]
+    pub fn kinks(
+        mut self,
+        values: usize,
+        directions: usize,
+        function: impl FnMut(f64, &[f64], &mut KinkSigns) + Send + 'a,
+    ) -> Self {
+        self.kinks = Some(((values, directions), Box::new(function)));
         self
     }
 
@@ -153,6 +171,16 @@ impl Problem for Ordinary<'_> {
 
     fn solve(&mut self, b: &mut [f64]) {
         self.matrix.solve(b);
+    }
+
+    fn kink_counts(&self) -> (usize, usize) {
+        self.kinks.as_ref().map_or((0, 0), |(counts, _)| *counts)
+    }
+
+    fn kinks(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
+        if let Some((_, function)) = &mut self.kinks {
+            function(time, x, signs);
+        }
     }
 
     fn switch_count(&self) -> usize {

@@ -3,7 +3,7 @@
 use crate::control::Controller;
 use crate::error::SetupError;
 use crate::events::{Event, Switches};
-use crate::kinks::{Kinks, Landing};
+use crate::kinks::{Ahead, Kinks};
 use crate::lanes::LANES;
 use crate::options::Options;
 use crate::problem::Problem;
@@ -50,7 +50,7 @@ pub struct Integrator<P: Problem> {
     segment_start: f64,
     segment_end: f64,
     proposed_step: f64,
-    kink_ahead: Option<Landing>,
+    ahead: Option<Ahead>,
     kinks: Kinks,
     controller: Controller,
     statistics: Statistics,
@@ -99,7 +99,7 @@ impl<P: Problem> Integrator<P> {
             modes: vec![0; problem.switch_count()],
             segment_start: time,
             proposed_step: 1.0,
-            kink_ahead: None,
+            ahead: None,
             controller: Controller::default(),
             statistics: Statistics::default(),
         };
@@ -168,7 +168,7 @@ impl<P: Problem> Integrator<P> {
             segment_start: state.segment_start,
             segment_end,
             proposed_step: state.proposed_step,
-            kink_ahead: state.kink_ahead,
+            ahead: state.ahead,
             controller: state.controller,
             statistics: state.statistics,
             previous_x: x.clone(),
@@ -209,7 +209,7 @@ impl<P: Problem> Integrator<P> {
             modes: self.switches.modes.clone(),
             segment_start: self.segment_start,
             proposed_step: self.proposed_step,
-            kink_ahead: self.kink_ahead,
+            ahead: self.ahead,
             controller: self.controller.clone(),
             statistics: self.statistics.clone(),
         }
@@ -336,7 +336,7 @@ impl<P: Problem> Integrator<P> {
     /// control is kept. So a motion that a caller continues piece by piece costs no restart.
     pub fn renew(&mut self) {
         self.evaluate_derivative();
-        self.kink_ahead = None;
+        self.ahead = None;
     }
 
     /// Whether a saved state can belong to this problem.
@@ -364,7 +364,7 @@ impl<P: Problem> Integrator<P> {
         (self.time, self.previous_time) = (state.time, state.time);
         (self.segment_start, self.segment_end) = (state.segment_start, segment_end);
         self.proposed_step = state.proposed_step;
-        self.kink_ahead = state.kink_ahead;
+        self.ahead = state.ahead;
         self.controller.clone_from(&state.controller);
         self.statistics.clone_from(&state.statistics);
         let counted = self.statistics.derivatives;
@@ -377,7 +377,7 @@ impl<P: Problem> Integrator<P> {
     /// step-size control is dropped.
     pub fn refresh(&mut self) {
         self.evaluate_derivative();
-        self.kink_ahead = None;
+        self.ahead = None;
         self.controller.restart();
     }
 }

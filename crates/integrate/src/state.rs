@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::Controller;
 use crate::error::SetupError;
-use crate::kinks::Landing;
+use crate::kinks::Ahead;
 use crate::statistics::Statistics;
 
 /// Version of [`State`].
@@ -28,8 +28,8 @@ pub struct State {
     pub segment_start: f64,
     /// Length that the next step is going to try.
     pub proposed_step: f64,
-    /// Where the next step ends because of a kink, if one is foreseen.
-    pub(crate) kink_ahead: Option<Landing>,
+    /// What is foreseen for the next step.
+    pub(crate) ahead: Option<Ahead>,
     /// Memory of the step-size control.
     pub(crate) controller: Controller,
     /// What was done so far.

@@ -2,12 +2,15 @@
 
 use super::Integrator;
 use crate::error::{Reason, StepError};
-use crate::kinks::Landing;
+use crate::kinks::Ahead;
 use crate::problem::Problem;
 use crate::stages::{Dense, all_finite, combine, largest};
 
 /// The part of the planned step that is tried behind a kink.
 const BEHIND_KINK: f64 = 0.5;
+
+/// The part of the planned step that a step to a kink may have in one go.
+const WHOLE_LANDING: f64 = 0.7;
 
 /// Why an attempt failed, with the state to blame.
 struct Failure {
@@ -30,12 +33,18 @@ impl<P: Problem> Integrator<P> {
         let end = limit.min(self.segment_end);
         let proposed = self.proposed_step.min(self.options.maximum_step);
         let (mut step, mut target) = self.fit(proposed, end);
-        let mut landing = self
-            .kink_ahead
-            .take()
-            .filter(|kink| kink.time > self.time && kink.time < target);
-        if let Some(kink) = landing {
-            (step, target) = (kink.time - self.time, kink.time);
+        let mut landing = None;
+        if let Some(ahead @ (Ahead::Kink(time) | Ahead::Layer(time, _))) = self.ahead.take()
+            && time > self.time
+            && time < target
+        {
+            let distance = time - self.time;
+            if distance > WHOLE_LANDING * step {
+                // The arguments of a step's stages are less exact than its end: they would get across.
+                (step, target) = self.fit(0.5 * distance, end);
+            } else {
+                (step, target, landing) = (distance, time, Some(ahead));
+            }
         }
         let mut cut = step < proposed;
         let mut scaled_error = 0.0;
@@ -56,8 +65,13 @@ impl<P: Problem> Integrator<P> {
                 Ok(error) => {
                     self.statistics.rejected_error += 1;
                     scaled_error = error;
-                    let root = self.root(error);
-                    step *= self.controller.reject(&self.options, root);
+                    step *= if landing.is_some() {
+                        // It got across. Half of the way is on this side, and from there the kink is seen more exactly.
+                        0.5
+                    } else {
+                        let root = self.root(error);
+                        self.controller.reject(&self.options, root)
+                    };
                     Failure {
                         reason: Reason::Error,
                         index: None,
@@ -246,7 +260,7 @@ impl<P: Problem> Integrator<P> {
         error: f64,
         cut: bool,
         proposed: f64,
-        landing: Option<Landing>,
+        landing: Option<Ahead>,
     ) {
         std::mem::swap(&mut self.previous_x, &mut self.x);
         std::mem::swap(&mut self.x, &mut self.trial_x);
@@ -262,13 +276,17 @@ impl<P: Problem> Integrator<P> {
             let next = step * factor;
             // A step cut short by a limit says little about the step that was planned.
             self.proposed_step = if cut && !genuine { next.max(proposed) } else { next };
-            if let Some(landing) = landing {
+            match landing {
                 // Behind a kink the error of the step across it says nothing.
-                self.proposed_step = match landing.layer {
-                    None => self.proposed_step.max(BEHIND_KINK * proposed),
-                    Some(layer) => self.proposed_step.min(layer),
-                };
-                self.controller.restart();
+                Some(Ahead::Kink(_)) => {
+                    self.proposed_step = self.proposed_step.max(BEHIND_KINK * proposed);
+                    self.controller.restart();
+                }
+                Some(Ahead::Layer(_, length)) => {
+                    self.proposed_step = self.proposed_step.min(length);
+                    self.controller.restart();
+                }
+                _ => {}
             }
             self.proposed_step = self.proposed_step.min(self.options.maximum_step).min(f64::MAX);
         }
@@ -283,8 +301,12 @@ impl<P: Problem> Integrator<P> {
         };
         if self.options.fixed_step.is_none() {
             let length = self.proposed_step.min(self.segment_end - self.time);
-            self.kink_ahead = self.kinks.foresee(&mut self.problem, &dense, length, error);
-            self.statistics.kinks_foreseen += u64::from(self.kink_ahead.is_some());
+            self.ahead = self.kinks.foresee(&mut self.problem, &dense, length, error);
+            self.statistics.kinks_foreseen += u64::from(self.ahead.is_some());
+            if let Some(Ahead::InLayer(length)) = self.ahead {
+                self.proposed_step = self.proposed_step.min(length);
+                self.controller.restart();
+            }
         }
         if !self.switches.modes.is_empty() {
             let maximum = self.options.maximum_events;

@@ -1,0 +1,136 @@
+//! analytic: kinks that are foreseen. Steps end behind them instead of being rejected across them; what comes out stays what it was.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+use integrate::{Integrator, Method, Options, Ordinary, Statistics};
+
+const GRAVITY: f64 = 9.81;
+const OMEGA: f64 = 500.0;
+
+/// A mass that falls on a spring, from 0.5 m.
+fn bounce() -> Ordinary<'static> {
+    Ordinary::new(
+        vec![1.0, OMEGA * 0.01],
+        |_, x, dx| {
+            dx[0] = x[1];
+            dx[1] = -GRAVITY - OMEGA * OMEGA * x[0].min(0.0);
+        },
+        |_, x, j| j.copy_from_slice(&[0.0, 1.0, if x[0] < 0.0 { -OMEGA * OMEGA } else { 0.0 }, 0.0]),
+    )
+}
+
+/// A mass shaken across a rough floor: `v˙ = 3 sin 5t - tanh(v/v0)`, and the energy lost.
+fn rough() -> Ordinary<'static> {
+    const LAYER: f64 = 1e-5;
+    Ordinary::new(
+        vec![1.0, 1.0],
+        |t, x, dx| {
+            let grip = libm::tanh(x[0] / LAYER);
+            dx[0] = 3.0 * libm::sin(5.0 * t) - grip;
+            dx[1] = grip * x[0];
+        },
+        |_, x, j| {
+            let grip = libm::tanh(x[0] / LAYER);
+            let slope = (1.0 - grip * grip) / LAYER;
+            j.copy_from_slice(&[-slope, 0.0, slope * x[0] + grip, 0.0]);
+        },
+    )
+    .time_derivative(|t, _, df_dt| df_dt[0] = 15.0 * libm::cos(5.0 * t))
+}
+
+fn rough_and_told() -> Ordinary<'static> {
+    rough().kinks(0, 1, |_, x, signs| signs.directions[0] = [x[0] / 1e-5, 0.0])
+}
+
+fn options(method: Method, relative_tolerance: f64) -> Options {
+    Options {
+        method,
+        relative_tolerance,
+        ..Options::default()
+    }
+}
+
+fn run(problem: Ordinary<'_>, options: Options, start: &[f64], end: f64) -> (Vec<f64>, Statistics) {
+    let mut integrator = Integrator::new(problem, options, 0.0, start).unwrap();
+    while integrator.time() < end {
+        integrator.step_to(end).unwrap();
+    }
+    (integrator.x().to_vec(), integrator.statistics().clone())
+}
+
+#[test]
+fn a_contact_that_is_foreseen_costs_fewer_attempts_and_the_motion_is_the_same() {
+    // In the middle of the sixth flight: the height follows from the energy.
+    let fall = (2.0 * 0.5 / GRAVITY).sqrt();
+    let contact = 2.0 * (std::f64::consts::PI - libm::atan(GRAVITY * fall * OMEGA / GRAVITY)) / OMEGA;
+    let end = fall + 6.0 * (contact + 2.0 * fall) - fall;
+    for method in Method::ALL {
+        let (x, blind) = run(bounce(), options(method, 1e-8), &[0.5, 0.0], end);
+        let told = bounce().kinks(1, 0, |_, x, signs| signs.values[0] = x[0]);
+        let (y, told) = run(told, options(method, 1e-8), &[0.5, 0.0], end);
+        for state in [&x, &y] {
+            assert!(
+                (state[0] - 0.5).abs() < 1e-4 && state[1].abs() < 3e-3,
+                "{method}: {state:?}"
+            );
+        }
+        assert!(told.kinks_foreseen >= 12, "{method}: {told:?}");
+        let attempts = |statistics: &Statistics| statistics.steps + statistics.rejected();
+        println!(
+            "{method}: {} attempts instead of {}",
+            attempts(&told),
+            attempts(&blind)
+        );
+        assert!(
+            10 * attempts(&told) < 9 * attempts(&blind),
+            "{method}: {told:?} instead of {blind:?}"
+        );
+    }
+}
+
+#[test]
+fn friction_that_reverses_is_foreseen() {
+    let (exact, _) = run(rough(), options(Method::Rodas5P, 1e-10), &[0.0, 0.0], 8.0);
+    let (x, blind) = run(rough(), options(Method::Rodas5P, 1e-6), &[0.0, 0.0], 8.0);
+    let (y, told) = run(rough_and_told(), options(Method::Rodas5P, 1e-6), &[0.0, 0.0], 8.0);
+    for state in [&x, &y] {
+        for (value, exact) in state.iter().zip(&exact) {
+            assert!((value - exact).abs() < 1e-4, "{state:?} {exact:?}");
+        }
+    }
+    // It reverses 12 times.
+    assert!(told.kinks_foreseen >= 12, "{told:?}");
+    assert!(
+        told.rejected() + told.steps < blind.rejected() + blind.steps,
+        "{told:?} instead of {blind:?}"
+    );
+}
+
+#[test]
+fn a_direction_that_only_turns_is_no_kink() {
+    // x turns in a circle of radius 1000: its parts change sign, but it never comes near zero.
+    let circle = Ordinary::new(
+        vec![1.0; 2],
+        |_, x, dx| dx.copy_from_slice(&[-3.0 * x[1], 3.0 * x[0]]),
+        |_, _, j| j.copy_from_slice(&[0.0, -3.0, 3.0, 0.0]),
+    )
+    .kinks(0, 1, |_, x, signs| signs.directions[0] = [x[0], x[1]]);
+    let (_, statistics) = run(circle, options(Method::Rodas5P, 1e-4), &[1000.0, 0.0], 10.0);
+    assert_eq!(statistics.kinks_foreseen, 0);
+}
+
+#[test]
+fn a_saved_state_continues_with_the_same_bits_also_before_a_kink() {
+    let mut whole =
+        Integrator::new(rough_and_told(), options(Method::Rodas5P, 1e-6), 0.0, &[0.0, 0.0]).unwrap();
+    let mut resumed = 0;
+    while whole.time() < 2.0 {
+        let text = serde_json::to_string(&whole.state()).unwrap();
+        whole.step_to(2.0).unwrap();
+        let state = serde_json::from_str(&text).unwrap();
+        let mut again = Integrator::resume(rough_and_told(), options(Method::Rodas5P, 1e-6), state).unwrap();
+        again.step_to(2.0).unwrap();
+        assert_eq!(again.state(), whole.state());
+        resumed += 1;
+    }
+    assert!(resumed > 50 && whole.statistics().kinks_foreseen > 2);
+}
