@@ -15,18 +15,29 @@ pub fn need(programs: &[&str]) -> Result<(), String> {
         return Ok(());
     }
     println!("{} is missing and is installed now.", missing.join(", "));
-    // Lists of packages may be missing or old; if they cannot be fetched, those that are there may do.
-    if let Err(error) = apt(&["update"]) {
-        println!("{error}");
-    }
-    let mut arguments = vec!["install", "-y", "--no-install-recommends"];
-    arguments.extend(&missing);
-    apt(&arguments).map_err(|error| format!("{}\n{error}", advice(&missing)))?;
+    install(&missing).map_err(|error| format!("{}\n{error}", advice(&missing)))?;
     if missing.iter().all(|name| is_there(name)) {
         Ok(())
     } else {
         Err(advice(&missing))
     }
+}
+
+/// Installs Debian's packages.
+///
+/// # Errors
+/// They cannot be installed; what an administrator would type is said.
+pub fn install(packages: &[&str]) -> Result<(), String> {
+    // Lists of packages may be missing or old; if they cannot be fetched, those that are there may do.
+    if let Err(error) = apt(&["update"]) {
+        println!("{error}");
+    }
+    let mut arguments = vec!["install", "-y", "--no-install-recommends"];
+    arguments.extend(packages);
+    apt(&arguments).map_err(|error| {
+        let list = packages.join(" ");
+        format!("{error}\nOn Debian and Ubuntu an administrator installs it with `apt-get install {list}`.")
+    })
 }
 
 fn is_there(program: &str) -> bool {

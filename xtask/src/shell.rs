@@ -69,28 +69,6 @@ pub fn run(command: &mut Command) -> Result<(), String> {
     }
 }
 
-/// Installs Debian's packages.
-///
-/// # Errors
-/// They cannot be installed; what an administrator would type is said.
-pub fn install(packages: &[&str]) -> Result<(), String> {
-    let apt = |arguments: &[&str]| {
-        let mut command = Command::new("apt-get");
-        command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive");
-        run(&mut command)
-    };
-    // Lists of packages may be missing or old; if they cannot be fetched, those that are there may do.
-    if let Err(error) = apt(&["update"]) {
-        println!("{error}");
-    }
-    let mut arguments = vec!["install", "-y", "--no-install-recommends"];
-    arguments.extend(packages);
-    apt(&arguments).map_err(|error| {
-        let list = packages.join(" ");
-        format!("{error}\nOn Debian and Ubuntu an administrator installs it with `apt-get install {list}`.")
-    })
-}
-
 /// What a command prints to its standard output, or nothing when it fails.
 pub fn output(command: &mut Command) -> Option<String> {
     let output = command.stderr(Stdio::null()).output().ok()?;

@@ -4,7 +4,9 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::debian;
 use crate::shell::{self, Workspace};
+use crate::venv;
 
 /// Debian's SUNDIALS; 6.4 in Debian 12.
 const SUNDIALS: [&str; 1] = ["libsundials-dev"];
@@ -17,8 +19,6 @@ const LIBRARIES: [&str; 4] = [
     "-lsundials_sunmatrixdense",
     "-lsundials_sunlinsoldense",
 ];
-/// The packages that pip may choose from.
-const PYTHON: [&str; 2] = ["scipy>=1.11,<2", "exudyn>=1.9,<2"];
 
 /// The race's programs.
 pub struct Tools {
@@ -69,15 +69,17 @@ pub fn prepare(workspace: &Workspace, octave: bool) -> Result<Tools, String> {
         library: built.join("librace.so"),
         drivers: drivers(workspace),
         cvode,
-        python: python(workspace)?,
+        python: venv::environment(
+            &workspace.target,
+            "race",
+            &drivers(workspace).join("requirements.txt"),
+        )?,
         octave,
     })
 }
 
-/// The driver of CVODE alone, for tests.
+/// The driver of CVODE alone; the race's library is built already.
 pub fn cvode(workspace: &Workspace) -> Result<PathBuf, String> {
-    // With the profile of the other tests, so that little is compiled twice.
-    shell::run(&mut workspace.cargo(["build", "--release", "--package", "race", "--lib"]))?;
     let driver = folder(workspace)?.join("cvode");
     compile_cvode(workspace, &workspace.target.join("release"), &driver)?;
     Ok(driver)
@@ -101,7 +103,7 @@ fn compile_cvode(workspace: &Workspace, built: &Path, driver: &Path) -> Result<(
     let header = Path::new("/usr/include/cvode/cvode.h");
     if !header.is_file() {
         println!("SUNDIALS is missing and is installed now, once.");
-        shell::install(&SUNDIALS)?;
+        debian::install(&SUNDIALS)?;
     }
     let mut compile = Command::new("cc");
     compile
@@ -123,7 +125,7 @@ fn compile_cvode(workspace: &Workspace, built: &Path, driver: &Path) -> Result<(
 fn mex(workspace: &Workspace, built: &Path, made: &Path) -> Result<(), String> {
     if shell::output(Command::new("mkoctfile").arg("--version")).is_none() {
         println!("Octave, or what compiles functions for it, is missing and is installed now, once.");
-        shell::install(&OCTAVE)?;
+        debian::install(&OCTAVE)?;
     }
     let mut compile = Command::new("mkoctfile");
     compile
@@ -137,30 +139,4 @@ fn mex(workspace: &Workspace, built: &Path, made: &Path) -> Result<(), String> {
         .arg(made.join("race_mex.mex"))
         .current_dir(made);
     shell::run(&mut compile)
-}
-
-/// A Python that has SciPy and Exudyn: the one of an environment in `target/tools`, made if missing.
-fn python(workspace: &Workspace) -> Result<PathBuf, String> {
-    let folder = workspace.target.join("tools").join("race");
-    let program = folder.join("bin").join("python");
-    let complete =
-        || shell::output(Command::new(&program).args(["-c", "import scipy.integrate, exudyn"])).is_some();
-    if complete() {
-        return Ok(program);
-    }
-    println!("SciPy and Exudyn are installed into target/tools now, once (350 MB).");
-    let made = shell::run(
-        Command::new("python3")
-            .args(["-m", "venv", "--clear"])
-            .arg(&folder),
-    )
-    .and_then(|()| {
-        let mut pip = Command::new(&program);
-        pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
-        shell::run(pip.args(PYTHON))
-    });
-    made.map_err(|error| {
-        format!("SciPy and Exudyn could not be installed; they need Python 3 with `venv` (Debian: python3-venv) and network.\n{error}")
-    })?;
-    Ok(program)
 }

@@ -1,11 +1,12 @@
 //! The tests that need Octave and SciPy. What is missing is installed: Octave with `apt-get`, SciPy into `target/tools`.
 
 use std::env;
-use std::path::PathBuf;
 use std::process::Command;
 
 use super::Outcome;
+use crate::debian;
 use crate::shell::{self, Workspace};
+use crate::venv;
 
 /// What Octave needs to draw, though nobody sees it: a toolkit, and a font to measure texts with. About 280 MB.
 const PACKAGES: [&str; 3] = ["octave", "gnuplot-nox", "fonts-freefont-otf"];
@@ -13,14 +14,15 @@ const PACKAGES: [&str; 3] = ["octave", "gnuplot-nox", "fonts-freefont-otf"];
 /// Draws an unseen curve.
 const DRAW: &str = "set (0, 'defaultfigurevisible', 'off'); plot (1:2); close all";
 
-/// The versions that pip may choose from.
-const SCIPY: &str = "scipy>=1.11,<2";
+/// What Python needs.
+const REQUIREMENTS: &str = "crates/wedgelab/tests/octave/requirements.txt";
 
 /// Installs what is missing and runs the tests.
 pub fn check(workspace: &Workspace) -> Outcome {
     let octave = octave()?;
-    let python = python(workspace)?;
-    let mut tests = workspace.cargo(["test", "--release", "-p", "wedgelab", "--test", "octave"]);
+    let python = venv::environment(&workspace.target, "scipy", &workspace.root.join(REQUIREMENTS))?;
+    // Of the whole workspace: so the features of dependencies are those that `test` has built with.
+    let mut tests = workspace.cargo(["test", "--release", "--workspace", "--test", "octave"]);
     tests
         .args(["--", "--ignored"])
         .env("WEDGELAB_OCTAVE", &octave)
@@ -36,7 +38,7 @@ fn octave() -> Result<String, String> {
         return Ok(program);
     }
     println!("An Octave that can draw is missing and is installed now, once (90 MB to fetch).");
-    shell::install(&PACKAGES).map_err(|error| format!("{}\n{error}", advice()))?;
+    debian::install(&PACKAGES).map_err(|error| format!("{}\n{error}", advice()))?;
     if draws(&program) {
         Ok(program)
     } else {
@@ -57,41 +59,6 @@ fn advice() -> String {
          is not called octave-cli. `cargo xtask test --only` runs other checks without it.",
         PACKAGES.join(" ")
     )
-}
-
-/// A Python that has SciPy: the one of an environment in `target/tools`, made if missing.
-fn python(workspace: &Workspace) -> Result<PathBuf, String> {
-    let folder = workspace.target.join("tools").join("scipy");
-    let program = if cfg!(windows) {
-        folder.join("Scripts").join("python.exe")
-    } else {
-        folder.join("bin").join("python")
-    };
-    let has_scipy = || shell::output(Command::new(&program).args(["-c", "import scipy.io"])).is_some();
-    if has_scipy() {
-        return Ok(program);
-    }
-    println!("SciPy is missing and is installed into target/tools now, once (240 MB).");
-    let made = shell::run(
-        Command::new("python3")
-            .args(["-m", "venv", "--clear"])
-            .arg(&folder),
-    )
-    .and_then(|()| {
-        let pip = [
-            "-m",
-            "pip",
-            "install",
-            "--quiet",
-            "--disable-pip-version-check",
-            SCIPY,
-        ];
-        shell::run(Command::new(&program).args(pip))
-    });
-    made.map_err(|error| {
-        format!("SciPy could not be installed; it needs Python 3 with `venv` (Debian: python3-venv) and network.\n{error}")
-    })?;
-    Ok(program)
 }
 
 /// The version, as the first line of `--version` has it.

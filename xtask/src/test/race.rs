@@ -6,6 +6,8 @@ use crate::shell::{self, Workspace};
 
 /// Compiles the driver and runs the tests that need it.
 pub fn check(workspace: &Workspace) -> Outcome {
+    // Of the whole workspace: so the features of dependencies are those that `test` has built with.
+    shell::run(&mut workspace.cargo(["build", "--release", "--workspace", "--lib"]))?;
     let driver = tools::cvode(workspace)?;
     let mut tests = workspace.cargo(["test", "--release", "--workspace", "--test", "drivers"]);
     tests.args(["--", "--ignored"]).env("RACE_CVODE", driver);

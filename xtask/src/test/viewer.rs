@@ -5,6 +5,7 @@ use std::env;
 use std::process::Command;
 
 use super::Outcome;
+use crate::debian;
 use crate::shell::{self, Workspace};
 use crate::viewer::{bundle, install, node};
 
@@ -65,9 +66,7 @@ fn chromium() -> Result<String, String> {
         return Ok(path);
     }
     println!("Chromium is missing and is installed now, once (90 MB to fetch).");
-    apt(&["update"])
-        .and_then(|()| apt(&["install", "-y", "--no-install-recommends", "chromium"]))
-        .map_err(|error| format!("{}\n{error}", advice()))?;
+    debian::install(&["chromium"]).map_err(|error| format!("{}\n{error}", advice()))?;
     found().ok_or_else(advice)
 }
 
@@ -78,12 +77,6 @@ fn found() -> Option<String> {
     let path =
         paths.find(|path| path.is_file() && shell::output(Command::new(path).arg("--version")).is_some())?;
     path.into_os_string().into_string().ok()
-}
-
-fn apt(arguments: &[&str]) -> Result<(), String> {
-    let mut command = Command::new("apt-get");
-    command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive");
-    shell::run(&mut command)
 }
 
 fn advice() -> String {
