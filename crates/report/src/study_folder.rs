@@ -17,11 +17,13 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use parquet::errors::ParquetError;
 use study::design::{Factor, Study, Value};
 use study::measures;
 use study::records::{self, Record};
 
 use crate::files::{FileError, Folder};
+use crate::page::study as page;
 use crate::parquet::{Cell, Column, Content, TableWriter};
 
 mod error;
@@ -34,6 +36,8 @@ pub const STUDY_FILE: &str = "study.json";
 pub const TABLE_FILE: &str = "table.parquet";
 /// The key of the study's description in the table's metadata.
 pub const STUDY_KEY: &str = "wedgelab.study";
+/// The folder with the time series of some runs.
+pub const SERIES: &str = "series";
 const PARTS: &str = "parts";
 const LOCK_FILE: &str = ".lock";
 /// How the hidden folders of files being written begin.
@@ -247,7 +251,7 @@ impl StudyFolder {
         let written = folder.write(|files| {
             files.add(TABLE_FILE, |out| {
                 let metadata = [(STUDY_KEY, self.description.clone())];
-                let mut table = TableWriter::new(out, columns(study), &metadata).map_err(io::Error::other)?;
+                let mut table = TableWriter::new(out, columns(study), &metadata).map_err(plain)?;
                 for part in 0..self.parts() {
                     let found = self.part(part).and_then(|part_found| {
                         let missing = self.numbers(part).count() - part_found.records.len();
@@ -265,18 +269,16 @@ impl StudyFolder {
                     };
                     for record in &found.records {
                         let values = study.values(record.number);
-                        table
-                            .row(cells(study, &values, record))
-                            .map_err(io::Error::other)?;
+                        table.row(cells(study, &values, record)).map_err(plain)?;
                         each(&values, record);
                     }
                 }
-                table.finish().map_err(io::Error::other)
+                table.finish().map_err(plain)
             })
         });
         match unread {
             Some(error) => Err(error),
-            None => Ok(written?),
+            None => written.map_err(StudyFolderError::after_all_runs),
         }
     }
 }
@@ -287,7 +289,13 @@ fn refuse_foreign(path: &Path) -> Result<(), StudyFolderError> {
         // It is not there, or what is wrong with it will be said when it is written to.
         return Ok(());
     };
-    let own = |name: &str| name == LOCK_FILE || name == PARTS || name.starts_with(HIDDEN);
+    // With parts it is a study whose description was moved away; whose records they are, each of them tells.
+    let made: &[&str] = match path.join(PARTS).is_dir() {
+        true => &[TABLE_FILE, page::FILE_NAME, SERIES],
+        false => &[SERIES],
+    };
+    let own =
+        |name: &str| name == LOCK_FILE || name == PARTS || name.starts_with(HIDDEN) || made.contains(&name);
     let mut names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     match names.find(|name| !own(name)) {
         Some(name) => Err(StudyFolderError::NotAStudy {
@@ -309,6 +317,14 @@ fn remove_left_over(path: &Path) {
         {
             let _ = fs::remove_dir_all(entry.path());
         }
+    }
+}
+
+/// The system's error, without the library's words around it.
+fn plain(error: ParquetError) -> io::Error {
+    match error {
+        ParquetError::External(reason) => io::Error::other(reason),
+        other => io::Error::other(other),
     }
 }
 

@@ -1,5 +1,7 @@
 //! The summary page of a study.
 
+use std::path::Path;
+
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use study::design::{Accuracy, Levels, Sampling, Study};
 use study::measures;
@@ -8,12 +10,23 @@ use super::{STYLE, anchor, inline};
 use crate::drawing::Figure;
 use crate::figures::digits;
 use crate::figures::study::exhibits;
+use crate::files::{FileError, Folder};
 use crate::overlay::words;
 use crate::study_digest::Digest;
 use crate::study_folder::{TABLE_FILE, columns, factor_column};
 
 /// The page's file name.
 pub const FILE_NAME: &str = "index.html";
+
+/// Writes the page into a study's folder, whole or not at all.
+///
+/// # Errors
+/// It cannot be written.
+pub fn write(study: &Study, digest: &Digest, folder: &Path) -> Result<(), FileError> {
+    let page = render(study, digest);
+    Folder::check(folder, &[FILE_NAME], true)?
+        .write(|files| files.add(FILE_NAME, |out| out.write_all(page.as_bytes())))
+}
 
 /// The page as HTML; it needs nothing else to be shown.
 #[must_use]

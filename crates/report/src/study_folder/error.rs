@@ -91,6 +91,17 @@ pub enum StudyFolderError {
         /// Why.
         reason: io::Error,
     },
+    /// The table or the page could not be written.
+    #[error("cannot write `{}`: {reason}", .file.display())]
+    #[diagnostic(help(
+        "every run is kept. Look for space and rights, then give the same command again: no run is computed again, only this file is made"
+    ))]
+    Table {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        reason: io::Error,
+    },
     /// Not all variants are there.
     #[error("{missing} runs are missing")]
     #[diagnostic(help("give the command again to compute them"))]
@@ -98,6 +109,17 @@ pub enum StudyFolderError {
         /// How many, at least.
         missing: usize,
     },
+}
+
+impl StudyFolderError {
+    /// What went wrong while something was made from runs that are all kept.
+    #[must_use]
+    pub fn after_all_runs(error: FileError) -> Self {
+        match error {
+            FileError::Write { file, reason } => Self::Table { file, reason },
+            other => Self::File(other),
+        }
+    }
 }
 
 /// Refuses a folder whose study is not this one; says what is different.

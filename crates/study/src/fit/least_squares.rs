@@ -2,7 +2,8 @@
 //! bounds.
 //!
 //! Parameters are scaled to their ranges, so that 0 and 1 are the bounds. Derivatives are central differences (one-sided at a
-//! bound), because the model is a simulation. A parameter that stands at a bound and would leave it is held in that round; one
+//! bound), because the model is a simulation; over the parameters' standard deviations in the end, because simulations with contacts are
+//! jagged in the small. A parameter that stands at a bound and would leave it is held in that round; one
 //! that ends there has no interval.
 
 /// Values of a model at many points, for several sets of scaled parameters at a time; why it has none.
@@ -11,9 +12,10 @@ pub type Evaluate<'e> = &'e dyn Fn(&[Vec<f64>]) -> Vec<Result<Vec<f64>, String>>
 /// Settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Half the distance of central differences, of the range.
+    /// Half the distance of central differences, of the range, at first; later it is the parameter's own standard deviation, if
+    /// that is more.
     pub difference: f64,
-    /// Rounds at most.
+    /// Rounds at most, with differences of one distance.
     pub most_rounds: u32,
     /// It ends where no parameter moves by more than this part of its range.
     pub least_move: f64,
@@ -60,84 +62,152 @@ pub fn minimize(
     settings: &Settings,
 ) -> Result<Minimum, String> {
     let count = start.len();
-    let mut place = start.to_vec();
-    let mut values = first(evaluate(&[place.clone()]))?;
-    let mut sum = squares(data, &values)?;
-    let mut damping = 1e-3;
-    let (mut rounds, mut settled) = (0, false);
-    let mut slopes = jacobian(evaluate, &place, settings.difference)?;
-    while rounds < settings.most_rounds && !settled {
-        rounds += 1;
-        let residuals: Vec<f64> = data
-            .iter()
-            .zip(&values)
-            .map(|(data, value)| data - value)
-            .collect();
-        let gradient: Vec<f64> = slopes.iter().map(|slope| dot(slope, &residuals)).collect();
-        let free: Vec<usize> = (0..count)
-            .filter(|k| !(place[*k] <= 0.0 && gradient[*k] < 0.0 || place[*k] >= 1.0 && gradient[*k] > 0.0))
-            .collect();
-        if free.is_empty() {
-            settled = true;
+    let place = start.to_vec();
+    let values = first(evaluate(std::slice::from_ref(&place)))?;
+    let distances = vec![settings.difference; count];
+    let mut state = State {
+        sum: squares(data, &values)?,
+        slopes: jacobian(evaluate, &place, &distances)?,
+        place,
+        values,
+        distances,
+        rounds: 0,
+    };
+    let mut settled = state.descend(evaluate, data, settings)?;
+    // Runs are jagged in the small: events come and go. What counts is how they change over the parameters' own uncertainty,
+    // so once that is known, differences are taken over it, and the search goes on with them.
+    for _ in 0..WIDENINGS {
+        let Some(covariance) = state.covariance(data.len()) else {
+            break;
+        };
+        let before = state.sum;
+        for (k, distance) in state.distances.iter_mut().enumerate() {
+            *distance = covariance[k][k].sqrt().clamp(settings.difference, WIDEST);
+        }
+        state.slopes = jacobian(evaluate, &state.place, &state.distances)?;
+        settled = state.descend(evaluate, data, settings)?;
+        if state.sum > before * (1.0 - SETTLED) {
             break;
         }
-        let mut accepted = false;
+    }
+    Ok(Minimum {
+        covariance: state.covariance(data.len()),
+        at_bound: state.at_bound(),
+        place: state.place,
+        values: state.values,
+        sum: state.sum,
+        rounds: state.rounds,
+        settled,
+    })
+}
+
+/// How often differences are taken anew over the uncertainty found.
+const WIDENINGS: usize = 4;
+/// Half the distance of central differences is never more than this part of the range.
+const WIDEST: f64 = 0.05;
+/// The search is over when differences taken anew lower the sum by less than this part.
+const SETTLED: f64 = 1e-3;
+
+/// Where the search stands.
+struct State {
+    place: Vec<f64>,
+    values: Vec<f64>,
+    sum: f64,
+    slopes: Vec<Vec<f64>>,
+    /// Half the distances of the differences that gave the slopes.
+    distances: Vec<f64>,
+    rounds: u32,
+}
+
+impl State {
+    fn at_bound(&self) -> Vec<bool> {
+        self.place
+            .iter()
+            .map(|value| *value <= 0.0 || *value >= 1.0)
+            .collect()
+    }
+
+    fn covariance(&self, values: usize) -> Option<Vec<Vec<f64>>> {
+        let at_bound = self.at_bound();
+        let count = self.place.len();
+        let free: Vec<usize> = (0..count).filter(|k| !at_bound[*k]).collect();
+        let freedom = values.saturating_sub(free.len()).max(1);
+        covariance(&self.slopes, &free, self.sum / freedom as f64, count)
+    }
+
+    /// Goes down until nothing helps; whether that was within the rounds allowed.
+    fn descend(&mut self, evaluate: Evaluate<'_>, data: &[f64], settings: &Settings) -> Result<bool, String> {
+        let mut damping = 1e-3;
+        for _ in 0..settings.most_rounds {
+            self.rounds += 1;
+            if !self.step(evaluate, data, settings, &mut damping)? {
+                return Ok(true);
+            }
+            self.slopes = jacobian(evaluate, &self.place, &self.distances)?;
+        }
+        Ok(false)
+    }
+
+    /// One step down; whether another is worth while.
+    fn step(
+        &mut self,
+        evaluate: Evaluate<'_>,
+        data: &[f64],
+        settings: &Settings,
+        damping: &mut f64,
+    ) -> Result<bool, String> {
+        let residuals: Vec<f64> = data
+            .iter()
+            .zip(&self.values)
+            .map(|(data, value)| data - value)
+            .collect();
+        let gradient: Vec<f64> = self.slopes.iter().map(|slope| dot(slope, &residuals)).collect();
+        let held = |k: &usize| {
+            let (place, gradient) = (self.place[*k], gradient[*k]);
+            place <= 0.0 && gradient < 0.0 || place >= 1.0 && gradient > 0.0
+        };
+        let free: Vec<usize> = (0..self.place.len()).filter(|k| !held(k)).collect();
+        if free.is_empty() {
+            return Ok(false);
+        }
         for _ in 0..20 {
-            let mut matrix = normal(&slopes, &free);
+            let mut matrix = normal(&self.slopes, &free);
             for (k, row) in matrix.iter_mut().enumerate() {
-                row[k] *= 1.0 + damping;
+                row[k] *= 1.0 + *damping;
                 row[k] += f64::MIN_POSITIVE;
             }
             let right: Vec<f64> = free.iter().map(|k| gradient[*k]).collect();
             let Some(step) = solve(matrix, right) else {
-                damping *= 10.0;
+                *damping *= 10.0;
                 continue;
             };
-            let mut next = place.clone();
+            let mut next = self.place.clone();
             for (k, step) in free.iter().zip(&step) {
                 next[*k] = (next[*k] + step).clamp(0.0, 1.0);
             }
             let moved = next
                 .iter()
-                .zip(&place)
+                .zip(&self.place)
                 .fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
-            if moved <= settings.least_move {
-                settled = true;
-                break;
-            }
+            // A move too small to count is made if it helps, and is the last one.
+            let last = moved <= settings.least_move;
             // A place where the model has no values is too far.
-            let tried = first(evaluate(&[next.clone()])).and_then(|values| {
+            let tried = first(evaluate(std::slice::from_ref(&next))).and_then(|values| {
                 let sum = squares(data, &values)?;
                 Ok((values, sum))
             });
             match tried {
-                Ok((next_values, next_sum)) if next_sum < sum => {
-                    (place, values, sum) = (next, next_values, next_sum);
-                    damping = (damping / 10.0).max(1e-12);
-                    accepted = true;
-                    break;
+                Ok((values, sum)) if sum < self.sum => {
+                    (self.place, self.values, self.sum) = (next, values, sum);
+                    *damping = (*damping / 10.0).max(1e-12);
+                    return Ok(!last);
                 }
-                _ => damping *= 10.0,
+                _ if last => return Ok(false),
+                _ => *damping *= 10.0,
             }
         }
-        if accepted {
-            slopes = jacobian(evaluate, &place, settings.difference)?;
-        } else {
-            settled = true;
-        }
+        Ok(false)
     }
-    let at_bound: Vec<bool> = place.iter().map(|value| *value <= 0.0 || *value >= 1.0).collect();
-    let free: Vec<usize> = (0..count).filter(|k| !at_bound[*k]).collect();
-    let freedom = data.len().saturating_sub(free.len());
-    Ok(Minimum {
-        covariance: covariance(&slopes, &free, sum / freedom.max(1) as f64, count),
-        place,
-        values,
-        sum,
-        at_bound,
-        rounds,
-        settled,
-    })
 }
 
 fn first(mut found: Vec<Result<Vec<f64>, String>>) -> Result<Vec<f64>, String> {
@@ -167,10 +237,10 @@ fn squares(data: &[f64], values: &[f64]) -> Result<f64, String> {
 }
 
 /// Derivatives of the values by each parameter.
-fn jacobian(evaluate: Evaluate<'_>, place: &[f64], difference: f64) -> Result<Vec<Vec<f64>>, String> {
+fn jacobian(evaluate: Evaluate<'_>, place: &[f64], distances: &[f64]) -> Result<Vec<Vec<f64>>, String> {
     let mut places = Vec::with_capacity(2 * place.len());
-    for k in 0..place.len() {
-        for side in [-difference, difference] {
+    for (k, distance) in distances.iter().enumerate() {
+        for side in [-distance, *distance] {
             let mut beside = place.to_vec();
             beside[k] = (beside[k] + side).clamp(0.0, 1.0);
             places.push(beside);

@@ -177,12 +177,14 @@ fn analytic_ranges_scales_and_companions() {
 #[test]
 fn analytic_a_list_is_what_is_written() {
     let study = study(&format!(
-        "{HEAD}sampling = \"list\"\n[[variants]]\nfriction.column = 0.3\n[[variants]]\nwedge.angle = \"35 deg\"\n\
+        "{HEAD}sampling = \"list\"\n[[variants]]\nfriction.column = 0.3\n[[variants]]\nwedge.angle = \"36 deg\"\n\
          bolster.vertical = {{ shape = \"triangle\", amplitude = \"1 in\", frequency = \"0.5 Hz\" }}\n"
     ));
     assert_eq!(study.count(), 2);
     assert_eq!(study.overrides(0), ["friction.column=0.3"]);
     assert_eq!(study.values(0), [study.values(0)[0].clone(), None, None]);
     assert_eq!(study.overrides(1).len(), 2);
-    assert!(study.case(1).unwrap().parameters.wedge.angle > study.case(0).unwrap().parameters.wedge.angle);
+    let angle = |number| study.case(number).unwrap().parameters.wedge.angle;
+    assert_eq!(angle(0), study.base.parameters.wedge.angle);
+    assert!((angle(1) - 36_f64.to_radians()).abs() < 1e-15);
 }

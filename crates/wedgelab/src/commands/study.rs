@@ -9,7 +9,6 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Args;
-use report::files::Folder;
 use report::page::study as page;
 use report::study_digest::Digest;
 use report::study_folder::{StudyFolder, StudyFolderError, TABLE_FILE};
@@ -120,9 +119,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let wall = clock.elapsed().as_secs_f64();
     let mut digest = Digest::new(&study);
     folder.merge(&study, |values, record| digest.add(&study, values, record))?;
-    let page = page::render(&study, &digest);
-    Folder::check(&path, &[page::FILE_NAME], true)?
-        .write(|files| files.add(page::FILE_NAME, |out| out.write_all(page.as_bytes())))?;
+    page::write(&study, &digest, &path).map_err(StudyFolderError::after_all_runs)?;
     let mut out = io::stdout().lock();
     let [complete, refused, stopped] = digest.ended;
     write!(out, "{} runs: {complete} complete", study.count())?;

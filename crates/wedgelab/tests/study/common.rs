@@ -4,6 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use study::design::Study;
+use study::records;
+
 /// A study of 120 short runs, a few milliseconds each.
 pub const SMALL: &str = "\
 title = \"Friction and stiffness\"
@@ -15,6 +18,9 @@ simulation.duration = \"0.12 s\"
 friction.column = { from = 0.2, to = 0.6, count = 12 }
 control_coil.stiffness = { from = \"1500 lbf/in\", to = \"2500 lbf/in\", count = 10 }
 ";
+
+/// What lies in the folder of a study that is done.
+pub const WHOLE: [&str; 5] = [".lock", "index.html", "parts", "study.json", "table.parquet"];
 
 pub struct Output {
     pub code: Option<i32>,
@@ -82,4 +88,26 @@ pub fn names(folder: &Path) -> Vec<String> {
         .collect();
     names.sort();
     names
+}
+
+/// Bytes of records that are there.
+pub fn kept(folder: &Path) -> u64 {
+    let parts = folder.join("parts");
+    names(&parts)
+        .iter()
+        .map(|name| fs::metadata(parts.join(name)).unwrap().len())
+        .sum()
+}
+
+/// The numbers of all records in the parts, sorted; a run that was done twice stands twice.
+pub fn recorded(folder: &Path, study: &str, out: &str) -> Vec<u64> {
+    let fingerprint = Study::read(&folder.join(study)).unwrap().fingerprint();
+    let parts = folder.join(out).join("parts");
+    let mut numbers: Vec<u64> = names(&parts)
+        .iter()
+        .flat_map(|name| records::read(fingerprint, &fs::read(parts.join(name)).unwrap()).records)
+        .map(|record| record.number)
+        .collect();
+    numbers.sort_unstable();
+    numbers
 }

@@ -81,7 +81,7 @@ fn input_what_cannot_be_fitted() {
         ),
         (
             ["gone.csv", "case.toml", "friction.column=0.2..0.6"],
-            ["no result", "CSV"],
+            ["no result", "gone.csv"],
         ),
     ] {
         let [measured, case, free] = arguments;

@@ -1,10 +1,12 @@
 //! Wrong input is explained.
 
 use std::fs;
+use std::process::Stdio;
+use std::time::Duration;
 
 use tempfile::tempdir;
 
-use crate::common::{SMALL, done, refused, table};
+use crate::common::{SMALL, command, done, kept, names, refused, table};
 
 #[test]
 fn input_what_is_wrong_is_shown_where_it_stands() {
@@ -24,7 +26,7 @@ fn input_what_is_wrong_is_shown_where_it_stands() {
         (
             "\"2500 lbf/in\"",
             "\"2500 lbf\"",
-            ["do not measure the same", "a.toml:9"],
+            ["do not measure the same", "a.toml:8"],
         ),
         (
             "full_factorial",
@@ -54,6 +56,19 @@ fn input_more_than_a_million_runs_need_a_yes() {
     fs::write(path.join("a.toml"), text).unwrap();
     refused(path, &["study", "a.toml"], 2, &["2000000 runs", "--yes"]);
     assert!(!path.join("a").exists());
+    // With it, it begins.
+    let mut child = command(path, &["study", "a.toml", "--yes", "--quiet"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let begun = (0..3000).any(|_| {
+        std::thread::sleep(Duration::from_millis(20));
+        path.join("a/parts").exists() && kept(&path.join("a")) > 0
+    });
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(begun);
 }
 
 #[test]
@@ -101,4 +116,8 @@ fn input_series_of_runs_that_are_not_there() {
         2,
         &["no run 120", "0 to 119"],
     );
+    // Those that are there may be asked for before the study.
+    done(path, &["study", "a.toml", "--series", "119", "--quiet"]);
+    done(path, &["study", "a.toml", "--quiet"]);
+    assert_eq!(names(&path.join("a/series")), ["119"]);
 }

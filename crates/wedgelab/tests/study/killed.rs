@@ -1,14 +1,17 @@
 //! A study ends in the same table, however it was ended in between and however many work at it.
 
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
+use report::study_folder::StudyFolder;
+use study::design::Study;
+use study::measures::Measures;
+use study::records::{Record, Status};
 use tempfile::tempdir;
 
-use crate::common::{SMALL, command, done, names, output, refused, table, wedgelab};
+use crate::common::{SMALL, WHOLE, command, done, kept, names, recorded, table};
 
 /// Kills the command after these milliseconds; whether it was still at work.
 fn kill_after(folder: &Path, arguments: &[&str], milliseconds: u64) -> bool {
@@ -22,15 +25,6 @@ fn kill_after(folder: &Path, arguments: &[&str], milliseconds: u64) -> bool {
     child.kill().unwrap();
     child.wait().unwrap();
     working
-}
-
-/// Bytes of records that are there.
-fn kept(folder: &Path) -> u64 {
-    let parts = folder.join("parts");
-    names(&parts)
-        .iter()
-        .map(|name| fs::metadata(parts.join(name)).unwrap().len())
-        .sum()
 }
 
 /// Kills until it has been killed at work so often, each time at another moment, and never loses what was there.
@@ -58,22 +52,88 @@ fn kill_often(folder: &Path, study: &str, out: &str, often: u32, least: u64, spa
 fn limits_killed_ten_times_it_has_the_table_of_an_undisturbed_study() {
     let folder = tempdir().unwrap();
     let path = folder.path();
-    fs::write(path.join("small.toml"), SMALL).unwrap();
+    let text = SMALL
+        .replace("count = 12", "count = 20")
+        .replace("count = 10", "count = 15");
+    fs::write(path.join("small.toml"), text).unwrap();
     done(path, &["study", "small.toml", "--out", "undisturbed", "--quiet"]);
     let killed = kill_often(path, "small.toml", "killed", 10, 5, 120);
     assert!(killed > 0, "every run was over before it could be killed");
     done(path, &["study", "small.toml", "--out", "killed", "--quiet"]);
     assert!(table(&path.join("undisturbed")) == table(&path.join("killed")));
-    // Killed while the table is written: all runs are there, and it is written each time.
-    kill_often(path, "small.toml", "killed", 10, 1, 40);
-    let again = done(path, &["study", "small.toml", "--out", "killed"]);
-    assert!(again.out.contains("120 were there before"), "{}", again.out);
-    assert!(table(&path.join("undisturbed")) == table(&path.join("killed")));
-    assert_eq!(
-        names(&path.join("killed")),
-        [".lock", "index.html", "parts", "study.json", "table.parquet"],
-        "nothing is left over"
+    let numbers = recorded(path, "small.toml", "killed");
+    assert!(
+        numbers.iter().copied().eq(0..300),
+        "each run is kept once: {numbers:?}"
     );
+    let again = done(path, &["study", "small.toml", "--out", "killed"]);
+    assert!(again.out.contains("300 were there before"), "{}", again.out);
+    assert_eq!(names(&path.join("killed")), WHOLE, "nothing is left over");
+}
+
+/// Killed while Parquet is written, seen by the file that grows: twenty thousand rows, made up, so that it takes a while.
+#[test]
+fn limits_killed_while_the_table_is_written_it_writes_it_again() {
+    const RUNS: u64 = 20_000;
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    let text = format!(
+        "case = \"cdrun_toe_-0.2_psi_0.012\"\nsampling = \"sobol\"\nruns = {RUNS}\n[vary]\n\
+         friction.column = {{ from = 0.2, to = 0.6 }}\nfriction.slope = {{ from = 0.2, to = 0.6 }}\n"
+    );
+    fs::write(path.join("large.toml"), text).unwrap();
+    make_up(path, "large.toml", "killed", RUNS);
+    let killed = path.join("killed");
+    let mut torn = 0;
+    for pause in [0, 0, 1, 2, 5, 10, 20] {
+        let mut child = command(path, &["study", "large.toml", "--out", "killed", "--quiet"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        while !being_written(&killed) && child.try_wait().unwrap().is_none() {
+            std::thread::yield_now();
+        }
+        std::thread::sleep(Duration::from_millis(pause));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        torn += u32::from(being_written(&killed));
+    }
+    assert!(torn > 0, "it was never killed while the table was written");
+    assert!(recorded(path, "large.toml", "killed").into_iter().eq(0..RUNS));
+    let said = done(path, &["study", "large.toml", "--out", "killed"]);
+    assert!(said.out.contains("20000 were there before"), "{}", said.out);
+    assert_eq!(names(&killed), WHOLE, "nothing is left over");
+    make_up(path, "large.toml", "undisturbed", RUNS);
+    done(path, &["study", "large.toml", "--out", "undisturbed", "--quiet"]);
+    assert!(table(&killed) == table(&path.join("undisturbed")));
+}
+
+/// Keeps made-up records of all runs.
+fn make_up(path: &Path, study: &str, out: &str, runs: u64) {
+    let study = Study::read(&path.join(study)).unwrap();
+    let mut bytes = Vec::new();
+    for number in 0..runs {
+        let mut measures = Measures::NONE;
+        for (place, value) in measures.0.iter_mut().enumerate() {
+            *value = (number as f64 + place as f64).sin();
+        }
+        let record = Record {
+            number,
+            status: Status::Complete,
+            reason: String::new(),
+            measures,
+        };
+        record.write(study.fingerprint(), &mut bytes);
+    }
+    let folder = StudyFolder::open(&path.join(out), &study).unwrap();
+    assert_eq!(folder.keep_all(&bytes).unwrap(), runs);
+}
+
+/// Whether a table that is not whole lies there.
+fn being_written(folder: &Path) -> bool {
+    let mut entries = fs::read_dir(folder).unwrap().flatten();
+    entries.any(|entry| entry.path().join("result/table.parquet").exists())
 }
 
 /// Ten thousand runs and ten kills: some minutes. Run it with `--ignored`.
@@ -89,6 +149,7 @@ fn limits_ten_thousand_runs_survive_ten_kills() {
     fs::write(path.join("large.toml"), text).unwrap();
     assert_eq!(kill_often(path, "large.toml", "killed", 10, 200, 4000), 10);
     done(path, &["study", "large.toml", "--out", "killed", "--quiet"]);
+    assert!(recorded(path, "large.toml", "killed").into_iter().eq(0..10_000));
     done(
         path,
         &[
@@ -148,94 +209,4 @@ fn limits_interrupted_it_says_so_and_goes_on() {
     assert_eq!(ended.status.code(), Some(1), "{err}");
     assert!(err.contains("of 120 runs are kept in a"), "{err}");
     assert!(kept(&path.join("a")) > 0 && !path.join("a/table.parquet").exists());
-}
-
-#[test]
-#[cfg(unix)]
-fn input_a_full_disk_loses_nothing() {
-    let folder = tempdir().unwrap();
-    let path = folder.path();
-    fs::write(path.join("small.toml"), SMALL).unwrap();
-    // Begun, without a run.
-    done(path, &["study", "small.toml", "--out", "a", "--quiet"]);
-    fs::remove_dir_all(path.join("a/parts")).unwrap();
-    fs::remove_file(path.join("a/table.parquet")).unwrap();
-    // No file may grow beyond 4 KiB: as a full disk it refuses to be written to.
-    let limited = format!(
-        "trap '' XFSZ; ulimit -f 8; exec '{}' study small.toml --out a --quiet",
-        env!("CARGO_BIN_EXE_wedgelab")
-    );
-    let full = output(Command::new("sh").arg("-c").arg(limited).current_dir(path));
-    assert_eq!(full.code, Some(1), "{}", full.err);
-    for text in [
-        "cannot write into",
-        "all runs that were written before are kept",
-        "goes on",
-    ] {
-        assert!(full.err.contains(text), "{text:?}: {}", full.err);
-    }
-    assert!(kept(&path.join("a")) > 2000 && !path.join("a/table.parquet").exists());
-    let again = done(path, &["study", "small.toml", "--out", "a"]);
-    assert!(again.out.contains("were there before"), "{}", again.out);
-    done(path, &["study", "small.toml", "--out", "b", "--quiet"]);
-    assert!(table(&path.join("a")) == table(&path.join("b")));
-}
-
-#[test]
-fn input_damaged_parts_are_computed_again_and_foreign_ones_refused() {
-    let folder = tempdir().unwrap();
-    let path = folder.path();
-    fs::write(path.join("small.toml"), SMALL).unwrap();
-    done(path, &["study", "small.toml", "--out", "a", "--quiet"]);
-    let whole = table(&path.join("a"));
-    let part = path.join("a/parts/part-000001");
-    let mut bytes = fs::read(&part).unwrap();
-    let middle = bytes.len() / 2;
-    bytes[middle] ^= 1;
-    bytes.truncate(bytes.len() - 3);
-    fs::write(&part, &bytes).unwrap();
-    let again = wedgelab(path, &["study", "small.toml", "--out", "a"]);
-    assert_eq!(again.code, Some(0), "{}", again.err);
-    assert!(again.err.contains("cut off or damaged") && again.out.contains("118 were there before"));
-    assert!(table(&path.join("a")) == whole);
-    // A part of another study.
-    fs::write(path.join("other.toml"), SMALL.replace("0.6,", "0.5,")).unwrap();
-    done(path, &["study", "other.toml", "--out", "b", "--quiet"]);
-    fs::copy(path.join("b/parts/part-000001"), &part).unwrap();
-    refused(
-        path,
-        &["study", "small.toml", "--out", "a"],
-        1,
-        &["part-000001", "another study", "move this file away"],
-    );
-    fs::remove_file(&part).unwrap();
-    done(path, &["study", "small.toml", "--out", "a", "--quiet"]);
-    assert!(table(&path.join("a")) == whole);
-}
-
-#[test]
-fn input_a_folder_in_use_is_refused() {
-    let folder = tempdir().unwrap();
-    let path = folder.path();
-    fs::write(path.join("small.toml"), SMALL).unwrap();
-    fs::create_dir(path.join("a")).unwrap();
-    let lock = fs::File::create(path.join("a/.lock")).unwrap();
-    lock.lock().unwrap();
-    refused(
-        path,
-        &["study", "small.toml", "--out", "a"],
-        2,
-        &["another program works in"],
-    );
-    drop(lock);
-    fs::File::create(path.join("a/mine.txt"))
-        .unwrap()
-        .write_all(b"mine")
-        .unwrap();
-    refused(
-        path,
-        &["study", "small.toml", "--out", "a"],
-        2,
-        &["holds no study", "mine.txt"],
-    );
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
+mod damaged;
 mod fit;
 mod input;
 mod killed;

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use report::files::Folder;
 use report::run_files;
+use report::study_folder::SERIES;
 use study::design::Study;
 
 use crate::execute::execute as execute_case;
@@ -20,7 +21,7 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         let mut case = study.case(*number)?;
         case.name = format!("{}_{number}", study.name);
         case.document.name.clone_from(&case.name);
-        let path = out.join("series").join(number.to_string());
+        let path = out.join(SERIES).join(number.to_string());
         // The same run gives the same files.
         let folder = Folder::check(&path, &run_files::NAMES, true)?;
         execute_case(&case, &folder, &progress)?;
