@@ -14,6 +14,9 @@
 //! - [`run_files`]: the files of a run.
 //! - [`truck_files`]: the files of a half-truck's run.
 //! - [`table`]: tables of results, read back.
+//! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table, [`study_digest`] what
+//!   their page shows.
+//! - [`fit_files`]: the files of an identification.
 //! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
 
 pub mod agreement;
@@ -36,6 +39,7 @@ pub mod run_files;
 pub mod sections;
 pub mod study_digest;
 pub mod study_folder;
+pub mod study_work;
 pub mod summary;
 pub mod table;
 pub mod thin;

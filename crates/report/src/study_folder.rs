@@ -220,7 +220,7 @@ impl StudyFolder {
         })
     }
 
-    /// Keeps records that another worker computed ([`records::run_range`]); gives their number.
+    /// Keeps records that another worker computed ([`records::run_all`]); gives their number.
     ///
     /// # Errors
     /// The bytes hold something else than records of this study, or they cannot be written.

@@ -13,7 +13,7 @@
 //!
 //! [`read`] finds all sound records in any bytes, whatever lies between them.
 
-use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::design::Study;
 use crate::measures::{COUNT, Measures, Unmeasured, measure};
@@ -66,9 +66,30 @@ pub struct Record {
     pub measures: Measures,
 }
 
-/// Computes a variant.
+/// Computes a variant. Whatever goes wrong in it, it is a record: others go on.
 #[must_use]
 pub fn run(study: &Study, number: u64) -> Record {
+    caught(number, || compute(study, number))
+}
+
+/// A panic, which is a mistake of ours, as a record.
+fn caught(number: u64, compute: impl FnOnce() -> Record) -> Record {
+    catch_unwind(AssertUnwindSafe(compute)).unwrap_or_else(|panic| {
+        let text = panic.downcast_ref::<&str>().copied();
+        let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+        Record {
+            number,
+            status: Status::Stopped,
+            reason: shortened(format!(
+                "a mistake of Wedgelab itself: {}",
+                text.unwrap_or("no message")
+            )),
+            measures: Measures::NONE,
+        }
+    })
+}
+
+fn compute(study: &Study, number: u64) -> Record {
     let failed = |status, reason: String| Record {
         number,
         status,
@@ -94,12 +115,13 @@ pub fn run(study: &Study, number: u64) -> Record {
     }
 }
 
-/// Computes the variants of a range, one after the other, and gives their records as bytes: what one worker of many does.
+/// Computes these variants, one after the other, and gives their records as bytes: what one worker of many does. Numbers
+/// beyond the study are left out.
 #[must_use]
-pub fn run_range(study: &Study, numbers: Range<u64>) -> Vec<u8> {
+pub fn run_all(study: &Study, numbers: impl IntoIterator<Item = u64>) -> Vec<u8> {
     let fingerprint = study.fingerprint();
     let mut bytes = Vec::new();
-    for number in numbers.start..numbers.end.min(study.count()) {
+    for number in numbers.into_iter().filter(|number| *number < study.count()) {
         run(study, number).write(fingerprint, &mut bytes);
     }
     bytes
@@ -197,4 +219,17 @@ pub fn read(fingerprint: u64, bytes: &[u8]) -> Found {
         }
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Status, caught};
+
+    #[test]
+    #[allow(clippy::panic)]
+    fn limits_a_mistake_of_ours_is_a_record() {
+        let record = caught(7, || panic!("on {}", "purpose"));
+        assert_eq!((record.number, record.status), (7, Status::Stopped));
+        assert_eq!(record.reason, "a mistake of Wedgelab itself: on purpose");
+    }
 }

@@ -25,6 +25,9 @@ use crate::case::{Case, CaseError};
 /// Version of what a study computes: it grows when the same document gives another table.
 pub const STUDY_VERSION: u32 = 1;
 
+/// Studies of more runs than this are begun only if the user says so.
+pub const MANY: u64 = 1_000_000;
+
 /// How variants are chosen.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
@@ -85,16 +88,32 @@ pub struct Study {
     pub base: Case,
     /// The values of a list: for each variant those of the factors, as far as it has them.
     list: Vec<Vec<Option<Value>>>,
-    source: CaseSource,
+    source: StudySource,
     count: u64,
 }
 
+/// The texts that a study was read from: what another program needs to compute a part of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudySource {
+    /// The study file's name.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// Its folder.
+    pub folder: PathBuf,
+    /// The case that is varied.
+    pub case: CaseSource,
+}
+
 /// The text of the case that is varied.
-#[derive(Clone, Debug)]
-struct CaseSource {
-    name: String,
-    text: String,
-    folder: PathBuf,
+#[derive(Clone, Debug, PartialEq)]
+pub struct CaseSource {
+    /// The case file's name.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// Where the files that it names are looked for.
+    pub folder: PathBuf,
 }
 
 /// What decides what a study computes; two studies with the same description have the same table.
@@ -135,7 +154,21 @@ impl Study {
     /// # Errors
     /// As [`Study::read`].
     pub fn parse(source: &str, text: &str, folder: &Path) -> Result<Self, CaseError> {
-        read::text(source, text, folder)
+        read::text(source, text, folder, None)
+    }
+
+    /// The same study from its texts, on this machine or another. Tables in files of their own are looked for where they were.
+    ///
+    /// # Errors
+    /// As [`Study::read`].
+    pub fn of_source(source: StudySource) -> Result<Self, CaseError> {
+        read::text(&source.name, &source.text, &source.folder, Some(source.case))
+    }
+
+    /// The texts that it was read from.
+    #[must_use]
+    pub fn source(&self) -> &StudySource {
+        &self.source
     }
 
     /// Number of variants.
@@ -176,7 +209,7 @@ impl Study {
     /// # Errors
     /// Its values do not go together.
     pub fn case(&self, number: u64) -> Result<Case, CaseError> {
-        let source = &self.source;
+        let source = &self.source.case;
         let overrides = self.overrides(number);
         Case::parse(&source.name, &source.text, &source.folder, &overrides)
     }

@@ -81,16 +81,12 @@ fn input_records_of_another_study_are_seen() {
     assert_eq!(small().fingerprint(), small().fingerprint());
 }
 
-/// Ranges computed apart are the same bytes as the whole, in any order.
+/// Parts computed apart are the same bytes as the whole, in any order.
 #[test]
-fn limits_ranges_add_up_to_the_whole() {
+fn limits_parts_add_up_to_the_whole() {
     let study = small();
-    let whole = records::run_range(&study, 0..study.count());
-    let parts = [
-        records::run_range(&study, 0..1),
-        records::run_range(&study, 1..99),
-    ]
-    .concat();
+    let whole = records::run_all(&study, 0..study.count());
+    let parts = [records::run_all(&study, 0..1), records::run_all(&study, 1..99)].concat();
     assert!(whole == parts && !whole.is_empty());
     let found = records::read(study.fingerprint(), &whole);
     assert_eq!(found.records.len(), 3);
@@ -102,6 +98,25 @@ fn limits_ranges_add_up_to_the_whole() {
     );
 }
 
+/// A study made again from its texts, as a worker elsewhere does it, is the same.
+#[test]
+fn limits_a_study_from_its_texts_is_the_same() {
+    let study = small();
+    let again = Study::of_source(study.source().clone()).unwrap();
+    assert_eq!(again.fingerprint(), study.fingerprint());
+    assert_eq!(again.overrides(2), study.overrides(2));
+    // Also where there is no such case file.
+    let mut elsewhere = study.source().clone();
+    elsewhere.folder = "/nowhere".into();
+    elsewhere.name = "/nowhere/some.toml".to_owned();
+    elsewhere.case.name = format!("/nowhere/{}", elsewhere.case.name);
+    elsewhere.text = elsewhere
+        .text
+        .replace("cdrun_toe_-0.2_psi_0.012", "some/case.toml");
+    let again = Study::of_source(elsewhere).unwrap();
+    assert_eq!(again.fingerprint(), study.fingerprint());
+}
+
 #[test]
 fn input_variants_that_fail_are_records_with_reasons() {
     let study = study(&format!(
@@ -109,7 +124,7 @@ fn input_variants_that_fail_are_records_with_reasons() {
          bolster.vertical = [\"0 in\", {{ shape = \"table\", points = [[\"0 s\", \"0 in\"], [\"0.01 s\", \"0 in\"], [\"0.02 s\", \"0 in\"], [\"0.03 s\", \"0 in\"]] }}]\n\
          control_coil.stiffness = [\"2000 lbf/in\", \"1e300 lbf/in\"]\n"
     ));
-    let found = records::read(study.fingerprint(), &records::run_range(&study, 0..study.count()));
+    let found = records::read(study.fingerprint(), &records::run_all(&study, 0..study.count()));
     assert_eq!(found.records.len(), 8);
     for record in &found.records {
         let wild = record.number % 2 == 1;

@@ -10,14 +10,11 @@ use std::time::Instant;
 
 use clap::Args;
 use report::page::study as page;
-use report::study_digest::Digest;
 use report::study_folder::{StudyFolder, StudyFolderError, TABLE_FILE};
-use study::design::Study;
+use report::study_work;
+use study::design::{MANY, Study};
 
 use crate::failure::{FAILED, Failure, Message, say};
-
-/// Studies of more runs than this need --yes.
-const MANY: u64 = 1_000_000;
 
 /// Run many variants of a case
 ///
@@ -117,9 +114,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::from(FAILED));
     }
     let wall = clock.elapsed().as_secs_f64();
-    let mut digest = Digest::new(&study);
-    folder.merge(&study, |values, record| digest.add(&study, values, record))?;
-    page::write(&study, &digest, &path).map_err(StudyFolderError::after_all_runs)?;
+    let digest = study_work::finish(&study, &folder)?;
     let mut out = io::stdout().lock();
     let [complete, refused, stopped] = digest.ended;
     write!(out, "{} runs: {complete} complete", study.count())?;

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use report::study_folder::{StudyFolder, StudyFolderError};
+use report::study_work;
 use study::design::Study;
-use study::records;
 
 use crate::failure::say;
 
@@ -25,81 +25,20 @@ pub struct Done {
     pub lost: usize,
 }
 
-/// What is still to be done: the runs of one part, then of the next.
-struct Queue {
-    part: u64,
-    numbers: std::vec::IntoIter<u64>,
-}
-
 /// Computes all runs that have no record.
 pub fn all(study: &Study, folder: &StudyFolder, jobs: usize, quiet: bool) -> Result<Done, StudyFolderError> {
-    let (mut before, mut lost) = (0, 0);
-    for part in 0..folder.parts() {
-        let found = folder.part(part)?;
-        let count = found.records.len() as u64;
-        before += count;
-        // What was computed again since then needs no word.
-        if count < folder.numbers(part).end - folder.numbers(part).start {
-            lost += found.lost;
-        }
-    }
+    let begun = study_work::begun(folder)?;
+    let progress = Progress::new(study.count(), begun.runs, quiet);
     let stop = on_interrupt();
-    let progress = Progress::new(study.count(), before, quiet);
-    let queue = Mutex::new(Queue {
-        part: 0,
-        numbers: Vec::new().into_iter(),
-    });
-    let failure: Mutex<Option<StudyFolderError>> = Mutex::new(None);
-    let fail = |error| {
-        stop.store(true, Ordering::Relaxed);
-        let mut first = failure.lock().unwrap_or_else(PoisonError::into_inner);
-        first.get_or_insert(error);
-    };
-    let next = || -> Option<u64> {
-        let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
-        loop {
-            if let Some(number) = queue.numbers.next() {
-                return Some(number);
-            }
-            if queue.part >= folder.parts() {
-                return None;
-            }
-            match folder.missing(queue.part) {
-                Ok(numbers) => queue.numbers = numbers.into_iter(),
-                Err(error) => {
-                    fail(error);
-                    return None;
-                }
-            }
-            queue.part += 1;
-        }
-    };
-    let worker = || {
-        while !stop.load(Ordering::Relaxed) {
-            let Some(number) = next() else { return };
-            let record = records::run(study, number);
-            match folder.keep(&record) {
-                Ok(()) => progress.done(),
-                Err(error) => return fail(error),
-            }
-        }
-    };
-    std::thread::scope(|scope| {
-        for _ in 0..jobs {
-            scope.spawn(worker);
-        }
-    });
+    let computed = study_work::compute(study, folder, jobs, &stop, &|| progress.done());
     let now = progress.finish();
-    let failed = failure.into_inner().unwrap_or_else(PoisonError::into_inner);
-    match failed {
-        Some(error) => Err(error),
-        None => Ok(Done {
-            before,
-            now,
-            interrupted: before + now < study.count(),
-            lost,
-        }),
-    }
+    computed?;
+    Ok(Done {
+        before: begun.runs,
+        now,
+        interrupted: begun.runs + now < study.count(),
+        lost: begun.lost,
+    })
 }
 
 /// Becomes true when the user presses Ctrl-C: runs under way are finished then. Pressed again, it ends the program at once, as
