@@ -213,6 +213,72 @@ pub struct Pair {
     pub failed: Vec<u64>,
 }
 
+/// What the jam map needs of runs whose slope friction acts the same way.
+#[derive(Clone, Debug)]
+pub struct JamCells {
+    /// Whether these are runs with toe in; the others have toe out or none.
+    pub toe_in: bool,
+    /// Their toe, rad, positive out.
+    pub toe: Gathered,
+    /// The column's force over the coil's load, falling and rising, by place of angle and friction as in [`Pair`].
+    pub ratios: Vec<[Gathered; 2]>,
+}
+
+/// The jam map over angle and friction.
+#[derive(Clone, Debug)]
+pub struct Jam {
+    /// The numbers of angle and friction among the factors.
+    pub factors: [usize; 2],
+    /// Toe in, and toe out or none.
+    pub cells: [JamCells; 2],
+}
+
+impl Jam {
+    const ANGLE: &str = "wedge.angle";
+    const FRICTIONS: [&str; 2] = ["friction.column", "friction.slope"];
+    const TOE: &str = "side_frame.toe";
+    const RATIOS: [&str; 2] = ["column_force_ratio_down", "column_force_ratio_up"];
+
+    /// If angle and friction are varied, by three places each at least.
+    fn new(study: &Study, axes: &[Axis]) -> Option<Self> {
+        let numeric = |axis: &Axis| axis.middles().is_some_and(|middles| middles.len() > 2);
+        let of = |path: &str| factor_of(study, path).filter(|number| numeric(&axes[*number]));
+        let (angle, friction) = (
+            of(Self::ANGLE)?,
+            Self::FRICTIONS.iter().find_map(|path| of(path))?,
+        );
+        let places = axes[angle].len() * axes[friction].len();
+        let cells = [true, false].map(|toe_in| JamCells {
+            toe_in,
+            toe: Gathered::NONE,
+            ratios: vec![[Gathered::NONE; 2]; places],
+        });
+        Some(Self {
+            factors: [angle, friction],
+            cells,
+        })
+    }
+
+    fn add(&mut self, study: &Study, values: &[Option<Value>], cell: usize, measures: &Measures) {
+        let varied = factor_of(study, Self::TOE).and_then(|number| values[number].as_ref());
+        let varied = varied.and_then(|value| value.in_unit("rad"));
+        let toe = varied.unwrap_or(study.base.parameters.toe);
+        let cells = &mut self.cells[usize::from(toe >= 0.0)];
+        cells.toe.add(toe);
+        for (gathered, name) in cells.ratios[cell].iter_mut().zip(Self::RATIOS) {
+            if let Some(value) = measures.get(name) {
+                gathered.add(value);
+            }
+        }
+    }
+}
+
+/// The factor that varies this path.
+fn factor_of(study: &Study, path: &str) -> Option<usize> {
+    let mut factors = study.factors.iter();
+    factors.position(|factor| factor.paths.iter().any(|own| own == path))
+}
+
 /// What is gathered of a study.
 #[derive(Clone, Debug)]
 pub struct Digest {
@@ -222,6 +288,8 @@ pub struct Digest {
     pub effects: Vec<Vec<[Gathered; COUNT]>>,
     /// The pairs of numeric parameters.
     pub pairs: Vec<Pair>,
+    /// The jam map, if angle and friction are varied.
+    pub jam: Option<Jam>,
     /// All runs together.
     pub all: [Gathered; COUNT],
     /// Runs that are complete, refused, stopped.
@@ -260,6 +328,7 @@ impl Digest {
                 .map(|axis| vec![[Gathered::NONE; COUNT]; axis.len()])
                 .collect(),
             pairs: pairs.collect(),
+            jam: Jam::new(study, &axes),
             axes,
             all: [Gathered::NONE; COUNT],
             ended: [0; 3],
@@ -286,6 +355,12 @@ impl Digest {
             if let Some(cell) = place.and_then(|place| effects.get_mut(place)) {
                 add(cell, &record.measures);
             }
+        }
+        if let Some(jam) = self.jam.as_mut().filter(|_| complete)
+            && let [Some(angle), Some(friction)] = jam.factors.map(|factor| places[factor])
+        {
+            let cell = angle * self.axes[jam.factors[1]].len() + friction;
+            jam.add(study, values, cell, &record.measures);
         }
         for pair in &mut self.pairs {
             let [first, second] = pair.factors;

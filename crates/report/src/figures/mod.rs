@@ -4,9 +4,10 @@
 //! - [`comparison`]: the stand-alone wedge against types 6.8 and 6.9 of the comparison program.
 //! - [`model`]: the bolster's motion, the friction law, the coil.
 //! - [`run`]: what the thesis lacks, run by run.
-//! - [`study`]: main effects, contours and jam map of studies.
+//! - [`study`]: main effects and contours of studies; [`jam`]: their jam map.
 
 pub mod comparison;
+pub mod jam;
 pub mod model;
 pub mod run;
 pub mod study;

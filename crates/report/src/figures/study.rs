@@ -1,12 +1,9 @@
-//! The figures of a study: main effects, contour maps, the jam map.
+//! The figures of a study: main effects and contour maps; [`super::jam`] has the jam map.
 
-use mechanics::quasi_static::{Direction, QuasiStaticWedge};
-use quantity::Quantity;
-use study::closed_form;
 use study::design::Study;
 use study::measures::{self, ALL, Measure};
 
-use super::{Exhibit, axis};
+use super::{Exhibit, axis, jam};
 use crate::contour::{self, Grid};
 use crate::drawing::{Colour, Curve, Figure, Line, Mark, Panel, distinct};
 use crate::overlay::words;
@@ -34,11 +31,8 @@ const CONTOURS: [&str; 4] = [
 /// Pairs of parameters that are drawn.
 const MOST_PAIRS: usize = 6;
 const LEVELS: usize = 7;
-/// Column forces over the coil's load, as the jam map has them.
-const RATIOS: [f64; 8] = [0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0];
-const ANGLE: &str = "wedge.angle";
-const FRICTIONS: [&str; 2] = ["friction.column", "friction.slope"];
-const BOUNDARY_POINTS: u32 = 200;
+/// Marks are kept this part of the frame away from it.
+const NEAR_FRAME: f64 = 0.06;
 
 /// All figures that the study allows.
 #[must_use]
@@ -47,7 +41,7 @@ pub fn exhibits(study: &Study, digest: &Digest) -> Vec<Exhibit> {
         .iter()
         .filter_map(|name| main_effects(study, digest, name))
         .collect();
-    exhibits.extend(jam_map(study, digest));
+    exhibits.extend(jam::maps(study, digest));
     let pairs = digest.pairs.iter().take(MOST_PAIRS);
     exhibits.extend(pairs.filter_map(|pair| contours(study, digest, pair)));
     exhibits
@@ -59,7 +53,7 @@ fn measure(name: &str) -> Option<(usize, &'static Measure)> {
 }
 
 /// A factor's name with its unit.
-fn factor_axis(study: &Study, number: usize) -> String {
+pub(super) fn factor_axis(study: &Study, number: usize) -> String {
     let factor = &study.factors[number];
     let name = factor.paths.join(", ");
     match factor.unit() {
@@ -163,39 +157,46 @@ fn heights(pair: &Pair, place: usize, factor: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Contour lines as curves, with their heights as marks.
-fn contour_curves(
-    grid: &Grid<'_>,
-    levels: &[f64],
-    label: Option<&str>,
-    line: Option<Line>,
-) -> (Vec<Curve>, Vec<Mark>) {
-    let (mut curves, mut marks) = (Vec::new(), Vec::new());
+/// Contour lines as curves with their heights as marks, in the order of the levels.
+pub(super) fn contour_curves(grid: &Grid<'_>, levels: &[f64]) -> Vec<(Curve, Mark)> {
+    let ends = |values: &[f64]| (values[0], values[values.len() - 1]);
+    let (x, y) = (ends(grid.x), ends(grid.y));
+    // How far a point lies from the frame, of the frame's size.
+    let inside = |at: &(f64, f64)| {
+        let share = |value: f64, (first, last): (f64, f64)| (value - first) / (last - first);
+        let (a, b) = (share(at.0, x), share(at.1, y));
+        a.min(1.0 - a).min(b).min(1.0 - b)
+    };
+    let mut curves = Vec::new();
     for (number, level) in levels.iter().enumerate() {
         let lines = contour::lines(grid, *level);
         let Some(longest) = lines.iter().max_by_key(|line| line.len()) else {
             continue;
         };
-        // Marks of neighbouring lines stand at different places.
-        let middle = longest[(longest.len() - 1) * (2 + number % 3) / 6];
-        marks.push(Mark {
-            at: middle,
-            text: super::digits(*level),
-        });
+        // Marks of neighbouring lines stand at different places, and none on the frame.
+        let mut at = longest[(longest.len() - 1) * (2 + number % 3) / 6];
+        if inside(&at) < NEAR_FRAME {
+            let best = longest.iter().max_by(|a, b| inside(a).total_cmp(&inside(b)));
+            at = *best.unwrap_or(&at);
+        }
+        let margin = NEAR_FRAME * (x.1 - x.0);
+        at.0 = at.0.clamp(x.0 + margin, x.1 - margin);
         let mut points = Vec::new();
         for line in &lines {
             points.extend(line);
             points.push((f64::NAN, f64::NAN));
         }
-        let (colour, own_line) = distinct(number);
-        curves.push(Curve {
-            label: label.unwrap_or_default().to_owned(),
-            colour: if line.is_some() { Colour::Black } else { colour },
-            line: line.unwrap_or(own_line),
+        let (colour, line) = distinct(number);
+        let curve = Curve {
+            label: String::new(),
+            colour,
+            line,
             points,
-        });
+        };
+        let text = super::digits(*level);
+        curves.push((curve, Mark { at, text }));
     }
-    (curves, marks)
+    curves
 }
 
 /// Contour maps over a pair of parameters.
@@ -216,7 +217,8 @@ fn contours(study: &Study, digest: &Digest, pair: &Pair) -> Option<Exhibit> {
                 y: &y,
                 heights: &heights,
             };
-            let (curves, marks) = contour_curves(&grid, &contour::round_levels(&heights, LEVELS), None, None);
+            let levels = contour::round_levels(&heights, LEVELS);
+            let (curves, marks): (Vec<_>, Vec<_>) = contour_curves(&grid, &levels).into_iter().unzip();
             (!curves.is_empty()).then(|| Panel {
                 title: axis(&words(measure.name), measure.kind, units),
                 x_label: factor_axis(study, first),
@@ -243,121 +245,4 @@ fn contours(study: &Study, digest: &Digest, pair: &Pair) -> Option<Exhibit> {
             ..Figure::default()
         },
     })
-}
-
-/// The factor that varies this path.
-fn factor_of(study: &Study, path: &str) -> Option<usize> {
-    let mut factors = study.factors.iter();
-    factors.position(|factor| factor.paths.iter().any(|own| own == path))
-}
-
-/// The column's force over the coil's load, computed and of the massless wedge, and where the latter jams.
-fn jam_map(study: &Study, digest: &Digest) -> Option<Exhibit> {
-    let angle = factor_of(study, ANGLE)?;
-    let friction = FRICTIONS.iter().find_map(|path| factor_of(study, path))?;
-    let pair = digest.pairs.iter().find(|pair| {
-        let [a, b] = pair.factors;
-        (a, b) == (angle, friction) || (b, a) == (angle, friction)
-    })?;
-    let (x, y) = (digest.axes[angle].middles()?, digest.axes[friction].middles()?);
-    if x.len() < 3 || y.len() < 3 {
-        return None;
-    }
-    let turned = pair.factors[0] == friction;
-    let heights = |name: &str| -> Option<Vec<f64>> {
-        let (place, _) = measure(name)?;
-        let own = heights(pair, place, 1.0);
-        Some(if turned {
-            (0..x.len() * y.len())
-                .map(|cell| own[(cell % y.len()) * x.len() + cell / y.len()])
-                .collect()
-        } else {
-            own
-        })
-    };
-    let unit = Quantity::new(1.0, study.factors[angle].unit()?).ok()?.to_si();
-    let sides = [
-        ("down", Direction::Down, "(a) while the bolster falls"),
-        ("up", Direction::Up, "(b) while the bolster rises"),
-    ];
-    let mut panels = Vec::new();
-    for (name, direction, title) in sides {
-        let computed = heights(&format!("column_force_ratio_{name}"))?;
-        let closed = heights(&format!("quasi_static_column_force_ratio_{name}"))?;
-        let grid = |heights| Grid {
-            x: &x,
-            y: &y,
-            heights,
-        };
-        let (mut curves, marks) =
-            contour_curves(&grid(&computed), &RATIOS, Some("computed"), Some(Line::Solid));
-        let (mut lines, _) = contour_curves(
-            &grid(&closed),
-            &RATIOS,
-            Some("massless wedge"),
-            Some(Line::Dashed),
-        );
-        for line in &mut lines {
-            line.colour = Colour::Vermillion;
-        }
-        curves.append(&mut lines);
-        curves.push(Curve {
-            label: "massless wedge jams left of this".to_owned(),
-            colour: Colour::Purple,
-            line: Line::Dotted,
-            points: boundary(study, friction, direction, &y)
-                .into_iter()
-                .map(|(at, friction)| (at / unit, friction))
-                .filter(|(at, _)| (x[0]..=x[x.len() - 1]).contains(at))
-                .collect(),
-        });
-        panels.push(Panel {
-            title: title.to_owned(),
-            x_label: factor_axis(study, angle),
-            y_label: factor_axis(study, friction),
-            x_window: Some((x[0], x[x.len() - 1])),
-            curves,
-            marks,
-            span: 1,
-            ..Panel::default()
-        });
-    }
-    Some(Exhibit {
-        name: "jam_map".to_owned(),
-        thesis: String::new(),
-        figure: Figure {
-            title: "Jam map: the column's normal force over the coil's load".to_owned(),
-            caption: "Lines of equal normal force of the column (its part along the track, mean over the branch) over the coil's force \
-                      less the wedge's weight: computed (marked with the ratio), and of the massless wedge in steady sliding (eq. 5-1 with its \
-                      misprint put right), at the same ratios. The massless wedge's force grows without bound towards its jam line, θ + φ = b atan μ_s + a \
-                      atan μ_c; parameters that this map does not show are those of the case on this line and vary in the others. The \
-                      computed wedge has elastic contacts and need not slide: it passes the line with a finite force."
-                .to_owned(),
-            columns: 2,
-            panels,
-            ..Figure::default()
-        },
-    })
-}
-
-/// Angle (rad) and friction at which the massless wedge of the case begins to jam.
-fn boundary(study: &Study, factor: usize, direction: Direction, frictions: &[f64]) -> Vec<(f64, f64)> {
-    let base: QuasiStaticWedge = closed_form::wedge(&study.base.parameters);
-    let (first, last) = (frictions[0], frictions[frictions.len() - 1]);
-    (0..=BOUNDARY_POINTS)
-        .map(|number| first + (last - first) * f64::from(number) / f64::from(BOUNDARY_POINTS))
-        .map(|friction| {
-            let mut wedge = base;
-            for path in &study.factors[factor].paths {
-                match path.as_str() {
-                    "friction.column" => wedge.column_friction = friction,
-                    "friction.slope" => wedge.slope_friction = friction,
-                    _ => {}
-                }
-            }
-            // The margin grows by the angle alone.
-            let margin = wedge.jam_margin(direction, wedge.branch(direction));
-            (wedge.angle - margin, friction)
-        })
-        .collect()
 }

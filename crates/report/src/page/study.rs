@@ -8,8 +8,8 @@ use study::measures;
 
 use super::{STYLE, anchor, inline};
 use crate::drawing::Figure;
-use crate::figures::digits;
 use crate::figures::study::exhibits;
+use crate::figures::{Exhibit, digits};
 use crate::files::{FileError, Folder};
 use crate::overlay::words;
 use crate::study_digest::Digest;
@@ -55,7 +55,7 @@ pub fn render(study: &Study, digest: &Digest) -> String {
                     (factors(study))
                     (failures(digest))
                     (ranges(study, digest))
-                    @if exhibits.is_empty() { p { "No figure can be drawn: no run has measures." } }
+                    @if exhibits.is_empty() { p { "No figure can be drawn: no run has measures." } } @else { (contents(&exhibits)) }
                     @for exhibit in &exhibits {
                         @let id = anchor(&exhibit.name);
                         figure id=(id) {
@@ -69,6 +69,18 @@ pub fn render(study: &Study, digest: &Digest) -> String {
         }
     };
     page.into_string()
+}
+
+/// Links to the figures.
+fn contents(exhibits: &[Exhibit]) -> Markup {
+    html! {
+        h2 { "Figures" }
+        ul {
+            @for exhibit in exhibits {
+                li { a href={ "#" (anchor(&exhibit.name)) } { (exhibit.figure.title) } }
+            }
+        }
+    }
 }
 
 fn lead(study: &Study, digest: &Digest) -> String {

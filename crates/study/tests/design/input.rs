@@ -58,6 +58,18 @@ fn input_contradictory_ranges() {
             "two ends",
         ),
         (
+            "friction.column = { from = 0.1, to = 0.2, count = 1e12 }",
+            "count` is 1e12",
+            "1e12",
+            "at most a billion",
+        ),
+        (
+            "side_frame.toe = { from = \"-0.2 deg\", to = \"0.2 deg out\", count = 3 }",
+            "is no number",
+            "\"-0.2 deg\"",
+            "0.2 deg in",
+        ),
+        (
             "friction.column = { from = 0.1, to = 0.2 }",
             "count` is missing",
             "column",

@@ -304,10 +304,11 @@ fn tell(found: &Fit, shown: &Shown<'_>, folder: &std::path::Path) -> Result<(), 
             }
         }
     } else {
-        writeln!(
-            out,
-            "The measured values do not determine these parameters together: free fewer."
-        )?;
+        let text = match found.parameters.len() {
+            1 => "The measured values do not determine this parameter.",
+            _ => "The measured values do not determine these parameters together: free fewer.",
+        };
+        writeln!(out, "{text}")?;
     }
     let unit = shown.kind.label(shown.units);
     let size = found.standard_error * shown.kind.from_si(shown.units);

@@ -143,8 +143,8 @@ fn limits_ten_thousand_runs_survive_ten_kills() {
     let folder = tempdir().unwrap();
     let path = folder.path();
     let text = SMALL
-        .replace("count = 12", "count = 100")
         .replace("count = 10", "count = 100")
+        .replace("count = 12", "count = 100")
         .replace("0.12 s", "0.02 s");
     fs::write(path.join("large.toml"), text).unwrap();
     assert_eq!(kill_often(path, "large.toml", "killed", 10, 200, 4000), 10);

@@ -199,12 +199,13 @@ fn range(
             "`{path}` goes to or from {}, which is no number",
             text.place.text()
         );
-        return wrong(
-            &text.place,
-            message,
-            "a number with its unit is expected",
-            RANGE_HELP,
-        );
+        let help = match path {
+            "side_frame.toe" => {
+                "a toe says its direction in words: { from = \"0.2 deg in\", to = \"0.2 deg out\" }"
+            }
+            _ => RANGE_HELP,
+        };
+        return wrong(&text.place, message, "a number with its unit is expected", help);
     };
     let Some(last) = high.in_unit(unit) else {
         let message = format!(
@@ -238,7 +239,7 @@ fn range(
             Toml::Number(count) if count.fract() == 0.0 && (2.0..=1e9).contains(&count) => count as u64,
             _ => {
                 let message = format!("`{path}.count` is {}", entry.node.place.text());
-                let help = "a range has at least its two ends: count = 2 and more";
+                let help = "a range has at least its two ends, and at most a billion values";
                 return wrong(&entry.node.place, message, "a whole number from 2 on", help);
             }
         },
