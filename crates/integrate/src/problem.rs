@@ -1,5 +1,7 @@
 //! What an integrator needs to know about a problem.
 
+use crate::kinks::KinkSigns;
+
 /// The matrix of a linear system is singular.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the matrix is singular in its diagonal block {block}")]
@@ -22,6 +24,13 @@ pub trait Problem {
     /// holds for every state, however many other states are at rest, and adding states does not loosen it.
     /// The integrator reads the scales once, when it starts.
     fn scales(&self) -> &[f64];
+
+    /// The largest admissible error of each state, however wide the tolerance; empty: no bound.
+    ///
+    /// For problems that an error above some size would change in kind: friction that reverses within a small speed.
+    fn error_bounds(&self) -> &[f64] {
+        &[]
+    }
 
     /// Tells the problem that integration proceeds from `start` on one smooth piece of its explicit time
     /// dependence; returns the end of this piece, later than `start` (infinite: there is none).
@@ -52,6 +61,16 @@ pub trait Problem {
 
     /// Solves `(shift·I - J) y = b` in place, with the matrix of the last successful [`Problem::factor`].
     fn solve(&mut self, b: &mut [f64]);
+
+    /// How many values and directions [`Problem::kinks`] writes.
+    fn kink_counts(&self) -> (usize, usize) {
+        (0, 0)
+    }
+
+    /// Writes what tells kinks of `f` beforehand: a step is made to end where the first one is foreseen.
+    fn kinks(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
+        let _ = (time, x, signs);
+    }
 
     /// Number of discrete switches (contact open, sticking, slipping, ...): modes with hysteresis that are recorded
     /// and timed. They do not change `f`.
@@ -86,6 +105,9 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     fn scales(&self) -> &[f64] {
         (**self).scales()
     }
+    fn error_bounds(&self) -> &[f64] {
+        (**self).error_bounds()
+    }
     fn segment(&mut self, start: f64) -> f64 {
         (**self).segment(start)
     }
@@ -100,6 +122,12 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     }
     fn solve(&mut self, b: &mut [f64]) {
         (**self).solve(b);
+    }
+    fn kink_counts(&self) -> (usize, usize) {
+        (**self).kink_counts()
+    }
+    fn kinks(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
+        (**self).kinks(time, x, signs);
     }
     fn switch_count(&self) -> usize {
         (**self).switch_count()

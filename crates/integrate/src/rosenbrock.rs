@@ -3,9 +3,11 @@
 use crate::control::Controller;
 use crate::error::SetupError;
 use crate::events::{Event, Switches};
+use crate::kinks::{Kinks, Landing};
+use crate::lanes::LANES;
 use crate::options::Options;
 use crate::problem::Problem;
-use crate::stages::{Dense, LANES};
+use crate::stages::Dense;
 use crate::state::{STATE_VERSION, State};
 use crate::statistics::Statistics;
 use crate::tableau::Tableau;
@@ -40,7 +42,7 @@ pub struct Integrator<P: Problem> {
     dimension: usize,
     /// Length of a padded vector.
     stride: usize,
-    /// 1/(relative_tolerance · scale).
+    /// Reciprocal of the admissible error: relative_tolerance · scale, or the problem's bound.
     weights: Vec<f64>,
 
     time: f64,
@@ -48,6 +50,8 @@ pub struct Integrator<P: Problem> {
     segment_start: f64,
     segment_end: f64,
     proposed_step: f64,
+    kink_ahead: Option<Landing>,
+    kinks: Kinks,
     controller: Controller,
     statistics: Statistics,
     switches: Switches,
@@ -95,6 +99,7 @@ impl<P: Problem> Integrator<P> {
             modes: vec![0; problem.switch_count()],
             segment_start: time,
             proposed_step: 1.0,
+            kink_ahead: None,
             controller: Controller::default(),
             statistics: Statistics::default(),
         };
@@ -137,6 +142,9 @@ impl<P: Problem> Integrator<P> {
         for (weight, scale) in weights.iter_mut().zip(scales) {
             *weight = 1.0 / (options.relative_tolerance * scale);
         }
+        for (weight, bound) in weights.iter_mut().zip(problem.error_bounds()) {
+            *weight = weight.max(1.0 / bound);
+        }
         let segment_end = enter(&mut problem, &state)?;
         let tableau = options.method.tableau();
         let extends = (0..tableau.stages())
@@ -147,6 +155,7 @@ impl<P: Problem> Integrator<P> {
         let all_stages = vec![0.0; stride * tableau.stages()];
         let mut this = Self {
             switches: Switches::new(state.modes, n, options.maximum_events),
+            kinks: Kinks::new(&problem),
             problem,
             options,
             tableau,
@@ -159,6 +168,7 @@ impl<P: Problem> Integrator<P> {
             segment_start: state.segment_start,
             segment_end,
             proposed_step: state.proposed_step,
+            kink_ahead: state.kink_ahead,
             controller: state.controller,
             statistics: state.statistics,
             previous_x: x.clone(),
@@ -199,6 +209,7 @@ impl<P: Problem> Integrator<P> {
             modes: self.switches.modes.clone(),
             segment_start: self.segment_start,
             proposed_step: self.proposed_step,
+            kink_ahead: self.kink_ahead,
             controller: self.controller.clone(),
             statistics: self.statistics.clone(),
         }
@@ -325,6 +336,7 @@ impl<P: Problem> Integrator<P> {
     /// control is kept. So a motion that a caller continues piece by piece costs no restart.
     pub fn renew(&mut self) {
         self.evaluate_derivative();
+        self.kink_ahead = None;
     }
 
     /// Whether a saved state can belong to this problem.
@@ -352,6 +364,7 @@ impl<P: Problem> Integrator<P> {
         (self.time, self.previous_time) = (state.time, state.time);
         (self.segment_start, self.segment_end) = (state.segment_start, segment_end);
         self.proposed_step = state.proposed_step;
+        self.kink_ahead = state.kink_ahead;
         self.controller.clone_from(&state.controller);
         self.statistics.clone_from(&state.statistics);
         let counted = self.statistics.derivatives;
@@ -364,6 +377,7 @@ impl<P: Problem> Integrator<P> {
     /// step-size control is dropped.
     pub fn refresh(&mut self) {
         self.evaluate_derivative();
+        self.kink_ahead = None;
         self.controller.restart();
     }
 }

@@ -13,9 +13,48 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use wide::f64x2;
 
-/// A real number, possibly with derivatives.
-pub trait Real:
+/// The answer of a comparison: one for a number, one for each lane.
+pub trait Mask: Copy + std::fmt::Debug {
+    /// Whether it holds everywhere.
+    fn all(self) -> bool;
+    /// Whether it holds nowhere.
+    fn none(self) -> bool;
+}
+
+impl Mask for bool {
+    #[inline(always)]
+    fn all(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn none(self) -> bool {
+        !self
+    }
+}
+
+/// Something that can be put together from two of its kind.
+pub trait Blend<M> {
+    /// `yes` where the mask holds, `no` elsewhere.
+    #[must_use]
+    fn blend(mask: M, yes: Self, no: Self) -> Self;
+}
+
+/// `yes` where the mask holds, `no` elsewhere; what is needed nowhere is not computed.
+#[inline(always)]
+pub fn choose<M: Mask, T: Blend<M>>(mask: M, yes: impl FnOnce() -> T, no: impl FnOnce() -> T) -> T {
+    if mask.all() {
+        yes()
+    } else if mask.none() {
+        no()
+    } else {
+        T::blend(mask, yes(), no())
+    }
+}
+
+/// What laws compute with: a real number or four of them in lanes, possibly with derivatives.
+pub trait Number:
     Copy
+    + std::fmt::Debug
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
@@ -27,12 +66,34 @@ pub trait Real:
     + AddAssign
     + SubAssign
     + From<f64>
+    + Blend<Self::Mask>
 {
+    /// The answer of a comparison.
+    type Mask: Mask;
+    /// The same without derivatives.
+    type Plain: Number<Plain = Self::Plain, Mask = Self::Mask>;
+
     /// The value without derivatives.
-    fn value(self) -> f64;
-    /// A function given by its value and its derivative at [`Real::value`].
+    fn plain(self) -> Self::Plain;
+    /// A value as a number whose derivatives are zero.
     #[must_use]
-    fn chain(self, value: f64, slope: f64) -> Self;
+    fn lift(value: Self::Plain) -> Self;
+    /// This number times one without derivatives.
+    #[must_use]
+    fn by(self, factor: Self::Plain) -> Self;
+    /// Whether the value lies below a bound.
+    fn below(self, bound: Self::Plain) -> Self::Mask;
+    /// Whether the value is at most a bound.
+    fn at_most(self, bound: Self::Plain) -> Self::Mask;
+    /// A function given by its value and its derivative at [`Number::plain`].
+    #[must_use]
+    fn chain(self, value: Self::Plain, slope: Self::Plain) -> Self;
+    /// The square root; its derivative at zero is infinite.
+    #[must_use]
+    fn sqrt(self) -> Self;
+    /// `tanh(sqrt(s)) / sqrt(s)` for `s ≥ 0`: smooth, also at `s = 0`, where it is 1.
+    #[must_use]
+    fn tanh_ratio(self) -> Self;
 
     /// Zero.
     #[inline(always)]
@@ -40,12 +101,14 @@ pub trait Real:
     fn zero() -> Self {
         Self::from(0.0)
     }
-    /// The square root; its derivative at zero is infinite.
+}
+
+/// A real number, possibly with derivatives.
+pub trait Real: Number<Plain = f64, Mask = bool> {
+    /// The value without derivatives.
     #[inline(always)]
-    #[must_use]
-    fn sqrt(self) -> Self {
-        let root = self.value().sqrt();
-        self.chain(root, 0.5 / root)
+    fn value(self) -> f64 {
+        self.plain()
     }
     /// The reciprocal.
     #[inline(always)]
@@ -68,14 +131,6 @@ pub trait Real:
         let t = tanh(self.value());
         self.chain(t, 1.0 - t * t)
     }
-    /// `tanh(sqrt(s)) / sqrt(s)` for `s ≥ 0`: smooth, also at `s = 0`, where it is 1.
-    #[inline(always)]
-    #[must_use]
-    fn tanh_ratio(self) -> Self {
-        let s = self.value();
-        let (value, slope) = tanh_ratio(s);
-        self.chain(value, slope)
-    }
     /// The exponential.
     #[inline(always)]
     #[must_use]
@@ -95,15 +150,23 @@ fn tanh(x: f64) -> f64 {
     }
 }
 
+/// Below this, `tanh(√s)/√s` comes from its series.
+pub(crate) const SERIES: f64 = 1e-3;
+
+/// The series of `tanh(√s)/√s` and of its slope: 1 - s/3 + 2 s²/15 - 17 s³/315 + 62 s⁴/2835 - ...
+#[inline(always)]
+pub(crate) fn series<S: Number>(s: S) -> (S, S) {
+    (
+        s * (s * (s * (s * (62.0 / 2835.0) - 17.0 / 315.0) + 2.0 / 15.0) - 1.0 / 3.0) + 1.0,
+        s * (s * (s * (248.0 / 2835.0) - 17.0 / 105.0) + 4.0 / 15.0) - 1.0 / 3.0,
+    )
+}
+
 /// Value and slope by `s` of `tanh(√s)/√s`.
 #[inline(always)]
 fn tanh_ratio(s: f64) -> (f64, f64) {
-    if s < 1e-3 {
-        // tanh(x)/x = 1 - s/3 + 2 s²/15 - 17 s³/315 + 62 s⁴/2835 - ..., s = x²
-        (
-            1.0 + s * (-1.0 / 3.0 + s * (2.0 / 15.0 + s * (-17.0 / 315.0 + s * (62.0 / 2835.0)))),
-            -1.0 / 3.0 + s * (4.0 / 15.0 + s * (-17.0 / 105.0 + s * (248.0 / 2835.0))),
-        )
+    if s < SERIES {
+        series(s)
     } else {
         let x = s.sqrt();
         let t = tanh(x);
@@ -112,18 +175,47 @@ fn tanh_ratio(s: f64) -> (f64, f64) {
     }
 }
 
-impl Real for f64 {
+impl Blend<bool> for f64 {
     #[inline(always)]
-    fn value(self) -> f64 {
+    fn blend(mask: bool, yes: f64, no: f64) -> f64 {
+        if mask { yes } else { no }
+    }
+}
+
+impl Number for f64 {
+    type Mask = bool;
+    type Plain = f64;
+    #[inline(always)]
+    fn plain(self) -> f64 {
         self
+    }
+    #[inline(always)]
+    fn lift(value: f64) -> f64 {
+        value
+    }
+    #[inline(always)]
+    fn by(self, factor: f64) -> f64 {
+        self * factor
+    }
+    #[inline(always)]
+    fn below(self, bound: f64) -> bool {
+        self < bound
+    }
+    #[inline(always)]
+    fn at_most(self, bound: f64) -> bool {
+        self <= bound
     }
     #[inline(always)]
     fn chain(self, value: f64, _slope: f64) -> f64 {
         value
     }
     #[inline(always)]
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
     fn tanh_ratio(self) -> f64 {
-        if self < 1e-3 {
+        if self < SERIES {
             tanh_ratio(self).0
         } else {
             let x = self.sqrt();
@@ -131,6 +223,8 @@ impl Real for f64 {
         }
     }
 }
+
+impl Real for f64 {}
 
 /// A value with its `N` partial derivatives.
 ///
@@ -169,10 +263,35 @@ impl<const N: usize> From<f64> for Dual<N> {
     }
 }
 
-impl<const N: usize> Real for Dual<N> {
+impl<const N: usize> Blend<bool> for Dual<N> {
     #[inline(always)]
-    fn value(self) -> f64 {
+    fn blend(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+}
+
+impl<const N: usize> Number for Dual<N> {
+    type Mask = bool;
+    type Plain = f64;
+    #[inline(always)]
+    fn plain(self) -> f64 {
         self.value
+    }
+    #[inline(always)]
+    fn lift(value: f64) -> Self {
+        Self::from(value)
+    }
+    #[inline(always)]
+    fn by(self, factor: f64) -> Self {
+        self * factor
+    }
+    #[inline(always)]
+    fn below(self, bound: f64) -> bool {
+        self.value < bound
+    }
+    #[inline(always)]
+    fn at_most(self, bound: f64) -> bool {
+        self.value <= bound
     }
     #[inline(always)]
     fn chain(self, value: f64, slope: f64) -> Self {
@@ -181,7 +300,19 @@ impl<const N: usize> Real for Dual<N> {
             derivative: lane(&self.derivative, |d| d * slope),
         }
     }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        self.chain(root, 0.5 / root)
+    }
+    #[inline(always)]
+    fn tanh_ratio(self) -> Self {
+        let (value, slope) = tanh_ratio(self.value);
+        self.chain(value, slope)
+    }
 }
+
+impl<const N: usize> Real for Dual<N> {}
 
 /// Applies a function to the derivatives of a number, two lanes at a time.
 #[inline(always)]

@@ -1,9 +1,8 @@
 //! Linear combinations of stages, and dense output.
 
+// Vectors are padded with zeros to a multiple of this length.
+use crate::lanes::LANES;
 use crate::tableau::{MAXIMUM_STAGES, Tableau};
-
-/// Vectors are padded with zeros to a multiple of this length.
-pub(crate) const LANES: usize = 4;
 
 /// `out = base + scale · Σ_j weights_j stage_j`, with `stage_j` at `stages[j·stride + first..]`.
 ///

@@ -4,10 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::Controller;
 use crate::error::SetupError;
+use crate::kinks::Landing;
 use crate::statistics::Statistics;
 
 /// Version of [`State`].
-pub const STATE_VERSION: u32 = 1;
+pub const STATE_VERSION: u32 = 2;
 
 /// All that is needed to continue an integration with the same bits.
 ///
@@ -27,6 +28,8 @@ pub struct State {
     pub segment_start: f64,
     /// Length that the next step is going to try.
     pub proposed_step: f64,
+    /// Where the next step ends because of a kink, if one is foreseen.
+    pub(crate) kink_ahead: Option<Landing>,
     /// Memory of the step-size control.
     pub(crate) controller: Controller,
     /// What was done so far.

@@ -21,6 +21,9 @@ pub struct Statistics {
     pub factorizations: u64,
     /// Solutions of a linear system.
     pub solves: u64,
+    /// Kinks that were foreseen.
+    #[serde(default)]
+    pub kinks_foreseen: u64,
     /// Changes of a mode.
     pub events: u64,
     /// Steps in which there were more changes of modes than the integrator is willing to follow.

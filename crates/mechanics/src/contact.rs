@@ -7,7 +7,13 @@
 //! Defects: with `c > 0` the force jumps when a point strikes; the stiffness per point is a model parameter that
 //! stands for the elasticity of the faces, not a property of a point. Four corners are the 2 × 2 case of a face.
 
-use integrate::scalar::Real;
+mod quads;
+
+use std::ops::{Add, Mul};
+
+use integrate::scalar::{Mask, Number, Real};
+
+pub(crate) use quads::Points;
 
 use crate::friction::{Friction, FrictionLaw, bristle, tanh};
 use crate::link::Relative;
@@ -44,7 +50,7 @@ pub struct ContactFace<F> {
 
 /// The state of a contact point.
 #[derive(Clone, Copy, Debug)]
-pub struct PointContact<S> {
+pub struct PointContact<S: Number> {
     /// From the mount's origin to the point, mount axes, m.
     pub place: Vector<S>,
     /// From the body's origin to the point, mount axes, m.
@@ -61,6 +67,22 @@ pub struct PointContact<S> {
     pub friction: Friction<S>,
     /// Power lost in contact damping, W.
     pub damping_loss: S,
+}
+
+/// What one point (or four in lanes) is made of.
+#[derive(Clone, Copy, Debug)]
+struct Grade<P> {
+    stiffness: P,
+    damping: P,
+    share: P,
+}
+
+/// The forces at a point (or at four).
+#[derive(Clone, Copy, Debug)]
+struct Touch<S: Number> {
+    normal: S,
+    friction: Friction<S>,
+    damping_loss: S,
 }
 
 /// The resultant of a face.
@@ -102,6 +124,7 @@ impl<F: Surface> ContactFace<F> {
         let (position, rotation) = (relative.position.value(), relative.rotation.value());
         for (i, point) in self.points.iter().enumerate() {
             let closed = self.surface.gap(position + rotation.apply(point.position)) < 0.0;
+            // An open point with a bristle: the bristle relaxes.
             if !closed && deflections.is_empty() {
                 continue;
             }
@@ -109,41 +132,39 @@ impl<F: Surface> ContactFace<F> {
                 Some(e) => [S::from(e[0]), S::from(e[1])],
                 None => [S::zero(); 2],
             };
-            if !closed {
-                each(i, &self.open(point, relative, deflection, &mut sum));
-                continue;
-            }
-            let contact = self.point(point, relative, deflection);
-            let [t1, t2] = contact.friction.force;
-            let force = self.surface.compose(contact.place, [contact.normal, t1, t2]);
-            sum.force += force;
-            sum.moment += contact.arm.cross(force);
+            let mut contact = self.geometry(point, relative);
+            let touch = self.touch(&point.grade(), closed, &contact, deflection);
+            contact.normal = touch.normal;
+            contact.friction = touch.friction;
+            contact.damping_loss = touch.damping_loss;
             sum.friction_loss += contact.friction.loss;
-            sum.damping_loss += contact.damping_loss;
+            if closed {
+                let [t1, t2] = contact.friction.force;
+                let force = self.surface.compose(contact.place, [contact.normal, t1, t2]);
+                sum.force += force;
+                sum.moment += contact.arm.cross(force);
+                sum.damping_loss += contact.damping_loss;
+            }
             each(i, &contact);
         }
         sum
     }
 
-    /// An open point with a bristle: the bristle relaxes.
-    #[inline(always)]
-    fn open<S: Real>(
-        &self,
-        point: &ContactPoint,
-        relative: &Relative<S>,
-        deflection: [S; 2],
-        sum: &mut FaceResultant<S>,
-    ) -> PointContact<S> {
-        let mut contact = self.geometry(point, relative);
-        contact.friction = self.friction(point.share, S::zero(), contact.slip, deflection);
-        sum.friction_loss += contact.friction.loss;
-        contact
-    }
-
     /// Where a point is and how it moves; no forces yet.
     #[inline(always)]
     pub fn geometry<S: Real>(&self, point: &ContactPoint, relative: &Relative<S>) -> PointContact<S> {
-        let arm: Vector<S> = relative.rotation.apply(point.position);
+        self.locate(point.position, relative)
+    }
+
+    /// The same of one point or of four.
+    #[inline(always)]
+    fn locate<R, P, S>(&self, position: Vector<P>, relative: &Relative<R>) -> PointContact<S>
+    where
+        R: Number + Mul<P, Output = S> + Mul<S, Output = S> + Add<S, Output = S>,
+        P: Copy,
+        S: Number,
+    {
+        let arm: Vector<S> = relative.rotation.apply(position);
         let place = relative.position + arm;
         let velocity: Vector<S> = relative.velocity + relative.angular_velocity.cross(arm);
         let [gap_rate, s1, s2] = self.surface.resolve(place, velocity);
@@ -159,46 +180,75 @@ impl<F: Surface> ContactFace<F> {
         }
     }
 
-    /// The forces at a closed point.
+    /// The forces at a point: none of the surface where it is not closed.
     #[inline(always)]
-    fn point<S: Real>(
+    fn touch<S: Number>(
         &self,
-        point: &ContactPoint,
-        relative: &Relative<S>,
+        grade: &Grade<S::Plain>,
+        closed: S::Mask,
+        at: &PointContact<S>,
         deflection: [S; 2],
-    ) -> PointContact<S> {
-        let mut contact = self.geometry(point, relative);
-        let elastic = contact.gap * -point.stiffness;
-        contact.normal = elastic;
-        if point.damping > 0.0 {
-            let damped = elastic - contact.gap_rate * point.damping;
-            contact.normal = if damped.value() > 0.0 { damped } else { S::zero() };
-            contact.damping_loss = (elastic - contact.normal) * contact.gap_rate;
+    ) -> Touch<S> {
+        let none = S::Plain::zero();
+        let elastic = S::blend(closed, at.gap.by(-grade.stiffness), S::zero());
+        let (mut normal, mut damping_loss) = (elastic, S::zero());
+        if !none.below(grade.damping).none() {
+            let damped = elastic - at.gap_rate.by(grade.damping);
+            let pressed = S::blend(none.below(damped.plain()), damped, S::zero());
+            normal = S::blend(closed, pressed, S::zero());
+            damping_loss = (elastic - normal) * at.gap_rate;
         }
-        contact.friction = self.friction(point.share, contact.normal, contact.slip, deflection);
-        contact
+        Touch {
+            normal,
+            friction: self.friction(grade.share, normal, at.slip, deflection),
+            damping_loss,
+        }
     }
 
-    /// How far a closed point is from its law's own change between stick and slip, see [`Friction::load`].
+    /// How far a point is from its law's own change between stick and slip, see [`Friction::load`]; of no meaning with a bristle where it
+    /// is open.
     #[inline(always)]
-    pub(crate) fn load(&self, share: f64, normal: f64, slip: [f64; 2], deflection: [f64; 2]) -> f64 {
+    fn load<S: Number>(
+        &self,
+        grade: &Grade<S::Plain>,
+        closed: S::Mask,
+        at: &PointContact<S>,
+        deflection: [S; 2],
+    ) -> S::Plain {
         match self.law {
             FrictionLaw::Tanh { reference_speed } => {
-                (slip[0] * slip[0] + slip[1] * slip[1]).sqrt() / reference_speed
+                let slip = at.slip.map(S::plain);
+                (slip[0] * slip[0] + slip[1] * slip[1]).sqrt() * (1.0 / reference_speed)
             }
-            FrictionLaw::Bristle { .. } => self.friction(share, normal, slip, deflection).load,
+            FrictionLaw::Bristle { .. } => self.touch(grade, closed, at, deflection).friction.load,
         }
     }
 
     /// Friction of a point that carries `share` of the face's tangential stiffness.
     #[inline(always)]
-    pub fn friction<S: Real>(&self, share: f64, normal: S, slip: [S; 2], deflection: [S; 2]) -> Friction<S> {
+    pub fn friction<S: Number>(
+        &self,
+        share: S::Plain,
+        normal: S,
+        slip: [S; 2],
+        deflection: [S; 2],
+    ) -> Friction<S> {
         let limit = normal * self.coefficient;
         match self.law {
             FrictionLaw::Tanh { reference_speed } => tanh::friction(limit, reference_speed, slip),
             FrictionLaw::Bristle { stiffness, damping } => {
-                bristle::friction(limit, stiffness * share, damping * share, slip, deflection)
+                bristle::friction(limit, share * stiffness, share * damping, slip, deflection)
             }
+        }
+    }
+}
+
+impl ContactPoint {
+    fn grade(&self) -> Grade<f64> {
+        Grade {
+            stiffness: self.stiffness,
+            damping: self.damping,
+            share: self.share,
         }
     }
 }

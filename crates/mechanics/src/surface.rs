@@ -1,6 +1,6 @@
 //! Surfaces that contact points meet: signed distance and directions, in the surface's own mount frame.
 
-use integrate::scalar::Real;
+use integrate::scalar::Number;
 use serde::{Deserialize, Serialize};
 
 use crate::vector::Vector;
@@ -8,11 +8,11 @@ use crate::vector::Vector;
 /// A surface, described in the axes of its mount.
 pub trait Surface {
     /// Signed distance of a point from the surface, m: positive outside, negative inside.
-    fn gap<S: Real>(&self, point: Vector<S>) -> S;
+    fn gap<S: Number>(&self, point: Vector<S>) -> S;
     /// Components of a vector along the outward normal and two tangents of the surface next to `point`.
-    fn resolve<S: Real>(&self, point: Vector<S>, vector: Vector<S>) -> [S; 3];
+    fn resolve<S: Number>(&self, point: Vector<S>, vector: Vector<S>) -> [S; 3];
     /// The vector with the given components along the normal and the two tangents.
-    fn compose<S: Real>(&self, point: Vector<S>, components: [S; 3]) -> Vector<S>;
+    fn compose<S: Number>(&self, point: Vector<S>, components: [S; 3]) -> Vector<S>;
 }
 
 /// The plane through the mount's origin; its outward normal is the mount's x axis, its tangents are y and z.
@@ -21,15 +21,15 @@ pub struct Plane;
 
 impl Surface for Plane {
     #[inline(always)]
-    fn gap<S: Real>(&self, point: Vector<S>) -> S {
+    fn gap<S: Number>(&self, point: Vector<S>) -> S {
         point.0[0]
     }
     #[inline(always)]
-    fn resolve<S: Real>(&self, _point: Vector<S>, vector: Vector<S>) -> [S; 3] {
+    fn resolve<S: Number>(&self, _point: Vector<S>, vector: Vector<S>) -> [S; 3] {
         vector.0
     }
     #[inline(always)]
-    fn compose<S: Real>(&self, _point: Vector<S>, components: [S; 3]) -> Vector<S> {
+    fn compose<S: Number>(&self, _point: Vector<S>, components: [S; 3]) -> Vector<S> {
         Vector(components)
     }
 }

@@ -5,7 +5,7 @@
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
-use integrate::scalar::Real;
+use integrate::scalar::{Number, Real};
 
 /// A vector of three components.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Vector<S>(pub [S; 3]);
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Matrix<S>(pub [[S; 3]; 3]);
 
-impl<S: Real> Vector<S> {
+impl<S: Number> Vector<S> {
     /// The zero vector.
     #[inline(always)]
     #[must_use]
@@ -27,12 +27,6 @@ impl<S: Real> Vector<S> {
     #[must_use]
     pub fn lift(v: Vector<f64>) -> Self {
         Self([S::from(v.0[0]), S::from(v.0[1]), S::from(v.0[2])])
-    }
-    /// The values without derivatives.
-    #[inline(always)]
-    #[must_use]
-    pub fn value(self) -> Vector<f64> {
-        Vector([self.0[0].value(), self.0[1].value(), self.0[2].value()])
     }
     /// The scalar product.
     #[inline(always)]
@@ -70,7 +64,7 @@ impl<S: Real> Vector<S> {
     }
 }
 
-impl<S: Real> Matrix<S> {
+impl<S: Number> Matrix<S> {
     /// The unit matrix.
     #[inline(always)]
     #[must_use]
@@ -84,13 +78,6 @@ impl<S: Real> Matrix<S> {
     pub fn lift(m: Matrix<f64>) -> Self {
         let row = |i: usize| Vector::<S>::lift(Vector(m.0[i])).0;
         Self([row(0), row(1), row(2)])
-    }
-    /// The values without derivatives.
-    #[inline(always)]
-    #[must_use]
-    pub fn value(self) -> Matrix<f64> {
-        let row = |i: usize| Vector(self.0[i]).value().0;
-        Matrix([row(0), row(1), row(2)])
     }
     /// The transposed matrix.
     #[inline(always)]
@@ -151,6 +138,25 @@ impl<S: Real> Matrix<S> {
     }
 }
 
+impl<S: Real> Vector<S> {
+    /// The values without derivatives.
+    #[inline(always)]
+    #[must_use]
+    pub fn value(self) -> Vector<f64> {
+        Vector([self.0[0].value(), self.0[1].value(), self.0[2].value()])
+    }
+}
+
+impl<S: Real> Matrix<S> {
+    /// The values without derivatives.
+    #[inline(always)]
+    #[must_use]
+    pub fn value(self) -> Matrix<f64> {
+        let row = |i: usize| Vector(self.0[i]).value().0;
+        Matrix([row(0), row(1), row(2)])
+    }
+}
+
 /// Rotation about +x by the angle with this sine and cosine.
 #[inline(always)]
 #[must_use]
@@ -191,14 +197,14 @@ impl<S: Copy + Sub<R, Output = O>, R: Copy, O> Sub<Vector<R>> for Vector<S> {
     }
 }
 
-impl<S: Real> AddAssign for Vector<S> {
+impl<S: Number> AddAssign for Vector<S> {
     #[inline(always)]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 
-impl<S: Real> Neg for Vector<S> {
+impl<S: Number> Neg for Vector<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {

@@ -30,7 +30,7 @@ fn pieces(system: &mut System, time: f64, x: &[f64]) -> Vec<i64> {
         for point in &face.points {
             out.push(i64::from(point.gap < 0.0));
             out.push(i64::from(point.normal > 0.0));
-            out.push(i64::from(bristle && point.friction.sticks));
+            out.push(i64::from(bristle && point.friction.load <= 1.0));
         }
     }
     for (mounted, coil) in system.coils().iter().zip(&seen.coils) {
@@ -203,8 +203,8 @@ fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Seen {
                 seen.closed += usize::from(point.normal > 0.0);
                 seen.lifted += usize::from(point.gap < 0.0 && point.normal == 0.0);
                 if face.3.state_count() > 0 && point.normal > 0.0 {
-                    seen.stick += usize::from(point.friction.sticks);
-                    seen.slip += usize::from(!point.friction.sticks);
+                    seen.stick += usize::from(point.friction.load <= 1.0);
+                    seen.slip += usize::from(point.friction.load > 1.0);
                 }
             }
         }

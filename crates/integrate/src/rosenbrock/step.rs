@@ -2,8 +2,12 @@
 
 use super::Integrator;
 use crate::error::{Reason, StepError};
+use crate::kinks::Landing;
 use crate::problem::Problem;
 use crate::stages::{Dense, all_finite, combine, largest};
+
+/// The part of the planned step that is tried behind a kink.
+const BEHIND_KINK: f64 = 0.5;
 
 /// Why an attempt failed, with the state to blame.
 struct Failure {
@@ -26,6 +30,13 @@ impl<P: Problem> Integrator<P> {
         let end = limit.min(self.segment_end);
         let proposed = self.proposed_step.min(self.options.maximum_step);
         let (mut step, mut target) = self.fit(proposed, end);
+        let mut landing = self
+            .kink_ahead
+            .take()
+            .filter(|kink| kink.time > self.time && kink.time < target);
+        if let Some(kink) = landing {
+            (step, target) = (kink.time - self.time, kink.time);
+        }
         let mut cut = step < proposed;
         let mut scaled_error = 0.0;
         loop {
@@ -39,7 +50,7 @@ impl<P: Problem> Integrator<P> {
             }
             let mut failure = match self.attempt::<false>(step, target) {
                 Ok(error) if self.options.fixed_step.is_some() || error <= 1.0 => {
-                    self.accept(step, target, error, cut, proposed);
+                    self.accept(step, target, error, cut, proposed, landing);
                     return Ok(());
                 }
                 Ok(error) => {
@@ -88,7 +99,7 @@ impl<P: Problem> Integrator<P> {
                 return Err(self.error(failure.reason, tried, failure.index, scaled_error));
             }
             (step, target) = self.fit(step, end);
-            cut = false;
+            (cut, landing) = (false, None);
         }
     }
 
@@ -228,7 +239,15 @@ impl<P: Problem> Integrator<P> {
     }
 
     #[inline]
-    fn accept(&mut self, step: f64, target: f64, error: f64, cut: bool, proposed: f64) {
+    fn accept(
+        &mut self,
+        step: f64,
+        target: f64,
+        error: f64,
+        cut: bool,
+        proposed: f64,
+        landing: Option<Landing>,
+    ) {
         std::mem::swap(&mut self.previous_x, &mut self.x);
         std::mem::swap(&mut self.x, &mut self.trial_x);
         std::mem::swap(&mut self.dx, &mut self.trial_dx);
@@ -243,18 +262,31 @@ impl<P: Problem> Integrator<P> {
             let next = step * factor;
             // A step cut short by a limit says little about the step that was planned.
             self.proposed_step = if cut && !genuine { next.max(proposed) } else { next };
+            if let Some(landing) = landing {
+                // Behind a kink the error of the step across it says nothing.
+                self.proposed_step = match landing.layer {
+                    None => self.proposed_step.max(BEHIND_KINK * proposed),
+                    Some(layer) => self.proposed_step.min(layer),
+                };
+                self.controller.restart();
+            }
             self.proposed_step = self.proposed_step.min(self.options.maximum_step).min(f64::MAX);
         }
+        let dense = Dense {
+            tableau: self.tableau,
+            start: self.previous_time,
+            step: self.time - self.previous_time,
+            end: self.time,
+            x0: &self.previous_x,
+            x1: &self.x,
+            stages: &self.stages,
+        };
+        if self.options.fixed_step.is_none() {
+            let length = self.proposed_step.min(self.segment_end - self.time);
+            self.kink_ahead = self.kinks.foresee(&mut self.problem, &dense, length, error);
+            self.statistics.kinks_foreseen += u64::from(self.kink_ahead.is_some());
+        }
         if !self.switches.modes.is_empty() {
-            let dense = Dense {
-                tableau: self.tableau,
-                start: self.previous_time,
-                step: self.time - self.previous_time,
-                end: self.time,
-                x0: &self.previous_x,
-                x1: &self.x,
-                stages: &self.stages,
-            };
             let maximum = self.options.maximum_events;
             self.switches
                 .detect(&mut self.problem, &dense, maximum, &mut self.statistics);

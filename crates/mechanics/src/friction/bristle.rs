@@ -12,7 +12,7 @@
 //! Maxwell-slip element. Units: N, m, s. Defect: under a held load the contact deflects elastically by
 //! F/K (no creep); limit: one bristle a point, no Stribeck effect, no rate dependence.
 
-use integrate::scalar::Real;
+use integrate::scalar::{Number, choose};
 
 use super::{Friction, dot};
 
@@ -20,51 +20,53 @@ use super::{Friction, dot};
 /// bristle deflection (m); `stiffness` in N/m, `damping` in N·s/m.
 #[inline(always)]
 #[must_use]
-pub fn friction<S: Real>(
+pub fn friction<S: Number>(
     limit: S,
-    stiffness: f64,
-    damping: f64,
+    stiffness: S::Plain,
+    damping: S::Plain,
     velocity: [S; 2],
     deflection: [S; 2],
 ) -> Friction<S> {
-    let elastic = [deflection[0] * stiffness, deflection[1] * stiffness];
-    let flow = 1.0 / damping;
-    if limit.value() <= 0.0 {
-        let rate = [elastic[0] * -flow, elastic[1] * -flow];
-        return Friction {
+    let elastic = [deflection[0].by(stiffness), deflection[1].by(stiffness)];
+    let flow = S::Plain::from(1.0) / damping;
+    let open = || {
+        let rate = [elastic[0].by(-flow), elastic[1].by(-flow)];
+        Friction {
             rate,
-            loss: dot(rate, rate) * damping,
+            loss: dot(rate, rate).by(damping),
             ..Friction::none()
-        };
-    }
-    let trial = [
-        elastic[0] + velocity[0] * damping,
-        elastic[1] + velocity[1] * damping,
-    ];
-    let square = dot(trial, trial);
-    let size = square.value().sqrt();
-    if size <= limit.value() {
-        return Friction {
+        }
+    };
+    let closed = || {
+        let trial = [
+            elastic[0] + velocity[0].by(damping),
+            elastic[1] + velocity[1].by(damping),
+        ];
+        let square = dot(trial, trial);
+        let size = square.plain().sqrt();
+        let load = size / limit.plain();
+        let stick = || Friction {
             force: [-trial[0], -trial[1]],
             rate: velocity,
-            loss: dot(velocity, velocity) * damping,
-            sticks: true,
-            load: size / limit.value(),
+            loss: dot(velocity, velocity).by(damping),
+            load,
         };
-    }
-    let length = square.sqrt();
-    let pull = limit / length;
-    let slider = [trial[0] * pull, trial[1] * pull];
-    let rate = [(slider[0] - elastic[0]) * flow, (slider[1] - elastic[1]) * flow];
-    Friction {
-        force: [-slider[0], -slider[1]],
-        rate,
-        loss: limit * (length - limit) * flow + dot(rate, rate) * damping,
-        sticks: false,
-        load: if limit.value() > 0.0 {
-            size / limit.value()
-        } else {
-            f64::INFINITY
-        },
-    }
+        let slip = || {
+            let length = square.sqrt();
+            let pull = limit / length;
+            let slider = [trial[0] * pull, trial[1] * pull];
+            let rate = [
+                (slider[0] - elastic[0]).by(flow),
+                (slider[1] - elastic[1]).by(flow),
+            ];
+            Friction {
+                force: [-slider[0], -slider[1]],
+                rate,
+                loss: (limit * (length - limit)).by(flow) + dot(rate, rate).by(damping),
+                load,
+            }
+        };
+        choose(size.at_most(limit.plain()), stick, slip)
+    };
+    choose(limit.at_most(S::Plain::zero()), open, closed)
 }

@@ -3,7 +3,7 @@
 pub mod bristle;
 pub mod tanh;
 
-use integrate::scalar::Real;
+use integrate::scalar::{Blend, Number};
 use serde::{Deserialize, Serialize};
 
 /// The friction laws. Which one is active is part of every result.
@@ -44,23 +44,21 @@ impl FrictionLaw {
     }
 }
 
-/// What friction does at one contact point, in two tangential directions.
+/// What friction does at one contact point (or at four in lanes), in two tangential directions.
 #[derive(Clone, Copy, Debug)]
-pub struct Friction<S> {
+pub struct Friction<S: Number> {
     /// Force on the moving body, N.
     pub force: [S; 2],
     /// Rate of the internal states (bristle deflection), m/s; zero for laws that have none.
     pub rate: [S; 2],
     /// Power lost, W: never negative.
     pub loss: S,
-    /// Whether the point sticks, in the law's own sense.
-    pub sticks: bool,
     /// How far the law is from its own change between stick and slip: |T| / (μN) with the bristle,
     /// |v| / v0 with tanh.
-    pub load: f64,
+    pub load: S::Plain,
 }
 
-impl<S: Real> Friction<S> {
+impl<S: Number> Friction<S> {
     /// No friction.
     #[inline(always)]
     #[must_use]
@@ -69,14 +67,26 @@ impl<S: Real> Friction<S> {
             force: [S::zero(); 2],
             rate: [S::zero(); 2],
             loss: S::zero(),
-            sticks: false,
-            load: 0.0,
+            load: S::Plain::zero(),
+        }
+    }
+}
+
+impl<S: Number> Blend<S::Mask> for Friction<S> {
+    #[inline(always)]
+    fn blend(mask: S::Mask, yes: Self, no: Self) -> Self {
+        let pair = |yes: [S; 2], no: [S; 2]| [S::blend(mask, yes[0], no[0]), S::blend(mask, yes[1], no[1])];
+        Self {
+            force: pair(yes.force, no.force),
+            rate: pair(yes.rate, no.rate),
+            loss: S::blend(mask, yes.loss, no.loss),
+            load: S::Plain::blend(mask, yes.load, no.load),
         }
     }
 }
 
 /// The scalar product of two plane vectors.
 #[inline(always)]
-pub(crate) fn dot<S: Real>(a: [S; 2], b: [S; 2]) -> S {
+pub(crate) fn dot<S: Number>(a: [S; 2], b: [S; 2]) -> S {
     a[0] * b[0] + a[1] * b[1]
 }

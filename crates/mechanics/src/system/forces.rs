@@ -1,14 +1,14 @@
 //! The right-hand side: forces, accelerations, rates of the internal states, powers.
 
-use integrate::scalar::Real;
+use integrate::scalar::{Dual, Real};
 use std::ops::Mul;
 
 use super::{Mounted, System};
 use crate::body::Kinematics;
-use crate::coil::Coil;
-use crate::contact::ContactFace;
+use crate::coil::{Coil, CoilForce};
+use crate::contact::{ContactFace, FaceResultant, Points};
 use crate::link::{Mount, Relative, Sight};
-use crate::surface::Surface;
+use crate::surface::Plane;
 use crate::vector::{Matrix, Vector};
 
 /// What an element does to the body that it carries, in mount axes.
@@ -23,50 +23,86 @@ pub(super) struct Action<S> {
 }
 
 /// An element between two bodies.
-pub(super) trait Element {
-    /// The action; `rates` receives the rates of the internal states, two at a time.
-    fn act<S: Real>(
+pub(super) trait Element: Sized {
+    /// The action; `rates` receives the rates of the internal states.
+    fn act(
         &self,
-        relative: &Relative<S>,
+        points: &Points,
+        relative: &Relative<f64>,
         internal: &[f64],
-        rates: impl FnMut(usize, [S; 2]),
-    ) -> Action<S>;
+        rates: &mut [f64],
+    ) -> Action<f64>;
+
+    /// The action with its derivatives; `rates` sees those of the rates of two internal states at a time.
+    fn change<const N: usize>(
+        &self,
+        points: &Points,
+        relative: &Relative<Dual<N>>,
+        rates: impl FnMut(usize, [[f64; 2]; N]),
+    ) -> Action<Dual<N>>;
 }
 
-impl<F: Surface> Element for ContactFace<F> {
+impl Element for ContactFace<Plane> {
     #[inline(always)]
-    fn act<S: Real>(
+    fn act(
         &self,
-        relative: &Relative<S>,
+        points: &Points,
+        relative: &Relative<f64>,
         internal: &[f64],
-        mut rates: impl FnMut(usize, [S; 2]),
-    ) -> Action<S> {
-        let sum = self.evaluate(relative, internal, |point, contact| {
-            if !internal.is_empty() {
-                rates(point, contact.friction.rate);
-            }
-        });
-        Action {
-            force: sum.force,
-            moment: sum.moment,
-            powers: [sum.friction_loss, sum.damping_loss],
-        }
+        rates: &mut [f64],
+    ) -> Action<f64> {
+        Action::of_face(&self.resultant(points, relative, internal, rates))
+    }
+
+    #[inline(always)]
+    fn change<const N: usize>(
+        &self,
+        points: &Points,
+        relative: &Relative<Dual<N>>,
+        rates: impl FnMut(usize, [[f64; 2]; N]),
+    ) -> Action<Dual<N>> {
+        Action::of_face(&points.change(relative, self.law.states_per_point() > 0, rates))
     }
 }
 
 impl Element for Coil {
     #[inline(always)]
-    fn act<S: Real>(&self, relative: &Relative<S>, _: &[f64], _: impl FnMut(usize, [S; 2])) -> Action<S> {
-        let coil = self.evaluate(relative);
-        Action {
+    fn act(&self, _: &Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> Action<f64> {
+        Action::of_coil(&self.evaluate(relative))
+    }
+
+    #[inline(always)]
+    fn change<const N: usize>(
+        &self,
+        _: &Points,
+        relative: &Relative<Dual<N>>,
+        _: impl FnMut(usize, [[f64; 2]; N]),
+    ) -> Action<Dual<N>> {
+        Action::of_coil(&self.evaluate(relative))
+    }
+}
+
+impl<S: Real> Action<S> {
+    /// That of a face.
+    #[inline(always)]
+    pub fn of_face(face: &FaceResultant<S>) -> Self {
+        Self {
+            force: face.force,
+            moment: face.moment,
+            powers: [face.friction_loss, face.damping_loss],
+        }
+    }
+
+    /// That of a coil.
+    #[inline(always)]
+    pub fn of_coil(coil: &CoilForce<S>) -> Self {
+        Self {
             force: coil.force,
             moment: coil.moment,
             powers: [coil.loss, coil.guide_power],
         }
     }
-}
 
-impl<S: Real> Action<S> {
     /// Force on the carried body and moment about its origin, in its reference frame's axes.
     #[inline(always)]
     pub fn on_body<T: Real + Mul<S, Output = S>>(&self, sight: &Sight<T>) -> (Vector<S>, Vector<S>) {
@@ -155,9 +191,9 @@ fn apply<E: Element>(
     powers: &mut [f64],
 ) {
     let relative: Relative<f64> = mounted.sight.relative(&kinematics[mounted.body]);
-    let action = mounted.element.act(&relative, internal, |point, rate| {
-        internal_rates[2 * point..2 * point + 2].copy_from_slice(&rate);
-    });
+    let action = mounted
+        .element
+        .act(&mounted.points, &relative, internal, internal_rates);
     let (force, moment) = action.on_body(&mounted.sight);
     forces[mounted.body] += force;
     moments[mounted.body] += moment;

@@ -13,7 +13,7 @@ use crate::body::{Body, Kinematics};
 use crate::contact::ContactFace;
 use crate::frame::FrameMotion;
 use crate::link::{Relative, Sight};
-use crate::surface::{Plane, Surface};
+use crate::surface::Plane;
 use crate::vector::{Matrix, Vector};
 
 /// What a pass needs to see.
@@ -45,6 +45,11 @@ impl System {
             gravity: self.gravity,
         };
         self.jacobian.clear();
+        for face in &mut self.faces {
+            let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
+            let deflections = &internal[face.first_internal..][..face.internal_count];
+            face.element.linearize(&mut face.points, &relative, deflections);
+        }
         for (number, free) in self.free.iter().enumerate() {
             let mass = self.jacobian.mass_mut(number);
             self.kinematics[free.body].mass_matrix(&self.bodies[free.body], &free.free, mass);
@@ -56,7 +61,6 @@ impl System {
                 accelerations: &self.accelerations[free.body],
                 faces: &self.faces,
                 coils: &self.coils,
-                internal,
             };
             let jacobian = &mut self.jacobian;
             match free.free.len() {
@@ -70,7 +74,7 @@ impl System {
         }
         for face in &self.faces {
             if face.internal_count > 0 {
-                differentiate_internal(face, &scene, internal, &mut self.jacobian);
+                differentiate_internal(face, &scene, &mut self.jacobian);
             }
         }
         if self.moves {
@@ -81,7 +85,6 @@ impl System {
     /// The partial derivative of all rates by time.
     fn differentiate_time(&mut self, time: f64, x: &[f64], df_dt: &mut [f64]) {
         let layout = self.layout;
-        let [_, _, internal, _] = layout.split(x);
         let [_, d_speeds, d_internal, d_quadratures] = layout.split_mut(df_dt);
         for (body, load) in self.load_rate.iter_mut().enumerate() {
             *load = (Vector::zero(), Vector::zero());
@@ -112,14 +115,13 @@ impl System {
             *load = (-rate_of(&force), -rate_of(&moment));
         }
         for face in self.faces.iter().filter(|face| face.moves) {
-            let internal = &internal[face.first_internal..][..face.internal_count];
             let rates = &mut d_internal[face.first_internal..][..face.internal_count];
             let scene = (&self.frames[..], &self.kinematics[..]);
-            time_derivative(face, scene, internal, rates, &mut self.load_rate, d_quadratures);
+            time_derivative(face, scene, rates, &mut self.load_rate, d_quadratures);
         }
         for coil in self.coils.iter().filter(|coil| coil.moves) {
             let scene = (&self.frames[..], &self.kinematics[..]);
-            time_derivative(coil, scene, &[], &mut [], &mut self.load_rate, d_quadratures);
+            time_derivative(coil, scene, &mut [], &mut self.load_rate, d_quadratures);
         }
         for free in &self.free {
             let (force, moment) = &self.load_rate[free.body];
@@ -137,7 +139,6 @@ impl System {
 fn time_derivative<E: Element>(
     mounted: &Mounted<E>,
     (frames, kinematics): (&[FrameState], &[Kinematics<f64>]),
-    internal: &[f64],
     d_internal: &mut [f64],
     load_rate: &mut [(Vector<f64>, Vector<f64>)],
     d_quadratures: &mut [f64],
@@ -154,10 +155,11 @@ fn time_derivative<E: Element>(
         }
     };
     let relative: Relative<Dual<1>> = sight.relative(&kinematics[mounted.body]);
-    let action = mounted.element.act(&relative, internal, |point, rate| {
-        d_internal[2 * point] = rate[0].derivative[0];
-        d_internal[2 * point + 1] = rate[1].derivative[0];
-    });
+    let action = mounted
+        .element
+        .change(&mounted.points, &relative, |point, [rate]: [[f64; 2]; 1]| {
+            d_internal[2 * point..2 * point + 2].copy_from_slice(&rate);
+        });
     let mut add = |body: usize, (force, moment): (Vector<Dual<1>>, Vector<Dual<1>>)| {
         load_rate[body].0 += rate_of(&force);
         load_rate[body].1 += rate_of(&moment);
@@ -210,7 +212,6 @@ struct Pass<'s> {
     accelerations: &'s [f64; 6],
     faces: &'s [Mounted<ContactFace<Plane>>],
     coils: &'s [Mounted<crate::coil::Coil>],
-    internal: &'s [f64],
 }
 
 /// Force and moment on the seeded body.
@@ -236,11 +237,10 @@ impl Pass<'_> {
             moment: Vector::zero(),
         };
         for face in self.faces {
-            let internal = &self.internal[face.first_internal..][..face.internal_count];
-            self.element(face, internal, &kinematics, &mut load, jacobian);
+            self.element(face, &kinematics, &mut load, jacobian);
         }
         for coil in self.coils {
-            self.element(coil, &[], &kinematics, &mut load, jacobian);
+            self.element(coil, &kinematics, &mut load, jacobian);
         }
         let frame = &self.scene.frames[free.body];
         let (force, moment) = kinematics.inertia(
@@ -260,7 +260,6 @@ impl Pass<'_> {
     fn element<E: Element, const N: usize>(
         &self,
         mounted: &Mounted<E>,
-        internal: &[f64],
         seeded: &Kinematics<Dual<N>>,
         load: &mut Load<N>,
         jacobian: &mut Partitioned,
@@ -273,11 +272,13 @@ impl Pass<'_> {
             return;
         }
         let side = usize::from(!carries);
-        let mut keep_rates = |point: usize, rate: [Dual<N>; 2]| {
+        let mut keep_rates = |point: usize, rates: [[f64; 2]; N]| {
             let [g_q, g_u, _] = jacobian.side_mut(mounted.first_internal / 2 + point, side);
-            for (row, rate) in rate.iter().enumerate() {
-                g_q[row * n..][..n].copy_from_slice(&rate.derivative[..n]);
-                g_u[row * n..][..n].copy_from_slice(&rate.derivative[n..2 * n]);
+            for row in 0..2 {
+                for j in 0..n {
+                    g_q[row * n + j] = rates[j][row];
+                    g_u[row * n + j] = rates[n + j][row];
+                }
             }
         };
         let relative: Relative<Dual<N>>;
@@ -285,7 +286,9 @@ impl Pass<'_> {
         let drive;
         if carries {
             relative = mounted.sight.relative(seeded);
-            action = mounted.element.act(&relative, internal, &mut keep_rates);
+            action = mounted
+                .element
+                .change(&mounted.points, &relative, &mut keep_rates);
             let (force, moment) = action.on_body(&mounted.sight);
             load.force += force;
             load.moment += moment;
@@ -306,7 +309,9 @@ impl Pass<'_> {
             let sight = Sight::new(&lift_frame(a), &lift_frame(b), seeded, &mounted.mount);
             let kinematics = &scene.kinematics[mounted.body];
             relative = sight.relative(kinematics);
-            action = mounted.element.act(&relative, internal, &mut keep_rates);
+            action = mounted
+                .element
+                .change(&mounted.points, &relative, &mut keep_rates);
             let (force, moment) = action.on_body(&sight);
             if let Some(number) = scene.free_number[mounted.body] {
                 let blocks = jacobian.blocks_mut(mounted.pairs[0]);
@@ -374,43 +379,17 @@ impl<const N: usize> Generalize<Dual<N>> for Kinematics<f64> {
 }
 
 /// The derivatives by the internal states of a face: of their own rates, of the forces, of the powers.
-fn differentiate_internal(
-    face: &Mounted<ContactFace<Plane>>,
-    scene: &Scene<'_>,
-    internal: &[f64],
-    jacobian: &mut Partitioned,
-) {
+fn differentiate_internal(face: &Mounted<ContactFace<Plane>>, scene: &Scene<'_>, jacobian: &mut Partitioned) {
     let relative: Relative<f64> = face.sight.relative(&scene.kinematics[face.body]);
-    let deflections = &internal[face.first_internal..][..face.internal_count];
-    face.element.evaluate(&relative, deflections, |point, contact| {
+    face.points.internal_slopes(|point, slopes| {
         let group = face.first_internal / 2 + point;
-        let deflection = [
-            Dual::<2>::variable(deflections[2 * point], 0),
-            Dual::<2>::variable(deflections[2 * point + 1], 1),
-        ];
-        let share = face.element.points[point].share;
-        let slip = contact.slip.map(Dual::from);
-        let friction = face
-            .element
-            .friction(share, Dual::from(contact.normal), slip, deflection);
-        *jacobian.internal_mut(group) = [
-            friction.rate[0].derivative[0],
-            friction.rate[0].derivative[1],
-            friction.rate[1].derivative[0],
-            friction.rate[1].derivative[1],
-        ];
+        *jacobian.internal_mut(group) = slopes.rate;
         let row = face.first_internal_row + 2 * point;
-        *jacobian.internal_row_mut(row) = friction.loss.derivative;
+        *jacobian.internal_row_mut(row) = slopes.loss;
         for e in 0..2 {
-            let components = [
-                0.0,
-                friction.force[0].derivative[e],
-                friction.force[1].derivative[e],
-            ];
-            let force = face.element.surface.compose(contact.place, components);
             let action = Action {
-                force,
-                moment: contact.arm.cross(force),
+                force: slopes.force[e],
+                moment: slopes.arm.cross(slopes.force[e]),
                 powers: [0.0; 2],
             };
             let mut keep = |side: usize, number: usize, (force, moment): (Vector<f64>, Vector<f64>)| {

@@ -14,7 +14,7 @@ mod observe;
 mod sense;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
-use integrate::{Problem, Singular};
+use integrate::{KinkSigns, Problem, Singular};
 
 use crate::body::{Body, Kinematics};
 use crate::coil::Coil;
@@ -55,6 +55,9 @@ pub mod scales {
     /// Energy lost in contact damping, J: smaller, because it goes on while a point that carries no force any more
     /// springs back, which no other state sees.
     pub const CONTACT_DAMPING_LOSS: f64 = 1.0;
+    /// The widest tolerance that positions and speeds are held to, whatever is asked for: 1e-6 m and 1e-4 m/s. With more a wedge slides
+    /// to and fro by the integrator's own errors, steps follow each reversal, and the run is slower and wrong.
+    pub const WIDEST_TOLERANCE: f64 = 1e-5;
 }
 
 /// A free body's place in the state vector.
@@ -89,6 +92,7 @@ pub struct System {
     channels: Vec<Channel>,
     layout: Layout,
     scales: Vec<f64>,
+    error_bounds: Vec<f64>,
     free: Vec<FreeBody>,
     /// For each body its number among the free ones.
     free_number: Vec<Option<usize>>,
@@ -243,6 +247,10 @@ impl Problem for System {
         &self.scales
     }
 
+    fn error_bounds(&self) -> &[f64] {
+        &self.error_bounds
+    }
+
     fn segment(&mut self, start: f64) -> f64 {
         let end = self
             .bodies
@@ -275,6 +283,15 @@ impl Problem for System {
 
     fn solve(&mut self, b: &mut [f64]) {
         self.jacobian.solve(b);
+    }
+
+    fn kink_counts(&self) -> (usize, usize) {
+        (self.point_count(), self.point_count())
+    }
+
+    fn kinks(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
+        self.place(time, x);
+        self.kink_signs(signs);
     }
 
     fn switch_count(&self) -> usize {

@@ -6,7 +6,7 @@ use thiserror::Error;
 use super::{FrameState, FreeBody, System, is_bristle, scale_of, scales, structure};
 use crate::body::{Body, Kinematics};
 use crate::coil::Coil;
-use crate::contact::ContactFace;
+use crate::contact::{ContactFace, Points};
 use crate::link::{Mount, Sight, Translation};
 use crate::surface::Plane;
 use crate::vector::Vector;
@@ -86,6 +86,8 @@ pub struct Mounted<E> {
     /// Whether the body that it stands on is prescribed and moves.
     pub(super) driven: bool,
     pub(super) sight: Sight<f64>,
+    /// The points of a face, for evaluation; none for other elements.
+    pub(super) points: Points,
     /// What is constant of the sight where the body under the element only translates.
     pub(super) translation: Option<Translation>,
     /// Coupling blocks (body, on) and (on, body).
@@ -204,7 +206,9 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             0
         };
         let name = face.name.clone();
-        mounted_faces.push(placer.place(face, &name, body, on, mount, kinds, pairs)?);
+        let points = Points::new(&face.points);
+        let mounted = placer.place(face, &name, body, on, mount, kinds, pairs)?;
+        mounted_faces.push(Mounted { points, ..mounted });
     }
     let mut mounted_coils = Vec::new();
     for (body, on, mount, coil) in coils {
@@ -256,6 +260,10 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             };
         }
     }
+    let error_bounds = error_scales[..2 * layout.speeds]
+        .iter()
+        .map(|scale| scale * scales::WIDEST_TOLERANCE)
+        .collect();
     let moves = frames.iter().any(|frame| !frame.fixed);
     Ok(System {
         accelerations: vec![[0.0; 6]; bodies.len()],
@@ -269,6 +277,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         channels: parts.channels,
         layout,
         scales: error_scales,
+        error_bounds,
         free,
         free_number,
         frames,
@@ -352,6 +361,7 @@ impl Placer<'_> {
         Ok(Mounted {
             translation,
             element,
+            points: Points::default(),
             body,
             on,
             first_internal: 2 * first_pair,

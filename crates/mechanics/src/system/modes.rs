@@ -6,6 +6,8 @@
 //! - it starts to slip where the load of its friction law rises to [`SLIP_LOAD`], and sticks again where it falls to
 //!   [`STICK_LOAD`]. The load is |v|/v0 with tanh and |T|/(μN) with the bristle.
 
+use integrate::KinkSigns;
+
 use super::System;
 use crate::friction::FrictionLaw;
 use crate::link::Relative;
@@ -106,28 +108,29 @@ impl System {
             let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
             let deflections = &internal[face.first_internal..][..face.internal_count];
             let law = usize::from(matches!(face.element.law, FrictionLaw::Bristle { .. }));
-            for (i, point) in face.element.points.iter().enumerate() {
-                let contact = face.element.geometry(point, &relative);
-                let load = if law == 0 || contact.gap < 0.0 {
-                    let elastic = -contact.gap * point.stiffness;
-                    let normal = (elastic - contact.gap_rate * point.damping).max(0.0);
-                    let deflection = deflections
-                        .get(2 * i..2 * i + 2)
-                        .map_or([0.0; 2], |e| [e[0], e[1]]);
-                    face.element.load(point.share, normal, contact.slip, deflection)
-                } else {
-                    0.0
-                };
-                each(
-                    index,
-                    Signs {
-                        gap: contact.gap,
-                        load,
-                        law,
-                    },
-                );
-                index += 1;
-            }
+            face.element
+                .signs(&face.points, &relative, deflections, |i, gap, load| {
+                    each(index + i, Signs { gap, load, law });
+                });
+            index += face.element.points.len();
+        }
+    }
+
+    /// What foretells kinks: the gap of every point (m), and the slip of closed points over the reference speed of their law.
+    pub(super) fn kink_signs(&self, signs: &mut KinkSigns) {
+        let mut index = 0;
+        for face in &self.faces {
+            let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
+            let scale = match face.element.law {
+                FrictionLaw::Tanh { reference_speed } => 1.0 / reference_speed,
+                FrictionLaw::Bristle { .. } => 0.0,
+            };
+            face.element.motions(&face.points, &relative, |i, gap, slip| {
+                signs.values[index + i] = gap;
+                let closed = if gap < 0.0 { scale } else { 0.0 };
+                signs.directions[index + i] = slip.map(|part| part * closed);
+            });
+            index += face.element.points.len();
         }
     }
 

@@ -134,11 +134,7 @@ impl System {
                     rates[2 * point..2 * point + 2].copy_from_slice(&contact.friction.rate);
                 }
             });
-            let action = Action {
-                force: sum.force,
-                moment: sum.moment,
-                powers: [sum.friction_loss, sum.damping_loss],
-            };
+            let action = Action::of_face(&sum);
             add(
                 mounted,
                 &action,
@@ -161,11 +157,7 @@ impl System {
                 length: coil.length,
                 spring: coil.spring,
             });
-            let action = Action {
-                force: coil.force,
-                moment: coil.moment,
-                powers: [coil.loss, coil.guide_power],
-            };
+            let action = Action::of_coil(&coil);
             add(
                 mounted,
                 &action,

@@ -17,7 +17,7 @@ fn tanh_limits_and_smoothness() {
             close(one.force[k], -size * v[k] / speed, 1e-12);
         }
         close(one.loss, size * speed, 1e-12);
-        assert_eq!(one.sticks, speed < v0);
+        assert_eq!(one.load < 1.0, speed < v0);
         close(one.load, speed / v0, 1e-13);
     }
     // Far beyond the reference speed: the limit, against the velocity; never above it.
@@ -80,7 +80,7 @@ fn bristle_is_continuous_where_it_begins_to_slip() {
         };
         let inside = bristle::friction(limit, stiffness, damping, v, deflection(1.0 - 1e-9));
         let outside = bristle::friction(limit, stiffness, damping, v, deflection(1.0 + 1e-9));
-        assert!(inside.sticks && !outside.sticks);
+        assert!(inside.load <= 1.0 && outside.load > 1.0);
         for k in 0..2 {
             close(inside.force[k], outside.force[k], 1e-6);
             close(inside.rate[k], outside.rate[k], 1e-8);
@@ -103,7 +103,7 @@ fn bristle_losses_and_forces() {
         let v: [f64; 2] = random.vector(2.0 * limit / damping);
         let e: [f64; 2] = random.vector(2.0 * limit / stiffness);
         let one = bristle::friction(limit, stiffness, damping, v, e);
-        both[usize::from(one.sticks)] += 1;
+        both[usize::from(one.load <= 1.0)] += 1;
         // F·v = -d/dt (K e²/2) - loss
         let power = one.force[0] * v[0] + one.force[1] * v[1];
         let stored = stiffness * (e[0] * one.rate[0] + e[1] * one.rate[1]);
@@ -114,13 +114,13 @@ fn bristle_losses_and_forces() {
         // The defining equations.
         let trial = [0, 1].map(|k| stiffness * e[k] + damping * v[k]);
         if norm(&trial) <= limit {
-            assert!(one.sticks);
+            assert!(one.load <= 1.0);
             assert_eq!(one.rate, v);
             for k in 0..2 {
                 close(one.force[k], -trial[k], 1e-15 * limit);
             }
         } else {
-            assert!(!one.sticks);
+            assert!(one.load > 1.0);
             for k in 0..2 {
                 let slider = limit * trial[k] / norm(&trial);
                 close(one.force[k], -slider, 1e-13 * limit);

@@ -130,7 +130,6 @@ fn viscous<S: Real>(limit: S, damping: f64, velocity: [S; 2]) -> Slip<S> {
         force: velocity.map(|v| -(v * factor)),
         rate: [S::zero(); 2],
         loss: square * factor,
-        sticks: holds,
         load: if size > 0.0 { size / limit.value() } else { 0.0 },
     }
 }

@@ -116,7 +116,7 @@ pub(crate) struct WedgeLaw {
 }
 
 /// What happens at the column, and the slope's coefficient (signed: positive up the slope).
-struct Contact<S> {
+struct Contact<S: Real> {
     slip: Slip<S>,
     x: S,
     slope: S,

@@ -1,0 +1,205 @@
+//! Foreseeing kinks: where the right-hand side is going to bend, by the dense output of the last step continued beyond its end.
+//!
+//! A step across a kink has an error of low order, and a linearly implicit one has the Jacobian matrix of the wrong side: it is
+//! rejected, several times, until the step has shrunk to the kink. A step that ends just behind the kink (or just before a thin layer in
+//! which a direction reverses) costs nothing, and the next one begins on the right side. What is foreseen only chooses the length of
+//! the next step: errors are controlled as ever.
+
+use serde::{Deserialize, Serialize};
+
+use crate::problem::Problem;
+use crate::stages::Dense;
+
+/// How far the dense output is continued at most, in lengths of its step.
+const REACH: f64 = 6.0;
+/// A continued dense output is trusted while its error, that of the step times the fifth power of its reach, is below this.
+const TRUST: f64 = 100.0;
+/// How far behind a kink a step lands, and how closely it is located, in lengths of the last step.
+const OVERSHOOT: f64 = 2e-3;
+/// Rounds of the search.
+const ROUNDS: usize = 8;
+/// A direction that reverses: the layer begins at this size.
+const EDGE: f64 = 4.0;
+/// It does reverse if all of it has become smaller than this when its part along the old direction comes to the edge.
+const NARROW: f64 = 5.0 * EDGE;
+
+/// What a problem tells of its kinks at a time and a state, see [`Problem::kinks`].
+#[derive(Clone, Debug, Default)]
+pub struct KinkSigns {
+    /// Smooth functions across whose zeros the right-hand side has a kink.
+    pub values: Vec<f64>,
+    /// Plane vectors around whose zero, in a circle of radius 1, the right-hand side changes as across a jump (the slip of a contact
+    /// point over the reference speed of its friction law); zero where there is nothing to reverse.
+    pub directions: Vec<[f64; 2]>,
+}
+
+/// Where a step should end because of a kink.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Landing {
+    pub time: f64,
+    /// Before a thin layer: the time to its middle from there.
+    pub layer: Option<f64>,
+}
+
+/// Scratch memory.
+#[derive(Clone, Debug)]
+pub(crate) struct Kinks {
+    signs: KinkSigns,
+    /// Unit vectors of the directions at the start; zero: not to be looked at.
+    towards: Vec<[f64; 2]>,
+    now: Vec<f64>,
+    low: Vec<f64>,
+    high: Vec<f64>,
+    trial: Vec<f64>,
+    x: Vec<f64>,
+}
+
+impl Kinks {
+    pub fn new<P: Problem>(problem: &P) -> Self {
+        let (values, directions) = problem.kink_counts();
+        let zero = || vec![0.0; values + directions];
+        Self {
+            signs: KinkSigns {
+                values: vec![0.0; values],
+                directions: vec![[0.0; 2]; directions],
+            },
+            towards: vec![[0.0; 2]; directions],
+            now: zero(),
+            low: zero(),
+            high: zero(),
+            trial: zero(),
+            x: vec![0.0; problem.dimension()],
+        }
+    }
+
+    /// Where the next step should end if there is a kink within `length` of the end of a step, whose scaled error was `error`.
+    pub fn foresee<P: Problem>(
+        &mut self,
+        problem: &mut P,
+        dense: &Dense<'_>,
+        length: f64,
+        error: f64,
+    ) -> Option<Landing> {
+        if self.now.is_empty() || dense.step <= 0.0 {
+            return None;
+        }
+        let trusted = libm::pow(TRUST / error.max(1e-3), 0.2) - 1.0;
+        let reach = (length / dense.step).min(REACH).min(trusted);
+        if reach <= 0.0 {
+            return None;
+        }
+        self.begin(problem, dense);
+        loop {
+            let (low, high, index) = self.locate(problem, dense, 1.0 + reach)?;
+            let Some(direction) = index.checked_sub(self.signs.values.len()) else {
+                return Some(Landing {
+                    time: dense.start + (high + OVERSHOOT) * dense.step,
+                    layer: None,
+                });
+            };
+            self.evaluate(problem, dense, low);
+            let [a, b] = self.signs.directions[direction];
+            if a * a + b * b < NARROW * NARROW {
+                // Along the line between the ends of the bracket.
+                let fall = (self.low[index] - self.high[index]) / ((high - low) * dense.step);
+                return (low > 1.0).then_some(Landing {
+                    time: dense.start + low * dense.step,
+                    layer: Some((self.low[index] + EDGE) / fall),
+                });
+            }
+            // It only turns.
+            self.towards[direction] = [0.0; 2];
+        }
+    }
+
+    /// Reads where the functions are at the end of the step, and which way the directions point.
+    fn begin<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>) {
+        problem.kinks(dense.end, dense.x1, &mut self.signs);
+        for (towards, direction) in self.towards.iter_mut().zip(&self.signs.directions) {
+            let size = (direction[0] * direction[0] + direction[1] * direction[1]).sqrt();
+            *towards = if size > 2.0 * EDGE {
+                direction.map(|part| part / size)
+            } else {
+                [0.0; 2]
+            };
+        }
+        self.project();
+        self.now.copy_from_slice(&self.trial);
+    }
+
+    /// The functions at a place on the continued dense output, to `trial`.
+    fn evaluate<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>, theta: f64) {
+        dense.evaluate(theta, 0, &mut self.x);
+        problem.kinks(dense.start + theta * dense.step, &self.x, &mut self.signs);
+        self.project();
+    }
+
+    fn project(&mut self) {
+        let (values, directions) = self.trial.split_at_mut(self.signs.values.len());
+        values.copy_from_slice(&self.signs.values);
+        for ((part, towards), direction) in directions
+            .iter_mut()
+            .zip(&self.towards)
+            .zip(&self.signs.directions)
+        {
+            let along = towards[0] * direction[0] + towards[1] * direction[1];
+            *part = if *towards == [0.0; 2] { 1.0 } else { along - EDGE };
+        }
+    }
+
+    /// A short bracket around the first zero up to `high`, and the function that has it.
+    fn locate<P: Problem>(
+        &mut self,
+        problem: &mut P,
+        dense: &Dense<'_>,
+        mut high: f64,
+    ) -> Option<(f64, f64, usize)> {
+        let mut low = 1.0;
+        self.low.copy_from_slice(&self.now);
+        self.evaluate(problem, dense, high);
+        std::mem::swap(&mut self.high, &mut self.trial);
+        self.first_zero()?;
+        for round in 0..ROUNDS {
+            if high - low <= OVERSHOOT {
+                break;
+            }
+            // The first zero of straight lines, once a little behind it and once before, so that the bracket closes; then the middle.
+            let fraction = self.first_zero().map_or(0.5, |(_, fraction)| fraction);
+            let guess = low + (high - low) * fraction;
+            let theta = match round % 3 {
+                0 => guess + 0.5 * OVERSHOOT,
+                1 => guess - 0.5 * OVERSHOOT,
+                _ => 0.5 * (low + high),
+            };
+            let theta = theta.clamp(low + 0.25 * OVERSHOOT, high - 0.25 * OVERSHOOT);
+            self.evaluate(problem, dense, theta);
+            let end = if crossed(&self.now, &self.trial) {
+                high = theta;
+                &mut self.high
+            } else {
+                low = theta;
+                &mut self.low
+            };
+            std::mem::swap(end, &mut self.trial);
+        }
+        self.first_zero().map(|(index, _)| (low, high, index))
+    }
+
+    /// The function whose line between the ends of the bracket comes to zero first, and where, as a fraction of the bracket.
+    fn first_zero(&self) -> Option<(usize, f64)> {
+        let mut first: Option<(usize, f64)> = None;
+        for (index, ((now, low), high)) in self.now.iter().zip(&self.low).zip(&self.high).enumerate() {
+            if now * high < 0.0 {
+                let fraction = low / (low - high);
+                if first.is_none_or(|(_, least)| fraction < least) {
+                    first = Some((index, fraction));
+                }
+            }
+        }
+        first
+    }
+}
+
+fn crossed(now: &[f64], then: &[f64]) -> bool {
+    now.iter().zip(then).any(|(now, then)| now * then < 0.0)
+}
