@@ -184,6 +184,54 @@ fn convergence_a_wedges_parameters_are_found_again() {
     }
 }
 
+/// Variably damped, the coil is compressed by the motion itself, so that stiffness and preload do different things to the loop: all three
+/// kinds of parameters at once, each within two 95 % intervals (four standard deviations) of the true value.
+#[test]
+fn convergence_friction_stiffness_and_preload_are_told_apart() {
+    let free = [
+        Free::parse("friction.column=0.3..0.5").unwrap(),
+        Free::parse("control_coil.stiffness=1500 lbf/in..2500 lbf/in").unwrap(),
+        Free::parse("control_coil.nominal_length=5.2 in..5.8 in").unwrap(),
+    ];
+    let truth = [0.43, 1850.0, 5.4];
+    let variable = |set: &[String]| {
+        let mut all = vec!["wedge.damping=\"variable\"".to_owned()];
+        all.extend_from_slice(set);
+        case(&all)
+    };
+    let set: Vec<String> = free
+        .iter()
+        .zip(truth)
+        .map(|(free, value)| free.set(value))
+        .collect();
+    let times: Vec<f64> = (40..=200).map(|row| 0.002 * f64::from(row)).collect();
+    let exact = course(&variable(&set).unwrap(), "vertical_wedge_force", &times).unwrap();
+    let size = exact.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    for seed in 0..3 {
+        let mut noise = Noise(2000 + seed);
+        let measured = Measured {
+            values: exact
+                .iter()
+                .map(|value| value + 0.01 * size * noise.normal())
+                .collect(),
+            times: times.clone(),
+            column: "vertical_wedge_force".to_owned(),
+        };
+        let found = fit(&variable, &measured, &free, 0.95, &|count, one| {
+            (0..count).map(one).collect()
+        })
+        .unwrap();
+        for (parameter, truth) in found.parameters.iter().zip(truth) {
+            let half = parameter.half_interval.unwrap();
+            assert!(half < 0.1 * truth, "{parameter:?}");
+            assert!(
+                (parameter.value - truth).abs() < 2.0 * half,
+                "{truth}: {parameter:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn input_free_parameters() {
     for (text, problem) in [

@@ -135,3 +135,21 @@ fn shown(seconds: f64) -> String {
         s => format!("{:.1} days", s / 86_400.0),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::shown;
+
+    #[test]
+    fn limits_times_left_are_in_units_for_people() {
+        for (seconds, text) in [
+            (0.4, "0 s"),
+            (89.0, "89 s"),
+            (91.0, "2 min"),
+            (7200.0, "2.0 h"),
+            (259_200.0, "3.0 days"),
+        ] {
+            assert_eq!(shown(seconds), text);
+        }
+    }
+}
