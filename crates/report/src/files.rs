@@ -230,7 +230,7 @@ impl Files<'_> {
     pub fn add(
         &mut self,
         name: &str,
-        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+        write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
     ) -> Result<(), FileError> {
         let written = File::create_new(self.stage.join(name)).and_then(|file| {
             let mut out = BufWriter::with_capacity(1 << 16, file);

@@ -14,23 +14,32 @@
 //! - [`run_files`]: the files of a run.
 //! - [`truck_files`]: the files of a half-truck's run.
 //! - [`table`]: tables of results, read back.
+//! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table, [`study_digest`] what
+//!   their page shows.
+//! - [`fit_files`]: the files of an identification.
 //! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
 
 pub mod agreement;
 pub mod beyond;
 pub mod claims;
 pub mod comparison;
+pub mod contour;
 pub mod csv;
 pub mod drawing;
 pub mod figures;
 pub mod files;
+pub mod fit_files;
 pub mod mat;
 pub mod mat5;
 mod overlay;
 pub mod page;
+pub mod parquet;
 pub mod plot;
 pub mod run_files;
 pub mod sections;
+pub mod study_digest;
+pub mod study_folder;
+pub mod study_work;
 pub mod summary;
 pub mod table;
 pub mod thin;

@@ -78,6 +78,12 @@ impl Cycle {
         2.0 * std::f64::consts::PI / self.angular_frequency
     }
 
+    /// Equivalent viscous damping of an energy (J) lost each cycle, N·s/m: W/(π ω A²).
+    #[must_use]
+    pub fn equivalent_damping(&self, energy: f64) -> f64 {
+        energy / (std::f64::consts::PI * self.angular_frequency * self.amplitude * self.amplitude)
+    }
+
     /// The beginning of the first counted cycle and the end of the last one, s; `None` if there is no whole cycle.
     #[must_use]
     pub fn window(&self, duration: f64) -> Option<(f64, f64, u32)> {

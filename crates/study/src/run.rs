@@ -328,14 +328,7 @@ impl Run {
                 return;
             }
             self.integrator.interpolate(*time, &mut self.buffer);
-            let layout = self.wedge.system.layout();
-            let [_, _, _, quadratures] = layout.split(&self.buffer);
-            let mut losses = [0.0; 2];
-            for (channel, value) in self.wedge.system.channels().iter().zip(quadratures) {
-                if channel.kind == ChannelKind::FrictionLoss {
-                    losses[usize::from(channel.element != FACES[0])] += value;
-                }
-            }
+            let losses = friction_losses(&self.wedge.system, &self.buffer);
             self.counts.probes.push(losses);
         }
     }
@@ -383,20 +376,32 @@ impl Run {
     }
 }
 
+/// Energy lost in friction so far, J, by face.
+pub(crate) fn friction_losses(system: &System, x: &[f64]) -> [f64; 2] {
+    let [_, _, _, quadratures] = system.layout().split(x);
+    let mut losses = [0.0; 2];
+    for (channel, value) in system.channels().iter().zip(quadratures) {
+        if channel.kind == ChannelKind::FrictionLoss {
+            losses[usize::from(channel.element != FACES[0])] += value;
+        }
+    }
+    losses
+}
+
 /// Face and corner of a contact point.
 fn place(point: usize) -> (&'static str, &'static str) {
     (FACES[point / CORNERS.len()], CORNERS[point % CORNERS.len()])
 }
 
 /// Number of rows: multiples of the interval, and the end.
-fn row_count(duration: f64, interval: f64) -> u64 {
+pub(crate) fn row_count(duration: f64, interval: f64) -> u64 {
     let whole = (duration / interval * (1.0 + 1e-12)).floor();
     let rest = duration - whole * interval > 1e-9 * interval;
     whole as u64 + 1 + u64::from(rest)
 }
 
 /// The time of a row; the last one is the end.
-fn row_time(row: u64, count: u64, duration: f64, interval: f64) -> f64 {
+pub(crate) fn row_time(row: u64, count: u64, duration: f64, interval: f64) -> f64 {
     if row + 1 == count {
         duration
     } else {
@@ -404,7 +409,8 @@ fn row_time(row: u64, count: u64, duration: f64, interval: f64) -> f64 {
     }
 }
 
-fn options(case: &Case) -> Options {
+/// The integrator's settings of a case.
+pub(crate) fn options(case: &Case) -> Options {
     Options {
         method: case.simulation.method,
         relative_tolerance: case.simulation.relative_tolerance,

@@ -23,17 +23,25 @@ struct Scene<'s> {
     seen: &'s Observation,
     modes: &'s [u8],
     start_energy: f64,
-    derived: Derived,
+    derived: Resultants,
+    ledger: Ledger,
 }
 
-/// Resultants.
-struct Derived {
-    vertical: f64,
-    vertical_on_side_frame: f64,
-    moments: [Vector<f64>; 2],
-    on_side_frame: (Vector<f64>, Vector<f64>),
-    on_bolster: (Vector<f64>, Vector<f64>),
-    ledger: Ledger,
+/// Resultants of the contact forces and of the coil at one instant, fixed axes, SI.
+#[derive(Clone, Copy, Debug)]
+pub struct Resultants {
+    /// Normal forces of the column along x, N: the column `longitudinal_wedge_force`.
+    pub longitudinal: f64,
+    /// Column friction as it acts on the side frame, positive up, N: `vertical_wedge_force`.
+    pub vertical: f64,
+    /// The same less the spring force of a coil on the side frame, N: `vertical_force_on_side_frame`.
+    pub vertical_on_side_frame: f64,
+    /// Moments of the contact forces of each face on the wedge, about its centre of gravity, N·m.
+    pub moments: [Vector<f64>; 2],
+    /// Net force and moment on the side frame, about the centre of its column, N and N·m.
+    pub on_side_frame: (Vector<f64>, Vector<f64>),
+    /// Net force and moment on the bolster, about the centre of its pocket, N and N·m.
+    pub on_bolster: (Vector<f64>, Vector<f64>),
 }
 
 /// The energy ledger at one instant, J.
@@ -55,6 +63,35 @@ pub struct Ledger {
     pub coil_damping_loss: f64,
     /// Work less stored energy and losses: what does not add up.
     pub residual: f64,
+}
+
+impl Ledger {
+    /// The energy that a residual is set against, J: the work of the motions; where they do none (a wedge that hangs
+    /// free), the largest energy there is.
+    #[must_use]
+    pub fn scale(&self, start_energy: f64) -> f64 {
+        if self.motion_work != 0.0 {
+            return self.motion_work.abs();
+        }
+        let others = [
+            self.coil_guide_work,
+            self.stored,
+            self.side_frame_friction_loss,
+            self.bolster_friction_loss,
+            self.contact_damping_loss,
+            self.coil_damping_loss,
+        ];
+        let largest = others
+            .iter()
+            .fold(start_energy.abs(), |most, value| most.max(value.abs()));
+        largest.max(f64::MIN_POSITIVE)
+    }
+
+    /// The residual over [`Ledger::scale`].
+    #[must_use]
+    pub fn relative_residual(&self, start_energy: f64) -> f64 {
+        self.residual / self.scale(start_energy)
+    }
 }
 
 /// Name, value and text of a column of stored energy.
@@ -103,12 +140,12 @@ impl Outputs {
         start_energy: f64,
         out: &mut Vec<f64>,
     ) {
-        let derived = self.derive(system, seen, start_energy);
         let scene = Scene {
             seen,
             modes,
             start_energy,
-            derived,
+            derived: Self::resultants(self.damping, system, seen),
+            ledger: Self::ledger(system, seen, start_energy),
         };
         out.extend(self.values.iter().map(|value| value(&scene)));
     }
@@ -140,7 +177,9 @@ impl Outputs {
         ledger
     }
 
-    fn derive(&self, system: &System, seen: &Observation, start_energy: f64) -> Derived {
+    /// The resultants at one instant, for those who need no table.
+    #[must_use]
+    pub fn resultants(damping: Damping, system: &System, seen: &Observation) -> Resultants {
         let wedge = &seen.bodies[WEDGE];
         let cg = wedge.center_of_gravity;
         let mut forces = [Vector::zero(); 2];
@@ -163,13 +202,13 @@ impl Outputs {
             }
         }
         let coil = &seen.coils[0];
-        let on_frame = match self.damping {
+        let on_frame = match damping {
             Damping::Variable => coil.spring_force.0[2],
             Damping::Constant => 0.0,
         };
         let reference = [seen.faces[COLUMN].origin, seen.faces[SLOPE].origin];
         let zero = (Vector::zero(), Vector::zero());
-        let seat = match self.damping {
+        let seat = match damping {
             Damping::Variable => 0,
             Damping::Constant => 1,
         };
@@ -182,13 +221,13 @@ impl Outputs {
                 *reaction = (reaction.0 + force, reaction.1 + moment);
             }
         }
-        Derived {
+        Resultants {
+            longitudinal: seen.faces[COLUMN].normal_forces.iter().map(|f| f.0[0]).sum(),
             vertical,
             vertical_on_side_frame: vertical - on_frame,
             moments,
             on_side_frame: reactions[0],
             on_bolster: reactions[1],
-            ledger: Self::ledger(system, seen, start_energy),
         }
     }
 
@@ -243,7 +282,7 @@ impl Outputs {
             Kind::Force,
             none,
             "sum of the column's normal forces on the wedge along x (eq. 5-2)",
-            |s| s.seen.faces[COLUMN].normal_forces.iter().map(|f| f.0[0]).sum(),
+            |s| s.derived.longitudinal,
         );
         self.add(
             "vertical_wedge_force",
@@ -516,7 +555,7 @@ impl Outputs {
             self.add(name, Kind::Energy, none, text, value);
         }
         for (name, value, text) in spent {
-            self.add(name, Kind::Energy, none, text, move |s| value(&s.derived.ledger));
+            self.add(name, Kind::Energy, none, text, move |s| value(&s.ledger));
         }
     }
 }

@@ -36,7 +36,7 @@ pub fn shown(diagnostic: &dyn Diagnostic) -> String {
 }
 
 /// What the command line advises, and what a Python user does instead.
-const ADVICE: [(&str, &str); 7] = [
+const ADVICE: [(&str, &str); 9] = [
     (
         "`wedgelab case NAME` prints a built-in case",
         "Case(NAME).to_toml() is a built-in case",
@@ -47,6 +47,8 @@ const ADVICE: [(&str, &str); 7] = [
         "see Case().to_toml() for a case that is valid",
     ),
     (" with --out", ""),
+    ("give the same command again", "run the study again"),
+    ("give the command again", "run the study again"),
     ("--force", "force=True"),
     ("`wedgelab nucars check`", "wedgelab.nucars.check"),
     ("--yaw drop or --yaw drive", "yaw=\"drop\" or yaw=\"drive\""),

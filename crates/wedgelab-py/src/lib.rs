@@ -1,7 +1,7 @@
 //! The native part of the Python package `wedgelab`: what its Python part calls.
 //!
 //! Python code in `python/wedgelab` gives it names, types and tables; the work is done by lower floors. One module a thing:
-//! `case`, `outcome` (results), `run` and `many` (running), `step` (users' own loops), `figures`, `nucars` and `truck`, `quasi_static`, `quantity`, and
+//! `case`, `outcome` (results), `run` and `many` (running), `step` (users' own loops), `study`, `figures`, `nucars` and `truck`, `quasi_static`, `quantity`, and
 //! `values` and `errors` for the way between the languages.
 //!
 //! Nothing panics through: what calls into lower floors runs in `errors::guarded`.
@@ -18,6 +18,7 @@ mod quantity;
 mod quasi_static;
 mod run;
 mod step;
+mod study;
 mod truck;
 mod values;
 
@@ -44,6 +45,8 @@ mod _wedgelab {
     use crate::quasi_static::slide;
     #[pymodule_export]
     use crate::step::NativeWedge;
+    #[pymodule_export]
+    use crate::study::{NativeStudy, NativeStudyFolder};
     #[pymodule_export]
     use crate::truck::{NativeTruckCase, built_in_trucks};
 

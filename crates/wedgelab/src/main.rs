@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{case, compare, explore, fmu, nucars, plot, quasi_static, reproduce, run};
+use commands::{case, compare, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, study};
 use failure::Failure;
 
 /// A laboratory for railway friction wedges.
@@ -31,6 +31,7 @@ Begin with:
   wedgelab case NAME > my.toml       a complete case file to change ...
   wedgelab run my.toml               ... and to run
   wedgelab explore my.toml           a page to change it and see its loop move
+  wedgelab study STUDY.toml          many variants of a case, into one table
   wedgelab compare RESULT RESULT     differences and overlay figures
 
 Exit codes: 0 done; 1 a run could not finish or files could not be written; 2 the input is wrong."
@@ -44,6 +45,8 @@ struct Cli {
 enum Command {
     Reproduce(reproduce::Arguments),
     Run(run::Arguments),
+    Study(study::Arguments),
+    Fit(fit::Arguments),
     Compare(compare::Arguments),
     Plot(plot::Arguments),
     Case(case::Arguments),
@@ -58,6 +61,8 @@ impl Cli {
         match self.command {
             Command::Reproduce(arguments) => reproduce::execute(&arguments),
             Command::Run(arguments) => run::execute(&arguments),
+            Command::Study(arguments) => study::execute(&arguments),
+            Command::Fit(arguments) => fit::execute(&arguments),
             Command::Compare(arguments) => compare::execute(&arguments),
             Command::Plot(arguments) => plot::execute(&arguments),
             Command::Case(arguments) => case::execute(&arguments),

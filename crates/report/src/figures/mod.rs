@@ -4,16 +4,19 @@
 //! - [`comparison`]: the stand-alone wedge against types 6.8 and 6.9 of the comparison program.
 //! - [`model`]: the bolster's motion, the friction law, the coil.
 //! - [`run`]: what the thesis lacks, run by run.
+//! - [`study`]: main effects and contours of studies; [`jam`]: their jam map.
 
 pub mod comparison;
+pub mod jam;
 pub mod model;
 pub mod run;
+pub mod study;
 pub mod thesis;
 
+use ::study::case::Case;
+use ::study::result::RunResult;
 use mechanics::motion::Motion;
 use quantity::{Kind, System as Units};
-use study::case::Case;
-use study::result::RunResult;
 
 use crate::csv::converted;
 use crate::drawing::{Colour, Curve, Figure, Line};

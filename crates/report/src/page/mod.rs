@@ -4,6 +4,7 @@ mod agreement;
 mod claims;
 pub mod explorer;
 mod runs;
+pub mod study;
 mod viewer;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};

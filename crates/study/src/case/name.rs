@@ -7,7 +7,7 @@ const RESERVED: [&str; 4] = ["con", "prn", "aux", "nul"];
 const LONGEST: usize = 100;
 
 /// Why a name cannot be a folder's on every system; still without a place.
-pub(super) fn problem(name: &str) -> Option<Problem> {
+pub(crate) fn problem(name: &str) -> Option<Problem> {
     let stem = name.split('.').next().unwrap_or("").trim_end().to_lowercase();
     let port = |prefix: &str| {
         stem.strip_prefix(prefix)

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// A text that was read: a case file, a table, or what was given to `--set`.
 #[derive(Debug)]
-pub(super) struct Source {
+pub(crate) struct Source {
     /// The file as the user named it, or `--set`.
     pub name: String,
     pub named: NamedSource<String>,
@@ -40,7 +40,7 @@ impl Source {
 
 /// A piece of a source.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(crate) struct Place {
     pub source: Arc<Source>,
     /// In bytes.
     pub span: Range<usize>,
@@ -63,7 +63,7 @@ pub struct Problem {
 
 impl Problem {
     /// A mistake at no particular place.
-    pub(super) fn new(message: impl Into<String>) -> Self {
+    pub(crate) fn new(message: impl Into<String>) -> Self {
         Problem {
             message: message.into(),
             label: String::new(),
@@ -72,19 +72,44 @@ impl Problem {
         }
     }
 
-    pub(super) fn at(mut self, place: &Place) -> Self {
+    pub(crate) fn at(mut self, place: &Place) -> Self {
         self.place = Some(place.clone());
         self
     }
 
-    pub(super) fn label(mut self, label: impl Into<String>) -> Self {
+    pub(crate) fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
         self
     }
 
-    pub(super) fn help(mut self, help: impl Into<String>) -> Self {
+    pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
+    }
+
+    /// The same mistake, shown where the text that led to it was written.
+    pub(crate) fn moved_to(mut self, place: &Place) -> Self {
+        if self.label.is_empty() {
+            self.label = "this value".into();
+        }
+        self.place = Some(place.clone());
+        self
+    }
+
+    /// Whether it is the key in front of `=` that is wrong in what was given to `--set`.
+    pub(crate) fn is_about_key(&self) -> bool {
+        let place = self.place.as_ref().filter(|_| self.set_path().is_some());
+        place.is_some_and(|place| {
+            let equals = place.source.text().find('=');
+            equals.is_some_and(|equals| place.span.end <= equals)
+        })
+    }
+
+    /// Whether it is shown at this place.
+    pub(crate) fn is_at(&self, other: &Place) -> bool {
+        self.place
+            .as_ref()
+            .is_some_and(|place| place.span == other.span && place.source.name == other.source.name)
     }
 
     /// What was found and what was expected.
@@ -167,23 +192,38 @@ impl Diagnostic for Problem {
 #[derive(Clone, Debug)]
 pub struct CaseError {
     problems: Vec<Problem>,
+    /// What was read: `case`, `study`.
+    subject: &'static str,
 }
 
 impl CaseError {
     /// `problems` must not be empty.
-    pub(super) fn new(mut problems: Vec<Problem>) -> Self {
+    pub(crate) fn new(mut problems: Vec<Problem>) -> Self {
         problems.sort_by_key(|problem| {
             problem
                 .place
                 .as_ref()
                 .map(|place| (place.source.name.clone(), place.span.start))
         });
-        CaseError { problems }
+        CaseError {
+            problems,
+            subject: "case",
+        }
+    }
+
+    /// The same of another kind of input, such as `study`.
+    pub(crate) fn of(mut self, subject: &'static str) -> Self {
+        self.subject = subject;
+        self
     }
 
     /// The mistakes; at least one.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
+    }
+
+    pub(crate) fn into_problems(self) -> Vec<Problem> {
+        self.problems
     }
 
     fn only(&self) -> Option<&Problem> {
@@ -196,9 +236,7 @@ impl CaseError {
 
 impl From<Problem> for CaseError {
     fn from(problem: Problem) -> Self {
-        CaseError {
-            problems: vec![problem],
-        }
+        CaseError::new(vec![problem])
     }
 }
 
@@ -207,7 +245,7 @@ impl fmt::Display for CaseError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.only() {
             Some(problem) => problem.fmt(out),
-            None => write!(out, "the case has {} mistakes", self.problems.len()),
+            None => write!(out, "the {} has {} mistakes", self.subject, self.problems.len()),
         }
     }
 }

@@ -6,7 +6,7 @@ use quantity::{Kind, Quantity, System, UnitError, nearest};
 
 /// The range a value must lie in.
 #[derive(Clone, Copy)]
-pub(super) enum Range {
+pub(crate) enum Range {
     /// Any finite value.
     Any,
     /// Greater than zero.
@@ -38,10 +38,10 @@ impl Range {
 }
 
 /// Names of choices in the file, and what they mean.
-pub(super) type Names<T> = &'static [(&'static str, T)];
+pub(crate) type Names<T> = &'static [(&'static str, T)];
 
 /// The name of a choice.
-pub(super) fn name_of<T: PartialEq>(names: Names<T>, choice: &T) -> &'static str {
+pub(crate) fn name_of<T: PartialEq>(names: Names<T>, choice: &T) -> &'static str {
     names
         .iter()
         .find(|(_, other)| other == choice)
@@ -49,7 +49,7 @@ pub(super) fn name_of<T: PartialEq>(names: Names<T>, choice: &T) -> &'static str
 }
 
 /// One table of the case, by its path. Its readers note what is wrong and return nothing then.
-pub(super) struct Section<'a> {
+pub(crate) struct Section<'a> {
     /// `wedge`, `bolster.vertical`; empty at the top.
     pub path: String,
     pub table: &'a Table,
@@ -106,6 +106,17 @@ impl<'a> Section<'a> {
 
     /// Notes every key that is not among `keys`.
     pub fn allow(&self, keys: &[&str], elsewhere: &[(&str, &[&str])], problems: &mut Vec<Problem>) {
+        self.allow_in(keys, elsewhere, "a case", problems);
+    }
+
+    /// The same; `top` says what the topmost table is.
+    pub fn allow_in(
+        &self,
+        keys: &[&str],
+        elsewhere: &[(&str, &[&str])],
+        top: &str,
+        problems: &mut Vec<Problem>,
+    ) {
         for entry in self
             .table
             .entries
@@ -121,7 +132,7 @@ impl<'a> Section<'a> {
                 (None, None) => format!("known here: {}", keys.join(", ")),
             };
             let place = if self.path.is_empty() {
-                "in a case".into()
+                format!("in {top}")
             } else {
                 format!("in `{}`", self.path)
             };
@@ -277,7 +288,7 @@ impl<'a> Section<'a> {
 }
 
 /// One of several names.
-pub(super) fn choice<T: Copy>(
+pub(crate) fn choice<T: Copy>(
     node: &Node,
     path: &str,
     names: Names<T>,
@@ -313,7 +324,7 @@ fn one_of<T>(names: Names<T>) -> String {
 }
 
 /// A quantity written in a node.
-pub(super) fn quantity(
+pub(crate) fn quantity(
     node: &Node,
     path: &str,
     kind: Kind,
@@ -368,7 +379,7 @@ pub(super) fn quantity(
 }
 
 /// The mistake of a quantity, at its place.
-pub(super) fn unit_problem(error: &UnitError, path: &str, kind: Kind, place: &Place) -> Problem {
+pub(crate) fn unit_problem(error: &UnitError, path: &str, kind: Kind, place: &Place) -> Problem {
     let label = match error {
         UnitError::UnknownUnit { .. } => "unknown unit".to_string(),
         UnitError::MissingUnit { .. } => "a unit is missing".to_string(),
@@ -383,7 +394,7 @@ pub(super) fn unit_problem(error: &UnitError, path: &str, kind: Kind, place: &Pl
 }
 
 /// The part of a text in quotes that an error speaks of.
-pub(super) fn inner_place(node: &Node, error: &UnitError) -> Place {
+pub(crate) fn inner_place(node: &Node, error: &UnitError) -> Place {
     let raw = node.place.text();
     let mut place = node.place.clone();
     if let Value::Text(text) = &node.value
@@ -399,7 +410,7 @@ pub(super) fn inner_place(node: &Node, error: &UnitError) -> Place {
 }
 
 /// The problem of a quantity outside its range, still without a place.
-pub(super) fn out_of_range(quantity: &Quantity, path: &str, kind: Kind, range: Range) -> Option<Problem> {
+pub(crate) fn out_of_range(quantity: &Quantity, path: &str, kind: Kind, range: Range) -> Option<Problem> {
     if range.holds(quantity.to_si()) {
         return None;
     }
@@ -408,7 +419,7 @@ pub(super) fn out_of_range(quantity: &Quantity, path: &str, kind: Kind, range: R
 }
 
 /// An example of a quantity of this kind.
-pub(super) fn example(kind: Kind) -> String {
+pub(crate) fn example(kind: Kind) -> String {
     let number = match kind {
         Kind::Angle => "30",
         Kind::Stiffness => "3000",

@@ -10,14 +10,14 @@ use toml::de::{DeTable, DeValue};
 
 /// A value and its place.
 #[derive(Clone, Debug)]
-pub(super) struct Node {
+pub(crate) struct Node {
     pub place: Place,
     pub value: Value,
 }
 
 /// What TOML can hold.
 #[derive(Clone, Debug)]
-pub(super) enum Value {
+pub(crate) enum Value {
     Text(String),
     Number(f64),
     Truth(bool),
@@ -28,20 +28,20 @@ pub(super) enum Value {
 
 /// A table, in the order of the text.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Table {
+pub(crate) struct Table {
     pub entries: Vec<Entry>,
 }
 
 /// A key and what it holds.
 #[derive(Clone, Debug)]
-pub(super) struct Entry {
+pub(crate) struct Entry {
     pub key: String,
     pub key_place: Place,
     pub node: Node,
 }
 
 /// Reads TOML; every mistake of syntax becomes a problem.
-pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Vec<Problem>> {
+pub(crate) fn parse(source: &Arc<Source>) -> Result<Table, Vec<Problem>> {
     let (table, errors) = DeTable::parse_recoverable(source.text());
     if errors.is_empty() {
         return Ok(table_of(table.get_ref(), source));

@@ -107,9 +107,8 @@ fn averages(run: &Run) -> Averages {
                     .energy_per_cycle
                     .insert(neighbour.to_owned(), Measure::new(energy, Kind::Energy, units));
                 if side == 0 {
-                    let area =
-                        std::f64::consts::PI * cycle.angular_frequency * cycle.amplitude * cycle.amplitude;
-                    averages.equivalent_damping = Some(Measure::new(energy / area, Kind::Damping, units));
+                    let damping = cycle.equivalent_damping(energy);
+                    averages.equivalent_damping = Some(Measure::new(damping, Kind::Damping, units));
                 }
             }
         }
@@ -239,19 +238,7 @@ fn ledger(run: &mut Run) -> LedgerSummary {
         ("coil_damping_loss", ledger.coil_damping_loss),
         ("residual", ledger.residual),
     ];
-    // Where the motions do no work (a wedge that hangs free), the largest energy there is stands in for it.
-    let others = entries
-        .iter()
-        .filter(|(name, _)| *name != "residual")
-        .map(|(_, value)| value.abs());
-    let largest = others
-        .fold(run.counts.start_energy.abs(), f64::max)
-        .max(f64::MIN_POSITIVE);
-    let work = if ledger.motion_work == 0.0 {
-        largest
-    } else {
-        ledger.motion_work.abs()
-    };
+    let work = ledger.scale(run.counts.start_energy);
     LedgerSummary {
         entries: entries
             .into_iter()

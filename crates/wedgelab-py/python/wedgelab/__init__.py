@@ -3,7 +3,7 @@
 Units: a text carries its unit (``"32 deg"``), a bare number is in SI units. ``docs/python.md`` is a short tour.
 """
 
-from . import nucars
+from . import cluster, nucars
 from ._wedgelab import Quantity, __version__
 from .case import Case, Group, built_in
 from .errors import (
@@ -16,6 +16,7 @@ from .errors import (
     Problem,
     RunError,
     StepError,
+    StudyError,
     UnitError,
     WedgelabError,
 )
@@ -41,6 +42,7 @@ from .sections import (
     WedgeSection,
 )
 from .step import COORDINATES, Forces, Motion, Wedge
+from .study import Study, StudyColumn, StudyOutcome
 
 __all__ = [
     "COORDINATES",
@@ -77,6 +79,10 @@ __all__ = [
     "Sine",
     "Sliding",
     "StepError",
+    "Study",
+    "StudyColumn",
+    "StudyError",
+    "StudyOutcome",
     "SweptSine",
     "Table",
     "Triangle",
@@ -89,6 +95,7 @@ __all__ = [
     "WedgelabError",
     "__version__",
     "built_in",
+    "cluster",
     "nucars",
     "quasi_static",
     "report_figures",

@@ -22,6 +22,7 @@ __all__ = [
     "Problem",
     "RunError",
     "StepError",
+    "StudyError",
     "UnitError",
     "WedgelabError",
 ]
@@ -128,6 +129,10 @@ class RunError(WedgelabError, RuntimeError):
 
 class StepError(WedgelabError, RuntimeError):
     """A step cannot be made, or a state cannot be restored."""
+
+
+class StudyError(WedgelabError, RuntimeError):
+    """A study cannot begin or go on; every run that was done is kept."""
 
 
 class NucarsError(WedgelabError, ValueError):

@@ -3,9 +3,11 @@
 pub mod case;
 pub mod compare;
 pub mod explore;
+pub mod fit;
 pub mod fmu;
 pub mod nucars;
 pub mod plot;
 pub mod quasi_static;
 pub mod reproduce;
 pub mod run;
+pub mod study;

@@ -1,0 +1,143 @@
+//! The files of an identification: `fit.json`, and figures of the loop and of what is left over.
+
+use std::io::{self, Write};
+
+use quantity::{Kind, System as Units};
+use serde_json::{Value, json};
+use study::fit::{Fit, Measured};
+
+use crate::csv::converted;
+use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::figures::axis;
+use crate::overlay::words;
+
+/// The numbers.
+pub const FILE_NAME: &str = "fit.json";
+/// The figure.
+pub const FIGURE: &str = "residuals.svg";
+/// The same as a picture.
+pub const PICTURE: &str = "residuals.png";
+/// The version of the numbers' layout.
+pub const SCHEMA: &str = "wedgelab.fit/1";
+
+/// What the figure shows beside the fit.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'s> {
+    /// What was measured.
+    pub measured: &'s Measured,
+    /// What it measures.
+    pub kind: Kind,
+    /// The displacement at the measured times, SI, if it was measured.
+    pub displacement: Option<&'s [f64]>,
+    /// Units of the figure.
+    pub units: Units,
+    /// Probability of the intervals.
+    pub confidence: f64,
+}
+
+/// Writes the numbers.
+///
+/// # Errors
+/// They cannot be written.
+pub fn write(fit: &Fit, shown: &Shown<'_>, mut out: impl Write) -> io::Result<()> {
+    let parameters: Vec<Value> = fit
+        .parameters
+        .iter()
+        .map(|found| {
+            json!({
+                "path": found.free.path,
+                "unit": found.free.unit,
+                "value": found.value,
+                "interval": found.half_interval.map(|half| [found.value - half, found.value + half]),
+                "at_bound": found.at_bound,
+                "bounds": [found.free.low, found.free.high],
+            })
+        })
+        .collect();
+    let all = json!({
+        "schema": SCHEMA,
+        "program": format!("wedgelab {}", env!("CARGO_PKG_VERSION")),
+        "column": shown.measured.column,
+        "values": shown.measured.values.len(),
+        "confidence": shown.confidence,
+        "parameters": parameters,
+        "correlations": fit.correlations,
+        "standard_error": {
+            "value": converted(fit.standard_error, shown.kind, shown.units),
+            "unit": shown.kind.label(shown.units),
+        },
+        "durbin_watson": fit.durbin_watson,
+        "rounds": fit.rounds,
+        "settled": fit.settled,
+    });
+    serde_json::to_writer_pretty(&mut out, &all)?;
+    out.write_all(b"\n")
+}
+
+/// The loop measured and fitted, and the differences over time.
+#[must_use]
+pub fn figure(fit: &Fit, shown: &Shown<'_>) -> Figure {
+    let (kind, units) = (shown.kind, shown.units);
+    let name = words(&shown.measured.column);
+    let to = |values: &[f64], kind| -> Vec<f64> {
+        values
+            .iter()
+            .map(|value| converted(*value, kind, units))
+            .collect()
+    };
+    let times = &shown.measured.times;
+    let (measured, fitted) = (to(&shown.measured.values, kind), to(&fit.values, kind));
+    let (x, x_label) = match shown.displacement {
+        Some(values) => (
+            to(values, Kind::Length),
+            axis("bolster vertical", Kind::Length, units),
+        ),
+        None => (times.clone(), axis("time", Kind::Time, units)),
+    };
+    let curve = |label: &str, colour, line, x: &[f64], y: &[f64]| Curve {
+        label: label.to_owned(),
+        colour,
+        line,
+        points: x.iter().copied().zip(y.iter().copied()).collect(),
+    };
+    let residuals: Vec<f64> = measured.iter().zip(&fitted).map(|(a, b)| a - b).collect();
+    let size = converted(fit.standard_error, kind, units);
+    let ends = [
+        times.first().copied().unwrap_or(0.0),
+        times.last().copied().unwrap_or(0.0),
+    ];
+    let level = |label: &str, value: f64| curve(label, Colour::Black, Line::Dashed, &ends, &[value, value]);
+    Figure {
+        title: format!("{name}: measured and fitted"),
+        caption: format!(
+            "(a) The measured values and the run with the parameters found. (b) Measured less fitted over time, with the standard error of one value ({} {}), up and down. \
+             What is left over should look like noise: a pattern says that the model lacks something.",
+            crate::figures::digits(size),
+            kind.label(units)
+        ),
+        panels: vec![
+            Panel {
+                title: "(a) measured and fitted".to_owned(),
+                x_label,
+                y_label: axis(&name, kind, units),
+                curves: vec![
+                    curve("measured", Colour::Orange, Line::Solid, &x, &measured),
+                    curve("fitted", Colour::Blue, Line::Dashed, &x, &fitted),
+                ],
+                ..Panel::default()
+            },
+            Panel {
+                title: "(b) what is left over".to_owned(),
+                x_label: axis("time", Kind::Time, units),
+                y_label: axis("measured less fitted", kind, units),
+                curves: vec![
+                    curve("residual", Colour::Vermillion, Line::Solid, times, &residuals),
+                    level("standard error", size),
+                    level("standard error", -size),
+                ],
+                ..Panel::default()
+            },
+        ],
+        ..Figure::default()
+    }
+}

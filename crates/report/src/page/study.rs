@@ -1,0 +1,233 @@
+//! The summary page of a study.
+
+use std::path::Path;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use study::design::{Accuracy, Levels, Sampling, Study};
+use study::measures;
+
+use super::{STYLE, anchor, inline};
+use crate::drawing::Figure;
+use crate::figures::study::exhibits;
+use crate::figures::{Exhibit, digits};
+use crate::files::{FileError, Folder};
+use crate::overlay::words;
+use crate::study_digest::Digest;
+use crate::study_folder::{TABLE_FILE, columns, factor_column};
+
+/// The page's file name.
+pub const FILE_NAME: &str = "index.html";
+
+/// Writes the page into a study's folder, whole or not at all.
+///
+/// # Errors
+/// It cannot be written.
+pub fn write(study: &Study, digest: &Digest, folder: &Path) -> Result<(), FileError> {
+    let page = render(study, digest);
+    Folder::check(folder, &[FILE_NAME], true)?
+        .write(|files| files.add(FILE_NAME, |out| out.write_all(page.as_bytes())))
+}
+
+/// The page as HTML; it needs nothing else to be shown.
+#[must_use]
+pub fn render(study: &Study, digest: &Digest) -> String {
+    let heading = if study.title.is_empty() {
+        &study.name
+    } else {
+        &study.title
+    };
+    let exhibits = exhibits(study, digest);
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { "Study: " (heading) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header {
+                    h1 { "Study: " (heading) }
+                    p.lead { (lead(study, digest)) }
+                }
+                main {
+                    (factors(study))
+                    (failures(digest))
+                    (ranges(study, digest))
+                    @if exhibits.is_empty() { p { "No figure can be drawn: no run has measures." } } @else { (contents(&exhibits)) }
+                    @for exhibit in &exhibits {
+                        @let id = anchor(&exhibit.name);
+                        figure id=(id) {
+                            (PreEscaped(inline(&Figure::named(&exhibit.figure.to_svg(), &id), &exhibit.figure.title)))
+                            figcaption { (exhibit.figure.caption) }
+                        }
+                    }
+                    (files(study))
+                }
+            }
+        }
+    };
+    page.into_string()
+}
+
+/// Links to the figures.
+fn contents(exhibits: &[Exhibit]) -> Markup {
+    html! {
+        h2 { "Figures" }
+        ul {
+            @for exhibit in exhibits {
+                li { a href={ "#" (anchor(&exhibit.name)) } { (exhibit.figure.title) } }
+            }
+        }
+    }
+}
+
+fn lead(study: &Study, digest: &Digest) -> String {
+    let how = match &study.sampling {
+        Sampling::FullFactorial => "every value of each parameter with every other".to_owned(),
+        Sampling::LatinHypercube { seed, .. } => format!("a Latin hypercube (seed {seed})"),
+        Sampling::Sobol { seed: None, .. } => "points of the Sobol' sequence".to_owned(),
+        Sampling::Sobol { seed: Some(seed), .. } => {
+            format!("points of the Sobol' sequence, shifted by seed {seed}")
+        }
+        Sampling::List => "a list".to_owned(),
+    };
+    let accuracy = match study.accuracy {
+        Accuracy::Case => "the case's accuracy",
+        Accuracy::Engineering => "engineering accuracy (rodas4p at a relative tolerance of 1e-5)",
+    };
+    let [complete, refused, stopped] = digest.ended;
+    format!(
+        "{} runs of the case {}: {how}, at {accuracy}. {complete} are complete, {refused} were refused, {stopped} stopped on their way.",
+        study.count(),
+        study.base.name
+    )
+}
+
+fn factors(study: &Study) -> Markup {
+    html! {
+        h2 { "What is varied" }
+        div.wide {
+            table {
+                thead { tr { th scope="col" { "parameter" } th scope="col" { "values" } th scope="col" { "column" } } }
+                tbody {
+                    @for factor in &study.factors {
+                        tr {
+                            th scope="row" { (factor.paths.join(", ")) }
+                            td { (values(&factor.levels)) }
+                            td { code { (factor_column(factor)) } }
+                        }
+                    }
+                }
+            }
+        }
+        @if !study.set.is_empty() {
+            p { "The same for all runs: " @for (number, set) in study.set.iter().enumerate() {
+                @if number > 0 { ", " } code { (set) }
+            } "." }
+        }
+    }
+}
+
+fn values(levels: &Levels) -> String {
+    const MOST: usize = 12;
+    match levels {
+        Levels::Values(values) => {
+            let mut texts: Vec<String> = values
+                .iter()
+                .take(MOST)
+                .map(|value| value.shown().into_owned())
+                .collect();
+            if values.len() > MOST {
+                texts.push(format!("and {} more", values.len() - MOST));
+            }
+            texts.join(", ")
+        }
+        Levels::Range {
+            from,
+            to,
+            unit,
+            logarithmic,
+            count,
+        } => {
+            let scale = if *logarithmic { ", logarithmic" } else { "" };
+            let count = if *count > 0 {
+                format!(", {count} values")
+            } else {
+                String::new()
+            };
+            format!("{from} to {to} {unit}{count}{scale}")
+        }
+    }
+}
+
+fn failures(digest: &Digest) -> Markup {
+    let failed = digest.ended[1] + digest.ended[2];
+    html! {
+        @if failed > 0 {
+            div.warning {
+                p { (failed) " runs have no measures and are left out of all figures. The first ones:" }
+                ul { @for (number, reason) in &digest.reasons { li { "run " (number) ": " (reason) } } }
+            }
+        }
+    }
+}
+
+fn ranges(study: &Study, digest: &Digest) -> Markup {
+    let units = study.units();
+    html! {
+        h2 { "What came out" }
+        div.wide {
+            table {
+                thead {
+                    tr {
+                        th scope="col" { "measure" }
+                        th scope="col" { "unit" }
+                        th.number scope="col" { "least" }
+                        th.number scope="col" { "mean" }
+                        th.number scope="col" { "greatest" }
+                        th.number scope="col" { "runs that have it" }
+                    }
+                }
+                tbody {
+                    @for (measure, found) in measures::ALL.iter().zip(&digest.all) {
+                        @let factor = measure.kind.from_si(units);
+                        tr {
+                            th scope="row" { (words(measure.name)) }
+                            td.unit { (measure.kind.label(units)) }
+                            @if found.count > 0 {
+                                td.number { (digits(found.least * factor)) }
+                                td.number { (digits(found.mean() * factor)) }
+                                td.number { (digits(found.most * factor)) }
+                            } @else {
+                                td.number { "–" } td.number { "–" } td.number { "–" }
+                            }
+                            td.number { (found.count) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn files(study: &Study) -> Markup {
+    html! {
+        h2 { "The table" }
+        p {
+            a href=(TABLE_FILE) { (TABLE_FILE) } " has a row for each run and these columns; their units stand in its metadata under "
+            code { (crate::parquet::COLUMNS_KEY) } "."
+        }
+        div.wide {
+            table {
+                thead { tr { th scope="col" { "column" } th scope="col" { "unit" } th scope="col" { "what it is" } } }
+                tbody {
+                    @for column in columns(study) {
+                        tr { th scope="row" { code { (column.name) } } td.unit { (column.unit) } td { (column.text) } }
+                    }
+                }
+            }
+        }
+    }
+}

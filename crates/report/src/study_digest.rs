@@ -1,0 +1,380 @@
+//! What the summary page of a study needs of its rows, gathered in one pass and in memory that does not grow with the study:
+//! means over the values of each parameter, and of each pair of parameters.
+
+use study::design::{Factor, Levels, Sampling, Study, Value};
+use study::measures::{COUNT, Measures};
+use study::records::{Record, Status};
+
+/// A list of values longer than this is cut into parts.
+const MOST_LEVELS: usize = 40;
+const MOST_PARTS: u64 = 16;
+/// Pairs are gathered of the first so many numeric parameters.
+const PAIRED: usize = 4;
+/// Reasons of failed runs that are kept.
+const REASONS: usize = 10;
+
+/// The values of a parameter, sorted into places.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Axis {
+    /// Numbers or texts, each with a place of its own.
+    Values {
+        /// The values.
+        values: Vec<Value>,
+        /// The numbers in the parameter's unit; empty if not all are numbers.
+        numbers: Vec<f64>,
+    },
+    /// A range cut into equal parts.
+    Parts {
+        /// Its beginning.
+        from: f64,
+        /// Its end.
+        to: f64,
+        /// Whether parts are equal shares.
+        logarithmic: bool,
+        /// Number of parts.
+        count: usize,
+    },
+}
+
+impl Axis {
+    fn of(factor: &Factor, sampling: &Sampling, runs: u64) -> Self {
+        // Some runs should fall into each part of a pair.
+        let count = ((runs as f64 / 6.0).sqrt() as u64).clamp(3, MOST_PARTS) as usize;
+        let parts = |from, to, logarithmic| Self::Parts {
+            from,
+            to,
+            logarithmic,
+            count,
+        };
+        match &factor.levels {
+            Levels::Range { count, .. }
+                if *sampling == Sampling::FullFactorial && *count <= MOST_LEVELS as u64 =>
+            {
+                Self::values(factor, (0..*count).map(|number| factor.level(number)).collect())
+            }
+            Levels::Range {
+                from,
+                to,
+                logarithmic,
+                ..
+            } => parts(*from, *to, *logarithmic),
+            Levels::Values(values) => {
+                let axis = Self::values(factor, values.clone());
+                match axis.numbers() {
+                    Some(numbers) if values.len() > MOST_LEVELS => {
+                        let ends = numbers
+                            .iter()
+                            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                                (low.min(*value), high.max(*value))
+                            });
+                        parts(ends.0, ends.1, false)
+                    }
+                    _ => axis,
+                }
+            }
+        }
+    }
+
+    /// Values in their order; numbers in order of size.
+    fn values(factor: &Factor, mut values: Vec<Value>) -> Self {
+        let number = |value: &Value| value.in_unit(factor.unit()?);
+        if factor.unit().is_some() {
+            values.sort_by(|a, b| {
+                let pair = [a, b].map(|value| number(value).unwrap_or(f64::NAN));
+                pair[0].total_cmp(&pair[1])
+            });
+        }
+        if factor.unit().is_none() {
+            values.truncate(MOST_LEVELS);
+        }
+        let numbers: Option<Vec<f64>> = values.iter().map(number).collect();
+        Self::Values {
+            values,
+            numbers: numbers.unwrap_or_default(),
+        }
+    }
+
+    /// Number of places.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Values { values, .. } => values.len(),
+            Self::Parts { count, .. } => *count,
+        }
+    }
+
+    /// Whether it has no place.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    fn numbers(&self) -> Option<&[f64]> {
+        match self {
+            Self::Values { numbers, .. } if !numbers.is_empty() => Some(numbers),
+            _ => None,
+        }
+    }
+
+    /// The middles of the places, in the parameter's unit; `None` for texts.
+    #[must_use]
+    pub fn middles(&self) -> Option<Vec<f64>> {
+        match self {
+            Self::Values { .. } => self.numbers().map(<[f64]>::to_vec),
+            Self::Parts {
+                from,
+                to,
+                logarithmic,
+                count,
+            } => Some(
+                (0..*count)
+                    .map(|part| {
+                        let share = (part as f64 + 0.5) / *count as f64;
+                        if *logarithmic {
+                            from * libm::pow(to / from, share)
+                        } else {
+                            from + (to - from) * share
+                        }
+                    })
+                    .collect(),
+            ),
+        }
+    }
+
+    fn place(&self, factor: &Factor, value: Option<&Value>) -> Option<usize> {
+        let value = value?;
+        match self {
+            Self::Values { values, .. } => values.iter().position(|own| own == value),
+            Self::Parts {
+                from,
+                to,
+                logarithmic,
+                count,
+            } => {
+                let number = value.in_unit(factor.unit()?)?;
+                let share = if *logarithmic {
+                    libm::log(number / from) / libm::log(to / from)
+                } else {
+                    (number - from) / (to - from)
+                };
+                share
+                    .is_finite()
+                    .then(|| ((share * *count as f64).max(0.0) as usize).min(count - 1))
+            }
+        }
+    }
+}
+
+/// Mean and extremes of values that come one by one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gathered {
+    /// How many.
+    pub count: u64,
+    /// Their sum.
+    pub sum: f64,
+    /// The least.
+    pub least: f64,
+    /// The greatest.
+    pub most: f64,
+}
+
+impl Gathered {
+    const NONE: Self = Self {
+        count: 0,
+        sum: 0.0,
+        least: f64::INFINITY,
+        most: f64::NEG_INFINITY,
+    };
+
+    fn add(&mut self, value: f64) {
+        if value.is_finite() {
+            self.count += 1;
+            self.sum += value;
+            self.least = self.least.min(value);
+            self.most = self.most.max(value);
+        }
+    }
+
+    /// The mean; `NaN` of nothing.
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        self.sum / self.count as f64
+    }
+}
+
+/// A pair of parameters: means over the places of both.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// Their numbers among the factors.
+    pub factors: [usize; 2],
+    /// Measures by place: `place of the first * places of the second + place of the second`.
+    pub cells: Vec<[Gathered; COUNT]>,
+    /// Runs without measures, by place.
+    pub failed: Vec<u64>,
+}
+
+/// What the jam map needs of runs whose slope friction acts the same way.
+#[derive(Clone, Debug)]
+pub struct JamCells {
+    /// Whether these are runs with toe in; the others have toe out or none.
+    pub toe_in: bool,
+    /// Their toe, rad, positive out.
+    pub toe: Gathered,
+    /// The column's force over the coil's load, falling and rising, by place of angle and friction as in [`Pair`].
+    pub ratios: Vec<[Gathered; 2]>,
+}
+
+/// The jam map over angle and friction.
+#[derive(Clone, Debug)]
+pub struct Jam {
+    /// The numbers of angle and friction among the factors.
+    pub factors: [usize; 2],
+    /// Toe in, and toe out or none.
+    pub cells: [JamCells; 2],
+}
+
+impl Jam {
+    const ANGLE: &str = "wedge.angle";
+    const FRICTIONS: [&str; 2] = ["friction.column", "friction.slope"];
+    const TOE: &str = "side_frame.toe";
+    const RATIOS: [&str; 2] = ["column_force_ratio_down", "column_force_ratio_up"];
+
+    /// If angle and friction are varied, by three places each at least.
+    fn new(study: &Study, axes: &[Axis]) -> Option<Self> {
+        let numeric = |axis: &Axis| axis.middles().is_some_and(|middles| middles.len() > 2);
+        let of = |path: &str| factor_of(study, path).filter(|number| numeric(&axes[*number]));
+        let (angle, friction) = (
+            of(Self::ANGLE)?,
+            Self::FRICTIONS.iter().find_map(|path| of(path))?,
+        );
+        let places = axes[angle].len() * axes[friction].len();
+        let cells = [true, false].map(|toe_in| JamCells {
+            toe_in,
+            toe: Gathered::NONE,
+            ratios: vec![[Gathered::NONE; 2]; places],
+        });
+        Some(Self {
+            factors: [angle, friction],
+            cells,
+        })
+    }
+
+    fn add(&mut self, study: &Study, values: &[Option<Value>], cell: usize, measures: &Measures) {
+        let varied = factor_of(study, Self::TOE).and_then(|number| values[number].as_ref());
+        let varied = varied.and_then(|value| value.in_unit("rad"));
+        let toe = varied.unwrap_or(study.base.parameters.toe);
+        let cells = &mut self.cells[usize::from(toe >= 0.0)];
+        cells.toe.add(toe);
+        for (gathered, name) in cells.ratios[cell].iter_mut().zip(Self::RATIOS) {
+            if let Some(value) = measures.get(name) {
+                gathered.add(value);
+            }
+        }
+    }
+}
+
+/// The factor that varies this path.
+fn factor_of(study: &Study, path: &str) -> Option<usize> {
+    let mut factors = study.factors.iter();
+    factors.position(|factor| factor.paths.iter().any(|own| own == path))
+}
+
+/// What is gathered of a study.
+#[derive(Clone, Debug)]
+pub struct Digest {
+    /// The parameters.
+    pub axes: Vec<Axis>,
+    /// For each parameter, for each of its places, the measures.
+    pub effects: Vec<Vec<[Gathered; COUNT]>>,
+    /// The pairs of numeric parameters.
+    pub pairs: Vec<Pair>,
+    /// The jam map, if angle and friction are varied.
+    pub jam: Option<Jam>,
+    /// All runs together.
+    pub all: [Gathered; COUNT],
+    /// Runs that are complete, refused, stopped.
+    pub ended: [u64; 3],
+    /// The first runs without measures, and why.
+    pub reasons: Vec<(u64, String)>,
+}
+
+impl Digest {
+    /// Nothing gathered yet.
+    #[must_use]
+    pub fn new(study: &Study) -> Self {
+        let axes: Vec<Axis> = study
+            .factors
+            .iter()
+            .map(|factor| Axis::of(factor, &study.sampling, study.count()))
+            .collect();
+        let numeric: Vec<usize> = (0..axes.len())
+            .filter(|number| axes[*number].middles().is_some_and(|middles| middles.len() > 1))
+            .take(PAIRED)
+            .collect();
+        let pairs = numeric.iter().enumerate().flat_map(|(place, first)| {
+            let axes = &axes;
+            numeric[place + 1..].iter().map(move |second| {
+                let cells = axes[*first].len() * axes[*second].len();
+                Pair {
+                    factors: [*first, *second],
+                    cells: vec![[Gathered::NONE; COUNT]; cells],
+                    failed: vec![0; cells],
+                }
+            })
+        });
+        Self {
+            effects: axes
+                .iter()
+                .map(|axis| vec![[Gathered::NONE; COUNT]; axis.len()])
+                .collect(),
+            pairs: pairs.collect(),
+            jam: Jam::new(study, &axes),
+            axes,
+            all: [Gathered::NONE; COUNT],
+            ended: [0; 3],
+            reasons: Vec::new(),
+        }
+    }
+
+    /// Takes in a row.
+    pub fn add(&mut self, study: &Study, values: &[Option<Value>], record: &Record) {
+        self.ended[record.status as usize] += 1;
+        let complete = record.status == Status::Complete;
+        if !complete && self.reasons.len() < REASONS {
+            self.reasons.push((record.number, record.reason.clone()));
+        }
+        let places: Vec<Option<usize>> = self
+            .axes
+            .iter()
+            .zip(&study.factors)
+            .zip(values)
+            .map(|((axis, factor), value)| axis.place(factor, value.as_ref()))
+            .collect();
+        add(&mut self.all, &record.measures);
+        for (effects, place) in self.effects.iter_mut().zip(&places) {
+            if let Some(cell) = place.and_then(|place| effects.get_mut(place)) {
+                add(cell, &record.measures);
+            }
+        }
+        if let Some(jam) = self.jam.as_mut().filter(|_| complete)
+            && let [Some(angle), Some(friction)] = jam.factors.map(|factor| places[factor])
+        {
+            let cell = angle * self.axes[jam.factors[1]].len() + friction;
+            jam.add(study, values, cell, &record.measures);
+        }
+        for pair in &mut self.pairs {
+            let [first, second] = pair.factors;
+            if let (Some(a), Some(b)) = (places[first], places[second]) {
+                let cell = a * self.axes[second].len() + b;
+                add(&mut pair.cells[cell], &record.measures);
+                pair.failed[cell] += u64::from(!complete);
+            }
+        }
+    }
+}
+
+fn add(cells: &mut [Gathered; COUNT], measures: &Measures) {
+    for (cell, value) in cells.iter_mut().zip(measures.0) {
+        cell.add(value);
+    }
+}

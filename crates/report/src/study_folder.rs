@@ -1,0 +1,432 @@
+//! The folder of a study: what is computed, kept so that it survives being killed at any moment.
+//!
+//! ```text
+//! study.json            what the study is; a study that is not this one is refused
+//! parts/part-NNNNNN     records (`study::records`), appended one by one as variants end
+//! table.parquet         the table, made of the parts by `StudyFolder::merge` alone
+//! index.html            the summary page
+//! .lock                 held while a program works here
+//! ```
+//!
+//! Variant `i` belongs to part `i / part_size`. A part only ever grows; a record that was cut off or damaged is passed over
+//! and its variant computed again. The table and the page appear whole or not at all ([`crate::files`]).
+
+use std::borrow::Cow;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use parquet::errors::ParquetError;
+use study::design::{Factor, Study, Value};
+use study::measures;
+use study::records::{self, Record};
+
+use crate::files::{FileError, Folder};
+use crate::page::study as page;
+use crate::parquet::{Cell, Column, Content, TableWriter};
+
+mod error;
+
+pub use error::StudyFolderError;
+
+/// The file that says what the study is.
+pub const STUDY_FILE: &str = "study.json";
+/// The table.
+pub const TABLE_FILE: &str = "table.parquet";
+/// The key of the study's description in the table's metadata.
+pub const STUDY_KEY: &str = "wedgelab.study";
+/// The folder with the time series of some runs.
+pub const SERIES: &str = "series";
+const PARTS: &str = "parts";
+const LOCK_FILE: &str = ".lock";
+/// How the hidden folders of files being written begin.
+const HIDDEN: &str = ".wedgelab-";
+
+/// A study's folder, held by this program.
+#[derive(Debug)]
+pub struct StudyFolder {
+    path: PathBuf,
+    fingerprint: u64,
+    description: String,
+    count: u64,
+    part_size: u64,
+    /// Kept locked; the system unlocks it when the program ends, however it ends.
+    _lock: File,
+    /// One record at a time.
+    writing: Mutex<()>,
+}
+
+/// What a part holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Its records by number, each once.
+    pub records: Vec<Record>,
+    /// Bytes that belong to no sound record.
+    pub lost: usize,
+}
+
+/// Variants in a part: the folder has at most some thousand parts, and a part fits into memory.
+#[must_use]
+pub fn part_size(count: u64) -> u64 {
+    (count / 1024).next_power_of_two().clamp(16, 4096)
+}
+
+impl StudyFolder {
+    /// Begins a study in a folder, or goes on with the same study.
+    ///
+    /// # Errors
+    /// The folder holds something else or another study, another program works there, or it cannot be written to.
+    pub fn open(path: &Path, study: &Study) -> Result<Self, StudyFolderError> {
+        let description = serde_json::to_string_pretty(&study.description())
+            .map_err(|error| write_error(path, io::Error::other(error)))?;
+        let manifest = path.join(STUDY_FILE);
+        let begun = manifest.is_file();
+        if !begun {
+            refuse_foreign(path)?;
+        }
+        // Says in its own words what is wrong with a path.
+        let folder = Folder::check(path, &[STUDY_FILE], begun)?;
+        fs::create_dir_all(path.join(PARTS)).map_err(|reason| write_error(path, reason))?;
+        let lock = OpenOptions::new()
+            .create(true)
+            .truncate(false)
+            .write(true)
+            .open(path.join(LOCK_FILE))
+            .map_err(|reason| write_error(&path.join(LOCK_FILE), reason))?;
+        if lock.try_lock().is_err() {
+            return Err(StudyFolderError::Busy {
+                folder: path.to_owned(),
+            });
+        }
+        if begun {
+            let found = fs::read_to_string(&manifest).map_err(|reason| StudyFolderError::Unreadable {
+                file: manifest.clone(),
+                reason,
+            })?;
+            error::compare(path, &manifest, &found, &description)?;
+        } else {
+            folder.write(|files| files.add(STUDY_FILE, |out| out.write_all(description.as_bytes())))?;
+        }
+        remove_left_over(path);
+        Ok(Self {
+            path: path.to_owned(),
+            fingerprint: study.fingerprint(),
+            description,
+            count: study.count(),
+            part_size: part_size(study.count()),
+            _lock: lock,
+            writing: Mutex::new(()),
+        })
+    }
+
+    /// The folder.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Number of parts.
+    #[must_use]
+    pub fn parts(&self) -> u64 {
+        self.count.div_ceil(self.part_size)
+    }
+
+    /// The numbers of the variants of a part.
+    #[must_use]
+    pub fn numbers(&self, part: u64) -> std::ops::Range<u64> {
+        let start = part * self.part_size;
+        start..(start + self.part_size).min(self.count)
+    }
+
+    fn file_of(&self, part: u64) -> PathBuf {
+        self.path.join(PARTS).join(format!("part-{part:06}"))
+    }
+
+    /// What a part holds so far.
+    ///
+    /// # Errors
+    /// It cannot be read, has records of another study, or two that contradict each other.
+    pub fn part(&self, part: u64) -> Result<Part, StudyFolderError> {
+        let file = self.file_of(part);
+        let bytes = match fs::read(&file) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+            Err(reason) => return Err(StudyFolderError::Unreadable { file, reason }),
+        };
+        let found = records::read(self.fingerprint, &bytes);
+        let numbers = self.numbers(part);
+        let outside = found
+            .records
+            .iter()
+            .any(|record| !numbers.contains(&record.number));
+        if found.foreign || outside {
+            return Err(StudyFolderError::ForeignPart { file });
+        }
+        let mut records = found.records;
+        records.sort_by_key(|record| record.number);
+        let contradiction = records
+            .windows(2)
+            .find(|pair| pair[0].number == pair[1].number && pair[0] != pair[1]);
+        if let Some(pair) = contradiction {
+            return Err(StudyFolderError::Contradiction {
+                number: pair[0].number,
+                file,
+            });
+        }
+        records.dedup_by_key(|record| record.number);
+        Ok(Part {
+            records,
+            lost: found.lost,
+        })
+    }
+
+    /// The numbers of a part's variants that have no record yet.
+    ///
+    /// # Errors
+    /// As [`StudyFolder::part`].
+    pub fn missing(&self, part: u64) -> Result<Vec<u64>, StudyFolderError> {
+        let done = self.part(part)?;
+        let mut records = done.records.iter().map(|record| record.number).peekable();
+        Ok(self
+            .numbers(part)
+            .filter(|number| records.next_if_eq(number).is_none())
+            .collect())
+    }
+
+    /// Keeps a record: when this returns, it survives the end of the program.
+    ///
+    /// # Errors
+    /// It cannot be written; what was written before stays.
+    pub fn keep(&self, record: &Record) -> Result<(), StudyFolderError> {
+        let mut bytes = Vec::new();
+        record.write(self.fingerprint, &mut bytes);
+        let file = self.file_of(record.number / self.part_size);
+        let _one_at_a_time = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
+        let failed = |reason| StudyFolderError::Append {
+            file: file.clone(),
+            reason,
+        };
+        let mut out = OpenOptions::new()
+            .append(true)
+            .create(true)
+            .open(&file)
+            .map_err(failed)?;
+        let before = out.metadata().map_err(failed)?.len();
+        out.write_all(&bytes).map_err(|reason| {
+            // What there is of it would be passed over; without it the file is tidier.
+            let _ = out.set_len(before);
+            failed(reason)
+        })
+    }
+
+    /// Keeps records that another worker computed ([`records::run_all`]); gives their number.
+    ///
+    /// # Errors
+    /// The bytes hold something else than records of this study, or they cannot be written.
+    pub fn keep_all(&self, bytes: &[u8]) -> Result<u64, StudyFolderError> {
+        let found = records::read(self.fingerprint, bytes);
+        if found.foreign || found.lost > 0 {
+            return Err(StudyFolderError::ForeignBytes);
+        }
+        for record in &found.records {
+            self.keep(record)?;
+        }
+        Ok(found.records.len() as u64)
+    }
+
+    /// Makes the table of all records, in the order of their numbers, and shows each row to `each` with the values of the
+    /// factors.
+    ///
+    /// # Errors
+    /// A record is missing, a part cannot be read, or the table cannot be written.
+    pub fn merge(
+        &self,
+        study: &Study,
+        mut each: impl FnMut(&[Option<Value>], &Record),
+    ) -> Result<(), StudyFolderError> {
+        let folder = Folder::check(&self.path, &[TABLE_FILE], true)?;
+        // An error of reading leaves the closure of writing by this way.
+        let mut unread = None;
+        let written = folder.write(|files| {
+            files.add(TABLE_FILE, |out| {
+                let metadata = [(STUDY_KEY, self.description.clone())];
+                let mut table = TableWriter::new(out, columns(study), &metadata).map_err(plain)?;
+                for part in 0..self.parts() {
+                    let found = self.part(part).and_then(|part_found| {
+                        let missing = self.numbers(part).count() - part_found.records.len();
+                        if missing > 0 {
+                            return Err(StudyFolderError::Incomplete { missing });
+                        }
+                        Ok(part_found)
+                    });
+                    let found = match found {
+                        Ok(found) => found,
+                        Err(error) => {
+                            unread = Some(error);
+                            return Err(io::Error::other("a part cannot be read"));
+                        }
+                    };
+                    for record in &found.records {
+                        let values = study.values(record.number);
+                        table.row(cells(study, &values, record)).map_err(plain)?;
+                        each(&values, record);
+                    }
+                }
+                table.finish().map_err(plain)
+            })
+        });
+        match unread {
+            Some(error) => Err(error),
+            None => written.map_err(StudyFolderError::after_all_runs),
+        }
+    }
+}
+
+/// Refuses a folder that holds anything but the beginnings of a study.
+fn refuse_foreign(path: &Path) -> Result<(), StudyFolderError> {
+    let Ok(entries) = fs::read_dir(path) else {
+        // It is not there, or what is wrong with it will be said when it is written to.
+        return Ok(());
+    };
+    // With parts it is a study whose description was moved away; whose records they are, each of them tells.
+    let made: &[&str] = match path.join(PARTS).is_dir() {
+        true => &[TABLE_FILE, page::FILE_NAME, SERIES],
+        false => &[SERIES],
+    };
+    let own =
+        |name: &str| name == LOCK_FILE || name == PARTS || name.starts_with(HIDDEN) || made.contains(&name);
+    let mut names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    match names.find(|name| !own(name)) {
+        Some(name) => Err(StudyFolderError::NotAStudy {
+            folder: path.to_owned(),
+            name,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Removes what a killed program was writing. While the folder is locked nobody else writes there.
+fn remove_left_over(path: &Path) {
+    let Ok(entries) = fs::read_dir(path) else { return };
+    for entry in entries.flatten() {
+        if entry
+            .file_name()
+            .to_str()
+            .is_some_and(|name| name.starts_with(HIDDEN))
+        {
+            let _ = fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
+/// The system's error, without the library's words around it.
+fn plain(error: ParquetError) -> io::Error {
+    match error {
+        ParquetError::External(reason) => io::Error::other(reason),
+        other => io::Error::other(other),
+    }
+}
+
+fn write_error(file: &Path, reason: io::Error) -> StudyFolderError {
+    StudyFolderError::File(FileError::Write {
+        file: file.to_owned(),
+        reason,
+    })
+}
+
+/// The name of a factor's column, with its unit: `wedge.angle_deg`.
+#[must_use]
+pub fn factor_column(factor: &Factor) -> String {
+    let suffix = factor
+        .unit()
+        .unwrap_or("")
+        .replace('/', " per ")
+        .replace(['^', '(', ')'], "");
+    let words: Vec<&str> = suffix
+        .split([' ', '*', '·'])
+        .filter(|word| !word.is_empty())
+        .collect();
+    let name = factor.name();
+    if words.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{name}_{}", words.join("_"))
+    }
+}
+
+/// The columns of a study's table.
+#[must_use]
+pub fn columns(study: &Study) -> Vec<Column> {
+    let column = |name: String, unit: &str, text: String, content| Column {
+        name,
+        unit: unit.to_owned(),
+        text,
+        content,
+    };
+    let units = study.units();
+    let mut columns = vec![
+        column(
+            "run".to_owned(),
+            "",
+            "number of the variant, from 0".to_owned(),
+            Content::Integer,
+        ),
+        column(
+            "status".to_owned(),
+            "",
+            "complete; refused: its values make no run; stopped: it did not come to its end".to_owned(),
+            Content::Text,
+        ),
+    ];
+    columns.extend(study.factors.iter().map(|factor| {
+        let text = match factor.paths.as_slice() {
+            [_] => "varied".to_owned(),
+            [_, others @ ..] => format!("varied, and with it {}", others.join(", ")),
+            [] => String::new(),
+        };
+        let content = match factor.unit() {
+            Some(_) => Content::Number,
+            None => Content::Text,
+        };
+        column(factor_column(factor), factor.unit().unwrap_or(""), text, content)
+    }));
+    columns.extend(measures::ALL.iter().map(|measure| {
+        let suffix = measure.kind.suffix(units);
+        let name = match suffix {
+            "" => measure.name.to_owned(),
+            suffix => format!("{}_{suffix}", measure.name),
+        };
+        let unit = measure.kind.label(units);
+        column(name, unit, measure.text.to_owned(), Content::Number)
+    }));
+    columns.push(column(
+        "reason".to_owned(),
+        "",
+        "why there are no measures".to_owned(),
+        Content::Text,
+    ));
+    columns
+}
+
+fn cells<'r>(study: &Study, values: &'r [Option<Value>], record: &'r Record) -> Vec<Cell<'r>> {
+    let units = study.units();
+    let mut cells = vec![
+        Cell::Integer(record.number as i64),
+        Cell::Text(Cow::Borrowed(record.status.name())),
+    ];
+    for (factor, value) in study.factors.iter().zip(values) {
+        cells.push(match (value, factor.unit()) {
+            (None, _) => Cell::Missing,
+            (Some(value), Some(unit)) => value.in_unit(unit).map_or(Cell::Missing, Cell::Number),
+            (Some(value), None) => Cell::Text(value.shown()),
+        });
+    }
+    let measured = measures::ALL.iter().zip(record.measures.0);
+    cells.extend(measured.map(|(measure, value)| Cell::Number(value * measure.kind.from_si(units))));
+    cells.push(match record.reason.as_str() {
+        "" => Cell::Missing,
+        reason => Cell::Text(Cow::Borrowed(reason)),
+    });
+    cells
+}

@@ -1,0 +1,117 @@
+//! Computing what the folder of a study lacks, several runs at a time; and what is made of all runs.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use study::design::Study;
+use study::records;
+
+use crate::page::study as page;
+use crate::study_digest::Digest;
+use crate::study_folder::{StudyFolder, StudyFolderError};
+
+/// What a folder holds before anything is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Begun {
+    /// Runs that are there.
+    pub runs: u64,
+    /// Bytes of records that were cut off or damaged, and are not there in another record.
+    pub lost: usize,
+}
+
+/// Looks at all parts.
+///
+/// # Errors
+/// One of them cannot be read, or holds something else.
+pub fn begun(folder: &StudyFolder) -> Result<Begun, StudyFolderError> {
+    let mut begun = Begun { runs: 0, lost: 0 };
+    for part in 0..folder.parts() {
+        let found = folder.part(part)?;
+        let count = found.records.len() as u64;
+        begun.runs += count;
+        // What was computed again since then needs no word.
+        if count < folder.numbers(part).end - folder.numbers(part).start {
+            begun.lost += found.lost;
+        }
+    }
+    Ok(begun)
+}
+
+/// What is still to be done: the runs of one part, then of the next.
+struct Queue {
+    part: u64,
+    numbers: std::vec::IntoIter<u64>,
+}
+
+/// Computes all runs that have no record, so many at a time, until `stop` becomes true; tells each one that is kept.
+///
+/// # Errors
+/// A part cannot be read or written to. All that was kept stays.
+pub fn compute(
+    study: &Study,
+    folder: &StudyFolder,
+    jobs: usize,
+    stop: &AtomicBool,
+    done: &(dyn Fn() + Sync),
+) -> Result<(), StudyFolderError> {
+    let queue = Mutex::new(Queue {
+        part: 0,
+        numbers: Vec::new().into_iter(),
+    });
+    let failure: Mutex<Option<StudyFolderError>> = Mutex::new(None);
+    let failed = AtomicBool::new(false);
+    let fail = |error| {
+        failed.store(true, Ordering::Relaxed);
+        let mut first = failure.lock().unwrap_or_else(PoisonError::into_inner);
+        first.get_or_insert(error);
+    };
+    let next = || -> Option<u64> {
+        let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
+        loop {
+            if let Some(number) = queue.numbers.next() {
+                return Some(number);
+            }
+            if queue.part >= folder.parts() {
+                return None;
+            }
+            match folder.missing(queue.part) {
+                Ok(numbers) => queue.numbers = numbers.into_iter(),
+                Err(error) => {
+                    fail(error);
+                    return None;
+                }
+            }
+            queue.part += 1;
+        }
+    };
+    let worker = || {
+        while !stop.load(Ordering::Relaxed) && !failed.load(Ordering::Relaxed) {
+            let Some(number) = next() else { return };
+            let record = records::run(study, number);
+            match folder.keep(&record) {
+                Ok(()) => done(),
+                Err(error) => return fail(error),
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..jobs {
+            scope.spawn(worker);
+        }
+    });
+    match failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        Some(error) => Err(error),
+        None => Ok(()),
+    }
+}
+
+/// Makes the table and the page of all runs.
+///
+/// # Errors
+/// A run is missing, or something cannot be read or written.
+pub fn finish(study: &Study, folder: &StudyFolder) -> Result<Digest, StudyFolderError> {
+    let mut digest = Digest::new(study);
+    folder.merge(study, |values, record| digest.add(study, values, record))?;
+    page::write(study, &digest, folder.path()).map_err(StudyFolderError::after_all_runs)?;
+    Ok(digest)
+}

@@ -1,0 +1,367 @@
+//! From the text of a study file to the study, with every mistake shown where it was written.
+
+mod vary;
+
+use std::path::Path;
+
+use super::factor::{Factor, Value};
+use super::{Accuracy, CaseSource, DIMENSIONS, Sampling, Study, StudySource, accuracy_overrides};
+use crate::case::builtin;
+use crate::case::name;
+use crate::case::problem::{Place, Problem, Source};
+use crate::case::section::{Names, Section};
+use crate::case::tree::{self, Node, Table, Value as Toml};
+use crate::case::{Case, CaseError};
+use vary::{RANGE_HELP, TRIED, assignments, check_paths, factors, variants};
+
+const KEYS: [&str; 10] = [
+    "name", "title", "case", "sampling", "runs", "seed", "accuracy", "set", "vary", "variants",
+];
+const MOST_RUNS: f64 = (1_u64 << 52) as f64;
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Factorial,
+    Hypercube,
+    Sobol,
+    List,
+}
+
+const SAMPLINGS: Names<Kind> = &[
+    ("full_factorial", Kind::Factorial),
+    ("latin_hypercube", Kind::Hypercube),
+    ("sobol", Kind::Sobol),
+    ("list", Kind::List),
+];
+const ACCURACIES: Names<Accuracy> = &[("case", Accuracy::Case), ("engineering", Accuracy::Engineering)];
+
+/// A value and where it stands.
+type Written = (Value, Place);
+
+/// A factor being read.
+struct Draft {
+    factor: Factor,
+    key: Place,
+    /// What is tried out.
+    written: Vec<Written>,
+}
+
+pub(super) fn file(path: &Path) -> Result<Study, CaseError> {
+    let text = std::fs::read_to_string(path).map_err(|error| {
+        let shown = path.display();
+        match error.kind() {
+            std::io::ErrorKind::NotFound => Problem::new(format!("there is no study file {shown}"))
+                .help("check the path; docs/study.md has a study to begin with"),
+            std::io::ErrorKind::InvalidData => Problem::new(format!("the study file {shown} is not text"))
+                .help("a study file is TOML, saved as UTF-8"),
+            _ => Problem::new(format!("the study file {shown} cannot be read: {error}"))
+                .help("name a file that you may read"),
+        }
+    })?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    self::text(&path.display().to_string(), &text, folder, None)
+}
+
+/// With the text of the case given, no case is looked for in the folder.
+pub(super) fn text(
+    file: &str,
+    text: &str,
+    folder: &Path,
+    given: Option<CaseSource>,
+) -> Result<Study, CaseError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let failed = |problems| CaseError::new(problems).of("study");
+    let tree = tree::parse(&Source::new(file, text)).map_err(failed)?;
+    let mut problems = Vec::new();
+    let top = Section {
+        path: String::new(),
+        table: &tree,
+        place: None,
+    };
+    top.allow_in(&KEYS, &[], "a study", &mut problems);
+    let stem = Path::new(file).file_stem().and_then(|stem| stem.to_str());
+    let default_name = stem
+        .filter(|stem| name::problem(stem).is_none())
+        .unwrap_or("study");
+    let name = match tree.get("name") {
+        None => default_name.to_owned(),
+        Some(_) => match top.text("name", &mut problems) {
+            Some((text, node)) => {
+                problems.extend(name::problem(text).map(|problem| problem.at(&node.place)));
+                text.to_owned()
+            }
+            None => String::new(),
+        },
+    };
+    let optional = |key: &str| tree.get(key).is_some();
+    let title = match optional("title") {
+        true => top.text("title", &mut problems).map_or("", |(text, _)| text),
+        false => "",
+    };
+    let accuracy = match optional("accuracy") {
+        true => top.choice("accuracy", ACCURACIES, &mut problems),
+        false => Some(Accuracy::Case),
+    };
+    let kind = top.choice("sampling", SAMPLINGS, &mut problems);
+    let runs = whole(&top, "runs", 1.0, &mut problems);
+    let seed = whole(&top, "seed", 0.0, &mut problems);
+    let mut set = Vec::new();
+    if let Some(section) = section(&top, "set", &mut problems) {
+        assignments(section, "", &mut set);
+    }
+    let help = "write case = \"vdrun_toe_0_psi_0.012\", or the name of a case file beside the study";
+    let source = match top.require("case", help, &mut problems) {
+        Some(_) => top
+            .text("case", &mut problems)
+            .and_then(|(case, node)| given.or_else(|| case_source(case, node, folder, &mut problems))),
+        None => None,
+    };
+    let (Some(kind), Some(accuracy), Some(source)) = (kind, accuracy, source) else {
+        return Err(failed(problems));
+    };
+    let mut drafts = Vec::new();
+    let mut list = Vec::new();
+    if kind == Kind::List {
+        refuse(
+            &top,
+            "vary",
+            "a list",
+            "a list has [[variants]]; take [vary] out",
+            &mut problems,
+        );
+        (drafts, list) = variants(&top, &mut problems);
+    } else {
+        let help = "[[variants]] belong to sampling = \"list\"";
+        refuse(&top, "variants", "this sampling", help, &mut problems);
+        match section(&top, "vary", &mut problems) {
+            Some(table) => factors(table, "", kind, &mut drafts, &mut problems),
+            None if optional("vary") => {}
+            None => problems.push(
+                Problem::new("nothing is varied: there is no [vary]")
+                    .help("write [vary] and below it for example friction.column = [0.3, 0.4, 0.5]"),
+            ),
+        }
+        if drafts.is_empty() && problems.is_empty() {
+            problems.push(Problem::new("nothing is varied: [vary] is empty").help(RANGE_HELP));
+        }
+    }
+    check_paths(&drafts, &set, &mut problems);
+    let samples = matches!(kind, Kind::Hypercube | Kind::Sobol);
+    if samples && runs.is_none() && !optional("runs") {
+        problems.push(
+            Problem::new("`runs` is missing: a sample needs the number of its runs")
+                .help("write for example runs = 256"),
+        );
+    }
+    if !samples {
+        let help = "the number of runs follows from the values; take `runs` out";
+        refuse(&top, "runs", "this sampling", help, &mut problems);
+        let help = "`seed` belongs to samplings latin_hypercube and sobol";
+        refuse(&top, "seed", "this sampling", help, &mut problems);
+    }
+    if kind == Kind::Sobol && drafts.len() > DIMENSIONS {
+        let message = format!(
+            "{} parameters are varied; the Sobol' sequence here has {DIMENSIONS}",
+            drafts.len()
+        );
+        problems.push(Problem::new(message).help("vary fewer, or take sampling = \"latin_hypercube\""));
+    }
+    let everywhere: Vec<String> = accuracy_overrides(accuracy)
+        .chain(
+            set.iter()
+                .map(|(path, (value, _))| format!("{path}={}", value.to_toml(path))),
+        )
+        .collect();
+    let try_out = |overrides: &[String]| Case::parse(&source.name, &source.text, &source.folder, overrides);
+    // The case itself, then what is set, then each value alone.
+    let base = match try_out(&everywhere) {
+        Ok(base) => base,
+        Err(error) if try_out(&[]).is_ok() => {
+            let set = set.iter().map(|(path, written)| (path.as_str(), written));
+            problems.extend(moved(error, set, None));
+            return Err(failed(problems));
+        }
+        Err(error) => return Err(error),
+    };
+    for draft in &drafts {
+        for (value, place) in draft.written.iter().take(TRIED) {
+            for path in &draft.factor.paths {
+                let mut overrides = everywhere.clone();
+                overrides.push(format!("{path}={}", value.to_toml(path)));
+                if let Err(error) = try_out(&overrides) {
+                    let written = (value.clone(), place.clone());
+                    let about_key = error.problems().iter().any(Problem::is_about_key);
+                    problems.extend(moved(
+                        error,
+                        [(path.as_str(), &written)].into_iter(),
+                        Some(&draft.key),
+                    ));
+                    if about_key {
+                        break;
+                    }
+                }
+            }
+            if problems.iter().any(|problem| problem.is_at(&draft.key)) {
+                break;
+            }
+        }
+    }
+    if !problems.is_empty() {
+        return Err(failed(problems));
+    }
+    let sampling = match kind {
+        Kind::Factorial => Sampling::FullFactorial,
+        Kind::Hypercube => Sampling::LatinHypercube {
+            runs: runs.unwrap_or(1),
+            seed: seed.unwrap_or(0),
+        },
+        Kind::Sobol => Sampling::Sobol {
+            runs: runs.unwrap_or(1),
+            seed,
+        },
+        Kind::List => Sampling::List,
+    };
+    let factors: Vec<Factor> = drafts.into_iter().map(|draft| draft.factor).collect();
+    let count = match kind {
+        Kind::Factorial => factors
+            .iter()
+            .try_fold(1_u64, |product, factor| product.checked_mul(factor.count()))
+            .filter(|count| *count as f64 <= MOST_RUNS),
+        Kind::Hypercube | Kind::Sobol => runs,
+        Kind::List => Some(list.len() as u64),
+    };
+    let Some(count) = count else {
+        let problem = Problem::new("the study has more runs than can be counted");
+        return Err(failed(vec![problem.help(
+            "vary fewer parameters, or take a sample of them: sampling = \"sobol\"",
+        )]));
+    };
+    Ok(Study {
+        name,
+        title: title.to_owned(),
+        sampling,
+        accuracy,
+        factors,
+        set: set
+            .iter()
+            .map(|(path, (value, _))| format!("{path}={}", value.to_toml(path)))
+            .collect(),
+        base,
+        list,
+        source: StudySource {
+            name: file.to_owned(),
+            text: text.to_owned(),
+            folder: folder.to_owned(),
+            case: source,
+        },
+        count,
+    })
+}
+
+/// The mistakes of a case, moved to where the study has the value, or to its key.
+fn moved<'w>(
+    error: CaseError,
+    written: impl Iterator<Item = (&'w str, &'w Written)>,
+    key: Option<&Place>,
+) -> Vec<Problem> {
+    let written: Vec<(&str, &Written)> = written.collect();
+    let problems = error.into_problems().into_iter();
+    let place = |problem: &Problem| {
+        if problem.is_about_key()
+            && let Some(key) = key
+        {
+            return Some(key.clone());
+        }
+        let path = problem.set_path();
+        let own = written.iter().find(|(own, _)| Some(*own) == path);
+        let found = own.or(written.first());
+        found.map(|(_, (_, place))| place.clone())
+    };
+    problems
+        .map(|problem| match place(&problem) {
+            Some(place) => problem.moved_to(&place),
+            None => problem,
+        })
+        .collect()
+}
+
+/// A table under a key; nothing if it is left out.
+fn section<'t>(top: &Section<'t>, key: &str, problems: &mut Vec<Problem>) -> Option<&'t Table> {
+    top.table.entry(key)?;
+    top.section(key, problems).map(|section| section.table)
+}
+
+/// Notes a key that must not be there.
+fn refuse(top: &Section<'_>, key: &str, what: &str, help: &str, problems: &mut Vec<Problem>) {
+    if let Some(entry) = top.table.entry(key) {
+        let problem = Problem::new(format!("{what} has no `{key}`")).at(&entry.key_place);
+        problems.push(problem.label("not here").help(help));
+    }
+}
+
+/// A whole number that may be left out.
+fn whole(top: &Section<'_>, key: &str, least: f64, problems: &mut Vec<Problem>) -> Option<u64> {
+    let node = top.table.get(key)?;
+    match node.value {
+        Toml::Number(value) if value.fract() == 0.0 && value >= least && value <= MOST_RUNS => {
+            Some(value as u64)
+        }
+        _ => {
+            let text = node.place.text();
+            let problem = Problem::new(format!(
+                "`{key}` is {text}; a whole number, at least {least}, is expected"
+            ));
+            let label = format!("a whole number from {least} to {MOST_RUNS}");
+            problems.push(
+                problem
+                    .at(&node.place)
+                    .label(label)
+                    .help(format!("write for example {key} = 256")),
+            );
+            None
+        }
+    }
+}
+
+/// The text of the case that is varied.
+fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Vec<Problem>) -> Option<CaseSource> {
+    let path = folder.join(case);
+    if !path.is_file()
+        && let Ok(text) = builtin::text(case)
+    {
+        return Some(CaseSource {
+            name: format!("{case}.toml"),
+            text: text.to_owned(),
+            folder: folder.to_owned(),
+        });
+    }
+    match std::fs::read_to_string(&path) {
+        Ok(text) => Some(CaseSource {
+            folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+            name: path.display().to_string(),
+            text,
+        }),
+        Err(error) => {
+            let shown = path.display();
+            let (message, help) = match quantity::nearest(case, builtin::names()) {
+                _ if error.kind() != std::io::ErrorKind::NotFound => {
+                    (format!("the case file {shown} cannot be read: {error}"), String::new())
+                }
+                Some(near) => (
+                    format!("there is neither a case file {shown} nor a built-in case \"{case}\""),
+                    format!("did you mean the built-in case \"{near}\"?"),
+                ),
+                None => (
+                    format!("there is neither a case file {shown} nor a built-in case \"{case}\""),
+                    "files are looked for from the folder of the study; `wedgelab case` lists the built-in cases".to_owned(),
+                ),
+            };
+            problems.push(
+                Problem::new(message)
+                    .at(&node.place)
+                    .label("this case")
+                    .help(help),
+            );
+            None
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! How long contacts are open, stuck and slipping, from the contact events.
+
+use integrate::Event;
+use mechanics::system::Mode;
+use wedge::outputs::{CORNERS, FACES};
+
+/// Times counted along a run.
+#[derive(Clone, Debug)]
+pub(super) struct ContactClock {
+    modes: Vec<u8>,
+    time: f64,
+    /// Shares count from here to there, s.
+    window: (f64, f64),
+    /// Time without a touching corner, by face, over the whole run, s.
+    pub lift_off: [f64; 2],
+    /// Time of touching corners in the window, by face, s.
+    pub touching: [f64; 2],
+    /// The part of it in which they stick, s.
+    pub sticking: [f64; 2],
+}
+
+impl ContactClock {
+    /// At the start of a run.
+    pub fn new(modes: &[u8], window: (f64, f64)) -> Self {
+        Self {
+            modes: modes.to_vec(),
+            time: 0.0,
+            window,
+            lift_off: [0.0; 2],
+            touching: [0.0; 2],
+            sticking: [0.0; 2],
+        }
+    }
+
+    /// A step to `end` with its events, in order of time.
+    pub fn step(&mut self, events: &[Event], end: f64) {
+        for event in events {
+            self.count(event.time);
+            if let Some(mode) = self.modes.get_mut(event.index) {
+                *mode = event.to;
+            }
+        }
+        self.count(end);
+    }
+
+    fn count(&mut self, to: f64) {
+        let from = self.time;
+        if to <= from {
+            return;
+        }
+        self.time = to;
+        let counted = (to.min(self.window.1) - from.max(self.window.0)).max(0.0);
+        for (face, corners) in self.modes.chunks(CORNERS.len()).enumerate().take(FACES.len()) {
+            let (mut touching, mut sticking) = (0_u8, 0_u8);
+            for mode in corners {
+                touching += u8::from(*mode != Mode::Open as u8);
+                sticking += u8::from(*mode == Mode::Stick as u8);
+            }
+            if touching == 0 {
+                self.lift_off[face] += to - from;
+            }
+            self.touching[face] += f64::from(touching) * counted;
+            self.sticking[face] += f64::from(sticking) * counted;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_times_of_a_written_down_course() {
+        let event = |time, index, to| Event {
+            time,
+            index,
+            from: 0,
+            to,
+        };
+        // All open; corner 0 of the column touches and sticks from 1 s, slips from 3 s, leaves at 4 s.
+        let mut clock = ContactClock::new(&[0; 8], (2.0, 10.0));
+        clock.step(&[event(1.0, 0, 1)], 2.5);
+        clock.step(&[event(3.0, 0, 2), event(4.0, 0, 0)], 10.0);
+        assert_eq!(clock.lift_off, [1.0 + 6.0, 10.0]);
+        assert_eq!(clock.touching, [2.0, 0.0]);
+        assert_eq!(clock.sticking, [1.0, 0.0]);
+    }
+}

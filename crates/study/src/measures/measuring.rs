@@ -1,0 +1,271 @@
+//! A run that keeps its measures only.
+
+use std::cell::RefCell;
+
+use integrate::Integrator;
+use mechanics::quasi_static::Direction;
+use mechanics::system::System;
+use wedge::outputs::{FACES, Outputs};
+use wedge::{BOLSTER, Wedge};
+
+use super::clock::ContactClock;
+use super::{Measures, place};
+use crate::case::Case;
+use crate::closed_form;
+use crate::metrics::{Cycle, first_harmonic};
+use crate::run::{MAXIMUM_STEPS, RunError, friction_losses, options, row_count, row_time};
+
+/// Why a run has no measures.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unmeasured {
+    /// It could not begin.
+    Refused(String),
+    /// It could not go on.
+    Stopped(String),
+}
+
+/// Attempted steps after which a run of a study counts as failed: a hundred times what a ringing run of ten seconds needs.
+const MOST_STEPS: u64 = 5_000_000;
+const _: () = assert!(MOST_STEPS <= MAXIMUM_STEPS);
+
+/// Runs a case and measures it.
+///
+/// # Errors
+/// The run cannot begin or does not come to its end.
+pub fn measure(case: &Case) -> Result<Measures, Unmeasured> {
+    let refused = |error: RunError| Unmeasured::Refused(error.to_string());
+    let wedge = Wedge::new(case.parameters.clone()).map_err(|error| refused(error.into()))?;
+    let options = integrate::Options {
+        maximum_steps: MOST_STEPS,
+        ..options(case)
+    };
+    let integrator = Integrator::new(wedge.system.clone(), options, 0.0, &wedge.initial_state)
+        .map_err(|error| refused(error.into()))?;
+    let mut measuring = Measuring::new(case, wedge, integrator);
+    let end = case.simulation.duration;
+    while measuring.integrator.time() < end {
+        if let Err(error) = measuring.integrator.step_to(end) {
+            return Err(Unmeasured::Stopped(error.to_string()));
+        }
+        measuring.after_step();
+    }
+    Ok(measuring.finish())
+}
+
+/// The rows of a run, as far as measures need them. Kept between runs, so that they need no new memory.
+#[derive(Debug, Default)]
+struct Series {
+    times: Vec<f64>,
+    displacement: Vec<f64>,
+    on_bolster: Vec<f64>,
+}
+
+thread_local! {
+    static SERIES: RefCell<Series> = RefCell::default();
+}
+
+struct Measuring<'c> {
+    case: &'c Case,
+    wedge: Wedge,
+    integrator: Integrator<System>,
+    cycle: Option<Cycle>,
+    /// The averaging window and its number of cycles.
+    window: Option<(f64, f64, u32)>,
+    clock: ContactClock,
+    start_energy: f64,
+    /// Friction losses at the ends of the window, by face, J.
+    probes: Vec<[f64; 2]>,
+    next_row: u64,
+    rows: u64,
+    buffer: Vec<f64>,
+    /// Sums and counts of the branches: down, up.
+    sums: [[f64; 4]; 2],
+    counts: [u64; 2],
+    peaks: [f64; 6],
+    /// Peaks count from here on, s: the release at the start is none of the motion's.
+    peaks_from: f64,
+    events: u64,
+    series: Series,
+}
+
+impl<'c> Measuring<'c> {
+    fn new(case: &'c Case, mut wedge: Wedge, integrator: Integrator<System>) -> Self {
+        let cycle = Cycle::of(&case.parameters);
+        let duration = case.simulation.duration;
+        let window = cycle.and_then(|cycle| cycle.window(duration));
+        let averaged = window.map_or((0.0, duration), |(start, end, _)| (start, end));
+        let mut series = SERIES.with(RefCell::take);
+        for values in [
+            &mut series.times,
+            &mut series.displacement,
+            &mut series.on_bolster,
+        ] {
+            values.clear();
+        }
+        let start = wedge.initial_state.clone();
+        let start_energy = wedge.system.observe(0.0, &start).energies.total();
+        let mut this = Self {
+            clock: ContactClock::new(integrator.modes(), averaged),
+            cycle,
+            window,
+            start_energy,
+            probes: Vec::with_capacity(2),
+            next_row: 0,
+            rows: row_count(duration, case.simulation.output_interval),
+            buffer: start,
+            sums: [[0.0; 4]; 2],
+            counts: [0; 2],
+            peaks: [0.0; 6],
+            peaks_from: averaged.0,
+            events: 0,
+            series,
+            case,
+            wedge,
+            integrator,
+        };
+        this.observe_row(0.0);
+        this.next_row = 1;
+        this
+    }
+
+    fn after_step(&mut self) {
+        let time = self.integrator.time();
+        self.events += self.integrator.events().len() as u64;
+        self.clock.step(self.integrator.events(), time);
+        self.probe();
+        let simulation = &self.case.simulation;
+        let (duration, interval) = (simulation.duration, simulation.output_interval);
+        self.wedge.system.segment_like(self.integrator.problem());
+        while self.next_row < self.rows {
+            let row = row_time(self.next_row, self.rows, duration, interval);
+            if row > time {
+                break;
+            }
+            self.integrator.interpolate(row, &mut self.buffer);
+            self.observe_row(row);
+            self.next_row += 1;
+        }
+    }
+
+    /// Notes the friction losses at the ends of the averaging window.
+    fn probe(&mut self) {
+        let (start, end) = match self.window {
+            Some((start, end, _)) => (start, end),
+            None => return,
+        };
+        while let Some(time) = [start, end].get(self.probes.len()) {
+            if *time > self.integrator.time() {
+                return;
+            }
+            self.integrator.interpolate(*time, &mut self.buffer);
+            let losses = friction_losses(&self.wedge.system, &self.buffer);
+            self.probes.push(losses);
+        }
+    }
+
+    fn observe_row(&mut self, time: f64) {
+        let seen = self.wedge.system.observe(time, &self.buffer);
+        let found = Outputs::resultants(self.case.parameters.damping, &self.wedge.system, &seen);
+        let (displacement, speed) = (
+            seen.bodies[BOLSTER].travel.0[2],
+            seen.bodies[BOLSTER].velocity.0[2],
+        );
+        let moments = found.moments.iter().flat_map(|moment| moment.0);
+        let moments = moments.take(if time >= self.peaks_from { 6 } else { 0 });
+        for (peak, moment) in self.peaks.iter_mut().zip(moments) {
+            *peak = peak.max(moment.abs());
+        }
+        let Some(cycle) = self.cycle else { return };
+        if let Some(up) = cycle.branch(self.case.parameters.damping, time, displacement, speed) {
+            let branch = usize::from(up);
+            let load = closed_form::load(&self.case.parameters, displacement);
+            let forces: [f64; 4] = [
+                found.vertical,
+                found.vertical_on_side_frame,
+                found.longitudinal,
+                load,
+            ];
+            for (sum, force) in self.sums[branch].iter_mut().zip(forces) {
+                *sum += force;
+            }
+            self.counts[branch] += 1;
+        }
+        self.series.times.push(time);
+        self.series.displacement.push(displacement);
+        self.series.on_bolster.push(found.on_bolster.0.0[2]);
+    }
+
+    fn finish(mut self) -> Measures {
+        let mut measures = Measures::NONE;
+        let values = &mut measures.0;
+        self.averages(values);
+        values[place::PEAKS..place::PEAKS + 6].copy_from_slice(&self.peaks);
+        for face in 0..FACES.len() {
+            values[place::LIFT_OFF + face] = self.clock.lift_off[face];
+            // A face that never touches has no share.
+            values[place::STICK + face] = self.clock.sticking[face] / self.clock.touching[face];
+        }
+        let quasi_static = closed_form::wedge(&self.case.parameters);
+        for (side, direction) in [Direction::Up, Direction::Down].into_iter().enumerate() {
+            if let Some(slide) = quasi_static.slide(direction, quasi_static.branch(direction), 1.0) {
+                values[place::QUASI_STATIC_RATIOS + side] = slide.column_normal * libm::cos(quasi_static.toe);
+            }
+        }
+        let margins = [Direction::Down, Direction::Up]
+            .map(|direction| quasi_static.jam_margin(direction, quasi_static.branch(direction)));
+        values[place::JAM_MARGIN] = margins[0].min(margins[1]);
+        values[place::JAM_MARGIN + 1..=place::JAM_MARGIN + 2].copy_from_slice(&margins);
+        let (time, x) = (self.integrator.time(), self.integrator.x());
+        let lost = friction_losses(&self.wedge.system, x);
+        let (from, to, period) = match (self.window, self.probes.as_slice()) {
+            (Some((start, end, _)), [from, to]) => (*from, *to, end - start),
+            _ => ([0.0; 2], lost, time),
+        };
+        for face in 0..FACES.len() {
+            values[place::WEAR + face] = (to[face] - from[face]) / period;
+        }
+        let seen = self.wedge.system.observe(time, x);
+        values[place::RESIDUAL] = Outputs::ledger(&self.wedge.system, &seen, self.start_energy)
+            .relative_residual(self.start_energy);
+        values[place::EVENTS] = self.events as f64;
+        values[place::STEPS] = self.integrator.statistics().steps as f64;
+        SERIES.with(|kept| kept.replace(self.series));
+        measures
+    }
+
+    fn averages(&self, values: &mut [f64; super::COUNT]) {
+        let Some(cycle) = self.cycle else { return };
+        for (branch, (sums, count)) in self.sums.iter().zip(self.counts).enumerate() {
+            if count == 0 {
+                continue;
+            }
+            let side = 1 - branch;
+            let [means @ .., load] = sums;
+            for (number, sum) in means.iter().enumerate() {
+                values[place::MEANS + 2 * number + side] = sum / count as f64;
+            }
+            if *load > 0.0 {
+                values[place::RATIOS + side] = means[2] / load;
+            }
+        }
+        let (Some((start, end, cycles)), [from, to]) = (self.window, self.probes.as_slice()) else {
+            return;
+        };
+        values[place::CYCLES] = f64::from(cycles);
+        for face in 0..FACES.len() {
+            values[place::ENERGY_PER_CYCLE + face] = (to[face] - from[face]) / f64::from(cycles);
+        }
+        values[place::EQUIVALENT_DAMPING] = cycle.equivalent_damping(values[place::ENERGY_PER_CYCLE]);
+        let Series {
+            times,
+            displacement,
+            on_bolster,
+        } = &self.series;
+        let window = (start, end);
+        if let Some(found) = first_harmonic(times, displacement, on_bolster, cycle.angular_frequency, window)
+        {
+            values[place::EQUIVALENT_STIFFNESS] = found.stiffness;
+            values[place::EQUIVALENT_DAMPING_ON_BOLSTER] = found.damping;
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! What a study keeps of its variants: records, one a variant, as bytes that survive being cut off.
+//!
+//! A record is written at once and stands for itself, so that files of records may be made by any number of programs that may
+//! die at any moment: a record is there, or what there is of it is recognized as none. Layout, little-endian:
+//!
+//! ```text
+//! bytes 0..4    "WLR1"
+//!       4..8    length of the body
+//!       8..12   CRC-32 of the body
+//!       12..    body: study's fingerprint (8), number of the variant (8), status (1),
+//!               measures (8 each, in the order of `measures::ALL`), reason (UTF-8, the rest)
+//! ```
+//!
+//! [`read`] finds all sound records in any bytes, whatever lies between them.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use crate::design::Study;
+use crate::measures::{COUNT, Measures, Unmeasured, measure};
+
+const MAGIC: [u8; 4] = *b"WLR1";
+const HEAD: usize = 12;
+const FIXED: usize = 8 + 8 + 1 + 8 * COUNT;
+/// A longer reason is cut.
+const LONGEST_REASON: usize = 1000;
+
+/// How a variant ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// It came to its end.
+    Complete,
+    /// Its values make no case or no wedge.
+    Refused,
+    /// It stopped on its way.
+    Stopped,
+}
+
+impl Status {
+    /// Its name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Complete => "complete",
+            Self::Refused => "refused",
+            Self::Stopped => "stopped",
+        }
+    }
+
+    fn from_number(number: u8) -> Option<Self> {
+        [Self::Complete, Self::Refused, Self::Stopped]
+            .into_iter()
+            .find(|status| *status as u8 == number)
+    }
+}
+
+/// What came out of a variant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// The variant's number.
+    pub number: u64,
+    /// How it ended.
+    pub status: Status,
+    /// Why it has no measures; empty if it has.
+    pub reason: String,
+    /// Its measures, SI.
+    pub measures: Measures,
+}
+
+/// Computes a variant. Whatever goes wrong in it, it is a record: others go on.
+#[must_use]
+pub fn run(study: &Study, number: u64) -> Record {
+    caught(number, || compute(study, number))
+}
+
+/// A panic, which is a mistake of ours, as a record.
+fn caught(number: u64, compute: impl FnOnce() -> Record) -> Record {
+    catch_unwind(AssertUnwindSafe(compute)).unwrap_or_else(|panic| {
+        let text = panic.downcast_ref::<&str>().copied();
+        let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+        Record {
+            number,
+            status: Status::Stopped,
+            reason: shortened(format!(
+                "a mistake of Wedgelab itself: {}",
+                text.unwrap_or("no message")
+            )),
+            measures: Measures::NONE,
+        }
+    })
+}
+
+fn compute(study: &Study, number: u64) -> Record {
+    let failed = |status, reason: String| Record {
+        number,
+        status,
+        reason: shortened(reason),
+        measures: Measures::NONE,
+    };
+    let case = match study.case(number) {
+        Ok(case) => case,
+        Err(error) => {
+            let reasons: Vec<&str> = error.problems().iter().map(|problem| problem.message()).collect();
+            return failed(Status::Refused, reasons.join("; "));
+        }
+    };
+    match measure(&case) {
+        Ok(measures) => Record {
+            number,
+            status: Status::Complete,
+            reason: String::new(),
+            measures,
+        },
+        Err(Unmeasured::Refused(reason)) => failed(Status::Refused, reason),
+        Err(Unmeasured::Stopped(reason)) => failed(Status::Stopped, reason),
+    }
+}
+
+/// Computes these variants, one after the other, and gives their records as bytes: what one worker of many does. Numbers
+/// beyond the study are left out.
+#[must_use]
+pub fn run_all(study: &Study, numbers: impl IntoIterator<Item = u64>) -> Vec<u8> {
+    let fingerprint = study.fingerprint();
+    let mut bytes = Vec::new();
+    for number in numbers.into_iter().filter(|number| *number < study.count()) {
+        run(study, number).write(fingerprint, &mut bytes);
+    }
+    bytes
+}
+
+fn shortened(mut reason: String) -> String {
+    if reason.len() > LONGEST_REASON {
+        let end = (0..=LONGEST_REASON)
+            .rev()
+            .find(|end| reason.is_char_boundary(*end))
+            .unwrap_or(0);
+        reason.truncate(end);
+        reason.push('…');
+    }
+    reason
+}
+
+impl Record {
+    /// Appends it as bytes.
+    pub fn write(&self, fingerprint: u64, out: &mut Vec<u8>) {
+        let mut body = Vec::with_capacity(FIXED + self.reason.len());
+        body.extend(fingerprint.to_le_bytes());
+        body.extend(self.number.to_le_bytes());
+        body.push(self.status as u8);
+        for value in self.measures.0 {
+            // One NaN for all, so that the same record has the same bytes.
+            let value = if value.is_nan() { f64::NAN } else { value };
+            body.extend(value.to_le_bytes());
+        }
+        body.extend(self.reason.as_bytes());
+        out.extend(MAGIC);
+        out.extend((body.len() as u32).to_le_bytes());
+        out.extend(crc32fast::hash(&body).to_le_bytes());
+        out.extend(body);
+    }
+
+    /// Reads the record that the bytes begin with: its study's fingerprint, itself, and its length.
+    fn read(bytes: &[u8]) -> Option<(u64, Self, usize)> {
+        let rest = bytes.strip_prefix(&MAGIC)?;
+        let (length, rest) = rest.split_first_chunk::<4>()?;
+        let (sum, rest) = rest.split_first_chunk::<4>()?;
+        let length = u32::from_le_bytes(*length) as usize;
+        let body = rest.get(..length)?;
+        if length < FIXED || crc32fast::hash(body) != u32::from_le_bytes(*sum) {
+            return None;
+        }
+        let (fingerprint, rest) = body.split_first_chunk::<8>()?;
+        let (number, rest) = rest.split_first_chunk::<8>()?;
+        let (status, rest) = rest.split_first()?;
+        let mut values = [0.0; COUNT];
+        let (numbers, reason) = rest.split_at_checked(8 * COUNT)?;
+        for (value, bytes) in values.iter_mut().zip(numbers.as_chunks::<8>().0) {
+            *value = f64::from_le_bytes(*bytes);
+        }
+        let record = Self {
+            number: u64::from_le_bytes(*number),
+            status: Status::from_number(*status)?,
+            reason: std::str::from_utf8(reason).ok()?.to_owned(),
+            measures: Measures(values),
+        };
+        Some((u64::from_le_bytes(*fingerprint), record, HEAD + length))
+    }
+}
+
+/// What bytes hold.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Found {
+    /// The study's sound records, in the order in which they were written.
+    pub records: Vec<Record>,
+    /// Whether there are records of another study.
+    pub foreign: bool,
+    /// Bytes that belong to no sound record: one that was cut off, or damage.
+    pub lost: usize,
+}
+
+/// Finds all records of a study in bytes, whatever lies between them.
+#[must_use]
+pub fn read(fingerprint: u64, bytes: &[u8]) -> Found {
+    let mut found = Found::default();
+    let mut at = 0;
+    while at < bytes.len() {
+        match Record::read(&bytes[at..]) {
+            Some((own, record, length)) => {
+                if own == fingerprint {
+                    found.records.push(record);
+                } else {
+                    found.foreign = true;
+                }
+                at += length;
+            }
+            None => {
+                found.lost += 1;
+                at += 1;
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Status, caught};
+
+    #[test]
+    #[allow(clippy::panic)]
+    fn limits_a_mistake_of_ours_is_a_record() {
+        let record = caught(7, || panic!("on {}", "purpose"));
+        assert_eq!((record.number, record.status), (7, Status::Stopped));
+        assert_eq!(record.reason, "a mistake of Wedgelab itself: on purpose");
+    }
+}

@@ -1,0 +1,9 @@
+//! Studies: documents, sampling, records.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod analytic;
+mod common;
+mod input;
+mod limits;
+mod records;

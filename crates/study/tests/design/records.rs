@@ -1,0 +1,134 @@
+//! Records survive what happens to files.
+
+use study::design::Study;
+use study::measures::Measures;
+use study::records::{self, Record, Status};
+
+use super::common::{HEAD, SHORT, study};
+
+fn small() -> Study {
+    study(&format!(
+        "{HEAD}sampling = \"full_factorial\"\n{SHORT}[vary]\nfriction.column = [0.3, 0.4, 0.5]\n"
+    ))
+}
+
+fn made_up(number: u64, reason: &str) -> Record {
+    let mut measures = Measures::NONE;
+    measures.0[3] = number as f64 / 7.0;
+    Record {
+        number,
+        status: if reason.is_empty() {
+            Status::Complete
+        } else {
+            Status::Stopped
+        },
+        reason: reason.to_owned(),
+        measures,
+    }
+}
+
+fn bytes(records: &[Record]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for record in records {
+        record.write(42, &mut bytes);
+    }
+    bytes
+}
+
+#[test]
+fn input_whatever_is_cut_off_or_damaged_costs_its_record_only() {
+    let all: Vec<Record> = (0..4)
+        .map(|n| made_up(n, if n == 2 { "why: é" } else { "" }))
+        .collect();
+    let whole = bytes(&all);
+    assert_eq!(records::read(42, &whole).records, all);
+    let first = bytes(&all[..1]).len();
+    for end in 0..whole.len() {
+        let found = records::read(42, &whole[..end]);
+        assert!(found.records.iter().zip(&all).all(|(found, own)| found == own));
+        assert!(end < first || !found.records.is_empty());
+    }
+    // Written on after having been cut off, as a program does that goes on.
+    for cut in 1..first {
+        let mut torn = whole[..first - cut].to_vec();
+        torn.extend(&whole[first..]);
+        assert_eq!(records::read(42, &torn).records, all[1..], "cut by {cut}");
+    }
+    // A flipped bit anywhere.
+    for place in 0..whole.len() {
+        let mut damaged = whole.clone();
+        damaged[place] ^= 0x10;
+        let found = records::read(42, &damaged);
+        let others = found.records.iter().all(|record| all.contains(record));
+        assert!(
+            others && found.records.len() >= 3 || found.foreign,
+            "byte {place}"
+        );
+    }
+}
+
+#[test]
+fn input_records_of_another_study_are_seen() {
+    let found = records::read(43, &bytes(&[made_up(0, "")]));
+    assert!(found.foreign && found.records.is_empty());
+    assert_ne!(
+        small().fingerprint(),
+        study(&format!(
+            "{HEAD}sampling = \"full_factorial\"\n{SHORT}[vary]\nfriction.column = [0.3, 0.4, 0.51]\n"
+        ))
+        .fingerprint()
+    );
+    assert_eq!(small().fingerprint(), small().fingerprint());
+}
+
+/// Parts computed apart are the same bytes as the whole, in any order.
+#[test]
+fn limits_parts_add_up_to_the_whole() {
+    let study = small();
+    let whole = records::run_all(&study, 0..study.count());
+    let parts = [records::run_all(&study, 0..1), records::run_all(&study, 1..99)].concat();
+    assert!(whole == parts && !whole.is_empty());
+    let found = records::read(study.fingerprint(), &whole);
+    assert_eq!(found.records.len(), 3);
+    assert!(
+        found
+            .records
+            .iter()
+            .all(|record| record.status == Status::Complete)
+    );
+}
+
+/// A study made again from its texts, as a worker elsewhere does it, is the same.
+#[test]
+fn limits_a_study_from_its_texts_is_the_same() {
+    let study = small();
+    let again = Study::of_source(study.source().clone()).unwrap();
+    assert_eq!(again.fingerprint(), study.fingerprint());
+    assert_eq!(again.overrides(2), study.overrides(2));
+    // Also where there is no such case file.
+    let mut elsewhere = study.source().clone();
+    elsewhere.folder = "/nowhere".into();
+    elsewhere.name = "/nowhere/some.toml".to_owned();
+    elsewhere.case.name = format!("/nowhere/{}", elsewhere.case.name);
+    elsewhere.text = elsewhere
+        .text
+        .replace("cdrun_toe_-0.2_psi_0.012", "some/case.toml");
+    let again = Study::of_source(elsewhere).unwrap();
+    assert_eq!(again.fingerprint(), study.fingerprint());
+}
+
+#[test]
+fn input_variants_that_fail_are_records_with_reasons() {
+    let study = study(&format!(
+        "{HEAD}sampling = \"full_factorial\"\n{SHORT}[vary]\nsimulation.output_interval = [\"0.01 s\", \"0.015 s\"]\n\
+         bolster.vertical = [\"0 in\", {{ shape = \"table\", points = [[\"0 s\", \"0 in\"], [\"0.01 s\", \"0 in\"], [\"0.02 s\", \"0 in\"], [\"0.03 s\", \"0 in\"]] }}]\n\
+         control_coil.stiffness = [\"2000 lbf/in\", \"1e300 lbf/in\"]\n"
+    ));
+    let found = records::read(study.fingerprint(), &records::run_all(&study, 0..study.count()));
+    assert_eq!(found.records.len(), 8);
+    for record in &found.records {
+        let wild = record.number % 2 == 1;
+        assert_eq!(record.status == Status::Complete, !wild, "{record:?}");
+        assert_eq!(record.reason.is_empty(), !wild);
+    }
+}

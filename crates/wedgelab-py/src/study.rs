@@ -1,0 +1,300 @@
+//! Studies: in this process, or a part of one for a program elsewhere.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use ::study::design::{CaseSource, MANY, Study, StudySource};
+use ::study::records;
+use miette::Diagnostic;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyType};
+use report::parquet::Content;
+use report::study_folder::{StudyFolder, StudyFolderError, columns};
+use report::study_work;
+
+use crate::case::NativeCase;
+use crate::errors::{case_error, guarded, internal, panic_text, raise, shown};
+
+/// How often Python is asked for signals and told of progress.
+const INTERVAL: Duration = Duration::from_millis(50);
+
+/// `wedgelab.StudyError`.
+fn study_error(py: Python<'_>, error: &StudyFolderError) -> PyErr {
+    let diagnostic: &dyn Diagnostic = error;
+    raise(py, "StudyError", (error.to_string(), shown(diagnostic)))
+}
+
+/// A study.
+#[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeStudy")]
+pub struct NativeStudy {
+    study: Arc<Study>,
+}
+
+/// The texts of a study: name, text and folder of its file, and of its case.
+type Texts = (String, String, PathBuf, String, String, PathBuf);
+/// Name, unit, text and kind of a column.
+type NamedColumn = (String, String, String, &'static str);
+
+#[pymethods]
+impl NativeStudy {
+    /// Of a study file.
+    #[classmethod]
+    fn read(class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
+        let py = class.py();
+        guarded(py, || {
+            let study = Study::read(&path).map_err(|error| case_error(py, &error))?;
+            Ok(Self {
+                study: Arc::new(study),
+            })
+        })
+    }
+
+    /// Of the texts that another program gave.
+    #[classmethod]
+    fn of_texts(class: &Bound<'_, PyType>, texts: Texts) -> PyResult<Self> {
+        let py = class.py();
+        let (name, text, folder, case_name, case_text, case_folder) = texts;
+        let source = StudySource {
+            name,
+            text,
+            folder,
+            case: CaseSource {
+                name: case_name,
+                text: case_text,
+                folder: case_folder,
+            },
+        };
+        guarded(py, || {
+            let study = Study::of_source(source).map_err(|error| case_error(py, &error))?;
+            Ok(Self {
+                study: Arc::new(study),
+            })
+        })
+    }
+
+    /// The texts that it was read from.
+    fn texts(&self) -> Texts {
+        let source = self.study.source().clone();
+        let case = source.case;
+        (
+            source.name,
+            source.text,
+            source.folder,
+            case.name,
+            case.text,
+            case.folder,
+        )
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.study.name
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.study.title
+    }
+
+    #[getter]
+    fn count(&self) -> u64 {
+        self.study.count()
+    }
+
+    /// Whether it has so many runs that the user must say that they are meant.
+    #[getter]
+    fn is_large(&self) -> bool {
+        self.study.count() > MANY
+    }
+
+    /// The table's columns.
+    fn columns(&self, py: Python<'_>) -> PyResult<Vec<NamedColumn>> {
+        guarded(py, || {
+            let columns = columns(&self.study).into_iter();
+            Ok(columns
+                .map(|column| {
+                    let kind = match column.content {
+                        Content::Integer => "integer",
+                        Content::Number => "number",
+                        Content::Text => "text",
+                    };
+                    (column.name, column.unit, column.text, kind)
+                })
+                .collect())
+        })
+    }
+
+    /// The paths that are varied.
+    fn parameters(&self) -> Vec<Vec<String>> {
+        self.study
+            .factors
+            .iter()
+            .map(|factor| factor.paths.clone())
+            .collect()
+    }
+
+    /// The values of the variant of this number, below `count`, as a case file shows them.
+    fn values(&self, py: Python<'_>, number: u64) -> PyResult<Vec<(String, String)>> {
+        guarded(py, || {
+            let pairs = self.study.factors.iter().zip(self.study.values(number));
+            Ok(pairs
+                .filter_map(|(factor, value)| Some((factor.name().to_owned(), value?.shown().into_owned())))
+                .collect())
+        })
+    }
+
+    /// The case of the variant of this number, below `count`.
+    fn case(&self, py: Python<'_>, number: u64) -> PyResult<NativeCase> {
+        guarded(py, || {
+            let case = self.study.case(number);
+            case.map(NativeCase::new).map_err(|error| case_error(py, &error))
+        })
+    }
+
+    /// Computes these variants without the interpreter lock: their records as bytes.
+    fn records<'py>(&self, py: Python<'py>, numbers: Vec<u64>) -> PyResult<Bound<'py, PyBytes>> {
+        let study = &self.study;
+        let bytes = guarded(py, || Ok(py.detach(|| records::run_all(study, numbers))))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+}
+
+/// The folder of a study, held by this process until it is closed.
+#[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeStudyFolder")]
+pub struct NativeStudyFolder {
+    study: Arc<Study>,
+    folder: Mutex<Option<Arc<StudyFolder>>>,
+}
+
+impl NativeStudyFolder {
+    fn held(&self, py: Python<'_>) -> PyResult<Arc<StudyFolder>> {
+        let held = self.folder.lock().unwrap_or_else(PoisonError::into_inner);
+        let held = held.as_ref().map(Arc::clone);
+        held.ok_or_else(|| internal(py, "the folder of the study was closed"))
+    }
+
+    /// Does something with the folder without the interpreter lock.
+    fn with<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&StudyFolder) -> Result<T, StudyFolderError> + Send,
+    ) -> PyResult<T> {
+        let folder = self.held(py)?;
+        guarded(py, || {
+            let done = py.detach(|| work(&folder));
+            done.map_err(|error| study_error(py, &error))
+        })
+    }
+}
+
+/// What came out: runs complete, refused, stopped, and the first reasons.
+type Ended = ([u64; 3], Vec<(u64, String)>);
+
+#[pymethods]
+impl NativeStudyFolder {
+    /// Begins a study in a folder, or goes on with it.
+    #[new]
+    fn new(py: Python<'_>, study: &NativeStudy, path: PathBuf) -> PyResult<Self> {
+        guarded(py, || {
+            let folder = StudyFolder::open(&path, &study.study).map_err(|error| study_error(py, &error))?;
+            Ok(Self {
+                study: Arc::clone(&study.study),
+                folder: Mutex::new(Some(Arc::new(folder))),
+            })
+        })
+    }
+
+    /// Number of parts, into which runs are sorted by their numbers.
+    #[getter]
+    fn parts(&self, py: Python<'_>) -> PyResult<u64> {
+        Ok(self.held(py)?.parts())
+    }
+
+    /// How many runs are kept, and how many bytes were cut off or damaged.
+    fn begun(&self, py: Python<'_>) -> PyResult<(u64, usize)> {
+        let begun = self.with(py, study_work::begun)?;
+        Ok((begun.runs, begun.lost))
+    }
+
+    /// The numbers of the runs of a part that are not there yet.
+    fn missing(&self, py: Python<'_>, part: u64) -> PyResult<Vec<u64>> {
+        self.with(py, |folder| folder.missing(part))
+    }
+
+    /// Keeps records that a worker computed; gives their number.
+    fn keep(&self, py: Python<'_>, records: &[u8]) -> PyResult<u64> {
+        self.with(py, |folder| folder.keep_all(records))
+    }
+
+    /// Computes what is missing on threads of this process; `progress` is called with how many are done now.
+    #[pyo3(signature = (jobs, progress))]
+    fn compute(&self, py: Python<'_>, jobs: usize, progress: Option<Py<PyAny>>) -> PyResult<u64> {
+        let folder = self.held(py)?;
+        let (study, progress) = (&self.study, progress.as_ref());
+        let (stop, count) = (AtomicBool::new(false), AtomicU64::new(0));
+        let done = || {
+            count.fetch_add(1, Ordering::Relaxed);
+        };
+        let work = || study_work::compute(study, &folder, jobs, &stop, &done);
+        let (computed, said) = py.detach(|| {
+            thread::scope(|scope| {
+                let worker = scope.spawn(work);
+                let said = listen(&worker, &count, progress);
+                stop.store(said.is_err(), Ordering::Relaxed);
+                (worker.join(), said)
+            })
+        });
+        // Ctrl-C before what it led to.
+        said?;
+        match computed {
+            Ok(computed) => computed.map_err(|error| study_error(py, &error))?,
+            Err(panic) => return Err(internal(py, &panic_text(panic.as_ref()))),
+        }
+        Ok(count.into_inner())
+    }
+
+    /// Makes the table and the page of all runs.
+    fn finish(&self, py: Python<'_>) -> PyResult<Ended> {
+        let study = &self.study;
+        let digest = self.with(py, |folder| study_work::finish(study, folder))?;
+        Ok((digest.ended, digest.reasons))
+    }
+
+    /// Lets other programs work in the folder.
+    fn close(&self) {
+        *self.folder.lock().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+}
+
+/// Until the worker has ended: passes on how many runs are done, and hears signals.
+fn listen<T>(
+    worker: &thread::ScopedJoinHandle<'_, T>,
+    count: &AtomicU64,
+    progress: Option<&Py<PyAny>>,
+) -> PyResult<()> {
+    let mut told = 0;
+    // Short at first, for short studies.
+    let mut pause = Duration::from_millis(1);
+    loop {
+        let ended = worker.is_finished();
+        if !ended {
+            thread::sleep(pause);
+            pause = (2 * pause).min(INTERVAL);
+        }
+        let now = count.load(Ordering::Relaxed);
+        Python::attach(|py| {
+            py.check_signals()?;
+            if let Some(progress) = progress.filter(|_| now > told) {
+                told = now;
+                progress.call1(py, (now,))?;
+            }
+            PyResult::Ok(())
+        })?;
+        if ended {
+            return Ok(());
+        }
+    }
+}

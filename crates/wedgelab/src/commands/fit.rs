@@ -1,0 +1,345 @@
+//! `wedgelab fit`: parameters of a case from a measured loop.
+
+use std::fmt::Write as _;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use rayon::prelude::*;
+use report::files::Folder;
+use report::fit_files::{self, Shown};
+use report::run_files;
+use report::table::{Column, Table as Measurements};
+use study::case::{Case, CaseError, builtin};
+use study::fit::{Fit, FitError, Free, FreeError, Measured, fit};
+use study::metrics::Cycle;
+
+use super::run::{is_built_in, read};
+use crate::failure::{Failure, Message, say};
+use crate::table::Table;
+
+/// Columns that may hold the measured force, the first one found being taken.
+const FORCES: [&str; 5] = [
+    "vertical_wedge_force",
+    "vertical_force_on_side_frame",
+    "net_force_on_bolster_z",
+    "net_force_on_side_frame_z",
+    "longitudinal_wedge_force",
+];
+const DISPLACEMENT: &str = "bolster_vertical";
+/// A measured stroke that differs by more than this part from the case's is told.
+const STROKE: f64 = 0.02;
+/// Below this, differences hang together so much that intervals are too narrow.
+const INDEPENDENT: f64 = 1.0;
+
+/// Find parameters of a case from a measured force-displacement loop
+///
+/// Takes a CSV file with the columns time_s, a force such as vertical_wedge_force_lbf, and perhaps bolster_vertical_in, and
+/// finds the values of free parameters between bounds with which the case's run comes nearest to it (least squares).
+/// Prints them with confidence intervals, and writes fit.json, the case with the values found, and a figure of loop and
+/// residuals.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab fit loop.csv my.toml --free friction.column=0.2..0.6
+  wedgelab fit loop.csv rig_constant --free friction.column=0.2..0.6 friction.slope=0.2..0.6 --confidence 0.99
+  wedgelab fit loop.csv my.toml --follow --free 'control_coil.stiffness=1500 lbf/in..2500 lbf/in'
+
+Preload is control_coil.free_length or control_coil.nominal_length.")]
+pub struct Arguments {
+    /// Measured values: a CSV file as `wedgelab compare` reads
+    measured: PathBuf,
+    /// Case file, or, if there is no such file, the name of a built-in case
+    case: PathBuf,
+    /// Parameters to be found, between bounds
+    #[arg(long, value_name = "PATH=LOW..HIGH", num_args = 1.., required = true)]
+    free: Vec<String>,
+    /// Column with the measured force [default: the first force on side frame or bolster that the file has]
+    #[arg(long, value_name = "NAME")]
+    column: Option<String>,
+    /// Move the bolster as measured (column bolster_vertical), not as the case says
+    #[arg(long)]
+    follow: bool,
+    /// Leave out the values before this time, s [default: the first half period of the bolster's motion]
+    #[arg(long, value_name = "SECONDS")]
+    from: Option<f64>,
+    /// Probability with which the intervals are to hold the true values
+    #[arg(long, value_name = "P", default_value_t = 0.95)]
+    confidence: f64,
+    /// Set one value over those of the case
+    #[arg(long, value_name = "PATH.KEY=VALUE")]
+    set: Vec<String>,
+    /// Folder to write into
+    #[arg(long, value_name = "DIR", default_value = "fit")]
+    out: PathBuf,
+    /// Overwrite existing results
+    #[arg(long)]
+    force: bool,
+}
+
+impl From<FreeError> for Failure {
+    fn from(error: FreeError) -> Self {
+        Message::new(error.problem, error.advice).into()
+    }
+}
+
+impl From<FitError> for Failure {
+    fn from(error: FitError) -> Self {
+        match error {
+            FitError::Case(error) => error.into(),
+            FitError::TooFew { .. } => {
+                Message::new(error.to_string(), "free fewer parameters, or lower --from").into()
+            }
+            FitError::Model(_) => Self::Failed(
+                Message::new(
+                    format!("the case cannot be fitted: {error}"),
+                    "look at the run with `wedgelab run` at values between the bounds, and narrow the bounds",
+                )
+                .into(),
+            ),
+        }
+    }
+}
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    if !(arguments.confidence > 0.0 && arguments.confidence < 1.0) {
+        let message = format!("--confidence is {}", arguments.confidence);
+        return Err(Message::new(message, "it lies between 0 and 1: 0.95 is usual").into());
+    }
+    let free = arguments
+        .free
+        .iter()
+        .map(|text| Free::parse(text))
+        .collect::<Result<Vec<_>, _>>()?;
+    if let Some(twice) = free
+        .iter()
+        .enumerate()
+        .find(|(number, one)| free[..*number].iter().any(|other| other.path == one.path))
+    {
+        return Err(Message::new(
+            format!("`{}` is free twice", twice.1.path),
+            "take one of them out",
+        )
+        .into());
+    }
+    let table = Measurements::read(&arguments.measured)?;
+    let force = force(&table, arguments.column.as_deref())?;
+    let displacement = table.find(DISPLACEMENT).map(Column::si);
+    let times = table.times();
+    let mut set = arguments.set.clone();
+    if arguments.follow {
+        let Some(displacement) = &displacement else {
+            let message = format!(
+                "--follow needs the column {DISPLACEMENT}, which {} has not",
+                table.file.display()
+            );
+            return Err(Message::new(message, "add it, with its unit: bolster_vertical_in").into());
+        };
+        set.push(followed(times, displacement));
+    }
+    let last = times.last().copied().unwrap_or(0.0);
+    set.push(format!("simulation.duration={last} s"));
+    let base = read(&arguments.case, &set)?;
+    if !arguments.follow
+        && let Some(displacement) = &displacement
+    {
+        compare_stroke(&base, displacement);
+    }
+    let cycle = Cycle::of(&base.parameters);
+    let from = arguments
+        .from
+        .unwrap_or_else(|| cycle.map_or(0.0, |cycle| 0.5 * cycle.period()));
+    let kept: Vec<usize> = (0..times.len()).filter(|row| times[*row] >= from).collect();
+    let pick = |values: &[f64]| -> Vec<f64> { kept.iter().map(|row| values[*row]).collect() };
+    let measured = Measured {
+        times: pick(times),
+        values: pick(&force.si()),
+        column: force.name.clone(),
+    };
+    let names = [
+        fit_files::FILE_NAME,
+        fit_files::FIGURE,
+        fit_files::PICTURE,
+        run_files::CASE_FILE_NAME,
+    ];
+    let folder = Folder::check(&arguments.out, &names, arguments.force)
+        .map_err(|error| Failure::Input(error.into()))?;
+    let case = |more: &[String]| case_with(arguments, &[&set, more].concat());
+    let found = fit(&case, &measured, &free, arguments.confidence, &|count, one| {
+        (0..count).into_par_iter().map(one).collect()
+    })?;
+
+    let values: Vec<String> = found
+        .parameters
+        .iter()
+        .map(|found| found.free.set(found.value))
+        .collect();
+    let fitted = case_with(arguments, &[arguments.set.clone(), values].concat())?;
+    let displacement = displacement.map(|values| pick(&values));
+    let shown = Shown {
+        measured: &measured,
+        kind: force.kind,
+        displacement: displacement.as_deref(),
+        units: table.units,
+        confidence: arguments.confidence,
+    };
+    let figure = fit_files::figure(&found, &shown);
+    let png = figure
+        .to_png()
+        .map_err(|reason| Failure::Failed(Message::new(format!("cannot draw: {reason}"), "").into()))?;
+    folder.write(|files| {
+        files.add(fit_files::FILE_NAME, |out| fit_files::write(&found, &shown, out))?;
+        files.add(run_files::CASE_FILE_NAME, |out| {
+            out.write_all(
+                fitted
+                    .document
+                    .clone()
+                    .with_tables_embedded()
+                    .to_toml()
+                    .as_bytes(),
+            )
+        })?;
+        files.add(fit_files::FIGURE, |out| out.write_all(figure.to_svg().as_bytes()))?;
+        files.add(fit_files::PICTURE, |out| out.write_all(&png))
+    })?;
+    tell(&found, &shown, &arguments.out)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The case with values set; as [`read`], but with the errors of cases alone.
+fn case_with(arguments: &Arguments, set: &[String]) -> Result<Case, CaseError> {
+    if is_built_in(&arguments.case) {
+        return builtin::case_with(arguments.case.to_str().unwrap_or(""), set);
+    }
+    Case::read(&arguments.case, set)
+}
+
+/// The column with the measured force.
+fn force<'t>(table: &'t Measurements, name: Option<&str>) -> Result<&'t Column, Failure> {
+    if let Some(name) = name {
+        return Ok(table.column(name)?);
+    }
+    FORCES.iter().find_map(|name| table.find(name)).ok_or_else(|| {
+        let message = format!("{} has no force that is known", table.file.display());
+        let advice = format!("name a column with --column; known are {}", FORCES.join(", "));
+        Message::new(message, advice).into()
+    })
+}
+
+/// The bolster's motion as measured.
+fn followed(times: &[f64], displacement: &[f64]) -> String {
+    let mut text = "bolster.vertical={ shape = \"table\", points = [".to_owned();
+    for (time, value) in times.iter().zip(displacement) {
+        // Writing to a String cannot fail.
+        let _ = write!(text, "[\"{time} s\", \"{value} m\"], ");
+    }
+    text + "] }"
+}
+
+/// Tells if the case moves the bolster by another stroke than was measured.
+fn compare_stroke(case: &Case, displacement: &[f64]) {
+    let Some(cycle) = Cycle::of(&case.parameters) else {
+        return;
+    };
+    let ends = displacement
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(*value), high.max(*value))
+        });
+    let stroke = 0.5 * (ends.1 - ends.0) / cycle.amplitude - 1.0;
+    if stroke.abs() > STROKE {
+        say(&format!(
+            "warning: the measured stroke is {:+.1} % of the case's away from it; --follow moves the bolster as measured",
+            100.0 * stroke
+        ));
+    }
+}
+
+fn tell(found: &Fit, shown: &Shown<'_>, folder: &std::path::Path) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    let interval = format!("interval, {} %", 100.0 * shown.confidence);
+    let mut table = Table::new(
+        1,
+        &[
+            ("parameter", ""),
+            ("value", ""),
+            (&interval, ""),
+            ("unit", ""),
+            ("", ""),
+        ],
+    );
+    for parameter in &found.parameters {
+        let (half, note) = match parameter.half_interval {
+            Some(half) => (format!("± {half:.2e}"), String::new()),
+            None if parameter.at_bound => ("-".to_owned(), "at its bound".to_owned()),
+            None => ("-".to_owned(), "not determined".to_owned()),
+        };
+        // As many digits as the interval lets mean anything.
+        let digits = parameter
+            .half_interval
+            .filter(|half| *half > 0.0)
+            .map_or(4.0, |half| 1.0 - half.log10().floor());
+        let digits = digits.clamp(0.0, 12.0) as usize;
+        table.row([
+            parameter.free.path.clone(),
+            format!("{:.digits$}", parameter.value),
+            half,
+            parameter.free.unit.clone(),
+            note,
+        ]);
+    }
+    table.write(&mut out)?;
+    if let Some(correlations) = &found.correlations {
+        for (i, row) in correlations.iter().enumerate() {
+            for (j, value) in row
+                .iter()
+                .enumerate()
+                .take(i)
+                .filter(|(_, value)| value.abs() > 0.9)
+            {
+                let [a, b] = [i, j].map(|k| found.parameters[k].free.path.as_str());
+                writeln!(out, "{a} and {b} are hard to tell apart: correlation {value:.3}")?;
+            }
+        }
+    } else {
+        let text = match found.parameters.len() {
+            1 => "The measured values do not determine this parameter.",
+            _ => "The measured values do not determine these parameters together: free fewer.",
+        };
+        writeln!(out, "{text}")?;
+    }
+    let unit = shown.kind.label(shown.units);
+    let size = found.standard_error * shown.kind.from_si(shown.units);
+    writeln!(
+        out,
+        "\n{} values of {}, standard error {size:.3} {unit}, Durbin-Watson {:.2}, {} rounds.",
+        shown.measured.values.len(),
+        shown.measured.column,
+        found.durbin_watson,
+        found.rounds
+    )?;
+    if found.durbin_watson < INDEPENDENT {
+        writeln!(
+            out,
+            "The differences hang together (Durbin-Watson far below 2): the model lacks something, and the intervals are too narrow."
+        )?;
+    }
+    if !found.settled {
+        writeln!(
+            out,
+            "It did not come to rest: look at the residuals, and narrow the bounds."
+        )?;
+    }
+    writeln!(
+        out,
+        "Written into {}: {}, {}, {}, {}.",
+        folder.display(),
+        fit_files::FILE_NAME,
+        run_files::CASE_FILE_NAME,
+        fit_files::FIGURE,
+        fit_files::PICTURE
+    )?;
+    Ok(())
+}

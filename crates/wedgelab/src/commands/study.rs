@@ -1,0 +1,141 @@
+//! `wedgelab study`: many variants of a case.
+
+mod series;
+mod work;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::Args;
+use report::page::study as page;
+use report::study_folder::{StudyFolder, StudyFolderError, TABLE_FILE};
+use report::study_work;
+use study::design::{MANY, Study};
+
+use crate::failure::{FAILED, Failure, Message, say};
+
+/// Run many variants of a case
+///
+/// Reads a study file (TOML): a case, and parameters to vary as full factorial, Latin hypercube, Sobol' sequence or list.
+/// Computes the measures of every variant (energies per cycle, equivalent damping and stiffness, branch forces, peak moments,
+/// lift-off time, stick share, jam margin, wear power) and writes table.parquet, with units in its metadata, and index.html
+/// (main effects, contour maps, jam map). A study that was ended or killed goes on where it was when the command is
+/// given again; the table does not depend on that, nor on the number of jobs.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab study friction.toml
+  wedgelab study friction.toml --out today --jobs 1
+  wedgelab study friction.toml --series 0 17        time series of two of its runs, any time
+
+A study file:
+  case = \"vdrun_toe_-0.2_psi_0.012\"
+  sampling = \"full_factorial\"
+  [vary]
+  friction.column = { from = 0.2, to = 0.6, count = 5 }
+  wedge.angle = [\"30 deg\", \"32 deg\", \"35 deg\"]")]
+pub struct Arguments {
+    /// Study file
+    study: PathBuf,
+    /// Folder to write into, or to go on in [default: the study's name]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// How many runs at a time [default: as many as there are processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Write the files of these runs (result.csv, ...) into series/NUMBER, and nothing else
+    #[arg(long, value_name = "NUMBER", num_args = 1..)]
+    series: Vec<u64>,
+    /// Begin even if there are more than a million runs
+    #[arg(long)]
+    yes: bool,
+    /// No progress
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl From<StudyFolderError> for Failure {
+    fn from(error: StudyFolderError) -> Self {
+        match error {
+            StudyFolderError::NotAStudy { .. }
+            | StudyFolderError::Busy { .. }
+            | StudyFolderError::Changed { .. } => Self::Input(error.into()),
+            _ => Self::Failed(error.into()),
+        }
+    }
+}
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let study = Study::read(&arguments.study)?;
+    if let Some(number) = arguments.series.iter().find(|number| **number >= study.count()) {
+        let message = format!("there is no run {number}: the study has {} runs", study.count());
+        return Err(Message::new(
+            message,
+            format!("runs are numbered from 0 to {}", study.count() - 1),
+        )
+        .into());
+    }
+    let path = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(&study.name));
+    if !arguments.series.is_empty() {
+        return series::write(&study, &path, &arguments.series, arguments.quiet);
+    }
+    if study.count() > MANY && !arguments.yes {
+        let message = format!("the study has {} runs", study.count());
+        let advice = "give --yes if you mean it, or vary fewer values; a sample of them (sampling = \"sobol\", runs = 1000) often says \
+                      as much";
+        return Err(Message::new(message, advice).into());
+    }
+    let folder = StudyFolder::open(&path, &study)?;
+    let clock = Instant::now();
+    let jobs = arguments.jobs.map_or_else(
+        || std::thread::available_parallelism().map_or(1, usize::from),
+        usize::from,
+    );
+    let done = work::all(&study, &folder, jobs, arguments.quiet)?;
+    if done.lost > 0 {
+        say(&format!(
+            "note: {} bytes in parts/ were cut off or damaged; their runs were computed again",
+            done.lost
+        ));
+    }
+    if done.interrupted {
+        say(&format!(
+            "stopped: {} of {} runs are kept in {}. The same command goes on from there.",
+            done.before + done.now,
+            study.count(),
+            path.display()
+        ));
+        return Ok(ExitCode::from(FAILED));
+    }
+    let wall = clock.elapsed().as_secs_f64();
+    let digest = study_work::finish(&study, &folder)?;
+    let mut out = io::stdout().lock();
+    let [complete, refused, stopped] = digest.ended;
+    write!(out, "{} runs: {complete} complete", study.count())?;
+    if refused + stopped > 0 {
+        write!(out, ", {refused} refused, {stopped} stopped on their way")?;
+    }
+    if done.before > 0 {
+        write!(out, "; {} were there before", done.before)?;
+    }
+    if done.now > 0 {
+        write!(out, "; {:.0} runs/s", done.now as f64 / wall)?;
+    }
+    writeln!(out, ".")?;
+    for (number, reason) in digest.reasons.iter().take(3) {
+        writeln!(out, "  run {number}: {reason}")?;
+    }
+    writeln!(
+        out,
+        "\nWritten into {}: {TABLE_FILE}, {} (open it in a browser).",
+        path.display(),
+        page::FILE_NAME
+    )?;
+    Ok(ExitCode::SUCCESS)
+}
