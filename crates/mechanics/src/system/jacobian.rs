@@ -236,11 +236,11 @@ impl Pass<'_> {
             force: Vector::zero(),
             moment: Vector::zero(),
         };
-        for face in self.faces {
-            self.element(face, &kinematics, &mut load, jacobian);
+        for &face in &free.faces {
+            self.element(&self.faces[face], &kinematics, &mut load, jacobian);
         }
-        for coil in self.coils {
-            self.element(coil, &kinematics, &mut load, jacobian);
+        for &coil in &free.coils {
+            self.element(&self.coils[coil], &kinematics, &mut load, jacobian);
         }
         let frame = &self.scene.frames[free.body];
         let (force, moment) = kinematics.inertia(
@@ -255,7 +255,7 @@ impl Pass<'_> {
         add_rows(&kinematics, &free.free, n, &force, &moment, blocks);
     }
 
-    /// Adds the derivatives of one element, if it touches the seeded body.
+    /// Adds the derivatives of one element that touches the seeded body.
     #[inline(always)]
     fn element<E: Element, const N: usize>(
         &self,
@@ -268,9 +268,6 @@ impl Pass<'_> {
         let free = &scene.free[self.number];
         let n = free.free.len();
         let carries = mounted.body == free.body;
-        if !carries && mounted.on != free.body {
-            return;
-        }
         let side = usize::from(!carries);
         let mut keep_rates = |point: usize, rates: [[f64; 2]; N]| {
             let [g_q, g_u, _] = jacobian.side_mut(mounted.first_internal / 2 + point, side);

@@ -71,6 +71,10 @@ struct FreeBody {
     offset: usize,
     /// Its diagonal block in the Jacobian.
     pair: usize,
+    /// The faces that touch it, in their order.
+    faces: Vec<usize>,
+    /// The coils that touch it, in their order.
+    coils: Vec<usize>,
 }
 
 /// A body's reference frame.
