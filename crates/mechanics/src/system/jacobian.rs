@@ -278,26 +278,30 @@ impl Pass<'_> {
                 }
             }
         };
-        let relative: Relative<Dual<N>>;
         let action: Action<Dual<N>>;
         let drive;
         if carries {
-            relative = mounted.sight.relative(seeded);
-            action = mounted
-                .element
-                .change(&mounted.points, &relative, &mut keep_rates);
-            let (force, moment) = action.on_body(&mounted.sight);
+            let sight = &mounted.sight;
+            action =
+                mounted
+                    .element
+                    .change_with_body(&mounted.points, sight, seeded, &free.free, &mut keep_rates);
+            let (force, moment) = action.on_body(sight);
             load.force += force;
             load.moment += moment;
             if let (true, Some(on)) = (mounted.on_free, scene.free_number[mounted.on]) {
                 let kinematics = &scene.kinematics[mounted.on];
-                let (force, moment) = action.reaction(&relative, kinematics, &mounted.mount);
+                let (force, moment) = action.reaction(&sight.relative(seeded), kinematics, &mounted.mount);
                 let blocks = jacobian.blocks_mut(mounted.pairs[1]);
                 add_rows(kinematics, &scene.free[on].free, n, &force, &moment, blocks);
             }
-            drive = mounted
-                .driven
-                .then(|| action.drive_power(&relative, &mounted.sight));
+            drive = mounted.driven.then(|| {
+                if sight.mount_angular_velocity == Vector::zero() {
+                    sight.mount_velocity.dot(action.force)
+                } else {
+                    action.drive_power(&sight.relative(seeded), sight)
+                }
+            });
         } else {
             let (a, b) = (
                 &scene.frames[mounted.body].motion,
@@ -305,7 +309,7 @@ impl Pass<'_> {
             );
             let sight = Sight::new(&lift_frame(a), &lift_frame(b), seeded, &mounted.mount);
             let kinematics = &scene.kinematics[mounted.body];
-            relative = sight.relative(kinematics);
+            let relative = sight.relative(kinematics);
             action = mounted
                 .element
                 .change(&mounted.points, &relative, &mut keep_rates);

@@ -154,6 +154,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         let count = coordinates.len();
         free.push(FreeBody {
             body: number,
+            slots: std::array::from_fn(|k| coordinates.iter().position(|c| *c == k).unwrap_or(usize::MAX)),
             free: coordinates,
             offset,
             pair: 0,
