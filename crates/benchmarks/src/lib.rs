@@ -3,8 +3,11 @@
 //! Wall times depend on the machine and on what else it does: compare within one run, and trust ratios of 1.2 and more.
 //! Instruction counts (`valgrind --tool=callgrind`) repeat to the last digit for the same binary.
 
+pub mod wedges;
+
 use mechanics::small::System;
 use nucars::truck::Choices;
+use rustix::time::{ClockId, clock_gettime};
 use study::truck::catalog;
 use wedge::parameters::Damping;
 use wedge::{BuildError, Wedge, thesis};
@@ -47,4 +50,11 @@ pub fn sliding_truck(name: &str) -> Result<(System, Vec<f64>), String> {
         }
     }
     Ok((system, x))
+}
+
+/// CPU time that this process has used, s.
+#[must_use]
+pub fn cpu_seconds() -> f64 {
+    let now = clock_gettime(ClockId::ProcessCPUTime);
+    now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
 }

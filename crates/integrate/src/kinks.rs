@@ -93,10 +93,9 @@ impl Kinks {
         if self.now.is_empty() || dense.step <= 0.0 {
             return None;
         }
-        let trusted = libm::pow(TRUST / error.max(1e-3), 0.2) - 1.0;
-        let reach = (length / dense.step).min(REACH).min(trusted);
-        if reach <= 0.0 {
-            return None;
+        let mut reach = (length / dense.step).min(REACH);
+        if error * fifth(1.0 + reach) > TRUST {
+            reach = libm::pow(TRUST / error, 0.2) - 1.0;
         }
         self.begin(problem, dense);
         loop {
@@ -216,8 +215,11 @@ impl Kinks {
 
 /// How far behind a kink at a place on the continued dense output of a step with this error a step should land, in lengths of the step.
 fn overshoot(error: f64, theta: f64) -> f64 {
-    let power = theta * theta * (theta * theta) * theta;
-    OVERSHOOT * (4.0 * error * power).clamp(LEAST_OVERSHOOT, 1.0)
+    OVERSHOOT * (4.0 * error * fifth(theta)).clamp(LEAST_OVERSHOOT, 1.0)
+}
+
+fn fifth(x: f64) -> f64 {
+    x * x * (x * x) * x
 }
 
 fn crossed(now: &[f64], then: &[f64]) -> bool {

@@ -157,9 +157,12 @@ impl<S: Real> Kinematics<S> {
             alpha = alpha + spin_rate + drag;
             omega = omega + spin;
         }
-        let swing: Vector<S> = omega.cross(arm);
-        let acceleration: Vector<S> = origin + alpha.cross(arm) + omega.cross(swing);
-        let force = acceleration.scale(body.mass);
+        let central = body.center_of_gravity == [0.0; 3];
+        if !central {
+            let swing: Vector<S> = omega.cross(arm);
+            origin = origin + alpha.cross(arm) + omega.cross(swing);
+        }
+        let force = origin.scale(body.mass);
         // Euler's equations in body axes.
         let to_body = self.turn.rotation.transpose();
         let (w, e): (Vector<S>, Vector<S>) = (to_body.apply(omega), to_body.apply(alpha));
@@ -169,7 +172,10 @@ impl<S: Real> Kinematics<S> {
             e.0[1] * i2 + w.0[2] * w.0[0] * (i1 - i3),
             e.0[2] * i3 + w.0[0] * w.0[1] * (i2 - i1),
         ]);
-        let moment: Vector<S> = self.turn.rotation.apply::<S, S>(spin_moment) + arm.cross(force);
+        let mut moment: Vector<S> = self.turn.rotation.apply(spin_moment);
+        if !central {
+            moment += arm.cross(force);
+        }
         (force, moment)
     }
 }
@@ -184,17 +190,22 @@ impl Kinematics<f64> {
     #[inline(always)]
     #[must_use]
     pub fn accelerations(&self, body: &Body, force: &Vector<f64>, moment: &Vector<f64>) -> [f64; 6] {
-        let arm: Vector<f64> = self.turn.rotation.apply(Vector(body.center_of_gravity));
         let free = &body.free;
         let zero = Vector::<f64>::zero();
         let (mut lever, mut spin) = ([zero; 3], [zero; 3]);
         let mut right = [0.0; 3];
+        let central = body.center_of_gravity == [0.0; 3];
         for k in 0..3 {
             if free[3 + k] {
                 let axis = &self.turn.axes[k];
-                lever[k] = axis.cross(arm);
                 spin[k] = self.turn.rotation.apply_transposed(*axis);
                 right[k] = axis.dot::<f64, f64>(*moment);
+            }
+        }
+        if !central {
+            let arm: Vector<f64> = self.turn.rotation.apply(Vector(body.center_of_gravity));
+            for k in (0..3).filter(|k| free[3 + k]) {
+                lever[k] = self.turn.axes[k].cross(arm);
                 for c in 0..3 {
                     right[k] -= if free[c] { lever[k].0[c] * force.0[c] } else { 0.0 };
                 }
@@ -204,17 +215,19 @@ impl Kinematics<f64> {
             let mut value = if k == l && !free[3 + k] { 1.0 } else { 0.0 };
             for c in 0..3 {
                 value += body.inertia[c] * spin[k].0[c] * spin[l].0[c];
-                value += if free[c] {
-                    0.0
-                } else {
-                    body.mass * lever[k].0[c] * lever[l].0[c]
-                };
+                if !central && !free[c] {
+                    value += body.mass * lever[k].0[c] * lever[l].0[c];
+                }
             }
             value
         };
-        // L D Lᵀ of the 3 × 3 matrix.
-        let d0 = entry(0, 0);
-        let (l10, l20) = (entry(1, 0) / d0, entry(2, 0) / d0);
+        // L D Lᵀ of the 3 × 3 matrix; a held roll leaves zeros.
+        let (d0, l10, l20) = if free[3] {
+            let d0 = entry(0, 0);
+            (d0, entry(1, 0) / d0, entry(2, 0) / d0)
+        } else {
+            (1.0, 0.0, 0.0)
+        };
         let d1 = entry(1, 1) - l10 * l10 * d0;
         let l21 = (entry(2, 1) - l20 * l10 * d0) / d1;
         let d2 = entry(2, 2) - l20 * l20 * d0 - l21 * l21 * d1;
@@ -225,9 +238,10 @@ impl Kinematics<f64> {
         let roll = right[0] / d0 - l10 * pitch - l20 * yaw;
         let turns = [roll, pitch, yaw];
         let mut out = [0.0; 6];
+        let inverse = 1.0 / body.mass;
         for c in 0..3 {
             if free[c] {
-                out[c] = force.0[c] / body.mass
+                out[c] = force.0[c] * inverse
                     - lever[0].0[c] * turns[0]
                     - lever[1].0[c] * turns[1]
                     - lever[2].0[c] * turns[2];

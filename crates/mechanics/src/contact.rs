@@ -13,7 +13,7 @@ use std::ops::{Add, Mul};
 
 use integrate::scalar::{Mask, Number, Real};
 
-pub(crate) use quads::Points;
+pub(crate) use quads::{Column, Points};
 
 use crate::friction::{Friction, FrictionLaw, bristle, tanh};
 use crate::link::Relative;

@@ -64,7 +64,8 @@ pub const SOLVERS: &[Solver] = &[
         method: "rodas5p",
         ours: true,
         span: 10.0,
-        options: "defaults (all quadratures of the energy ledger, contact modes located)",
+        options: "defaults (all quadratures of the energy ledger, contact modes located, kinks foreseen; positions and speeds held to 1e-5 of their \
+                  scales where a wider tolerance is asked for)",
     },
     Solver {
         name: "wedgelab Rodas4",

@@ -16,7 +16,9 @@ Read this first.
   better.
 - All solvers get the same compiled right-hand side and the same analytic Jacobian matrix; SciPy and Octave call them from their
   languages, which is where most of their time goes. Others integrate positions, speeds, bristles and one energy; ours integrates all
-  energies of the ledger and locates changes of contact besides.
+  energies of the ledger and locates changes of contact besides. It alone is told where contacts open and close and where slip
+  reverses, and ends its steps there, and it holds positions and speeds to 1e-5 of their scales where a wider tolerance is asked for:
+  at 1e-3 and 1e-4 it does more than the others are asked to.
 - The equations are those of this project: nothing here says how a solver does on others.
 - Runs without bolster yaw ring and are chaotic in detail: only means are compared there. Every error is compared only down to the
   floor, which is how far the reference's own solver at 1e-9 and 1e-10 is from itself at 1e-11. Where means scatter, one lucky run
@@ -144,16 +146,20 @@ pub fn failures(standings: &[Standing]) -> String {
     for one in standings {
         for name in one.solvers() {
             let failed = |run: &&Judgement| run.entry.solver == name && !run.entry.outcome.failure.is_empty();
-            let runs: Vec<&Judgement> = one.runs.iter().filter(failed).collect();
-            let Some(first) = runs.first() else { continue };
-            let tolerances: Vec<&str> = runs.iter().map(|run| run.entry.tolerance.as_str()).collect();
-            let _ = writeln!(
-                text,
-                "| {} | {name} | {} | {} |",
-                one.case,
-                tolerances.join(", "),
-                first.entry.outcome.failure
-            );
+            // Runs that were spared after one that was out of time stand in a line of their own.
+            for spared in [false, true] {
+                let kind = |run: &&Judgement| run.entry.outcome.failure.starts_with("not tried") == spared;
+                let runs: Vec<&Judgement> = one.runs.iter().filter(failed).filter(kind).collect();
+                let Some(first) = runs.first() else { continue };
+                let tolerances: Vec<&str> = runs.iter().map(|run| run.entry.tolerance.as_str()).collect();
+                let _ = writeln!(
+                    text,
+                    "| {} | {name} | {} | {} |",
+                    one.case,
+                    tolerances.join(", "),
+                    first.entry.outcome.failure
+                );
+            }
         }
     }
     text

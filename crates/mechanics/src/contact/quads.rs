@@ -12,7 +12,8 @@ use integrate::lanes::{LANES, LaneDual, LaneMask, Lanes};
 use integrate::scalar::{Dual, Mask, Number};
 
 use super::{ContactFace, ContactPoint, FaceResultant, Grade, PointContact};
-use crate::link::Relative;
+use crate::body::Kinematics;
+use crate::link::{Relative, Sight};
 use crate::surface::Plane;
 use crate::vector::{Matrix, Vector};
 
@@ -309,7 +310,7 @@ impl Points {
     #[inline(always)]
     pub fn change<const N: usize>(
         &self,
-        relative: &Relative<Dual<N>>,
+        columns: &[Column; N],
         internal: bool,
         mut rates: impl FnMut(usize, [[f64; 2]; N]),
     ) -> FaceResultant<Dual<N>> {
@@ -320,7 +321,6 @@ impl Points {
             friction_loss: Dual::from(value.friction_loss),
             damping_loss: Dual::from(value.damping_loss),
         };
-        let columns: [Column; N] = std::array::from_fn(|k| Column::new(relative, k));
         let mut changes = [Sums::none(); N];
         for (number, (quad, slopes)) in self.quads.iter().zip(&self.slopes).enumerate() {
             if !slopes.active {
@@ -386,8 +386,8 @@ pub(crate) struct InternalSlopes {
 }
 
 /// A small change of a body's motion, mount axes.
-#[derive(Clone, Copy)]
-struct Column {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Column {
     /// Of position (δp) and rotation (θ); none: only the velocities change.
     pose: Option<(Vector<f64>, Vector<f64>)>,
     velocity: Vector<f64>,
@@ -395,6 +395,51 @@ struct Column {
 }
 
 impl Column {
+    /// No change.
+    const NONE: Self = Self {
+        pose: None,
+        velocity: Vector([0.0; 3]),
+        spin: Vector([0.0; 3]),
+    };
+
+    /// All changes of a relative motion.
+    #[inline(always)]
+    pub fn all<const N: usize>(relative: &Relative<Dual<N>>) -> [Self; N] {
+        let mut columns = [Self::NONE; N];
+        for (k, column) in columns.iter_mut().enumerate() {
+            *column = Self::new(relative, k);
+        }
+        columns
+    }
+
+    /// Those of a body seen from a mount by its free coordinates and their rates: what [`Column::all`] gives for the same, from the
+    /// axes of the coordinates.
+    #[inline(always)]
+    pub fn of_body<const N: usize>(
+        sight: &Sight<f64>,
+        seeded: &Kinematics<Dual<N>>,
+        free: &[usize],
+    ) -> [Self; N] {
+        let mut columns = [Self::NONE; N];
+        let n = free.len();
+        let none = Vector::zero();
+        for (j, &k) in free.iter().enumerate() {
+            if k < 3 {
+                let place = sight.rotation.column(k);
+                columns[j].pose = Some((place, none));
+                columns[j].velocity = sight.angular_velocity.cross(place);
+                columns[n + j].velocity = place;
+            } else {
+                let turn = sight.rotation.apply(seeded.turn.axes[k - 3].value());
+                let spin = Vector(seeded.angular_velocity.0.map(|component| component.derivative[j]));
+                columns[j].pose = Some((none, turn));
+                columns[j].spin = sight.rotation.apply(spin);
+                columns[n + j].spin = turn;
+            }
+        }
+        columns
+    }
+
     #[inline(always)]
     fn new<const N: usize>(relative: &Relative<Dual<N>>, k: usize) -> Self {
         let part =

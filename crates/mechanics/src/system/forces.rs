@@ -6,7 +6,7 @@ use std::ops::Mul;
 use super::{Mounted, System};
 use crate::body::Kinematics;
 use crate::coil::{Coil, CoilForce};
-use crate::contact::{ContactFace, FaceResultant, Points};
+use crate::contact::{Column, ContactFace, FaceResultant, Points};
 use crate::link::{Mount, Relative, Sight};
 use crate::surface::Plane;
 use crate::vector::{Matrix, Vector};
@@ -40,6 +40,19 @@ pub(super) trait Element: Sized {
         relative: &Relative<Dual<N>>,
         rates: impl FnMut(usize, [[f64; 2]; N]),
     ) -> Action<Dual<N>>;
+
+    /// The same for the carried body's own coordinates `free` and their rates.
+    #[inline(always)]
+    fn change_with_body<const N: usize>(
+        &self,
+        points: &Points,
+        sight: &Sight<f64>,
+        seeded: &Kinematics<Dual<N>>,
+        _free: &[usize],
+        rates: impl FnMut(usize, [[f64; 2]; N]),
+    ) -> Action<Dual<N>> {
+        self.change(points, &sight.relative(seeded), rates)
+    }
 }
 
 impl Element for ContactFace<Plane> {
@@ -61,7 +74,21 @@ impl Element for ContactFace<Plane> {
         relative: &Relative<Dual<N>>,
         rates: impl FnMut(usize, [[f64; 2]; N]),
     ) -> Action<Dual<N>> {
-        Action::of_face(&points.change(relative, self.law.states_per_point() > 0, rates))
+        let internal = self.law.states_per_point() > 0;
+        Action::of_face(&points.change(&Column::all(relative), internal, rates))
+    }
+
+    #[inline(always)]
+    fn change_with_body<const N: usize>(
+        &self,
+        points: &Points,
+        sight: &Sight<f64>,
+        seeded: &Kinematics<Dual<N>>,
+        free: &[usize],
+        rates: impl FnMut(usize, [[f64; 2]; N]),
+    ) -> Action<Dual<N>> {
+        let internal = self.law.states_per_point() > 0;
+        Action::of_face(&points.change(&Column::of_body(sight, seeded, free), internal, rates))
     }
 }
 

@@ -236,11 +236,11 @@ impl Pass<'_> {
             force: Vector::zero(),
             moment: Vector::zero(),
         };
-        for face in self.faces {
-            self.element(face, &kinematics, &mut load, jacobian);
+        for &face in &free.faces {
+            self.element(&self.faces[face], &kinematics, &mut load, jacobian);
         }
-        for coil in self.coils {
-            self.element(coil, &kinematics, &mut load, jacobian);
+        for &coil in &free.coils {
+            self.element(&self.coils[coil], &kinematics, &mut load, jacobian);
         }
         let frame = &self.scene.frames[free.body];
         let (force, moment) = kinematics.inertia(
@@ -255,7 +255,7 @@ impl Pass<'_> {
         add_rows(&kinematics, &free.free, n, &force, &moment, blocks);
     }
 
-    /// Adds the derivatives of one element, if it touches the seeded body.
+    /// Adds the derivatives of one element that touches the seeded body.
     #[inline(always)]
     fn element<E: Element, const N: usize>(
         &self,
@@ -268,9 +268,6 @@ impl Pass<'_> {
         let free = &scene.free[self.number];
         let n = free.free.len();
         let carries = mounted.body == free.body;
-        if !carries && mounted.on != free.body {
-            return;
-        }
         let side = usize::from(!carries);
         let mut keep_rates = |point: usize, rates: [[f64; 2]; N]| {
             let [g_q, g_u, _] = jacobian.side_mut(mounted.first_internal / 2 + point, side);
@@ -281,26 +278,30 @@ impl Pass<'_> {
                 }
             }
         };
-        let relative: Relative<Dual<N>>;
         let action: Action<Dual<N>>;
         let drive;
         if carries {
-            relative = mounted.sight.relative(seeded);
-            action = mounted
-                .element
-                .change(&mounted.points, &relative, &mut keep_rates);
-            let (force, moment) = action.on_body(&mounted.sight);
+            let sight = &mounted.sight;
+            action =
+                mounted
+                    .element
+                    .change_with_body(&mounted.points, sight, seeded, &free.free, &mut keep_rates);
+            let (force, moment) = action.on_body(sight);
             load.force += force;
             load.moment += moment;
             if let (true, Some(on)) = (mounted.on_free, scene.free_number[mounted.on]) {
                 let kinematics = &scene.kinematics[mounted.on];
-                let (force, moment) = action.reaction(&relative, kinematics, &mounted.mount);
+                let (force, moment) = action.reaction(&sight.relative(seeded), kinematics, &mounted.mount);
                 let blocks = jacobian.blocks_mut(mounted.pairs[1]);
                 add_rows(kinematics, &scene.free[on].free, n, &force, &moment, blocks);
             }
-            drive = mounted
-                .driven
-                .then(|| action.drive_power(&relative, &mounted.sight));
+            drive = mounted.driven.then(|| {
+                if sight.mount_angular_velocity == Vector::zero() {
+                    sight.mount_velocity.dot(action.force)
+                } else {
+                    action.drive_power(&sight.relative(seeded), sight)
+                }
+            });
         } else {
             let (a, b) = (
                 &scene.frames[mounted.body].motion,
@@ -308,7 +309,7 @@ impl Pass<'_> {
             );
             let sight = Sight::new(&lift_frame(a), &lift_frame(b), seeded, &mounted.mount);
             let kinematics = &scene.kinematics[mounted.body];
-            relative = sight.relative(kinematics);
+            let relative = sight.relative(kinematics);
             action = mounted
                 .element
                 .change(&mounted.points, &relative, &mut keep_rates);

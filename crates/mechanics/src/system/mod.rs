@@ -67,10 +67,16 @@ struct FreeBody {
     body: usize,
     /// Its free coordinates.
     free: Vec<usize>,
+    /// The place of each coordinate among the free ones; beyond them: it is held.
+    slots: [usize; 6],
     /// Its first position among q, and its first speed among u.
     offset: usize,
     /// Its diagonal block in the Jacobian.
     pair: usize,
+    /// The faces that touch it, in their order.
+    faces: Vec<usize>,
+    /// The coils that touch it, in their order.
+    coils: Vec<usize>,
 }
 
 /// A body's reference frame.
@@ -188,9 +194,15 @@ impl System {
     fn coordinates(&self, free: &FreeBody, x: &[f64]) -> ([f64; 6], [f64; 6]) {
         let mut coordinates = self.bodies[free.body].initial;
         let mut speeds = [0.0; 6];
-        for (j, &k) in free.free.iter().enumerate() {
-            coordinates[k] = x[free.offset + j];
-            speeds[k] = x[self.layout.speeds + free.offset + j];
+        let n = free.free.len();
+        let (q, u) = (
+            &x[free.offset..][..n],
+            &x[self.layout.speeds + free.offset..][..n],
+        );
+        for k in 0..6 {
+            if let (Some(q), Some(u)) = (q.get(free.slots[k]), u.get(free.slots[k])) {
+                (coordinates[k], speeds[k]) = (*q, *u);
+            }
         }
         (coordinates, speeds)
     }

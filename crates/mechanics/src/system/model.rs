@@ -154,9 +154,12 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         let count = coordinates.len();
         free.push(FreeBody {
             body: number,
+            slots: std::array::from_fn(|k| coordinates.iter().position(|c| *c == k).unwrap_or(usize::MAX)),
             free: coordinates,
             offset,
             pair: 0,
+            faces: Vec::new(),
+            coils: Vec::new(),
         });
         offset += count;
     }
@@ -237,11 +240,17 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     for (number, free) in free.iter_mut().enumerate() {
         free.pair = jacobian.pair(number, number);
     }
-    for mounted in &mut mounted_faces {
+    for (face, mounted) in mounted_faces.iter_mut().enumerate() {
         mounted.find_pairs(&jacobian, &free_number);
+        for number in mounted.touches(&free_number) {
+            free[number].faces.push(face);
+        }
     }
-    for mounted in &mut mounted_coils {
+    for (coil, mounted) in mounted_coils.iter_mut().enumerate() {
         mounted.find_pairs(&jacobian, &free_number);
+        for number in mounted.touches(&free_number) {
+            free[number].coils.push(coil);
+        }
     }
 
     let mut error_scales = vec![f64::INFINITY; layout.len()];
@@ -385,9 +394,76 @@ impl Placer<'_> {
 }
 
 impl<E> Mounted<E> {
+    /// The free bodies that it touches, by their numbers among the free ones.
+    fn touches(&self, free_number: &[Option<usize>]) -> impl Iterator<Item = usize> + use<E> {
+        [self.body, self.on]
+            .map(|body| free_number[body])
+            .into_iter()
+            .flatten()
+    }
+
     fn find_pairs(&mut self, jacobian: &Partitioned, free_number: &[Option<usize>]) {
         if let (Some(body), Some(on)) = (free_number[self.body], free_number[self.on]) {
             self.pairs = [jacobian.pair(body, on), jacobian.pair(on, body)];
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coil::CoilLaw;
+    use crate::frame::Frame;
+    use crate::friction::FrictionLaw;
+    use crate::vector::Vector;
+
+    /// The lists from which the Jacobian is made hold each element at each free body that it touches, once and in order, so that
+    /// its cost grows in proportion to the elements.
+    #[test]
+    fn limits_each_body_lists_the_elements_that_touch_it_once() {
+        let place = || Frame::fixed([0.0; 3], [0.0; 3]);
+        let body = |free: bool| Body {
+            name: String::new(),
+            mass: 1.0,
+            inertia: [1.0; 3],
+            center_of_gravity: [0.0; 3],
+            frame: place(),
+            free: [free; 6],
+            initial: [0.0; 6],
+        };
+        let coil = Coil {
+            end: Vector([0.0; 3]),
+            acts_at: Vector([0.0; 3]),
+            law: CoilLaw::Linear { stiffness: 1.0 },
+            free_length: 1.0,
+            damping: 0.0,
+            rotational_damping: 0.0,
+            pulls: true,
+        };
+        let face = ContactFace {
+            name: String::new(),
+            points: Vec::new(),
+            surface: Plane,
+            coefficient: 0.0,
+            law: FrictionLaw::Tanh { reference_speed: 1.0 },
+        };
+        let mount = || Mount::new([0.0, 0.0, -1.0], [0.0; 3]);
+        // Bodies 1, 3, 4 are free, with the numbers 0, 1, 2.
+        let frees = [false, true, false, true, true];
+        let ends = [(1, 0), (1, 3), (4, 3), (4, 2), (3, 1)];
+        let system = build(Model {
+            bodies: frees.map(body).to_vec(),
+            gravity: [0.0; 3],
+            faces: ends.map(|(a, b)| (a, b, mount(), face.clone())).to_vec(),
+            coils: ends[1..]
+                .iter()
+                .map(|&(a, b)| (a, b, mount(), coil.clone()))
+                .collect(),
+        })
+        .unwrap();
+        let faces: Vec<&[usize]> = system.free.iter().map(|free| &free.faces[..]).collect();
+        let coils: Vec<&[usize]> = system.free.iter().map(|free| &free.coils[..]).collect();
+        assert_eq!(faces, [&[0, 1, 4][..], &[1, 2, 4], &[2, 3]]);
+        assert_eq!(coils, [&[0, 3][..], &[0, 1, 3], &[1, 2]]);
     }
 }

@@ -1,0 +1,224 @@
+//! Many wedges in one system, to see how the cost grows with their number.
+
+use mechanics::body::Body;
+use mechanics::coil::{Coil, CoilLaw};
+use mechanics::frame::Frame;
+use mechanics::link::Mount;
+use mechanics::motion::Motion;
+use mechanics::system::{Model, System};
+use mechanics::vector::{Matrix, Vector};
+use std::f64::consts::PI;
+use wedge::parameters::Damping;
+use wedge::{BOLSTER, SIDE_FRAME, WEDGE, Wedge, thesis};
+
+/// Toe out of all columns, rad.
+const TOE: f64 = 0.2 * PI / 180.0;
+/// Half the thickness of bolsters and of columns between wedges, m: wedges do not overlap.
+const HALF_THICKNESS: f64 = 0.25;
+/// Mass (kg) and moments of inertia (kg·m²) of a free bolster or column.
+const MASS: f64 = 300.0;
+const INERTIA: [f64; 3] = [10.0; 3];
+/// Stiffness (N/m), damping (N·s/m) and length (m) of what supports them.
+const STIFFNESS: f64 = 2e7;
+const DAMPING: f64 = 2e4;
+const LENGTH: f64 = 0.2;
+
+/// How the wedges of a system hang together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arrangement {
+    /// Each between a column and a bolster of its own, whose motions are prescribed.
+    Uncoupled,
+    /// Column, wedge, bolster, wedge, column, wedge ...: all but the first column are free bodies on stiff supports, so that every body is
+    /// coupled to its two neighbours.
+    Chained,
+}
+
+/// Where a wedge of the chain stands: moved along x, and turned by half a turn about the vertical axis if it looks backwards.
+struct Place {
+    shift: f64,
+    center: f64,
+    turned: bool,
+}
+
+impl Place {
+    fn point(&self, p: [f64; 3]) -> [f64; 3] {
+        let p = if self.turned {
+            [2.0 * self.center - p[0], -p[1], p[2]]
+        } else {
+            p
+        };
+        [p[0] + self.shift, p[1], p[2]]
+    }
+
+    /// A mount on a body of one wedge, as a mount on a body with this origin.
+    fn mount(&self, mount: &Mount, from: [f64; 3], on: [f64; 3]) -> Mount {
+        let place = self.point(std::array::from_fn(|k| from[k] + mount.origin.0[k]));
+        let rotation: Matrix<f64> = if self.turned {
+            mechanics::turn::fixed([0.0, 0.0, PI]).times(mount.rotation)
+        } else {
+            mount.rotation
+        };
+        Mount {
+            origin: Vector(std::array::from_fn(|k| place[k] - on[k])),
+            rotation,
+        }
+    }
+}
+
+/// A system of `count` wedges of the thesis, variable damping, toe out, whose bolsters (or their supports) move up and down.
+///
+/// # Errors
+/// They make no system, which would be a defect.
+pub fn wedges(count: usize, arrangement: Arrangement) -> Result<System, String> {
+    let one =
+        Wedge::new(thesis::parameters(Damping::Variable, TOE, 0.0)).map_err(|error| error.to_string())?;
+    let model = match arrangement {
+        Arrangement::Uncoupled => uncoupled(&one, count),
+        Arrangement::Chained => chained(&one, count),
+    };
+    System::new(model).map_err(|error| error.to_string())
+}
+
+fn uncoupled(one: &Wedge, count: usize) -> Model {
+    let system = &one.system;
+    let each = system.bodies().len();
+    let mut model = empty(one);
+    for number in 0..count {
+        let first = number * each;
+        model.bodies.extend_from_slice(system.bodies());
+        for face in system.faces() {
+            let element = face.element.clone();
+            model
+                .faces
+                .push((first + face.body, first + face.on, face.mount, element));
+        }
+        for coil in system.coils() {
+            let element = coil.element.clone();
+            model
+                .coils
+                .push((first + coil.body, first + coil.on, coil.mount, element));
+        }
+    }
+    model
+}
+
+fn chained(one: &Wedge, count: usize) -> Model {
+    let system = &one.system;
+    let bodies = system.bodies();
+    let (column, pocket) = (bodies[SIDE_FRAME].frame.origin, bodies[BOLSTER].frame.origin);
+    // The first bolster's centre, and the way from one column to the next but one wedge.
+    let center = pocket[0] + HALF_THICKNESS;
+    let period = 2.0 * (center - column[0]) + 2.0 * HALF_THICKNESS;
+    let mut model = empty(one);
+    let table = Body::prescribed("table", moving([0.0; 3]));
+    model.bodies.extend([bodies[SIDE_FRAME].clone(), table]);
+    let (ground, table) = (0, 1);
+    let mut behind = ground;
+    for number in 0..count {
+        let turned = number % 2 == 1;
+        let place = Place {
+            shift: (number / 2) as f64 * period,
+            center,
+            turned,
+        };
+        // What the wedge leans on in front: a bolster of its own, or the next column.
+        let ahead = model.bodies.len();
+        let x = place.shift
+            + if turned {
+                period - HALF_THICKNESS + column[0]
+            } else {
+                center
+            };
+        let (name, support) = if turned {
+            ("column", ground)
+        } else {
+            ("bolster", table)
+        };
+        let origin = [x, 0.0, pocket[2]];
+        model
+            .bodies
+            .push(free_body(&format!("{name}_{}", number / 2 + 1), origin));
+        let from = model.bodies[support].frame.origin;
+        add_supports(&mut model, ahead, support, origin, from);
+        let wedge = model.bodies.len();
+        let mut body = bodies[WEDGE].clone();
+        body.name = format!("wedge_{}", number + 1);
+        body.frame.origin = place.point(body.frame.origin);
+        body.frame.orientation = [0.0, 0.0, if turned { PI } else { 0.0 }];
+        model.bodies.push(body);
+        // A wedge that looks backwards has its bolster behind and its column ahead.
+        let on = |role: usize| {
+            if (role == BOLSTER) == turned {
+                behind
+            } else {
+                ahead
+            }
+        };
+        for face in system.faces() {
+            let on = on(face.on);
+            let (from, to) = (bodies[face.on].frame.origin, model.bodies[on].frame.origin);
+            let mount = place.mount(&face.mount, from, to);
+            model.faces.push((wedge, on, mount, face.element.clone()));
+        }
+        for coil in system.coils() {
+            let on = on(coil.on);
+            let (from, to) = (bodies[coil.on].frame.origin, model.bodies[on].frame.origin);
+            let mount = place.mount(&coil.mount, from, to);
+            model.coils.push((wedge, on, mount, coil.element.clone()));
+        }
+        behind = ahead;
+    }
+    model
+}
+
+fn empty(one: &Wedge) -> Model {
+    Model {
+        bodies: Vec::new(),
+        gravity: [0.0, 0.0, -one.parameters.gravity],
+        faces: Vec::new(),
+        coils: Vec::new(),
+    }
+}
+
+/// A frame that moves up and down as the thesis's bolsters do.
+fn moving(origin: [f64; 3]) -> Frame {
+    let mut frame = Frame::fixed(origin, [0.0; 3]);
+    frame.motions[2] = Motion::Sine {
+        amplitude: 0.0254,
+        angular_frequency: 2.0,
+        phase: 0.0,
+    };
+    frame
+}
+
+/// A body between two wedges, with the coordinates of a wedge.
+fn free_body(name: &str, origin: [f64; 3]) -> Body {
+    Body {
+        name: name.to_owned(),
+        mass: MASS,
+        inertia: INERTIA,
+        center_of_gravity: [0.0; 3],
+        frame: Frame::fixed(origin, [0.0; 3]),
+        free: [true, false, true, false, true, true],
+        initial: [0.0; 6],
+    }
+}
+
+/// Two springs below the body and two behind it hold x, z, pitch and yaw.
+fn add_supports(model: &mut Model, body: usize, on: usize, origin: [f64; 3], from: [f64; 3]) {
+    let below = |x: f64| ([x, 0.0, 0.0], [x, 0.0, -LENGTH]);
+    let behind = |y: f64| ([0.0, y, 0.0], [-LENGTH, y, 0.0]);
+    for (end, seat) in [below(-0.1), below(0.1), behind(-0.1), behind(0.1)] {
+        let coil = Coil {
+            end: Vector(end),
+            acts_at: Vector(end),
+            law: CoilLaw::Linear { stiffness: STIFFNESS },
+            free_length: LENGTH,
+            damping: DAMPING,
+            rotational_damping: 0.0,
+            pulls: true,
+        };
+        let seat = std::array::from_fn(|k| origin[k] + seat[k] - from[k]);
+        model.coils.push((body, on, Mount::new(seat, [0.0; 3]), coil));
+    }
+}
