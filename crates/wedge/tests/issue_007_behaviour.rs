@@ -22,7 +22,8 @@ fn lost(damping: Damping, toe: f64, method: Method, relative_tolerance: f64) -> 
     }
     let x = integrator.x();
     (
-        [x[2 * speeds + 1], x[2 * speeds + 2]],
+        // The work of the motion comes first, then the losses at column and slope.
+        x[2 * speeds + 1] + x[2 * speeds + 2],
         integrator.statistics().steps,
     )
 }
