@@ -1,4 +1,5 @@
 //! `wedge_count [MOST]`: how the cost of a step grows with the number of wedges in one system, uncoupled and in a chain.
+//! `wedge_count uncoupled|chained COUNT STEPS`: these steps of one system alone, contact modes not recorded, to count instructions.
 //!
 //! CPU times. A step is one of Rodas5P of a fixed length (10 µs) of the first 4 ms, the least of several runs: with and without
 //! the recording of contact modes. Pieces: right-hand side, Jacobian matrix, factorization, solution, in the state that the last step
@@ -19,6 +20,8 @@ const STEP: f64 = 1e-5;
 const STEPS: u32 = 400;
 /// Runs: as many as give this many wedges in all, and three.
 const WEDGES: usize = 200;
+
+const USAGE: &str = "usage: wedge_count [MOST], or wedge_count uncoupled|chained COUNT STEPS";
 
 /// A system whose contact modes nobody records.
 struct Unrecorded(System);
@@ -48,14 +51,44 @@ impl Problem for Unrecorded {
 }
 
 fn main() -> ExitCode {
-    let most = std::env::args().nth(1).map_or(Ok(200), |text| text.parse());
-    let Ok(most) = most else {
-        eprintln!("usage: wedge_count [MOST], such as 50");
-        return ExitCode::from(2);
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let done = match words.as_slice() {
+        [] => table(usize::MAX),
+        [most] => most.parse().map_err(|_| USAGE.to_owned()).and_then(table),
+        [arrangement, count, number] => one(arrangement, count, number),
+        _ => Err(USAGE.to_owned()),
     };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Steps of one system alone.
+fn one(arrangement: &str, count: &str, number: &str) -> Result<(), String> {
+    let arrangement = match arrangement {
+        "uncoupled" => Arrangement::Uncoupled,
+        "chained" => Arrangement::Chained,
+        _ => return Err(USAGE.to_owned()),
+    };
+    let (Ok(count), Ok(number)) = (count.parse(), number.parse()) else {
+        return Err(USAGE.to_owned());
+    };
+    let system = wedges(count, arrangement)?;
+    // Without the clock, which stops Valgrind.
+    advance(&mut begin(Unrecorded(system.clone()), &system)?, number)
+}
+
+/// The costs of all systems up to this number of wedges.
+fn table(most: usize) -> Result<(), String> {
     println!(
         "CPU times, µs, each divided by the number of wedges; events: changes of contact modes a step and wedge."
     );
+    println!("Step: contact modes not recorded; recorded: with them.");
     for arrangement in [Arrangement::Uncoupled, Arrangement::Chained] {
         println!(
             "\n{:12} {:>6} {:>10} {:>10} {:>8} {:>10} {:>10} {:>10} {:>10}",
@@ -70,16 +103,10 @@ fn main() -> ExitCode {
             "solve"
         );
         for count in COUNTS.into_iter().filter(|count| *count <= most) {
-            match measure(count, arrangement) {
-                Ok(line) => println!("{:12} {count:>6} {line}", ""),
-                Err(error) => {
-                    eprintln!("{count} wedges, {arrangement:?}: {error}");
-                    return ExitCode::FAILURE;
-                }
-            }
+            println!("{:12} {count:>6} {}", "", measure(count, arrangement)?);
         }
     }
-    ExitCode::SUCCESS
+    Ok(())
 }
 
 /// The costs of one system.
@@ -105,20 +132,28 @@ fn measure(count: usize, arrangement: Arrangement) -> Result<String, String> {
 
 /// The mean cost of a step, µs, the number of events, and the state at the end.
 fn steps<P: Problem>(problem: P, system: &System) -> Result<(f64, u64, Vec<f64>), String> {
+    let mut integrator = begin(problem, system)?;
+    let begun = cpu_seconds();
+    advance(&mut integrator, STEPS)?;
+    let cost = 1e6 * (cpu_seconds() - begun) / f64::from(STEPS);
+    Ok((cost, integrator.statistics().events, integrator.x().to_vec()))
+}
+
+fn begin<P: Problem>(problem: P, system: &System) -> Result<Integrator<P>, String> {
     let options = Options {
         fixed_step: Some(STEP),
         ..Options::default()
     };
-    let mut integrator =
-        Integrator::new(problem, options, 0.0, &system.initial_state()).map_err(|error| error.to_string())?;
-    let begun = cpu_seconds();
-    for _ in 0..STEPS {
+    Integrator::new(problem, options, 0.0, &system.initial_state()).map_err(|error| error.to_string())
+}
+
+fn advance<P: Problem>(integrator: &mut Integrator<P>, number: u32) -> Result<(), String> {
+    for _ in 0..number {
         integrator
             .step_to(f64::INFINITY)
             .map_err(|error| error.to_string())?;
     }
-    let cost = 1e6 * (cpu_seconds() - begun) / f64::from(STEPS);
-    Ok((cost, integrator.statistics().events, integrator.x().to_vec()))
+    Ok(())
 }
 
 /// Right-hand side, Jacobian matrix, factorization, solution, µs.
