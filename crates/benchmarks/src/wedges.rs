@@ -65,13 +65,14 @@ impl Place {
     }
 }
 
-/// A system of `count` wedges of the thesis, variable damping, toe out, whose bolsters (or their supports) move up and down.
+/// A system of `count` wedges of the thesis, variable damping, toe out, whose bolsters (or their supports) move down and up.
 ///
 /// # Errors
 /// They make no system, which would be a defect.
 pub fn wedges(count: usize, arrangement: Arrangement) -> Result<System, String> {
-    let one =
-        Wedge::new(thesis::parameters(Damping::Variable, TOE, 0.0)).map_err(|error| error.to_string())?;
+    let mut parameters = thesis::parameters(Damping::Variable, TOE, 0.0);
+    parameters.bolster.coordinates[2] = downwards();
+    let one = Wedge::new(parameters).map_err(|error| error.to_string())?;
     let model = match arrangement {
         Arrangement::Uncoupled => uncoupled(&one, count),
         Arrangement::Chained => chained(&one, count),
@@ -110,7 +111,9 @@ fn chained(one: &Wedge, count: usize) -> Model {
     let center = pocket[0] + HALF_THICKNESS;
     let period = 2.0 * (center - column[0]) + 2.0 * HALF_THICKNESS;
     let mut model = empty(one);
-    let table = Body::prescribed("table", moving([0.0; 3]));
+    let mut frame = Frame::fixed([0.0; 3], [0.0; 3]);
+    frame.motions[2] = downwards();
+    let table = Body::prescribed("table", frame);
     model.bodies.extend([bodies[SIDE_FRAME].clone(), table]);
     let (ground, table) = (0, 1);
     let mut behind = ground;
@@ -180,15 +183,13 @@ fn empty(one: &Wedge) -> Model {
     }
 }
 
-/// A frame that moves up and down as the thesis's bolsters do.
-fn moving(origin: [f64; 3]) -> Frame {
-    let mut frame = Frame::fixed(origin, [0.0; 3]);
-    frame.motions[2] = Motion::Sine {
-        amplitude: 0.0254,
+/// As the thesis's bolsters move, but downwards first, which presses the wedges.
+fn downwards() -> Motion {
+    Motion::Sine {
+        amplitude: -0.0254,
         angular_frequency: 2.0,
         phase: 0.0,
-    };
-    frame
+    }
 }
 
 /// A body between two wedges, with the coordinates of a wedge.

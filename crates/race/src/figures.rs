@@ -31,7 +31,7 @@ fn panel(one: &Standing) -> Panel {
             .filter(|run| run.entry.solver == solver.name && run.finished())
             .filter_map(|run| {
                 let error = run.error?.max(one.floor);
-                (error < 1.0).then(|| (error.log10(), run.entry.outcome.cpu.log10()))
+                (error > 0.0 && error < 1.0).then(|| (error.log10(), run.entry.outcome.cpu.log10()))
             })
             .collect();
         let (colour, line) = look(solver.name);
@@ -78,7 +78,10 @@ pub fn figures(standings: &[Standing]) -> Vec<(&'static str, Figure)> {
     ];
     let mut figures = Vec::new();
     for (name, title, takes) in groups {
-        let panels: Vec<Panel> = standings.iter().filter(|one| takes(one)).map(panel).collect();
+        // Where there is no force at all, there is no error to draw.
+        let drawn = |panel: &Panel| !panel.curves.is_empty();
+        let panels = standings.iter().filter(|one| takes(one)).map(panel);
+        let panels: Vec<Panel> = panels.filter(drawn).collect();
         if panels.is_empty() {
             continue;
         }
