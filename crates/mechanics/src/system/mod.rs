@@ -55,8 +55,9 @@ pub mod scales {
     /// Energy lost in contact damping, J: smaller, because it goes on while a point that carries no force any more
     /// springs back, which no other state sees.
     pub const CONTACT_DAMPING_LOSS: f64 = 1.0;
-    /// The widest tolerance that positions and speeds are held to, whatever is asked for: 1e-6 m and 1e-4 m/s. With more a wedge slides
-    /// to and fro by the integrator's own errors, steps follow each reversal, and the run is slower and wrong.
+    /// The widest tolerance that positions and speeds are held to, whatever is asked for: 1e-6 m and 1e-4 m/s, speeds also to the reference
+    /// speed of friction by tanh (of a point 0.1 m from the axis, if they are angular). With more a wedge slides to and fro by the
+    /// integrator's own errors, each of them admissible: steps follow the reversals, and the run is slower and wrong.
     pub const WIDEST_TOLERANCE: f64 = 1e-5;
 }
 

@@ -1,12 +1,13 @@
 //! The description of a system, and how it becomes a [`System`].
 
-use integrate::partitioned::Partitioned;
+use integrate::partitioned::{Layout, Partitioned};
 use thiserror::Error;
 
 use super::{FrameState, FreeBody, System, is_bristle, scale_of, scales, structure};
 use crate::body::{Body, Kinematics};
 use crate::coil::Coil;
 use crate::contact::{ContactFace, Points};
+use crate::friction::FrictionLaw;
 use crate::link::{Mount, Sight, Translation};
 use crate::surface::Plane;
 use crate::vector::Vector;
@@ -269,10 +270,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             };
         }
     }
-    let error_bounds = error_scales[..2 * layout.speeds]
-        .iter()
-        .map(|scale| scale * scales::WIDEST_TOLERANCE)
-        .collect();
+    let error_bounds = error_bounds(&error_scales, layout, &mounted_faces);
     let moves = frames.iter().any(|frame| !frame.fixed);
     Ok(System {
         accelerations: vec![[0.0; 6]; bodies.len()],
@@ -296,6 +294,21 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         jacobian,
         moves,
     })
+}
+
+/// The widest admissible errors of positions and speeds: see [`scales::WIDEST_TOLERANCE`].
+fn error_bounds(error_scales: &[f64], layout: Layout, faces: &[Mounted<ContactFace<Plane>>]) -> Vec<f64> {
+    let [q, u, ..] = layout.split(error_scales);
+    let mut widest_speed = scales::WIDEST_TOLERANCE;
+    for face in faces {
+        if let FrictionLaw::Tanh { reference_speed } = face.element.law {
+            widest_speed = widest_speed.min(reference_speed / scales::VELOCITY);
+        }
+    }
+    let positions = q.iter().map(|scale| scale * scales::WIDEST_TOLERANCE);
+    positions
+        .chain(u.iter().map(|scale| scale * widest_speed))
+        .collect()
 }
 
 /// Puts elements in their places.
@@ -414,7 +427,6 @@ mod tests {
     use super::*;
     use crate::coil::CoilLaw;
     use crate::frame::Frame;
-    use crate::friction::FrictionLaw;
     use crate::vector::Vector;
 
     /// The lists from which the Jacobian is made hold each element at each free body that it touches, once and in order, so that
