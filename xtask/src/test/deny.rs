@@ -46,6 +46,8 @@ fn program(workspace: &Workspace) -> Result<PathBuf, String> {
     let mut install = workspace.cargo([
         "install",
         "cargo-deny",
+        // It is compiled more often than it is run.
+        "--debug",
         "--locked",
         "--force",
         "--version",
