@@ -55,13 +55,13 @@ export class FieldView {
     this.stop();
   }
 
-  /** Shows other values of the same kind of field; not where somebody types. */
-  show(field: Field, first: boolean): void {
+  /** Shows other values of the same kind of field; not where somebody types, nor over what is `newer`. */
+  show(field: Field, first: boolean, newer: boolean): void {
     this.field = field;
     if (field.input.type === "number") {
       this.measured = first || !this.measured ? field.input : widened(this.measured, field.input);
     }
-    if (first || !this.control.contains(document.activeElement) || this.message.textContent === "") {
+    if (!newer && (first || !this.control.contains(document.activeElement) || this.message.textContent === "")) {
       for (const write of this.writers) {
         write(field);
       }

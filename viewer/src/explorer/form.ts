@@ -40,8 +40,11 @@ export class Form {
     this.root.addEventListener("submit", (event) => event.preventDefault());
   }
 
-  /** Shows the values; `first` if they are another case's, so that sliders get new ranges. */
-  show(sections: Section[], set: Record<string, string>, first: boolean): void {
+  /**
+   * Shows the values; `first` if they are another case's, so that sliders get new ranges. What `newer` names has been
+   * changed since these values were asked for, a slider that is being moved, say: it stays as it is.
+   */
+  show(sections: Section[], set: Record<string, string>, first: boolean, newer: (path: string) => boolean): void {
     const shapes = sections.flatMap(({ fields }) => fields.map(shape)).join("\n");
     if (shapes !== this.shapes) {
       this.build(sections);
@@ -49,7 +52,7 @@ export class Form {
     }
     for (const field of sections.flatMap(({ fields }) => fields)) {
       const view = this.views.get(field.path);
-      view?.show(field, first);
+      view?.show(field, first, newer(field.path));
       view?.mark(field.path in set);
     }
   }

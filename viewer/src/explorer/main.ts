@@ -20,6 +20,11 @@ const PATIENCE = 600;
 const REST = 350;
 const FILES = ["case.toml", "result.csv", "result.mat", "summary.json"];
 
+/** What is set of a field, or inside it. */
+function within(set: Record<string, string>, path: string): string {
+  return JSON.stringify(Object.entries(set).filter(([own]) => own === path || own.startsWith(`${path}.`)));
+}
+
 class Explorer {
   private readonly form: Form;
   private readonly loops: Loops;
@@ -230,7 +235,7 @@ class Explorer {
     const { summary, view, sections, seconds } = answer;
     this.last = JSON.stringify(wanted);
     this.form.complain([]);
-    this.form.show(sections, this.set, first);
+    this.form.show(sections, this.set, first, (path) => within(this.set, path) !== within(wanted.set, path));
     const notes = summary.warnings.map((message) => ({ path: "", message, help: "" }));
     if (summary.stopped) {
       notes.unshift({ path: "", message: `The run stopped at ${summary.stopped.time.toPrecision(4)} s: ${summary.stopped.reason}`, help: "Values far from the thesis's are the first suspects." });
