@@ -28,7 +28,8 @@ impl Controller {
     #[inline]
     pub fn accept(&mut self, options: &Options, step: f64, root: f64) -> (f64, bool) {
         let mut divisor = root / options.safety;
-        if self.step > 0.0 {
+        // After a rejection the step before says nothing of the trend: a kink lies between.
+        if self.step > 0.0 && self.rejections == 0 {
             divisor = divisor.max(root * root / (self.root * options.safety) * (self.step / step));
         }
         let wanted = 1.0 / divisor;

@@ -27,6 +27,10 @@ const NEAR_LAYER: f64 = 0.05;
 const ROUNDS: usize = 15;
 /// A direction that reverses: the layer begins at this size.
 const EDGE: f64 = 4.0;
+/// The first step in a layer, in parts of the way to its middle.
+const FIRST: f64 = 0.5;
+/// Behind a layer the direction is larger than this.
+const OUT: f64 = 3.0;
 /// It does reverse if all of it has become smaller than this when its part along the old direction comes to the edge.
 const NARROW: f64 = 5.0 * EDGE;
 
@@ -45,10 +49,29 @@ pub struct KinkSigns {
 pub(crate) enum Ahead {
     /// A kink: the next step should end at this time, just behind it.
     Kink(f64),
-    /// A thin layer: the next step should end at this time, before it, and the one after it should have this length.
-    Layer(f64, f64),
-    /// A thin layer right ahead: the next step should have this length.
-    InLayer(f64),
+    /// A thin layer: the next step should end at this time, before it.
+    Layer(f64, Layer),
+    /// A thin layer right ahead.
+    InLayer(Layer),
+}
+
+/// A thin layer in which a direction reverses.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Layer {
+    /// Length of the first step in it.
+    pub length: f64,
+    /// Number of the direction.
+    direction: usize,
+    /// Where it points before.
+    from: [f64; 2],
+}
+
+/// A layer on the way through.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Passage {
+    pub layer: Layer,
+    /// Length of the steps before it.
+    pub planned: f64,
 }
 
 /// Scratch memory.
@@ -82,6 +105,20 @@ impl Kinks {
         }
     }
 
+    /// Looks at the end of a step: before [`Kinks::is_behind`] and [`Kinks::foresee`].
+    pub fn look<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>) {
+        if !self.now.is_empty() {
+            self.begin(problem, dense);
+        }
+    }
+
+    /// Whether a layer lies behind: what reversed in it is large again, and points elsewhere.
+    pub fn is_behind(&self, layer: &Layer) -> bool {
+        let [a, b] = self.signs.directions[layer.direction];
+        let size = (a * a + b * b).sqrt();
+        size > OUT && a * layer.from[0] + b * layer.from[1] < 0.5 * size
+    }
+
     /// Where the next step should end if there is a kink within `length` of the end of a step, whose scaled error was `error`.
     pub fn foresee<P: Problem>(
         &mut self,
@@ -97,7 +134,6 @@ impl Kinks {
         if error * fifth(1.0 + reach) > TRUST {
             reach = libm::pow(TRUST / error, 0.2) - 1.0;
         }
-        self.begin(problem, dense);
         loop {
             let (low, high, index) = self.locate(problem, dense, 1.0 + reach, error)?;
             let Some(direction) = index.checked_sub(self.signs.values.len()) else {
@@ -110,12 +146,20 @@ impl Kinks {
                 // Along the line between the ends of the bracket.
                 let fall = (self.low[index] - self.high[index]) / (high - low);
                 let middle = (self.low[index] + EDGE) / fall * dense.step;
+                let layer = |length| Layer {
+                    length,
+                    direction,
+                    from: self.towards[direction],
+                };
                 return if !(middle > NEAR_KINK * dense.step && middle.is_finite()) {
                     None
                 } else if low < 1.0 + NEAR_LAYER {
-                    Some(Ahead::InLayer((low - 1.0) * dense.step + middle))
+                    Some(Ahead::InLayer(layer((low - 1.0) * dense.step + FIRST * middle)))
                 } else {
-                    Some(Ahead::Layer(dense.start + low * dense.step, middle))
+                    Some(Ahead::Layer(
+                        dense.start + low * dense.step,
+                        layer(FIRST * middle),
+                    ))
                 };
             }
             // It only turns.

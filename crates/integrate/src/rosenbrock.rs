@@ -3,7 +3,7 @@
 use crate::control::Controller;
 use crate::error::SetupError;
 use crate::events::{Event, Switches};
-use crate::kinks::{Ahead, Kinks};
+use crate::kinks::{Ahead, Kinks, Passage};
 use crate::lanes::LANES;
 use crate::options::Options;
 use crate::problem::Problem;
@@ -51,6 +51,7 @@ pub struct Integrator<P: Problem> {
     segment_end: f64,
     proposed_step: f64,
     ahead: Option<Ahead>,
+    passage: Option<Passage>,
     kinks: Kinks,
     controller: Controller,
     statistics: Statistics,
@@ -100,6 +101,7 @@ impl<P: Problem> Integrator<P> {
             segment_start: time,
             proposed_step: 1.0,
             ahead: None,
+            passage: None,
             controller: Controller::default(),
             statistics: Statistics::default(),
         };
@@ -169,6 +171,7 @@ impl<P: Problem> Integrator<P> {
             segment_end,
             proposed_step: state.proposed_step,
             ahead: state.ahead,
+            passage: state.passage,
             controller: state.controller,
             statistics: state.statistics,
             previous_x: x.clone(),
@@ -210,6 +213,7 @@ impl<P: Problem> Integrator<P> {
             segment_start: self.segment_start,
             proposed_step: self.proposed_step,
             ahead: self.ahead,
+            passage: self.passage,
             controller: self.controller.clone(),
             statistics: self.statistics.clone(),
         }
@@ -337,6 +341,7 @@ impl<P: Problem> Integrator<P> {
     pub fn renew(&mut self) {
         self.evaluate_derivative();
         self.ahead = None;
+        self.passage = None;
     }
 
     /// Whether a saved state can belong to this problem.
@@ -365,6 +370,7 @@ impl<P: Problem> Integrator<P> {
         (self.segment_start, self.segment_end) = (state.segment_start, segment_end);
         self.proposed_step = state.proposed_step;
         self.ahead = state.ahead;
+        self.passage = state.passage;
         self.controller.clone_from(&state.controller);
         self.statistics.clone_from(&state.statistics);
         let counted = self.statistics.derivatives;
@@ -378,6 +384,7 @@ impl<P: Problem> Integrator<P> {
     pub fn refresh(&mut self) {
         self.evaluate_derivative();
         self.ahead = None;
+        self.passage = None;
         self.controller.restart();
     }
 }

@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::Controller;
 use crate::error::SetupError;
-use crate::kinks::Ahead;
+use crate::kinks::{Ahead, Passage};
 use crate::statistics::Statistics;
 
 /// Version of [`State`].
-pub const STATE_VERSION: u32 = 2;
+pub const STATE_VERSION: u32 = 3;
 
 /// All that is needed to continue an integration with the same bits.
 ///
@@ -30,6 +30,8 @@ pub struct State {
     pub proposed_step: f64,
     /// What is foreseen for the next step.
     pub(crate) ahead: Option<Ahead>,
+    /// The thin layer on the way through.
+    pub(crate) passage: Option<Passage>,
     /// Memory of the step-size control.
     pub(crate) controller: Controller,
     /// What was done so far.

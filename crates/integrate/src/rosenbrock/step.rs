@@ -2,12 +2,15 @@
 
 use super::Integrator;
 use crate::error::{Reason, StepError};
-use crate::kinks::Ahead;
+use crate::kinks::{Ahead, Passage};
 use crate::problem::Problem;
 use crate::stages::{Dense, all_finite, combine, largest};
 
 /// The part of the planned step that is tried behind a kink.
 const BEHIND_KINK: f64 = 0.5;
+
+/// A layer in which nothing reverses (slip that comes to stick, say) is behind where errors are smaller than this.
+const SETTLED: f64 = 0.01;
 
 /// The part of the planned step that a step to a kink may have in one go.
 const WHOLE_LANDING: f64 = 0.7;
@@ -282,8 +285,12 @@ impl<P: Problem> Integrator<P> {
                     self.proposed_step = self.proposed_step.max(BEHIND_KINK * proposed);
                     self.controller.restart();
                 }
-                Some(Ahead::Layer(_, length)) => {
-                    self.proposed_step = self.proposed_step.min(length);
+                Some(Ahead::Layer(_, layer)) => {
+                    self.passage = Some(Passage {
+                        layer,
+                        planned: proposed,
+                    });
+                    self.proposed_step = self.proposed_step.min(layer.length);
                     self.controller.restart();
                 }
                 _ => {}
@@ -300,11 +307,23 @@ impl<P: Problem> Integrator<P> {
             stages: &self.stages,
         };
         if self.options.fixed_step.is_none() {
+            self.kinks.look(&mut self.problem, &dense);
+            if let Some(Passage { layer, planned }) = self.passage
+                && (error < SETTLED || self.proposed_step >= planned || self.kinks.is_behind(&layer))
+            {
+                self.passage = None;
+                self.proposed_step = self.proposed_step.max(BEHIND_KINK * planned);
+                self.controller.restart();
+            }
             let length = self.proposed_step.min(self.segment_end - self.time);
             self.ahead = self.kinks.foresee(&mut self.problem, &dense, length, error);
             self.statistics.kinks_foreseen += u64::from(self.ahead.is_some());
-            if let Some(Ahead::InLayer(length)) = self.ahead {
-                self.proposed_step = self.proposed_step.min(length);
+            if let Some(Ahead::InLayer(layer)) = self.ahead {
+                self.passage = Some(Passage {
+                    layer,
+                    planned: self.proposed_step,
+                });
+                self.proposed_step = self.proposed_step.min(layer.length);
                 self.controller.restart();
             }
         }
