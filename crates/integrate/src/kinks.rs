@@ -27,8 +27,6 @@ const NEAR_LAYER: f64 = 0.05;
 const ROUNDS: usize = 15;
 /// A direction that reverses: the layer begins at this size.
 const EDGE: f64 = 4.0;
-/// The first step in a layer, in parts of the way to its middle.
-const FIRST: f64 = 0.5;
 /// Behind a layer the direction is larger than this.
 const OUT: f64 = 3.0;
 /// It does reverse if all of it has become smaller than this when its part along the old direction comes to the edge.
@@ -154,12 +152,9 @@ impl Kinks {
                 return if !(middle > NEAR_KINK * dense.step && middle.is_finite()) {
                     None
                 } else if low < 1.0 + NEAR_LAYER {
-                    Some(Ahead::InLayer(layer((low - 1.0) * dense.step + FIRST * middle)))
+                    Some(Ahead::InLayer(layer((low - 1.0) * dense.step + middle)))
                 } else {
-                    Some(Ahead::Layer(
-                        dense.start + low * dense.step,
-                        layer(FIRST * middle),
-                    ))
+                    Some(Ahead::Layer(dense.start + low * dense.step, layer(middle)))
                 };
             }
             // It only turns.

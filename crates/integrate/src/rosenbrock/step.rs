@@ -10,7 +10,7 @@ use crate::stages::{Dense, all_finite, combine, largest};
 const BEHIND_KINK: f64 = 0.5;
 
 /// A layer in which nothing reverses (slip that comes to stick, say) is behind where errors are smaller than this.
-const SETTLED: f64 = 0.01;
+const SETTLED: f64 = 0.001;
 
 /// The part of the planned step that a step to a kink may have in one go.
 const WHOLE_LANDING: f64 = 0.7;
