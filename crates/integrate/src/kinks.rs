@@ -27,6 +27,8 @@ const NEAR_LAYER: f64 = 0.05;
 const ROUNDS: usize = 15;
 /// A direction that reverses: the layer begins at this size.
 const EDGE: f64 = 4.0;
+/// An error of a speed may have this part of the slowest slip.
+const SLACK: f64 = 0.05;
 /// Behind a layer the direction is larger than this.
 const OUT: f64 = 3.0;
 /// It does reverse if all of it has become smaller than this when its part along the old direction comes to the edge.
@@ -38,7 +40,7 @@ pub struct KinkSigns {
     /// Smooth functions across whose zeros the right-hand side has a kink.
     pub values: Vec<f64>,
     /// Plane vectors around whose zero, in a circle of radius 1, the right-hand side changes as across a jump (the slip of a contact
-    /// point over the reference speed of its friction law); zero where there is nothing to reverse.
+    /// point over the reference speed of its friction law); not a number where there is nothing to reverse.
     pub directions: Vec<[f64; 2]>,
 }
 
@@ -103,11 +105,19 @@ impl Kinks {
         }
     }
 
-    /// Looks at the end of a step: before [`Kinks::is_behind`] and [`Kinks::foresee`].
-    pub fn look<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>) {
+    /// Looks at a place, the end of a step: before [`Kinks::slack`], [`Kinks::is_behind`] and [`Kinks::foresee`].
+    pub fn look<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
         if !self.now.is_empty() {
-            self.begin(problem, dense);
+            self.begin(problem, time, x);
         }
+    }
+
+    /// By how much bounds on errors in layers widen at the place that was looked at last: see [`Problem::layer_bounds`].
+    pub fn slack(&self) -> f64 {
+        let sizes = self.signs.directions.iter().map(|[a, b]| a * a + b * b);
+        // `min` passes over what is not a number.
+        let slowest = sizes.fold(f64::INFINITY, f64::min);
+        (slowest.sqrt() * SLACK).max(1.0)
     }
 
     /// Whether a layer lies behind: what reversed in it is large again, and points elsewhere.
@@ -163,8 +173,8 @@ impl Kinks {
     }
 
     /// Reads where the functions are at the end of the step, and which way the directions point.
-    fn begin<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>) {
-        problem.kinks(dense.end, dense.x1, &mut self.signs);
+    fn begin<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
+        problem.kinks(time, x, &mut self.signs);
         for (towards, direction) in self.towards.iter_mut().zip(&self.signs.directions) {
             let size = (direction[0] * direction[0] + direction[1] * direction[1]).sqrt();
             *towards = if size > 2.0 * EDGE {

@@ -51,6 +51,7 @@ pub struct Ordinary<'a> {
     jacobian: Function<'a>,
     time_derivative: Option<Function<'a>>,
     switches: Option<Switches<'a>>,
+    layer_bounds: Vec<f64>,
     /// How many values and directions, and what writes them.
     kinks: Option<((usize, usize), Kinks<'a>)>,
     /// Ends of segments, ascending.
@@ -81,6 +82,7 @@ impl<'a> Ordinary<'a> {
             jacobian: Box::new(jacobian),
             time_derivative: None,
             switches: None,
+            layer_bounds: Vec::new(),
             kinks: None,
             breaks: Vec::new(),
             matrix,
@@ -114,6 +116,13 @@ impl<'a> Ordinary<'a> {
         self
     }
 
+    /// The largest admissible errors while a direction is in its layer, see [`Problem::layer_bounds`].
+    #[must_use]
+    pub fn layer_bounds(mut self, bounds: Vec<f64>) -> Self {
+        self.layer_bounds = bounds;
+        self
+    }
+
     /// Discrete switches, see [`Problem`]: `initial(t, x, modes)`, `margins(t, x, modes, margins)`,
     /// `next(t, x, index, mode)`.
     #[must_use]
@@ -137,6 +146,10 @@ impl<'a> Ordinary<'a> {
 impl Problem for Ordinary<'_> {
     fn dimension(&self) -> usize {
         self.scales.len()
+    }
+
+    fn layer_bounds(&self) -> &[f64] {
+        &self.layer_bounds
     }
 
     fn scales(&self) -> &[f64] {

@@ -32,6 +32,15 @@ pub trait Problem {
         &[]
     }
 
+    /// The largest admissible error of each state while one of the directions of [`Problem::kinks`] is in its layer, however wide the
+    /// tolerance; empty: no bound. Where even the smallest direction is large the bound is a twentieth of it times as wide.
+    ///
+    /// For speeds under friction that reverses within a small speed: an error of that size makes what sticks slide to and fro, but
+    /// it hardly turns the force on what slides a thousand times as fast.
+    fn layer_bounds(&self) -> &[f64] {
+        &[]
+    }
+
     /// Tells the problem that integration proceeds from `start` on one smooth piece of its explicit time
     /// dependence; returns the end of this piece, later than `start` (infinite: there is none).
     ///
@@ -107,6 +116,10 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     }
     fn error_bounds(&self) -> &[f64] {
         (**self).error_bounds()
+    }
+
+    fn layer_bounds(&self) -> &[f64] {
+        (**self).layer_bounds()
     }
     fn segment(&mut self, start: f64) -> f64 {
         (**self).segment(start)

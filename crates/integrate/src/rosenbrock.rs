@@ -42,8 +42,12 @@ pub struct Integrator<P: Problem> {
     dimension: usize,
     /// Length of a padded vector.
     stride: usize,
-    /// Reciprocal of the admissible error: relative_tolerance · scale, or the problem's bound.
+    /// Reciprocal of the admissible error: relative_tolerance · scale, or the problem's bounds.
     weights: Vec<f64>,
+    /// The same without bounds in layers.
+    plain_weights: Vec<f64>,
+    /// Reciprocal of the bounds in layers; zero: none.
+    layer_weights: Vec<f64>,
 
     time: f64,
     previous_time: f64,
@@ -147,6 +151,10 @@ impl<P: Problem> Integrator<P> {
         for (weight, bound) in weights.iter_mut().zip(problem.error_bounds()) {
             *weight = weight.max(1.0 / bound);
         }
+        let mut layer_weights = zero();
+        for (weight, bound) in layer_weights.iter_mut().zip(problem.layer_bounds()) {
+            *weight = 1.0 / bound;
+        }
         let segment_end = enter(&mut problem, &state)?;
         let tableau = options.method.tableau();
         let extends = (0..tableau.stages())
@@ -164,6 +172,8 @@ impl<P: Problem> Integrator<P> {
             extends,
             dimension: n,
             stride,
+            plain_weights: weights.clone(),
+            layer_weights,
             weights,
             time: state.time,
             previous_time: state.time,

@@ -41,6 +41,10 @@ fn rough_and_told() -> Ordinary<'static> {
     rough().kinks(0, 1, |_, x, signs| signs.directions[0] = [x[0] / 1e-5, 0.0])
 }
 
+fn bounded() -> Ordinary<'static> {
+    rough_and_told().layer_bounds(vec![1e-5, f64::INFINITY])
+}
+
 fn options(method: Method, relative_tolerance: f64) -> Options {
     Options {
         method,
@@ -106,6 +110,25 @@ fn friction_that_reverses_is_foreseen() {
 }
 
 #[test]
+fn bounds_hold_in_layers_and_widen_outside() {
+    let (exact, _) = run(rough(), options(Method::Rodas5P, 1e-10), &[0.0, 0.0], 8.0);
+    // All the way as exact as a layer needs.
+    let (_, tight) = run(rough_and_told(), options(Method::Rodas5P, 1e-5), &[0.0, 0.0], 8.0);
+    for tolerance in [1e-1, 1e-2, 1e-3] {
+        let (x, wide) = run(bounded(), options(Method::Rodas5P, tolerance), &[0.0, 0.0], 8.0);
+        assert!(
+            (x[1] - exact[1]).abs() < 0.01 * exact[1],
+            "{tolerance}: {x:?} {exact:?}"
+        );
+        let attempts = |statistics: &Statistics| statistics.steps + statistics.rejected();
+        assert!(
+            attempts(&wide) < attempts(&tight),
+            "{tolerance}: {wide:?} {tight:?}"
+        );
+    }
+}
+
+#[test]
 fn a_direction_that_only_turns_is_no_kink() {
     // x turns in a circle of radius 1000: its parts change sign, but it never comes near zero.
     let circle = Ordinary::new(
@@ -120,14 +143,14 @@ fn a_direction_that_only_turns_is_no_kink() {
 
 #[test]
 fn a_saved_state_continues_with_the_same_bits_also_before_a_kink() {
-    let mut whole =
-        Integrator::new(rough_and_told(), options(Method::Rodas5P, 1e-6), 0.0, &[0.0, 0.0]).unwrap();
+    let options = options(Method::Rodas5P, 1e-3);
+    let mut whole = Integrator::new(bounded(), options.clone(), 0.0, &[0.0, 0.0]).unwrap();
     let mut resumed = 0;
     while whole.time() < 2.0 {
         let text = serde_json::to_string(&whole.state()).unwrap();
         whole.step_to(2.0).unwrap();
         let state = serde_json::from_str(&text).unwrap();
-        let mut again = Integrator::resume(rough_and_told(), options(Method::Rodas5P, 1e-6), state).unwrap();
+        let mut again = Integrator::resume(bounded(), options.clone(), state).unwrap();
         again.step_to(2.0).unwrap();
         assert_eq!(again.state(), whole.state());
         resumed += 1;

@@ -167,6 +167,13 @@ impl<P: Problem> Integrator<P> {
             .derivative(self.time, &self.x[..n], &mut self.dx[..n]);
         self.statistics.derivatives += 1;
         self.linearized = false;
+        self.kinks.look(&mut self.problem, self.time, &self.x[..n]);
+        weigh(
+            &mut self.weights,
+            &self.plain_weights,
+            &self.layer_weights,
+            self.kinks.slack(),
+        );
     }
 
     pub(super) fn first_not_finite(&self) -> Option<usize> {
@@ -307,7 +314,14 @@ impl<P: Problem> Integrator<P> {
             stages: &self.stages,
         };
         if self.options.fixed_step.is_none() {
-            self.kinks.look(&mut self.problem, &dense);
+            self.kinks
+                .look(&mut self.problem, dense.end, &dense.x1[..self.dimension]);
+            weigh(
+                &mut self.weights,
+                &self.plain_weights,
+                &self.layer_weights,
+                self.kinks.slack(),
+            );
             if let Some(Passage { layer, planned }) = self.passage
                 && (error < SETTLED || self.proposed_step >= planned || self.kinks.is_behind(&layer))
             {
@@ -395,6 +409,15 @@ impl<P: Problem> Integrator<P> {
         step.min(longest)
             .max(self.options.minimum_step)
             .max(16.0 * f64::EPSILON * self.time.abs())
+    }
+}
+
+/// How errors count where bounds in layers are `slack` times as wide.
+#[inline]
+fn weigh(weights: &mut [f64], plain: &[f64], layer: &[f64], slack: f64) {
+    let share = 1.0 / slack;
+    for ((weight, plain), layer) in weights.iter_mut().zip(plain).zip(layer) {
+        *weight = plain.max(layer * share);
     }
 }
 

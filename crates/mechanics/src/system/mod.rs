@@ -55,9 +55,10 @@ pub mod scales {
     /// Energy lost in contact damping, J: smaller, because it goes on while a point that carries no force any more
     /// springs back, which no other state sees.
     pub const CONTACT_DAMPING_LOSS: f64 = 1.0;
-    /// The widest tolerance that positions and speeds are held to, whatever is asked for: 1e-6 m and 1e-4 m/s, speeds also to the reference
-    /// speed of friction by tanh (of a point 0.1 m from the axis, if they are angular). With more a wedge slides to and fro by the
-    /// integrator's own errors, each of them admissible: steps follow the reversals, and the run is slower and wrong.
+    /// The widest tolerance that positions and speeds are held to, whatever is asked for: 1e-6 m and 1e-4 m/s. Where all friction is
+    /// by tanh, speeds are held to its reference speed instead (of a point 0.1 m from the axis, if they are angular) while a point sticks
+    /// or is about to; while all of them slide, to a twentieth of the slowest slip. With more a wedge slides to and fro by the integrator's own
+    /// errors, each of them admissible: steps follow the reversals, and the run is slower and wrong.
     pub const WIDEST_TOLERANCE: f64 = 1e-5;
 }
 
@@ -100,6 +101,7 @@ pub struct System {
     layout: Layout,
     scales: Vec<f64>,
     error_bounds: Vec<f64>,
+    layer_bounds: Vec<f64>,
     free: Vec<FreeBody>,
     /// For each body its number among the free ones.
     free_number: Vec<Option<usize>>,
@@ -262,6 +264,10 @@ impl Problem for System {
 
     fn error_bounds(&self) -> &[f64] {
         &self.error_bounds
+    }
+
+    fn layer_bounds(&self) -> &[f64] {
+        &self.layer_bounds
     }
 
     fn segment(&mut self, start: f64) -> f64 {

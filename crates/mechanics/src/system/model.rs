@@ -270,7 +270,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             };
         }
     }
-    let error_bounds = error_bounds(&error_scales, layout, &mounted_faces);
+    let (error_bounds, layer_bounds) = error_bounds(&error_scales, layout, &mounted_faces);
     let moves = frames.iter().any(|frame| !frame.fixed);
     Ok(System {
         accelerations: vec![[0.0; 6]; bodies.len()],
@@ -285,6 +285,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         layout,
         scales: error_scales,
         error_bounds,
+        layer_bounds,
         free,
         free_number,
         frames,
@@ -296,19 +297,35 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     })
 }
 
-/// The widest admissible errors of positions and speeds: see [`scales::WIDEST_TOLERANCE`].
-fn error_bounds(error_scales: &[f64], layout: Layout, faces: &[Mounted<ContactFace<Plane>>]) -> Vec<f64> {
-    let [q, u, ..] = layout.split(error_scales);
-    let mut widest_speed = scales::WIDEST_TOLERANCE;
+/// The widest admissible errors of positions and speeds, and those of speeds where a point sticks: see [`scales::WIDEST_TOLERANCE`].
+fn error_bounds(
+    error_scales: &[f64],
+    layout: Layout,
+    faces: &[Mounted<ContactFace<Plane>>],
+) -> (Vec<f64>, Vec<f64>) {
+    let mut reference = f64::INFINITY;
+    let mut tanh_alone = !faces.is_empty();
     for face in faces {
-        if let FrictionLaw::Tanh { reference_speed } = face.element.law {
-            widest_speed = widest_speed.min(reference_speed / scales::VELOCITY);
+        match face.element.law {
+            FrictionLaw::Tanh { reference_speed } => reference = reference.min(reference_speed),
+            FrictionLaw::Bristle { .. } => tanh_alone = false,
         }
     }
-    let positions = q.iter().map(|scale| scale * scales::WIDEST_TOLERANCE);
-    positions
-        .chain(u.iter().map(|scale| scale * widest_speed))
-        .collect()
+    let of_speeds = if tanh_alone {
+        f64::INFINITY
+    } else {
+        scales::WIDEST_TOLERANCE
+    };
+    let in_layers = scales::WIDEST_TOLERANCE.min(reference / scales::VELOCITY);
+    let bounds = |of_positions: f64, of_speeds: f64| {
+        let [q, u, ..] = layout.split(error_scales);
+        let positions = q.iter().map(|scale| scale * of_positions);
+        positions.chain(u.iter().map(|scale| scale * of_speeds)).collect()
+    };
+    (
+        bounds(scales::WIDEST_TOLERANCE, of_speeds),
+        bounds(f64::INFINITY, in_layers),
+    )
 }
 
 /// Puts elements in their places.

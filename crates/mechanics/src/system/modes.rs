@@ -116,18 +116,19 @@ impl System {
         }
     }
 
-    /// What foretells kinks: the gap of every point (m), and the slip of closed points over the reference speed of their law.
+    /// What foretells kinks: the gap of every point (m), and the slip of closed points over the reference speed of their law
+    /// (open points and bristles: not a number).
     pub(super) fn kink_signs(&self, signs: &mut KinkSigns) {
         let mut index = 0;
         for face in &self.faces {
             let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
             let scale = match face.element.law {
                 FrictionLaw::Tanh { reference_speed } => 1.0 / reference_speed,
-                FrictionLaw::Bristle { .. } => 0.0,
+                FrictionLaw::Bristle { .. } => f64::NAN,
             };
             face.element.motions(&face.points, &relative, |i, gap, slip| {
                 signs.values[index + i] = gap;
-                let closed = if gap < 0.0 { scale } else { 0.0 };
+                let closed = if gap < 0.0 { scale } else { f64::NAN };
                 signs.directions[index + i] = slip.map(|part| part * closed);
             });
             index += face.element.points.len();
