@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::contest::{COMMON_OPTIONS, SOLVERS};
+use crate::contest::{COMMON_OPTIONS, IN_OCTAVE, SOLVERS};
 use crate::runner::REFERENCE;
 use crate::standings::{Judgement, Standing};
 
@@ -71,22 +71,28 @@ pub fn ratios(standings: &[Standing]) -> String {
         vec!["SciPy LSODA", "SciPy BDF", "SciPy Radau"],
     ));
     let heads: Vec<&str> = columns.iter().map(|(head, _)| head.as_str()).collect();
-    let _ = writeln!(text, "| case | floor | {} | Octave ode15s |", heads.join(" | "));
-    let _ = writeln!(text, "|---|---|{}---|", "---|".repeat(columns.len()));
+    let _ = writeln!(
+        text,
+        "| case | floor | {} | Octave ode15s | the same, equations in Octave |",
+        heads.join(" | ")
+    );
+    let _ = writeln!(text, "|---|---|{}---|---|", "---|".repeat(columns.len()));
     for one in rows {
         let mut cells = vec![one.case.clone(), power(one.floor)];
         for (_, names) in &columns {
             cells.push(cell(&one.ratios(names, &one.ours())));
         }
-        let short = standings.iter().find(|other| {
-            other.case == one.case && other.span < full && other.solvers().contains(&"Octave ode15s")
-        });
-        cells.push(match short {
-            None => "-".to_owned(),
-            // The reference is zero: runs are exact or not, and their cost says nothing.
-            Some(short) if short.floor == 0.0 => "no force in this second".to_owned(),
-            Some(short) => cell(&short.ratios(&["Octave ode15s"], &short.ours())),
-        });
+        for name in ["Octave ode15s", IN_OCTAVE] {
+            let short = standings.iter().find(|other| {
+                other.case == one.case && other.span < full && other.solvers().contains(&name)
+            });
+            cells.push(match short {
+                None => "-".to_owned(),
+                // The reference is zero: runs are exact or not, and their cost says nothing.
+                Some(short) if short.floor == 0.0 => "no force in this second".to_owned(),
+                Some(short) => cell(&short.ratios(&[name], &short.ours())),
+            });
+        }
         let _ = writeln!(text, "| {} |", cells.join(" | "));
     }
     text
