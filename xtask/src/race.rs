@@ -18,6 +18,7 @@ Runs that are there already are kept; --again begins anew.
   --solvers PART,...  solvers likewise
   --tolerances T,...  some of 1e-3, 1e-4, ... 1e-9
   --limit SECONDS     CPU time of a run (60)
+  --short SECONDS     simulated time of Octave's runs (1)
   --kept-only yes     run nothing, judge what was kept";
 
 /// What `--quick` runs.

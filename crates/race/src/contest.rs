@@ -219,7 +219,11 @@ impl Solver {
                     .args(["--no-init-file", "--quiet"])
                     .arg(tools.drivers.join("ode15s_race.m"))
                     .arg(self.method)
-                    .arg(if self.name == IN_OCTAVE { &tools.own } else { folder });
+                    .arg(if self.name == IN_OCTAVE {
+                        &tools.own
+                    } else {
+                        folder
+                    });
                 command
             }
             Program::Exudyn => {

@@ -16,7 +16,7 @@ race solve SOLVER CASE TOLERANCE LIMIT FILE [ROWS]   one run of a solver that is
 race wedge CASE                                      parameters, start, scales and times of a wedge, as JSON
 race all --library FILE --drivers FOLDER --out FOLDER [--cvode FILE] [--python FILE] [--exudyn FILE]
          [--octave FILE --mex FOLDER] [--cases PART,...] [--solvers PART,...] [--tolerances T,...] [--limit SECONDS]
-         [--kept-only yes]";
+         [--short SECONDS] [--kept-only yes]";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -126,6 +126,7 @@ fn all(words: &[&str]) -> Result<(), String> {
         tolerances: chosen("--tolerances", owned(&TOLERANCES))?,
         limit: options.get("--limit").map_or(Ok(60.0), |limit| number(limit))?,
         folder: folder.clone(),
+        short: options.get("--short").map(|short| number(short)).transpose()?,
         kept_only: options.get("--kept-only") == Some(&"yes"),
     };
     let entries = plan.run(&tools)?;

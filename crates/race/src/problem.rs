@@ -102,7 +102,11 @@ impl Problem {
         if builtin::thesis_names().any(|known| known == name) {
             let case = builtin::case_with(name, &[]).map_err(|error| build(error.to_string()))?;
             let simulation = (case.simulation.duration, case.simulation.output_interval);
-            let judged = if is_yawed(name) { Judged::Series } else { Judged::Means };
+            let judged = if is_yawed(name) {
+                Judged::Series
+            } else {
+                Judged::Means
+            };
             return Self::of_wedge(name, case.parameters, simulation, judged);
         }
         match name {
