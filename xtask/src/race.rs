@@ -11,6 +11,7 @@ Usage: cargo xtask race [--quick] [--again] [options of the race]
 
 Builds the race and its drivers, installs what they need (Debian: SUNDIALS, Octave; into target/tools: SciPy, Exudyn), runs all
 solvers on the thesis's twelve cases, the planar wedge and the stick test, and writes tables and figures into target/race.
+Octave runs with the compiled equations and, on the yawed cases, with equations in its own language.
 Runs that are there already are kept; --again begins anew.
 
   --quick             four cases at three tolerances, without Octave: two to three minutes
@@ -18,6 +19,7 @@ Runs that are there already are kept; --again begins anew.
   --solvers PART,...  solvers likewise
   --tolerances T,...  some of 1e-3, 1e-4, ... 1e-9
   --limit SECONDS     CPU time of a run (60)
+  --short SECONDS     simulated time of Octave's runs (1); 10: minutes a run
   --kept-only yes     run nothing, judge what was kept";
 
 /// What `--quick` runs.

@@ -2,7 +2,8 @@
 
 use report::drawing::{Colour, Curve, Figure, Line, Panel};
 
-use crate::contest::SOLVERS;
+use crate::contest::{IN_OCTAVE, SOLVERS};
+use crate::problem::is_yawed;
 use crate::standings::Standing;
 
 /// Colour and line of a solver: ours black, families share a colour.
@@ -18,6 +19,7 @@ fn look(name: &str) -> (Colour, Line) {
         "SciPy BDF" => (Colour::Green, Line::Dashed),
         "SciPy Radau" => (Colour::Green, Line::Dotted),
         "Octave ode15s" => (Colour::Purple, Line::Solid),
+        IN_OCTAVE => (Colour::Purple, Line::Dashed),
         _ => (Colour::Orange, Line::DashDot),
     }
 }
@@ -56,7 +58,7 @@ fn panel(one: &Standing) -> Panel {
 pub fn figures(standings: &[Standing]) -> Vec<(&'static str, Figure)> {
     let full = standings.iter().map(|one| one.span).fold(0.0, f64::max);
     let thesis = |one: &Standing| one.case.contains("psi");
-    let yawed = |one: &Standing| one.case.ends_with("psi_0.012");
+    let yawed = |one: &Standing| is_yawed(&one.case);
     type Group<'g> = (&'static str, &'static str, &'g dyn Fn(&Standing) -> bool);
     let groups: [Group<'_>; 4] = [
         (

@@ -2,7 +2,7 @@
 //!
 //! - [`problem`]: the problems by name.
 //! - [`equations`]: state, rates and Jacobian matrix, as every other solver gets them; [`c_interface`] for drivers in C,
-//!   Python and Octave (`drivers/`).
+//!   Python and Octave (`drivers/`); [`wedge_case`] for the one that has the equations in its own language.
 //! - [`own`], [`diffsol`]: the drivers in Rust; [`outcome`]: what every driver reports.
 //! - [`contest`]: who runs; [`runner`]: runs them; [`measure`], [`standings`]: errors, fronts, ratios; [`tables`], [`figures`]: what is
 //!   shown of them.
@@ -20,3 +20,4 @@ pub mod problem;
 pub mod runner;
 pub mod standings;
 pub mod tables;
+pub mod wedge_case;

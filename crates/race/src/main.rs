@@ -8,19 +8,22 @@ use integrate::Method;
 use race::contest::{SOLVERS, Tools};
 use race::outcome::{repeated, write_states};
 use race::runner::{Plan, TOLERANCES};
+use race::wedge_case::WedgeCase;
 use race::{diffsol, figures, own, problem, standings, tables};
 
 const USAGE: &str = "\
 race solve SOLVER CASE TOLERANCE LIMIT FILE [ROWS]   one run of a solver that is compiled in
+race wedge CASE                                      parameters, start, scales and times of a wedge, as JSON
 race all --library FILE --drivers FOLDER --out FOLDER [--cvode FILE] [--python FILE] [--exudyn FILE]
          [--octave FILE --mex FOLDER] [--cases PART,...] [--solvers PART,...] [--tolerances T,...] [--limit SECONDS]
-         [--kept-only yes]";
+         [--short SECONDS] [--kept-only yes]";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let done = match words.as_slice() {
         ["solve", solver, rest @ ..] => solve(solver, rest),
+        ["wedge", case] => wedge(case),
         ["all", rest @ ..] => all(rest),
         _ => Err(USAGE.to_owned()),
     };
@@ -58,6 +61,14 @@ fn solve(solver: &str, words: &[&str]) -> Result<(), String> {
     }?;
     write_states(Path::new(file), &states).map_err(|error| format!("cannot write {file}: {error}"))?;
     let line = serde_json::to_string(&outcome).map_err(|error| error.to_string())?;
+    println!("{line}");
+    Ok(())
+}
+
+/// A case for a driver that has the equations in its own language.
+fn wedge(case: &str) -> Result<(), String> {
+    let case = WedgeCase::named(case)?;
+    let line = serde_json::to_string(&case).map_err(|error| error.to_string())?;
     println!("{line}");
     Ok(())
 }
@@ -115,6 +126,7 @@ fn all(words: &[&str]) -> Result<(), String> {
         tolerances: chosen("--tolerances", owned(&TOLERANCES))?,
         limit: options.get("--limit").map_or(Ok(60.0), |limit| number(limit))?,
         folder: folder.clone(),
+        short: options.get("--short").map(|short| number(short)).transpose()?,
         kept_only: options.get("--kept-only") == Some(&"yes"),
     };
     let entries = plan.run(&tools)?;

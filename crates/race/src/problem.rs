@@ -83,6 +83,12 @@ pub fn names() -> Vec<String> {
         .collect()
 }
 
+/// Whether this is one of the thesis's cases with a yawed bolster.
+#[must_use]
+pub fn is_yawed(name: &str) -> bool {
+    builtin::thesis_names().any(|known| known == name) && !name.ends_with("psi_0")
+}
+
 impl Problem {
     /// The problem of this name.
     ///
@@ -96,8 +102,11 @@ impl Problem {
         if builtin::thesis_names().any(|known| known == name) {
             let case = builtin::case_with(name, &[]).map_err(|error| build(error.to_string()))?;
             let simulation = (case.simulation.duration, case.simulation.output_interval);
-            let yawed = !name.ends_with("psi_0");
-            let judged = if yawed { Judged::Series } else { Judged::Means };
+            let judged = if is_yawed(name) {
+                Judged::Series
+            } else {
+                Judged::Means
+            };
             return Self::of_wedge(name, case.parameters, simulation, judged);
         }
         match name {

@@ -46,6 +46,8 @@ pub struct Plan {
     pub limit: f64,
     /// Where runs are kept: what is there already is not run again.
     pub folder: PathBuf,
+    /// Simulated time of the solvers that do not get the whole of it, s; none: what each of them is given.
+    pub short: Option<f64>,
     /// Whether nothing is run at all: what is kept is judged.
     pub kept_only: bool,
 }
@@ -77,7 +79,11 @@ impl Plan {
             };
             let mut spans = Vec::new();
             for one in SOLVERS.iter().filter(wanted) {
-                let rows = all.min((one.span / problem.interval).round() as usize + 1);
+                let span = match self.short {
+                    Some(short) if one.span < problem.duration => short,
+                    _ => one.span,
+                };
+                let rows = all.min((span / problem.interval).round() as usize + 1);
                 if rows < all && !spans.contains(&rows) {
                     spans.push(rows);
                 }

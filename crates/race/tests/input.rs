@@ -4,7 +4,9 @@
 use race::c_interface::{
     race_close, race_dimension, race_jacobian, race_open, race_rates, race_rows, race_start, race_time,
 };
+use race::contest::{IN_OCTAVE, Tools, solver};
 use race::problem::{Problem, names};
+use race::wedge_case::WedgeCase;
 
 #[test]
 fn an_unknown_problem_is_named_with_those_there_are() {
@@ -13,6 +15,40 @@ fn an_unknown_problem_is_named_with_those_there_are() {
         error.contains("`vdrun`") && names().iter().all(|name| error.contains(name)),
         "{error}"
     );
+}
+
+#[test]
+fn what_is_no_wedge_is_not_handed_over() {
+    let error = WedgeCase::named("stick_tanh").err().unwrap();
+    assert!(error.contains("stick_tanh is no wedge"), "{error}");
+    let case = WedgeCase::named("cdrun_toe_0_psi_0.012").unwrap();
+    assert_eq!(
+        (case.start.len(), case.scales.len(), case.times.len()),
+        (9, 9, 1001)
+    );
+}
+
+#[test]
+fn equations_in_octave_take_part_in_the_yawed_cases_alone() {
+    let file = std::path::PathBuf::new;
+    let tools = |octave| Tools {
+        own: file(),
+        library: file(),
+        drivers: file(),
+        cvode: None,
+        python: None,
+        exudyn: None,
+        octave,
+    };
+    let one = solver(IN_OCTAVE).unwrap();
+    let with = tools(Some((file(), file())));
+    let cases: Vec<String> = names()
+        .into_iter()
+        .filter(|case| one.takes_part(&with, case))
+        .collect();
+    assert_eq!(cases.len(), 6, "{cases:?}");
+    assert!(cases.iter().all(|case| case.ends_with("psi_0.012")), "{cases:?}");
+    assert!(!one.takes_part(&tools(None), &cases[0]));
 }
 
 #[test]

@@ -1,0 +1,41 @@
+//! A case as a driver gets it that has the equations in its own language: the parameters, not the right-hand side.
+
+use serde::Serialize;
+use wedge::parameters::Parameters;
+
+use crate::equations::Equations;
+use crate::problem::Problem;
+
+/// A wedge with its start, for `drivers/wedge_case.m`. SI units; the state is that of [`Equations`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WedgeCase {
+    /// What the wedge is made of.
+    pub parameters: Parameters,
+    /// The state at the start.
+    pub start: Vec<f64>,
+    /// The error scale of each state.
+    pub scales: Vec<f64>,
+    /// The times of the rows of a result, s.
+    pub times: Vec<f64>,
+}
+
+impl WedgeCase {
+    /// The case of this name.
+    ///
+    /// # Errors
+    /// There is no such problem, or it is no wedge.
+    pub fn named(name: &str) -> Result<Self, String> {
+        let problem = Problem::named(name).map_err(|error| error.to_string())?;
+        let times = (0..problem.rows()).map(|row| problem.time(row)).collect();
+        let parameters = problem
+            .parameters
+            .ok_or_else(|| format!("{name} is no wedge: it has no parameters to hand over"))?;
+        let equations = Equations::new(problem.system, &problem.start);
+        Ok(Self {
+            parameters,
+            start: equations.start().to_vec(),
+            scales: equations.scales().to_vec(),
+            times,
+        })
+    }
+}
