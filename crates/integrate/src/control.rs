@@ -25,11 +25,12 @@ impl Controller {
     }
 
     /// After an accepted step: the factor for the next step, and whether it is a genuine prediction (not cut off).
+    ///
+    /// With `kinks`, the step before a rejection says nothing of the trend: a kink lies between.
     #[inline]
-    pub fn accept(&mut self, options: &Options, step: f64, root: f64) -> (f64, bool) {
+    pub fn accept(&mut self, options: &Options, step: f64, root: f64, kinks: bool) -> (f64, bool) {
         let mut divisor = root / options.safety;
-        // After a rejection the step before says nothing of the trend: a kink lies between.
-        if self.step > 0.0 && self.rejections == 0 {
+        if self.step > 0.0 && !(kinks && self.rejections > 0) {
             divisor = divisor.max(root * root / (self.root * options.safety) * (self.step / step));
         }
         let wanted = 1.0 / divisor;

@@ -105,6 +105,11 @@ impl Kinks {
         }
     }
 
+    /// Whether the problem tells of any.
+    pub fn are_told(&self) -> bool {
+        !self.now.is_empty()
+    }
+
     /// Looks at a place, the end of a step: before [`Kinks::slack`], [`Kinks::is_behind`] and [`Kinks::foresee`].
     pub fn look<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
         if !self.now.is_empty() {

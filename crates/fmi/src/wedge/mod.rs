@@ -48,7 +48,7 @@ pub struct WedgeElement {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum WedgeState {
     /// One that integrates itself.
-    Driven(DrivenState),
+    Driven(Box<DrivenState>),
     /// One that an importer integrates.
     Equations {
         /// Time, s.
@@ -300,7 +300,7 @@ impl Element for WedgeElement {
 
     fn save(&self) -> ElementState {
         let state = match &self.core {
-            Core::Driven(wedge) => WedgeState::Driven(wedge.state()),
+            Core::Driven(wedge) => WedgeState::Driven(Box::new(wedge.state())),
             Core::Equations(equations) => WedgeState::Equations {
                 time: equations.time(),
                 states: equations.states().to_vec(),

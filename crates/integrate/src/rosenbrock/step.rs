@@ -282,7 +282,9 @@ impl<P: Problem> Integrator<P> {
         self.statistics.accept(step);
         if self.options.fixed_step.is_none() {
             let root = self.root(error);
-            let (factor, genuine) = self.controller.accept(&self.options, step, root);
+            let (factor, genuine) = self
+                .controller
+                .accept(&self.options, step, root, self.kinks.are_told());
             let next = step * factor;
             // A step cut short by a limit says little about the step that was planned.
             self.proposed_step = if cut && !genuine { next.max(proposed) } else { next };
