@@ -46,9 +46,13 @@ pub struct WedgeElement {
 
 /// The saved state of a wedge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "it lies in a box as a whole, see ElementState"
+)]
 pub enum WedgeState {
     /// One that integrates itself.
-    Driven(Box<DrivenState>),
+    Driven(DrivenState),
     /// One that an importer integrates.
     Equations {
         /// Time, s.
@@ -300,7 +304,7 @@ impl Element for WedgeElement {
 
     fn save(&self) -> ElementState {
         let state = match &self.core {
-            Core::Driven(wedge) => WedgeState::Driven(Box::new(wedge.state())),
+            Core::Driven(wedge) => WedgeState::Driven(wedge.state()),
             Core::Equations(equations) => WedgeState::Equations {
                 time: equations.time(),
                 states: equations.states().to_vec(),
