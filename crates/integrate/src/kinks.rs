@@ -110,26 +110,42 @@ impl Kinks {
         !self.now.is_empty()
     }
 
-    /// Looks at a place, the end of a step: before [`Kinks::slack`], [`Kinks::is_behind`] and [`Kinks::foresee`].
+    /// Looks at a place, the end of a step: where the functions are, and which way the directions point. Before [`Kinks::slack`],
+    /// [`Kinks::is_behind`] and [`Kinks::foresee`].
     pub fn look<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
-        if !self.now.is_empty() {
-            self.begin(problem, time, x);
+        if !self.are_told() {
+            return;
         }
+        problem.kinks(time, x, &mut self.signs);
+        for (towards, direction) in self.towards.iter_mut().zip(&self.signs.directions) {
+            let size = size(direction);
+            *towards = if size > 2.0 * EDGE {
+                direction.map(|part| part / size)
+            } else {
+                [0.0; 2]
+            };
+        }
+        self.project();
+        self.now.copy_from_slice(&self.trial);
     }
 
     /// By how much bounds on errors in layers widen at the place that was looked at last: see [`Problem::layer_bounds`].
     pub fn slack(&self) -> f64 {
-        let sizes = self.signs.directions.iter().map(|[a, b]| a * a + b * b);
         // `min` passes over what is not a number.
-        let slowest = sizes.fold(f64::INFINITY, f64::min);
-        (slowest.sqrt() * SLACK).max(1.0)
+        let slowest = self
+            .signs
+            .directions
+            .iter()
+            .map(size)
+            .fold(f64::INFINITY, f64::min);
+        (slowest * SLACK).max(1.0)
     }
 
     /// Whether a layer lies behind: what reversed in it is large again, and points elsewhere.
     pub fn is_behind(&self, layer: &Layer) -> bool {
-        let [a, b] = self.signs.directions[layer.direction];
-        let size = (a * a + b * b).sqrt();
-        size > OUT && a * layer.from[0] + b * layer.from[1] < 0.5 * size
+        let direction = &self.signs.directions[layer.direction];
+        let size = size(direction);
+        size > OUT && direction[0] * layer.from[0] + direction[1] * layer.from[1] < 0.5 * size
     }
 
     /// Where the next step should end if there is a kink within `length` of the end of a step, whose scaled error was `error`.
@@ -140,7 +156,7 @@ impl Kinks {
         length: f64,
         error: f64,
     ) -> Option<Ahead> {
-        if self.now.is_empty() || dense.step <= 0.0 {
+        if !self.are_told() || dense.step <= 0.0 {
             return None;
         }
         let mut reach = (length / dense.step).min(REACH);
@@ -154,8 +170,7 @@ impl Kinks {
                 return Some(Ahead::Kink(dense.start + end * dense.step));
             };
             self.evaluate(problem, dense, low);
-            let [a, b] = self.signs.directions[direction];
-            if a * a + b * b < NARROW * NARROW {
+            if size(&self.signs.directions[direction]) < NARROW {
                 // Along the line between the ends of the bracket.
                 let fall = (self.low[index] - self.high[index]) / (high - low);
                 let middle = (self.low[index] + EDGE) / fall * dense.step;
@@ -175,21 +190,6 @@ impl Kinks {
             // It only turns.
             self.towards[direction] = [0.0; 2];
         }
-    }
-
-    /// Reads where the functions are at the end of the step, and which way the directions point.
-    fn begin<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
-        problem.kinks(time, x, &mut self.signs);
-        for (towards, direction) in self.towards.iter_mut().zip(&self.signs.directions) {
-            let size = (direction[0] * direction[0] + direction[1] * direction[1]).sqrt();
-            *towards = if size > 2.0 * EDGE {
-                direction.map(|part| part / size)
-            } else {
-                [0.0; 2]
-            };
-        }
-        self.project();
-        self.now.copy_from_slice(&self.trial);
     }
 
     /// The functions at a place on the continued dense output, to `trial`.
@@ -270,6 +270,11 @@ impl Kinks {
 /// How far behind a kink at a place on the continued dense output of a step with this error a step should land, in lengths of the step.
 fn overshoot(error: f64, theta: f64) -> f64 {
     OVERSHOOT * (4.0 * error * fifth(theta)).clamp(LEAST_OVERSHOOT, 1.0)
+}
+
+/// The length of a plane vector.
+fn size([a, b]: &[f64; 2]) -> f64 {
+    (a * a + b * b).sqrt()
 }
 
 fn fifth(x: f64) -> f64 {

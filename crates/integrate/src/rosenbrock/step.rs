@@ -2,7 +2,7 @@
 
 use super::Integrator;
 use crate::error::{Reason, StepError};
-use crate::kinks::{Ahead, Passage};
+use crate::kinks::{Ahead, Layer, Passage};
 use crate::problem::Problem;
 use crate::stages::{Dense, all_finite, combine, largest};
 
@@ -167,13 +167,26 @@ impl<P: Problem> Integrator<P> {
             .derivative(self.time, &self.x[..n], &mut self.dx[..n]);
         self.statistics.derivatives += 1;
         self.linearized = false;
-        self.kinks.look(&mut self.problem, self.time, &self.x[..n]);
-        weigh(
-            &mut self.weights,
-            &self.plain_weights,
-            &self.layer_weights,
-            self.kinks.slack(),
-        );
+        self.look();
+    }
+
+    /// Looks for kinks at the place reached, and lets errors count as they must there.
+    #[inline]
+    fn look(&mut self) {
+        self.kinks
+            .look(&mut self.problem, self.time, &self.x[..self.dimension]);
+        let share = 1.0 / self.kinks.slack();
+        let bounds = self.plain_weights.iter().zip(&self.layer_weights);
+        for (weight, (plain, layer)) in self.weights.iter_mut().zip(bounds) {
+            *weight = plain.max(layer * share);
+        }
+    }
+
+    /// Begins the way through a layer, behind which steps may be as long as `planned`.
+    fn enter_layer(&mut self, layer: Layer, planned: f64) {
+        self.passage = Some(Passage { layer, planned });
+        self.proposed_step = self.proposed_step.min(layer.length);
+        self.controller.restart();
     }
 
     pub(super) fn first_not_finite(&self) -> Option<usize> {
@@ -294,17 +307,18 @@ impl<P: Problem> Integrator<P> {
                     self.proposed_step = self.proposed_step.max(BEHIND_KINK * proposed);
                     self.controller.restart();
                 }
-                Some(Ahead::Layer(_, layer)) => {
-                    self.passage = Some(Passage {
-                        layer,
-                        planned: proposed,
-                    });
-                    self.proposed_step = self.proposed_step.min(layer.length);
-                    self.controller.restart();
-                }
+                Some(Ahead::Layer(_, layer)) => self.enter_layer(layer, proposed),
                 _ => {}
             }
             self.proposed_step = self.proposed_step.min(self.options.maximum_step).min(f64::MAX);
+            self.look();
+            if let Some(Passage { layer, planned }) = self.passage
+                && (error < SETTLED || self.proposed_step >= planned || self.kinks.is_behind(&layer))
+            {
+                self.passage = None;
+                self.proposed_step = self.proposed_step.max(BEHIND_KINK * planned);
+                self.controller.restart();
+            }
         }
         let dense = Dense {
             tableau: self.tableau,
@@ -316,37 +330,17 @@ impl<P: Problem> Integrator<P> {
             stages: &self.stages,
         };
         if self.options.fixed_step.is_none() {
-            self.kinks
-                .look(&mut self.problem, dense.end, &dense.x1[..self.dimension]);
-            weigh(
-                &mut self.weights,
-                &self.plain_weights,
-                &self.layer_weights,
-                self.kinks.slack(),
-            );
-            if let Some(Passage { layer, planned }) = self.passage
-                && (error < SETTLED || self.proposed_step >= planned || self.kinks.is_behind(&layer))
-            {
-                self.passage = None;
-                self.proposed_step = self.proposed_step.max(BEHIND_KINK * planned);
-                self.controller.restart();
-            }
             let length = self.proposed_step.min(self.segment_end - self.time);
             self.ahead = self.kinks.foresee(&mut self.problem, &dense, length, error);
             self.statistics.kinks_foreseen += u64::from(self.ahead.is_some());
-            if let Some(Ahead::InLayer(layer)) = self.ahead {
-                self.passage = Some(Passage {
-                    layer,
-                    planned: self.proposed_step,
-                });
-                self.proposed_step = self.proposed_step.min(layer.length);
-                self.controller.restart();
-            }
         }
         if !self.switches.modes.is_empty() {
             let maximum = self.options.maximum_events;
             self.switches
                 .detect(&mut self.problem, &dense, maximum, &mut self.statistics);
+        }
+        if let Some(Ahead::InLayer(layer)) = self.ahead {
+            self.enter_layer(layer, self.proposed_step);
         }
     }
 
@@ -411,15 +405,6 @@ impl<P: Problem> Integrator<P> {
         step.min(longest)
             .max(self.options.minimum_step)
             .max(16.0 * f64::EPSILON * self.time.abs())
-    }
-}
-
-/// How errors count where bounds in layers are `slack` times as wide.
-#[inline]
-fn weigh(weights: &mut [f64], plain: &[f64], layer: &[f64], slack: f64) {
-    let share = 1.0 / slack;
-    for ((weight, plain), layer) in weights.iter_mut().zip(plain).zip(layer) {
-        *weight = plain.max(layer * share);
     }
 }
 
