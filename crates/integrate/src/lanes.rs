@@ -21,6 +21,9 @@ pub struct Lanes(f64x4);
 pub struct LaneMask(f64x4);
 
 impl Lanes {
+    /// Four zeros.
+    pub const ZERO: Self = Self(f64x4::ZERO);
+
     /// These four numbers.
     #[inline(always)]
     #[must_use]

@@ -16,6 +16,7 @@ use integrate::scalar::Real;
 use serde::{Deserialize, Serialize};
 
 use crate::frame::{Frame, FrameMotion};
+use crate::link::Turning;
 use crate::turn::Turn;
 use crate::vector::{Matrix, Vector};
 
@@ -79,7 +80,9 @@ pub struct Kinematics<S> {
     pub turn: Turn<S>,
     /// Rates of roll, pitch, yaw.
     pub rates: [S; 3],
-    /// Angular velocity.
+    /// Angular velocity, body axes.
+    pub spin: Vector<S>,
+    /// The same in the reference frame's axes.
     pub angular_velocity: Vector<S>,
 }
 
@@ -91,32 +94,30 @@ impl<S: Real> Kinematics<S> {
         let [x, y, z, roll, pitch, yaw] = coordinates;
         let rates = [speeds[3], speeds[4], speeds[5]];
         let turn = Turn::new([roll, pitch, yaw], rolls);
+        let spin = turn.spin(rates, rolls);
         Self {
             position: Vector([x, y, z]),
             velocity: Vector([speeds[0], speeds[1], speeds[2]]),
             turn,
             rates,
-            angular_velocity: turn.angular_velocity(rates, rolls),
+            spin,
+            angular_velocity: turn.rotation.apply(spin),
         }
     }
 
-    /// The generalized force of coordinate `k` by a force at the body's origin and a moment about it (frame axes).
+    /// The generalized force of coordinate `k` by a force at the body's origin (frame axes) and a moment about it (body axes).
     #[inline(always)]
     #[must_use]
     pub fn generalized(&self, k: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
         match k {
             0..=2 => force.0[k],
-            4 => moment.0[1],
-            5 => {
-                let axis = &self.turn.axes[2];
-                axis.0[0] * moment.0[0] + axis.0[2] * moment.0[2]
-            }
-            _ => self.turn.axes[0].dot(*moment),
+            3 => moment.0[0],
+            _ => self.turn.axes[k - 3].dot(*moment),
         }
     }
 
-    /// The force at the body's origin and the moment about it that give the body the accelerations `accelerations` of its
-    /// six coordinates (frame axes): inertia `m a` at the centre of gravity and `I α + ω × I ω`, less gravity.
+    /// The force at the body's origin (frame axes) and the moment about it (body axes) that give the body the accelerations
+    /// `accelerations` of its six coordinates: inertia `m a` at the centre of gravity and `I α + ω × I ω`, less gravity.
     ///
     /// `frame` is the motion of the reference frame, `gravity` the field in fixed axes (m/s²).
     #[inline(always)]
@@ -133,17 +134,13 @@ impl<S: Real> Kinematics<S> {
         S: Add<T, Output = S>,
         T: Real + Mul<S, Output = S>,
     {
-        let rolls = body.rolls();
         let a = accelerations;
-        let arm: Vector<S> = self.turn.rotation.apply(Vector(body.center_of_gravity));
-        let mut omega = self.angular_velocity;
-        let mut alpha =
-            self.turn
-                .angular_acceleration(self.rates, [S::from(a[3]), S::from(a[4]), S::from(a[5])], rolls);
-        let mut origin = Vector([S::from(a[0]), S::from(a[1]), S::from(a[2])]);
+        let turn = &self.turn;
+        let turning = [S::from(a[3]), S::from(a[4]), S::from(a[5])];
+        let (mut omega, mut alpha) = (self.spin, turn.spin_rate(self.rates, turning, body.rolls()));
         let field: Vector<T> = frame.acceleration - Vector::<T>::lift(gravity);
         let own: Vector<T> = frame.rotation.apply_transposed(field);
-        origin = origin + own;
+        let mut force = Vector([S::from(a[0]), S::from(a[1]), S::from(a[2])]) + own;
         if frame_moves {
             // Transport, centripetal and Coriolis parts of a turning frame, in its own axes.
             let spin: Vector<T> = frame.rotation.apply_transposed(frame.angular_velocity);
@@ -152,44 +149,71 @@ impl<S: Real> Kinematics<S> {
             let swing: Vector<S> = spin.cross(self.position);
             let centripetal: Vector<S> = spin.cross(swing);
             let coriolis: Vector<S> = spin.cross(self.velocity);
-            origin += transport + centripetal + coriolis + coriolis;
-            let drag: Vector<S> = spin.cross(omega);
-            alpha = alpha + spin_rate + drag;
-            omega = omega + spin;
+            force += transport + centripetal + coriolis + coriolis;
+            let drag: Vector<S> = spin.cross(self.angular_velocity);
+            alpha += turn.rotation.apply_transposed::<S, S>(drag + spin_rate);
+            omega += turn.rotation.apply_transposed::<S, S>(Vector::<S>::zero() + spin);
         }
         let central = body.center_of_gravity == [0.0; 3];
         if !central {
+            let arm = Vector(body.center_of_gravity);
             let swing: Vector<S> = omega.cross(arm);
-            origin = origin + alpha.cross(arm) + omega.cross(swing);
+            let own: Vector<S> = alpha.cross::<f64, S>(arm) + omega.cross(swing);
+            force += turn.rotation.apply::<S, S>(own);
         }
-        let force = origin.scale(body.mass);
-        // Euler's equations in body axes.
-        let to_body = self.turn.rotation.transpose();
-        let (w, e): (Vector<S>, Vector<S>) = (to_body.apply(omega), to_body.apply(alpha));
+        let force = force.scale(body.mass);
+        // Euler's equations.
+        let ([w1, w2, w3], [e1, e2, e3]) = (omega.0, alpha.0);
         let [i1, i2, i3] = body.inertia;
-        let spin_moment = Vector([
-            e.0[0] * i1 + w.0[1] * w.0[2] * (i3 - i2),
-            e.0[1] * i2 + w.0[2] * w.0[0] * (i1 - i3),
-            e.0[2] * i3 + w.0[0] * w.0[1] * (i2 - i1),
+        let mut moment = Vector([
+            e1 * i1 + w2 * w3 * (i3 - i2),
+            e2 * i2 + w3 * w1 * (i1 - i3),
+            e3 * i3 + w1 * w2 * (i2 - i1),
         ]);
-        let mut moment: Vector<S> = self.turn.rotation.apply(spin_moment);
         if !central {
-            moment += arm.cross(force);
+            let [x, y, z] = body.center_of_gravity;
+            let [f1, f2, f3] = turn.rotation.apply_transposed::<S, S>(force).0;
+            moment += Vector([f3 * y - f2 * z, f1 * z - f3 * x, f2 * x - f1 * y]);
         }
         (force, moment)
     }
 }
 
 impl Kinematics<f64> {
-    /// Accelerations of the six coordinates (held ones: zero) under a force at the body's origin and a moment about
-    /// it, bias and gravity already taken off.
+    /// The parts of a moment (body axes) about the axes of roll, pitch, yaw.
+    #[inline(always)]
+    pub(crate) fn about_axes(&self, moment: &Vector<f64>) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.turn.axes[k].dot::<f64, f64>(*moment))
+    }
+
+    /// What the elements on the body need to know of its free angles.
+    pub(crate) fn turning(&self, free: &[usize]) -> Turning {
+        let [roll, pitch, yaw] = self.turn.axes;
+        let before_yaw = pitch.scale::<f64, f64>(self.rates[1]);
+        let before_roll = before_yaw + yaw.scale::<f64, f64>(self.rates[2]);
+        // An axis turns with the angles behind it: pitch comes first, then yaw, then roll.
+        let drifts = [before_roll.cross(roll), Vector::zero(), before_yaw.cross(yaw)];
+        let mut turning = Turning {
+            axes: self.turn.axes,
+            drifts,
+            spin: self.spin,
+        };
+        for (slot, k) in free.iter().filter(|k| **k >= 3).enumerate() {
+            turning.axes[slot] = self.turn.axes[k - 3];
+            turning.drifts[slot] = drifts[k - 3];
+        }
+        turning
+    }
+
+    /// Accelerations of the six coordinates (held ones: zero) under a force at the body's origin (frame axes) and moments about
+    /// the axes of its angles ([`Kinematics::about_axes`]), bias and gravity already taken off.
     ///
     /// Solves `M q¨ = Q` by eliminating the translations, whose block of M is m times the unit matrix: what is
     /// left is the inertia of the free rotations about the centre of gravity, plus that of the mass in the held
     /// directions. A body that cannot be accelerated (no inertia) gives infinite or undefined values.
     #[inline(always)]
     #[must_use]
-    pub fn accelerations(&self, body: &Body, force: &Vector<f64>, moment: &Vector<f64>) -> [f64; 6] {
+    pub(crate) fn accelerations(&self, body: &Body, force: &Vector<f64>, moments: [f64; 3]) -> [f64; 6] {
         let free = &body.free;
         let zero = Vector::<f64>::zero();
         let (mut lever, mut spin) = ([zero; 3], [zero; 3]);
@@ -197,15 +221,13 @@ impl Kinematics<f64> {
         let central = body.center_of_gravity == [0.0; 3];
         for k in 0..3 {
             if free[3 + k] {
-                let axis = &self.turn.axes[k];
-                spin[k] = self.turn.rotation.apply_transposed(*axis);
-                right[k] = axis.dot::<f64, f64>(*moment);
+                spin[k] = self.turn.axes[k];
+                right[k] = moments[k];
             }
         }
         if !central {
-            let arm: Vector<f64> = self.turn.rotation.apply(Vector(body.center_of_gravity));
             for k in (0..3).filter(|k| free[3 + k]) {
-                lever[k] = self.turn.axes[k].cross(arm);
+                lever[k] = self.lever(body, k);
                 for c in 0..3 {
                     right[k] -= if free[c] { lever[k].0[c] * force.0[c] } else { 0.0 };
                 }
@@ -251,19 +273,24 @@ impl Kinematics<f64> {
         out
     }
 
+    /// The velocity of the centre of gravity by the rate of angle `k` (roll, pitch, yaw), frame axes.
+    #[inline(always)]
+    fn lever(&self, body: &Body, k: usize) -> Vector<f64> {
+        let own: Vector<f64> = self.turn.axes[k].cross(Vector(body.center_of_gravity));
+        self.turn.rotation.apply(own)
+    }
+
     /// The block of the mass matrix for the free coordinates, row-major `n × n`.
     #[inline(always)]
     pub fn mass_matrix(&self, body: &Body, free: &[usize], mass: &mut [f64]) {
-        let arm: Vector<f64> = self.turn.rotation.apply(Vector(body.center_of_gravity));
         let mut velocity = [Vector::zero(); 6];
         let mut spin = [Vector::zero(); 6];
         for &k in free {
             if k < 3 {
                 velocity[k].0[k] = 1.0;
             } else {
-                let axis = self.turn.axes[k - 3];
-                velocity[k] = axis.cross(arm);
-                spin[k] = self.turn.rotation.apply_transposed(axis);
+                velocity[k] = self.lever(body, k - 3);
+                spin[k] = self.turn.axes[k - 3];
             }
         }
         let n = free.len();

@@ -10,11 +10,11 @@
 //! and a guiding couple; the couple does work when the body turns, and this work is integrated and entered in the
 //! energy ledger under its own name. With `acts_at = "seat"` the force acts at the coil's end, and there is no couple.
 
-use integrate::scalar::Real;
+use integrate::scalar::{Dual, Real};
 use serde::{Deserialize, Serialize};
 
 use crate::characteristic::Characteristic;
-use crate::link::Relative;
+use crate::link::{Relative, Response, Responses, Turning};
 use crate::vector::Vector;
 
 /// Force by compression.
@@ -63,6 +63,17 @@ pub struct Coil {
     pub rotational_damping: f64,
     /// Whether the spring can pull.
     pub pulls: bool,
+}
+
+/// Spring and dashpot alone.
+struct Pull<S> {
+    force: Vector<S>,
+    /// The spring's part of it.
+    along: Vector<S>,
+    length: S,
+    spring: S,
+    /// Power lost in the dashpot.
+    loss: S,
 }
 
 /// What a coil does.
@@ -119,14 +130,11 @@ impl Coil {
             d += arm;
             rate += relative.angular_velocity.cross(arm);
         }
-        let length = d.dot(d).sqrt();
-        let spring = spring(length);
-        let along = d.scale(spring / length);
-        let force = along - rate.scale(self.damping);
+        let pull = self.pull(d, rate, spring);
+        let force = pull.force;
         let turn = relative.angular_velocity;
         let brake = turn.scale(-self.rotational_damping);
-        let mut loss = rate.dot(rate) * self.damping;
-        loss += turn.dot(turn) * self.rotational_damping;
+        let loss = pull.loss + turn.dot(turn) * self.rotational_damping;
         let (moment, guide_power) = if self.acts_at == self.end {
             (arm.cross(force) + brake, S::zero())
         } else {
@@ -136,13 +144,111 @@ impl Coil {
         };
         CoilForce {
             force,
-            spring_force: along,
+            spring_force: pull.along,
             moment,
-            length,
-            spring,
+            length: pull.length,
+            spring: pull.spring,
             loss,
             guide_power,
         }
+    }
+
+    /// Spring and dashpot between the seat and the coil's end at `d`, which moves with `rate`.
+    #[inline(always)]
+    fn pull<S: Real>(&self, d: Vector<S>, rate: Vector<S>, spring: impl FnOnce(S) -> S) -> Pull<S> {
+        let length = d.dot::<S, S>(d).sqrt();
+        let spring = spring(length);
+        let along = d.scale(spring / length);
+        Pull {
+            force: along - rate.scale::<f64, S>(self.damping),
+            along,
+            length,
+            spring,
+            loss: rate.dot::<S, S>(rate) * self.damping,
+        }
+    }
+
+    /// How what the coil does changes with the motion of its body with `R` free angles, where its seat stands still or translates; with
+    /// its force (mount axes) and moment (body axes).
+    #[inline(always)]
+    pub(crate) fn respond<const R: usize>(
+        &self,
+        relative: &Relative<f64>,
+        turning: &Turning,
+        response: &mut Response,
+    ) -> (Vector<f64>, Vector<f64>) {
+        let rotation = &relative.rotation;
+        let turned = |v: Vector<f64>| -> Vector<f64> { rotation.apply(v) };
+        let cross = |a: Vector<f64>, b: Vector<f64>| -> Vector<f64> { a.cross(b) };
+        let dot = |a: Vector<f64>, b: Vector<f64>| -> f64 { a.dot(b) };
+        let (end, spin) = (self.end, turning.spin);
+        let swing = cross(spin, end);
+        let (d, rate) = (
+            relative.position + turned(end),
+            relative.velocity + turned(swing),
+        );
+        let seed = |v: Vector<f64>, first: usize| {
+            Vector([0, 1, 2].map(|i| Dual::<6>::variable(v.0[i], first + i)))
+        };
+        let pull = self.pull(seed(d, 0), seed(rate, 3), |length| self.spring(length));
+        let force = pull.force.value();
+        let own: Vector<f64> = rotation.apply_transposed(force);
+        // The guiding couple's power is that of the force at a velocity of its own.
+        let offset = self.acts_at - end;
+        let guide = turned(cross(spin, offset));
+        let arms: [Vector<f64>; R] = std::array::from_fn(|k| cross(turning.axes[k], self.acts_at));
+        let levers = arms.map(turned);
+        let damping = self.rotational_damping;
+        let effect = |force: Vector<f64>, loss: f64| -> Responses {
+            let mut out = [0.0; 8];
+            out[..3].copy_from_slice(&force.0);
+            for k in 0..R {
+                out[3 + k] = dot(levers[k], force);
+            }
+            out[6] = loss;
+            out[7] = dot(guide, force);
+            out
+        };
+        let column = |index: usize| {
+            effect(
+                Vector([0, 1, 2].map(|i| pull.force.0[i].derivative[index])),
+                pull.loss.derivative[index],
+            )
+        };
+        *response = Response::NONE;
+        response.place = [column(0), column(1), column(2)];
+        response.velocity = [column(3), column(4), column(5)];
+        // The end of a coil that acts elsewhere moves with the angles.
+        let moved = |columns: &[Responses; 3], by: Vector<f64>| -> Responses {
+            let [x, y, z] = by.0;
+            std::array::from_fn(|o| columns[0][o] * x + columns[1][o] * y + columns[2][o] * z)
+        };
+        let central = end == Vector::zero();
+        for l in 0..R {
+            let (axis, drift) = (turning.axes[l], turning.drifts[l]);
+            let (mut angle, mut angle_rate) = ([0.0; 8], [0.0; 8]);
+            if !central {
+                let arm = turned(cross(axis, end));
+                let carried = turned(cross(axis, swing) + cross(drift, end));
+                angle = moved(&response.place, arm);
+                for (sum, term) in angle.iter_mut().zip(moved(&response.velocity, carried)) {
+                    *sum += term;
+                }
+                angle_rate = moved(&response.velocity, arm);
+            }
+            for k in 0..R {
+                let other = turning.axes[k];
+                angle[3 + k] += dot(cross(own, axis), arms[k]) - damping * dot(other, drift);
+                angle_rate[3 + k] -= damping * dot(other, axis);
+            }
+            angle[6] += 2.0 * damping * dot(spin, drift);
+            angle_rate[6] += 2.0 * damping * dot(spin, axis);
+            let guide_change = cross(axis, cross(spin, offset)) + cross(drift, offset);
+            angle[7] += dot(own, guide_change);
+            angle_rate[7] += dot(own, cross(axis, offset));
+            (response.angle[l], response.angle_rate[l]) = (angle, angle_rate);
+        }
+        (force, cross(self.acts_at, own) - spin.scale(damping))
     }
 
     /// Spring force at a length (m), N.

@@ -7,13 +7,14 @@
 //! Defects: with `c > 0` the force jumps when a point strikes; the stiffness per point is a model parameter that
 //! stands for the elasticity of the faces, not a property of a point. Four corners are the 2 × 2 case of a face.
 
+mod chain;
 mod quads;
+mod work;
 
-use std::ops::{Add, Mul};
+use integrate::scalar::{Number, Real};
 
-use integrate::scalar::{Mask, Number, Real};
-
-pub(crate) use quads::{Column, Points};
+pub(crate) use quads::Points;
+pub(crate) use work::RateResponse;
 
 use crate::friction::{Friction, FrictionLaw, bristle, tanh};
 use crate::link::Relative;
@@ -74,7 +75,17 @@ pub struct PointContact<S: Number> {
 struct Grade<P> {
     stiffness: P,
     damping: P,
+    /// Whether there is any damping.
+    damped: bool,
     share: P,
+}
+
+/// What a law sees of a point (or of four).
+#[derive(Clone, Copy, Debug)]
+struct Meeting<S> {
+    gap: S,
+    gap_rate: S,
+    slip: [S; 2],
 }
 
 /// The forces at a point (or at four).
@@ -133,7 +144,7 @@ impl<F: Surface> ContactFace<F> {
                 None => [S::zero(); 2],
             };
             let mut contact = self.geometry(point, relative);
-            let touch = self.touch(&point.grade(), closed, &contact, deflection);
+            let touch = self.touch(&point.grade(), closed, &contact.meeting(), deflection);
             contact.normal = touch.normal;
             contact.friction = touch.friction;
             contact.damping_loss = touch.damping_loss;
@@ -153,20 +164,9 @@ impl<F: Surface> ContactFace<F> {
     /// Where a point is and how it moves; no forces yet.
     #[inline(always)]
     pub fn geometry<S: Real>(&self, point: &ContactPoint, relative: &Relative<S>) -> PointContact<S> {
-        self.locate(point.position, relative)
-    }
-
-    /// The same of one point or of four.
-    #[inline(always)]
-    fn locate<R, P, S>(&self, position: Vector<P>, relative: &Relative<R>) -> PointContact<S>
-    where
-        R: Number + Mul<P, Output = S> + Mul<S, Output = S> + Add<S, Output = S>,
-        P: Copy,
-        S: Number,
-    {
-        let arm: Vector<S> = relative.rotation.apply(position);
+        let arm: Vector<S> = relative.rotation.apply(point.position);
         let place = relative.position + arm;
-        let velocity: Vector<S> = relative.velocity + relative.angular_velocity.cross(arm);
+        let velocity: Vector<S> = relative.velocity + relative.angular_velocity.cross::<S, S>(arm);
         let [gap_rate, s1, s2] = self.surface.resolve(place, velocity);
         PointContact {
             place,
@@ -186,15 +186,14 @@ impl<F: Surface> ContactFace<F> {
         &self,
         grade: &Grade<S::Plain>,
         closed: S::Mask,
-        at: &PointContact<S>,
+        at: &Meeting<S>,
         deflection: [S; 2],
     ) -> Touch<S> {
-        let none = S::Plain::zero();
         let elastic = S::blend(closed, at.gap.by(-grade.stiffness), S::zero());
         let (mut normal, mut damping_loss) = (elastic, S::zero());
-        if !none.below(grade.damping).none() {
+        if grade.damped {
             let damped = elastic - at.gap_rate.by(grade.damping);
-            let pressed = S::blend(none.below(damped.plain()), damped, S::zero());
+            let pressed = S::blend(S::Plain::zero().below(damped.plain()), damped, S::zero());
             normal = S::blend(closed, pressed, S::zero());
             damping_loss = (elastic - normal) * at.gap_rate;
         }
@@ -212,7 +211,7 @@ impl<F: Surface> ContactFace<F> {
         &self,
         grade: &Grade<S::Plain>,
         closed: S::Mask,
-        at: &PointContact<S>,
+        at: &Meeting<S>,
         deflection: [S; 2],
     ) -> S::Plain {
         match self.law {
@@ -243,11 +242,23 @@ impl<F: Surface> ContactFace<F> {
     }
 }
 
+impl<S: Number> PointContact<S> {
+    #[inline(always)]
+    fn meeting(&self) -> Meeting<S> {
+        Meeting {
+            gap: self.gap,
+            gap_rate: self.gap_rate,
+            slip: self.slip,
+        }
+    }
+}
+
 impl ContactPoint {
     fn grade(&self) -> Grade<f64> {
         Grade {
             stiffness: self.stiffness,
             damping: self.damping,
+            damped: self.damping > 0.0,
             share: self.share,
         }
     }

@@ -84,13 +84,14 @@ impl Frame {
         let translation = |order: usize| Vector([jets[0][order], jets[1][order], jets[2][order]]);
         let angles = |order: usize| [jets[3][order], jets[4][order], jets[5][order]];
         let turn = Turn::new(angles(0), true);
+        let rotation: Matrix<S> = base.times(turn.rotation);
         FrameMotion {
             position: Vector::<S>::lift(Vector(self.origin)) + base.apply::<S, S>(translation(0)),
-            rotation: base.times::<S, S>(turn.rotation),
+            rotation,
             velocity: base.apply(translation(1)),
-            angular_velocity: base.apply(turn.angular_velocity(angles(1), true)),
+            angular_velocity: rotation.apply(turn.spin(angles(1), true)),
             acceleration: base.apply(translation(2)),
-            angular_acceleration: base.apply(turn.angular_acceleration(angles(1), angles(2), true)),
+            angular_acceleration: rotation.apply(turn.spin_rate(angles(1), angles(2), true)),
         }
     }
 

@@ -6,7 +6,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use integrate::scalar::{Dual, Real};
+use integrate::scalar::Real;
 
 use crate::body::Kinematics;
 use crate::frame::FrameMotion;
@@ -121,25 +121,10 @@ impl Translation {
         sight.velocity = -sight.mount_velocity;
     }
 
-    /// The sight with its derivative by time.
+    /// The acceleration of the frame as the mount sees it: the rate of the sight's velocity.
     #[inline(always)]
-    pub fn sight_in_time(&self, sight: &Sight<f64>, b: &FrameMotion<f64>) -> Sight<Dual<1>> {
-        let rate: Vector<f64> = self.axes.apply_transposed(b.acceleration);
-        let with = |value: &Vector<f64>, rate: &Vector<f64>| {
-            let component = |k: usize| Dual {
-                value: value.0[k],
-                derivative: [rate.0[k]],
-            };
-            Vector([component(0), component(1), component(2)])
-        };
-        Sight {
-            position: with(&sight.position, &sight.velocity),
-            rotation: Matrix::lift(sight.rotation),
-            velocity: with(&sight.velocity, &-rate),
-            angular_velocity: Vector::zero(),
-            mount_velocity: with(&sight.mount_velocity, &rate),
-            mount_angular_velocity: Vector::zero(),
-        }
+    pub fn acceleration(&self, b: &FrameMotion<f64>) -> Vector<f64> {
+        -self.axes.apply_transposed::<f64, f64>(b.acceleration)
     }
 }
 
@@ -154,4 +139,50 @@ pub struct Relative<S> {
     pub velocity: Vector<S>,
     /// Angular velocity relative to body `b`.
     pub angular_velocity: Vector<S>,
+}
+
+/// What an element does to the body that it carries.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Effect {
+    /// Force, mount axes, N.
+    pub force: Vector<f64>,
+    /// Moment about the body's origin, body axes, N·m.
+    pub moment: Vector<f64>,
+    /// Powers of the element's channels, W.
+    pub powers: [f64; 2],
+}
+
+/// The free angles of a body: their axes, how its angular velocity changes with them at fixed rates, and the angular velocity (body axes).
+/// Slots beyond the number of free angles are of no meaning.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Turning {
+    pub axes: [Vector<f64>; 3],
+    pub drifts: [Vector<f64>; 3],
+    pub spin: Vector<f64>,
+}
+
+/// Changes of an element's [`Effect`]: force along the mount's axes, moments about the axes of the free angles (three slots), two powers.
+pub(crate) type Responses = [f64; 8];
+
+/// How an element's effect changes with the motion of the body that it carries.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Response {
+    /// By the place of the body's origin, along each of the mount's axes.
+    pub place: [Responses; 3],
+    /// By its velocity.
+    pub velocity: [Responses; 3],
+    /// By the free angles; without the change of the other axes.
+    pub angle: [Responses; 3],
+    /// By their rates.
+    pub angle_rate: [Responses; 3],
+}
+
+impl Response {
+    /// No change.
+    pub const NONE: Self = Self {
+        place: [[0.0; 8]; 3],
+        velocity: [[0.0; 8]; 3],
+        angle: [[0.0; 8]; 3],
+        angle_rate: [[0.0; 8]; 3],
+    };
 }

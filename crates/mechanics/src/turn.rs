@@ -2,18 +2,19 @@
 //!
 //! Orientation (Steets 2007, eqs. 3-3 and 3-6, with roll last): `R = Ry(pitch) · Rz(yaw) · Rx(roll)`. The axes about which
 //! the angles turn are y, `Ry z` and `Ry Rz x`, so that
-//! `ω = pitch˙ e_pitch + yaw˙ e_yaw + roll˙ e_roll`; with roll held this is (u4 sin q3, u3, u4 cos q3).
+//! `ω = pitch˙ e_pitch + yaw˙ e_yaw + roll˙ e_roll`; with roll held this is (u4 sin q3, u3, u4 cos q3) in the axes of the reference
+//! frame, and (u3 sin q4, u3 cos q4, u4) in those of the body, where moments are taken.
 
 use integrate::scalar::Real;
 
 use crate::vector::{Matrix, Vector, rotation_x, rotation_y, rotation_z};
 
-/// Rotation and the axes of its three angles, in the axes of the reference frame.
+/// A rotation, and the axes of its three angles in the axes of the body.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn<S> {
     /// From body axes to reference axes.
     pub rotation: Matrix<S>,
-    /// The axes about which roll, pitch and yaw turn.
+    /// The axes about which roll, pitch and yaw turn, body axes: x, `Rxᵀ (sin yaw, cos yaw, 0)`, `Rxᵀ z`.
     pub axes: [Vector<S>; 3],
 }
 
@@ -26,50 +27,61 @@ impl<S: Real> Turn<S> {
         let [roll, pitch, yaw] = angles;
         let (sp, cp) = pitch.sin_cos();
         let (sy, cy) = yaw.sin_cos();
-        let zero = S::zero();
+        let (zero, one) = (S::zero(), S::from(1.0));
         let mut rotation = Matrix([
             [cp * cy, -(cp * sy), sp],
             [sy, cy, zero],
             [-(sp * cy), sp * sy, cp],
         ]);
-        let axes = [
-            rotation.column(0),
-            Vector([zero, S::from(1.0), zero]),
-            Vector([sp, zero, cp]),
+        let mut axes = [
+            Vector([one, zero, zero]),
+            Vector([sy, cy, zero]),
+            Vector([zero, zero, one]),
         ];
         if rolls {
-            rotation = rotation.times(rotation_x(roll.sin_cos()));
+            let (sr, cr) = roll.sin_cos();
+            rotation = rotation.times(rotation_x((sr, cr)));
+            axes[1] = Vector([sy, cr * cy, -(sr * cy)]);
+            axes[2] = Vector([zero, sr, cr]);
         }
         Self { rotation, axes }
     }
 
-    /// Angular velocity for the rates of roll, pitch, yaw (rad/s), reference axes.
+    /// Angular velocity for the rates of roll, pitch, yaw (rad/s), body axes.
     #[inline(always)]
     #[must_use]
-    pub fn angular_velocity(&self, rates: [S; 3], rolls: bool) -> Vector<S> {
+    pub fn spin(&self, rates: [S; 3], rolls: bool) -> Vector<S> {
         let [_, pitch, yaw] = self.axes;
-        let mut omega = Vector([yaw.0[0] * rates[2], rates[1] * pitch.0[1], yaw.0[2] * rates[2]]);
+        let mut spin = pitch.scale(rates[1]);
         if rolls {
-            omega += self.axes[0].scale(rates[0]);
+            spin += yaw.scale(rates[2]);
+            spin.0[0] += rates[0];
+        } else {
+            spin.0[2] = rates[2];
         }
-        omega
+        spin
     }
 
-    /// Angular acceleration for rates and accelerations of roll, pitch, yaw, reference axes:
-    /// `Σ e_k q¨_k + yaw˙ (pitch˙ e_pitch × e_yaw) + roll˙ ((pitch˙ e_pitch + yaw˙ e_yaw) × e_roll)`.
+    /// Angular acceleration for rates and accelerations of roll, pitch, yaw, body axes: the rate of the components of
+    /// [`Turn::spin`], `Σ e_k q¨_k + pitch˙ yaw˙ (e_pitch × e_yaw) + roll˙ (pitch˙ e_pitch + yaw˙ e_yaw) × e_roll`.
     #[inline(always)]
     #[must_use]
-    pub fn angular_acceleration(&self, rates: [S; 3], accelerations: [S; 3], rolls: bool) -> Vector<S> {
-        let [roll, pitch, yaw] = self.axes;
-        let mut alpha = pitch.scale(accelerations[1]) + yaw.scale(accelerations[2]);
-        // e_pitch × e_yaw = y × (sin, 0, cos) = (cos, 0, -sin)
+    pub fn spin_rate(&self, rates: [S; 3], accelerations: [S; 3], rolls: bool) -> Vector<S> {
+        let [_, pitch, yaw] = self.axes;
         let product = rates[1] * rates[2];
-        alpha += Vector([yaw.0[2] * product, S::zero(), -(yaw.0[0] * product)]);
         if rolls {
-            let two = self.angular_velocity([S::zero(), rates[1], rates[2]], false);
-            alpha += roll.scale(accelerations[0]) + two.cross(roll).scale(rates[0]);
+            let two = pitch.scale::<S, S>(rates[1]) + yaw.scale(rates[2]);
+            let mut rate = pitch.scale::<S, S>(accelerations[1]) + yaw.scale(accelerations[2]);
+            rate += pitch.cross::<S, S>(yaw).scale(product);
+            rate + Vector([accelerations[0], two.0[2] * rates[0], -(two.0[1] * rates[0])])
+        } else {
+            let [sine, cosine, _] = pitch.0;
+            Vector([
+                sine * accelerations[1] + cosine * product,
+                cosine * accelerations[1] - sine * product,
+                accelerations[2],
+            ])
         }
-        alpha
     }
 }
 

@@ -10,6 +10,7 @@ use super::sense::{Sense, Stage};
 use crate::body::Kinematics;
 use crate::frame::FrameMotion;
 use crate::motion::Jet;
+use crate::vector::Vector;
 
 /// How a driven body changes its place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -157,7 +158,8 @@ impl System {
         );
         let load = &sense.loads[free.body];
         let force = frame.rotation.apply_transposed::<Dual<1>, Dual<1>>(load.force) - force;
-        let moment = frame.rotation.apply_transposed::<Dual<1>, Dual<1>>(load.moment) - moment;
+        let carried: Vector<Dual<1>> = frame.rotation.apply_transposed(load.moment);
+        let moment = kinematics.turn.rotation.apply_transposed::<Dual<1>, Dual<1>>(carried) - moment;
         let n = free.free.len();
         let mut mass = vec![0.0; n * n];
         self.kinematics[free.body].mass_matrix(body, &free.free, &mut mass);

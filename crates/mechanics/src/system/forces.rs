@@ -6,10 +6,10 @@ use std::ops::Mul;
 use super::{Mounted, System};
 use crate::body::Kinematics;
 use crate::coil::{Coil, CoilForce};
-use crate::contact::{Column, ContactFace, FaceResultant, Points};
-use crate::link::{Mount, Relative, Sight};
+use crate::contact::{ContactFace, FaceResultant, Points};
+use crate::link::{Effect, Mount, Relative, Sight};
 use crate::surface::Plane;
-use crate::vector::{Matrix, Vector};
+use crate::vector::Vector;
 
 /// What an element does to the body that it carries, in mount axes.
 #[derive(Clone, Copy, Debug)]
@@ -24,14 +24,14 @@ pub(super) struct Action<S> {
 
 /// An element between two bodies.
 pub(super) trait Element: Sized {
-    /// The action; `rates` receives the rates of the internal states.
+    /// What it does to the body that it carries; `rates` receives the rates of the internal states.
     fn act(
         &self,
         points: &Points,
         relative: &Relative<f64>,
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Action<f64>;
+    ) -> Effect;
 
     /// The action with its derivatives; `rates` sees those of the rates of two internal states at a time.
     fn change<const N: usize>(
@@ -40,19 +40,6 @@ pub(super) trait Element: Sized {
         relative: &Relative<Dual<N>>,
         rates: impl FnMut(usize, [[f64; 2]; N]),
     ) -> Action<Dual<N>>;
-
-    /// The same for the carried body's own coordinates `free` and their rates.
-    #[inline(always)]
-    fn change_with_body<const N: usize>(
-        &self,
-        points: &Points,
-        sight: &Sight<f64>,
-        seeded: &Kinematics<Dual<N>>,
-        _free: &[usize],
-        rates: impl FnMut(usize, [[f64; 2]; N]),
-    ) -> Action<Dual<N>> {
-        self.change(points, &sight.relative(seeded), rates)
-    }
 }
 
 impl Element for ContactFace<Plane> {
@@ -63,8 +50,8 @@ impl Element for ContactFace<Plane> {
         relative: &Relative<f64>,
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Action<f64> {
-        Action::of_face(&self.resultant(points, relative, internal, rates))
+    ) -> Effect {
+        self.effect(points, relative, internal, rates)
     }
 
     #[inline(always)]
@@ -74,28 +61,19 @@ impl Element for ContactFace<Plane> {
         relative: &Relative<Dual<N>>,
         rates: impl FnMut(usize, [[f64; 2]; N]),
     ) -> Action<Dual<N>> {
-        let internal = self.law.states_per_point() > 0;
-        Action::of_face(&points.change(&Column::all(relative), internal, rates))
-    }
-
-    #[inline(always)]
-    fn change_with_body<const N: usize>(
-        &self,
-        points: &Points,
-        sight: &Sight<f64>,
-        seeded: &Kinematics<Dual<N>>,
-        free: &[usize],
-        rates: impl FnMut(usize, [[f64; 2]; N]),
-    ) -> Action<Dual<N>> {
-        let internal = self.law.states_per_point() > 0;
-        Action::of_face(&points.change(&Column::of_body(sight, seeded, free), internal, rates))
+        Action::of_face(&points.change(relative, self.law.states_per_point() > 0, rates))
     }
 }
 
 impl Element for Coil {
     #[inline(always)]
-    fn act(&self, _: &Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> Action<f64> {
-        Action::of_coil(&self.evaluate(relative))
+    fn act(&self, _: &Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> Effect {
+        let coil = self.evaluate(relative);
+        Effect {
+            force: coil.force,
+            moment: relative.rotation.apply_transposed(coil.moment),
+            powers: [coil.loss, coil.guide_power],
+        }
     }
 
     #[inline(always)]
@@ -130,12 +108,17 @@ impl<S: Real> Action<S> {
         }
     }
 
-    /// Force on the carried body and moment about its origin, in its reference frame's axes.
+    /// Force on the carried body (axes of its reference frame) and moment about its origin (body axes).
     #[inline(always)]
-    pub fn on_body<T: Real + Mul<S, Output = S>>(&self, sight: &Sight<T>) -> (Vector<S>, Vector<S>) {
+    pub fn on_body<T, K>(&self, sight: &Sight<T>, body: &Kinematics<K>) -> (Vector<S>, Vector<S>)
+    where
+        T: Real + Mul<S, Output = S>,
+        K: Real + Mul<S, Output = S>,
+    {
+        let moment: Vector<S> = sight.rotation.apply_transposed(self.moment);
         (
             sight.rotation.apply_transposed(self.force),
-            sight.rotation.apply_transposed(self.moment),
+            body.turn.rotation.apply_transposed(moment),
         )
     }
 
@@ -145,19 +128,23 @@ impl<S: Real> Action<S> {
         self.moment + relative.position.cross::<S, S>(self.force)
     }
 
-    /// Force on the body that the element stands on and moment about that body's origin, in its frame's axes.
+    /// Force on the body that the element stands on (axes of its reference frame) and moment about its origin (body axes).
     #[inline(always)]
-    pub fn reaction<T: Real + Mul<S, Output = S> + Mul<f64, Output = T>>(
+    pub fn reaction<T: Real + Mul<S, Output = S>>(
         &self,
         relative: &Relative<S>,
         on: &Kinematics<T>,
         mount: &Mount,
-    ) -> (Vector<S>, Vector<S>) {
-        let axes: Matrix<T> = on.turn.rotation.times(mount.rotation);
-        let arm: Vector<T> = on.turn.rotation.apply(mount.origin);
-        let force: Vector<S> = -axes.apply::<S, S>(self.force);
-        let moment: Vector<S> = -axes.apply::<S, S>(self.moment_at_mount(relative));
-        (force, moment + arm.cross::<S, S>(force))
+    ) -> (Vector<S>, Vector<S>)
+    where
+        f64: Mul<S, Output = S>,
+    {
+        let force: Vector<S> = -mount.rotation.apply::<S, S>(self.force);
+        let moment: Vector<S> = -mount.rotation.apply::<S, S>(self.moment_at_mount(relative));
+        (
+            on.turn.rotation.apply(force),
+            moment + mount.origin.cross::<S, S>(force),
+        )
     }
 
     /// The power that the prescribed motion of the body under the element delivers, W.
@@ -198,7 +185,7 @@ impl System {
             let (force, moment) =
                 kinematics.inertia(body, &frame.motion, !frame.fixed, self.gravity, &[0.0; 6]);
             let (force, moment) = (self.force[free.body] - force, self.moment[free.body] - moment);
-            let accelerations = kinematics.accelerations(body, &force, &moment);
+            let accelerations = kinematics.accelerations(body, &force, kinematics.about_axes(&moment));
             let target = &mut d_speeds[free.offset..free.offset + free.free.len()];
             for (target, &k) in target.iter_mut().zip(&free.free) {
                 *target = accelerations[k];
@@ -218,23 +205,35 @@ fn apply<E: Element>(
     powers: &mut [f64],
 ) {
     let relative: Relative<f64> = mounted.sight.relative(&kinematics[mounted.body]);
-    let action = mounted
+    let effect = mounted
         .element
         .act(&mounted.points, &relative, internal, internal_rates);
-    let (force, moment) = action.on_body(&mounted.sight);
-    forces[mounted.body] += force;
-    moments[mounted.body] += moment;
+    let sight = &mounted.sight;
+    forces[mounted.body] += sight.rotation.apply_transposed(effect.force);
+    moments[mounted.body] += effect.moment;
+    for (channel, power) in mounted.channels.iter().zip(effect.powers) {
+        if let Some(channel) = channel {
+            powers[*channel] += power;
+        }
+    }
+    if !(mounted.on_free || mounted.driven) {
+        return;
+    }
+    if mounted.translation.is_some() {
+        powers[0] += sight.mount_velocity.dot::<f64, f64>(effect.force);
+        return;
+    }
+    let action = Action {
+        force: effect.force,
+        moment: relative.rotation.apply(effect.moment),
+        powers: effect.powers,
+    };
     if mounted.on_free {
         let (force, moment) = action.reaction(&relative, &kinematics[mounted.on], &mounted.mount);
         forces[mounted.on] += force;
         moments[mounted.on] += moment;
     }
-    for (channel, power) in mounted.channels.iter().zip(action.powers) {
-        if let Some(channel) = channel {
-            powers[*channel] += power;
-        }
-    }
     if mounted.driven {
-        powers[0] += action.drive_power(&relative, &mounted.sight);
+        powers[0] += action.drive_power(&relative, sight);
     }
 }

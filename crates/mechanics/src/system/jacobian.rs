@@ -1,8 +1,10 @@
 //! The Jacobian, element by element, by forward differentiation of the same lines that give the forces.
 //!
-//! One pass a free body: its positions and speeds are seeded, everything else is constant. What enters the speed
-//! rows is the residual `Q(q, u) - M(q) u˙ - b(q, u)` at fixed accelerations, so that the change of M with the
-//! coordinates is included. One more pass, with a single derivative, gives the explicit dependence on time.
+//! What enters the speed rows is the residual `Q(q, u) - M(q) u˙ - b(q, u)` at fixed accelerations, so that the change of M with the
+//! coordinates is included. Inertia depends on angles alone where the reference frame stands still: one pass with derivatives by
+//! them and their rates. Elements on prescribed neighbours that do not turn answer with their [`Response`] ([`super::rows`]); for
+//! the others one pass a free body, whose positions and speeds are seeded, everything else being constant, and one more, with a
+//! single derivative, for the explicit dependence on time.
 
 use integrate::partitioned::Partitioned;
 use integrate::scalar::{Dual, Real};
@@ -51,8 +53,26 @@ impl System {
             face.element.linearize(&mut face.points, &relative, deflections);
         }
         for (number, free) in self.free.iter().enumerate() {
+            let kinematics = &self.kinematics[free.body];
             let mass = self.jacobian.mass_mut(number);
-            self.kinematics[free.body].mass_matrix(&self.bodies[free.body], &free.free, mass);
+            kinematics.mass_matrix(&self.bodies[free.body], &free.free, mass);
+            let turning = kinematics.turning(&free.free);
+            let mut carried = Vector::zero();
+            for &face in &free.faces {
+                let face = &mut self.faces[face];
+                if face.plain {
+                    carried += face.respond(kinematics, &turning, free);
+                    face.add_rows(free, &mut self.jacobian);
+                    face.add_rates(free, &mut self.jacobian);
+                }
+            }
+            for &coil in &free.coils {
+                let coil = &mut self.coils[coil];
+                if coil.plain {
+                    carried += coil.respond(kinematics, &turning, free);
+                    coil.add_rows(free, &mut self.jacobian);
+                }
+            }
             let coordinates = self.coordinates(free, x);
             let pass = Pass {
                 scene: &scene,
@@ -63,13 +83,23 @@ impl System {
                 coils: &self.coils,
             };
             let jacobian = &mut self.jacobian;
-            match free.free.len() {
-                1 => pass.run::<2>(jacobian),
-                2 => pass.run::<4>(jacobian),
-                3 => pass.run::<6>(jacobian),
-                4 => pass.run::<8>(jacobian),
-                5 => pass.run::<10>(jacobian),
-                _ => pass.run::<12>(jacobian),
+            if scene.frames[free.body].fixed {
+                match free.angles() {
+                    0 => pass.inertia::<0>(&carried, jacobian),
+                    1 => pass.inertia::<2>(&carried, jacobian),
+                    2 => pass.inertia::<4>(&carried, jacobian),
+                    _ => pass.inertia::<6>(&carried, jacobian),
+                }
+            }
+            if !free.plain {
+                match free.free.len() {
+                    1 => pass.run::<2>(jacobian),
+                    2 => pass.run::<4>(jacobian),
+                    3 => pass.run::<6>(jacobian),
+                    4 => pass.run::<8>(jacobian),
+                    5 => pass.run::<10>(jacobian),
+                    _ => pass.run::<12>(jacobian),
+                }
             }
         }
         for face in &self.faces {
@@ -87,7 +117,7 @@ impl System {
         let layout = self.layout;
         let [_, d_speeds, d_internal, d_quadratures] = layout.split_mut(df_dt);
         for (body, load) in self.load_rate.iter_mut().enumerate() {
-            *load = (Vector::zero(), Vector::zero());
+            *load = (Vector::zero(), [0.0; 3]);
             let Some(number) = self.free_number[body] else {
                 continue;
             };
@@ -112,21 +142,45 @@ impl System {
             let accelerations = &self.accelerations[body];
             let (force, moment) =
                 kinematics.inertia(&self.bodies[body], &frame, true, self.gravity, accelerations);
-            *load = (-rate_of(&force), -rate_of(&moment));
+            *load = (
+                -rate_of(&force),
+                self.kinematics[body].about_axes(&-rate_of(&moment)),
+            );
         }
         for face in self.faces.iter().filter(|face| face.moves) {
             let rates = &mut d_internal[face.first_internal..][..face.internal_count];
+            let (free, frame) = (self.free_number[face.body], &self.frames[face.on].motion);
+            if let (true, Some(free)) = (face.plain, free) {
+                face.in_time(
+                    &self.free[free],
+                    frame,
+                    &mut self.load_rate[face.body],
+                    d_quadratures,
+                );
+                face.rates_in_time(frame, rates);
+                continue;
+            }
             let scene = (&self.frames[..], &self.kinematics[..]);
             time_derivative(face, scene, rates, &mut self.load_rate, d_quadratures);
         }
         for coil in self.coils.iter().filter(|coil| coil.moves) {
+            let (free, frame) = (self.free_number[coil.body], &self.frames[coil.on].motion);
+            if let (true, Some(free)) = (coil.plain, free) {
+                coil.in_time(
+                    &self.free[free],
+                    frame,
+                    &mut self.load_rate[coil.body],
+                    d_quadratures,
+                );
+                continue;
+            }
             let scene = (&self.frames[..], &self.kinematics[..]);
             time_derivative(coil, scene, &mut [], &mut self.load_rate, d_quadratures);
         }
         for free in &self.free {
-            let (force, moment) = &self.load_rate[free.body];
+            let (force, moments) = &self.load_rate[free.body];
             let accelerations =
-                self.kinematics[free.body].accelerations(&self.bodies[free.body], force, moment);
+                self.kinematics[free.body].accelerations(&self.bodies[free.body], force, *moments);
             for (j, &k) in free.free.iter().enumerate() {
                 d_speeds[free.offset + j] = accelerations[k];
             }
@@ -140,20 +194,15 @@ fn time_derivative<E: Element>(
     mounted: &Mounted<E>,
     (frames, kinematics): (&[FrameState], &[Kinematics<f64>]),
     d_internal: &mut [f64],
-    load_rate: &mut [(Vector<f64>, Vector<f64>)],
+    load_rate: &mut [(Vector<f64>, [f64; 3])],
     d_quadratures: &mut [f64],
 ) {
     let on = lift_kinematics(&kinematics[mounted.on]);
-    let sight = match &mounted.translation {
-        Some(translation) => translation.sight_in_time(&mounted.sight, &frames[mounted.on].motion),
-        None => {
-            let (a, b) = (
-                moving(&frames[mounted.body].motion),
-                moving(&frames[mounted.on].motion),
-            );
-            Sight::new(&a, &b, &on, &mounted.mount)
-        }
-    };
+    let (a, b) = (
+        moving(&frames[mounted.body].motion),
+        moving(&frames[mounted.on].motion),
+    );
+    let sight = Sight::new(&a, &b, &on, &mounted.mount);
     let relative: Relative<Dual<1>> = sight.relative(&kinematics[mounted.body]);
     let action = mounted
         .element
@@ -161,10 +210,16 @@ fn time_derivative<E: Element>(
             d_internal[2 * point..2 * point + 2].copy_from_slice(&rate);
         });
     let mut add = |body: usize, (force, moment): (Vector<Dual<1>>, Vector<Dual<1>>)| {
-        load_rate[body].0 += rate_of(&force);
-        load_rate[body].1 += rate_of(&moment);
+        let (sum, moments) = &mut load_rate[body];
+        *sum += rate_of(&force);
+        for (sum, moment) in moments
+            .iter_mut()
+            .zip(kinematics[body].about_axes(&rate_of(&moment)))
+        {
+            *sum += moment;
+        }
     };
-    add(mounted.body, action.on_body(&sight));
+    add(mounted.body, action.on_body(&sight, &kinematics[mounted.body]));
     if mounted.on_free {
         add(mounted.on, action.reaction(&relative, &on, &mounted.mount));
     }
@@ -237,22 +292,54 @@ impl Pass<'_> {
             moment: Vector::zero(),
         };
         for &face in &free.faces {
-            self.element(&self.faces[face], &kinematics, &mut load, jacobian);
+            if !self.faces[face].plain {
+                self.element(&self.faces[face], &kinematics, &mut load, jacobian);
+            }
         }
         for &coil in &free.coils {
-            self.element(&self.coils[coil], &kinematics, &mut load, jacobian);
+            if !self.coils[coil].plain {
+                self.element(&self.coils[coil], &kinematics, &mut load, jacobian);
+            }
         }
         let frame = &self.scene.frames[free.body];
-        let (force, moment) = kinematics.inertia(
-            body,
-            &frame.motion,
-            !frame.fixed,
-            self.scene.gravity,
-            self.accelerations,
-        );
-        let (force, moment) = (load.force - force, load.moment - moment);
+        if !frame.fixed {
+            let gravity = self.scene.gravity;
+            let (force, moment) =
+                kinematics.inertia(body, &frame.motion, true, gravity, self.accelerations);
+            load.force += -force;
+            load.moment += -moment;
+        }
         let blocks = jacobian.blocks_mut(free.pair);
-        add_rows(&kinematics, &free.free, n, &force, &moment, blocks);
+        add_rows(&kinematics, &free.free, n, &load.force, &load.moment, blocks);
+    }
+
+    /// The inertia of a body in a frame at rest, by its angles (half of the `D` derivatives) and their rates, with the moment of plain
+    /// elements (body axes), the axes of which turn.
+    fn inertia<const D: usize>(&self, carried: &Vector<f64>, jacobian: &mut Partitioned) {
+        let free = &self.scene.free[self.number];
+        let body = &self.scene.bodies[free.body];
+        let mut coordinates = self.coordinates.0.map(Dual::<D>::from);
+        let mut speeds = self.coordinates.1.map(Dual::<D>::from);
+        let mut slots = [0; 3];
+        let (n, angles) = (free.free.len(), D / 2);
+        let translations = n - angles;
+        for (slot, &k) in free.free[translations..].iter().enumerate() {
+            coordinates[k] = Dual::variable(self.coordinates.0[k], slot);
+            speeds[k] = Dual::variable(self.coordinates.1[k], angles + slot);
+            slots[slot] = translations + slot;
+        }
+        let kinematics = Kinematics::new(coordinates, speeds, body.rolls());
+        let frame = &self.scene.frames[free.body].motion;
+        let (force, moment) = kinematics.inertia(body, frame, false, self.scene.gravity, self.accelerations);
+        let (force, moment) = (-force, Vector::<Dual<D>>::lift(*carried) - moment);
+        let (stiffness, damping) = jacobian.blocks_mut(free.pair);
+        for (row, &k) in free.free.iter().enumerate() {
+            let component = kinematics.generalized(k, &force, &moment);
+            for slot in 0..angles {
+                stiffness[row * n + slots[slot]] += component.derivative[slot];
+                damping[row * n + slots[slot]] += component.derivative[angles + slot];
+            }
+        }
     }
 
     /// Adds the derivatives of one element that touches the seeded body.
@@ -282,26 +369,20 @@ impl Pass<'_> {
         let drive;
         if carries {
             let sight = &mounted.sight;
-            action =
-                mounted
-                    .element
-                    .change_with_body(&mounted.points, sight, seeded, &free.free, &mut keep_rates);
-            let (force, moment) = action.on_body(sight);
+            let relative = sight.relative(seeded);
+            action = mounted
+                .element
+                .change(&mounted.points, &relative, &mut keep_rates);
+            let (force, moment) = action.on_body(sight, seeded);
             load.force += force;
             load.moment += moment;
             if let (true, Some(on)) = (mounted.on_free, scene.free_number[mounted.on]) {
                 let kinematics = &scene.kinematics[mounted.on];
-                let (force, moment) = action.reaction(&sight.relative(seeded), kinematics, &mounted.mount);
+                let (force, moment) = action.reaction(&relative, kinematics, &mounted.mount);
                 let blocks = jacobian.blocks_mut(mounted.pairs[1]);
                 add_rows(kinematics, &scene.free[on].free, n, &force, &moment, blocks);
             }
-            drive = mounted.driven.then(|| {
-                if sight.mount_angular_velocity == Vector::zero() {
-                    sight.mount_velocity.dot(action.force)
-                } else {
-                    action.drive_power(&sight.relative(seeded), sight)
-                }
-            });
+            drive = mounted.driven.then(|| action.drive_power(&relative, sight));
         } else {
             let (a, b) = (
                 &scene.frames[mounted.body].motion,
@@ -313,7 +394,7 @@ impl Pass<'_> {
             action = mounted
                 .element
                 .change(&mounted.points, &relative, &mut keep_rates);
-            let (force, moment) = action.on_body(&sight);
+            let (force, moment) = action.on_body(&sight, kinematics);
             if let Some(number) = scene.free_number[mounted.body] {
                 let blocks = jacobian.blocks_mut(mounted.pairs[0]);
                 add_rows(kinematics, &scene.free[number].free, n, &force, &moment, blocks);
@@ -388,9 +469,10 @@ fn differentiate_internal(face: &Mounted<ContactFace<Plane>>, scene: &Scene<'_>,
         let row = face.first_internal_row + 2 * point;
         *jacobian.internal_row_mut(row) = slopes.loss;
         for e in 0..2 {
+            let arm: Vector<f64> = relative.rotation.apply(slopes.place);
             let action = Action {
                 force: slopes.force[e],
-                moment: slopes.arm.cross(slopes.force[e]),
+                moment: arm.cross(slopes.force[e]),
                 powers: [0.0; 2],
             };
             let mut keep = |side: usize, number: usize, (force, moment): (Vector<f64>, Vector<f64>)| {
@@ -403,7 +485,11 @@ fn differentiate_internal(face: &Mounted<ContactFace<Plane>>, scene: &Scene<'_>,
                 }
             };
             if let Some(number) = scene.free_number[face.body] {
-                keep(0, number, action.on_body(&face.sight));
+                keep(
+                    0,
+                    number,
+                    action.on_body(&face.sight, &scene.kinematics[face.body]),
+                );
             }
             if let Some(number) = scene.free_number[face.on] {
                 keep(
@@ -439,6 +525,7 @@ fn lift_kinematics(kinematics: &Kinematics<f64>) -> Kinematics<Dual<1>> {
             axes: kinematics.turn.axes.map(Vector::lift),
         },
         rates: kinematics.rates.map(Dual::from),
+        spin: Vector::lift(kinematics.spin),
         angular_velocity: Vector::lift(kinematics.angular_velocity),
     }
 }

@@ -11,6 +11,7 @@ mod jacobian;
 mod model;
 mod modes;
 mod observe;
+mod rows;
 mod sense;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
@@ -75,6 +76,8 @@ struct FreeBody {
     offset: usize,
     /// Its diagonal block in the Jacobian.
     pair: usize,
+    /// Whether all elements on it are plain, and its reference frame stands still.
+    plain: bool,
     /// The faces that touch it, in their order.
     faces: Vec<usize>,
     /// The coils that touch it, in their order.
@@ -114,8 +117,8 @@ pub struct System {
     accelerations: Vec<[f64; 6]>,
     force: Vec<Vector<f64>>,
     moment: Vec<Vector<f64>>,
-    /// Derivative by time of force and moment on each body.
-    load_rate: Vec<(Vector<f64>, Vector<f64>)>,
+    /// Derivative by time of the force on each body and of the moments about the axes of its angles.
+    load_rate: Vec<(Vector<f64>, [f64; 3])>,
     jacobian: Partitioned,
     /// Whether anything depends on time explicitly.
     moves: bool,

@@ -6,9 +6,9 @@ use thiserror::Error;
 use super::{FrameState, FreeBody, System, is_bristle, scale_of, scales, structure};
 use crate::body::{Body, Kinematics};
 use crate::coil::Coil;
-use crate::contact::{ContactFace, Points};
+use crate::contact::{ContactFace, Points, RateResponse};
 use crate::friction::FrictionLaw;
-use crate::link::{Mount, Sight, Translation};
+use crate::link::{Mount, Response, Sight, Translation};
 use crate::surface::Plane;
 use crate::vector::Vector;
 
@@ -91,6 +91,13 @@ pub struct Mounted<E> {
     pub(super) points: Points,
     /// What is constant of the sight where the body under the element only translates.
     pub(super) translation: Option<Translation>,
+    /// Whether its neighbour is prescribed and does not turn, nor does the frame of its body: then [`Response`] says it all.
+    pub(super) plain: bool,
+    /// How its effect changed with the motion of its body when it was differentiated last, and its force then (mount axes).
+    pub(super) response: Response,
+    pub(super) force: Vector<f64>,
+    /// The same of the rates of its internal states, by point.
+    pub(super) rate_responses: Vec<RateResponse>,
     /// Coupling blocks (body, on) and (on, body).
     pub(super) pairs: [usize; 2],
     /// Rows of the quadratures (channels, work) by `body` and by `on`.
@@ -159,6 +166,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             free: coordinates,
             offset,
             pair: 0,
+            plain: body.frame.is_fixed(),
             faces: Vec::new(),
             coils: Vec::new(),
         });
@@ -245,12 +253,14 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         mounted.find_pairs(&jacobian, &free_number);
         for number in mounted.touches(&free_number) {
             free[number].faces.push(face);
+            free[number].plain &= mounted.plain;
         }
     }
     for (coil, mounted) in mounted_coils.iter_mut().enumerate() {
         mounted.find_pairs(&jacobian, &free_number);
         for number in mounted.touches(&free_number) {
             free[number].coils.push(coil);
+            free[number].plain &= mounted.plain;
         }
     }
 
@@ -276,7 +286,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         accelerations: vec![[0.0; 6]; bodies.len()],
         force: vec![Vector::zero(); bodies.len()],
         moment: vec![Vector::zero(); bodies.len()],
-        load_rate: vec![(Vector::zero(), Vector::zero()); bodies.len()],
+        load_rate: vec![(Vector::zero(), [0.0; 3]); bodies.len()],
         bodies,
         gravity: Vector(gravity),
         faces: mounted_faces,
@@ -397,7 +407,12 @@ impl Placer<'_> {
         let translates = driven && self.frames[on].keeps_orientation && self.frames[body].fixed;
         let translation =
             translates.then(|| Translation::new(&self.frames[on].motion, &self.kinematics[on], &mount));
+        let moves = !self.frames[on].fixed || !self.frames[body].fixed;
         Ok(Mounted {
+            plain: on_number.is_none() && (!moves || translation.is_some()),
+            response: Response::NONE,
+            force: Vector::zero(),
+            rate_responses: vec![RateResponse::default(); pairs],
             translation,
             element,
             points: Points::default(),
@@ -407,7 +422,7 @@ impl Placer<'_> {
             internal_count: 2 * pairs,
             channels,
             on_free: on_number.is_some(),
-            moves: !self.frames[on].fixed || !self.frames[body].fixed,
+            moves,
             driven,
             sight: Sight::new(
                 &self.frames[body].motion,

@@ -2,6 +2,8 @@
 //!
 //! Nothing is allocated after the first use of a [`Sense`].
 
+use std::ops::Mul;
+
 use integrate::scalar::Real;
 
 use super::System;
@@ -93,7 +95,10 @@ impl System {
     }
 
     /// The same for any scalar.
-    pub(super) fn feel<S: Real + From<D>, D: Copy>(&self, stage: &Stage<'_, S, D>, out: &mut Sense<S>) {
+    pub(super) fn feel<S: Real + From<D>, D: Copy>(&self, stage: &Stage<'_, S, D>, out: &mut Sense<S>)
+    where
+        f64: Mul<S, Output = S>,
+    {
         let zero = Load {
             force: Vector::zero(),
             moment: Vector::zero(),
@@ -140,7 +145,7 @@ impl System {
                 &action,
                 &relative,
                 &sight,
-                &stage.kinematics[mounted.on],
+                [&stage.kinematics[mounted.body], &stage.kinematics[mounted.on]],
                 [&a, &b],
                 out,
             );
@@ -163,7 +168,7 @@ impl System {
                 &action,
                 &relative,
                 &sight,
-                &stage.kinematics[mounted.on],
+                [&stage.kinematics[mounted.body], &stage.kinematics[mounted.on]],
                 [&a, &b],
                 out,
             );
@@ -177,17 +182,23 @@ fn add<E, S: Real>(
     action: &Action<S>,
     relative: &Relative<S>,
     sight: &Sight<S>,
-    on: &Kinematics<S>,
+    [body, on]: [&Kinematics<S>; 2],
     [a, b]: [&FrameMotion<S>; 2],
     out: &mut Sense<S>,
-) {
-    let mut load = |body: usize, frame: &FrameMotion<S>, (force, moment): (Vector<S>, Vector<S>)| {
-        let load = &mut out.loads[body];
+) where
+    f64: Mul<S, Output = S>,
+{
+    let mut load = |number: usize,
+                    body: &Kinematics<S>,
+                    frame: &FrameMotion<S>,
+                    (force, moment): (Vector<S>, Vector<S>)| {
+        let load = &mut out.loads[number];
+        let moment: Vector<S> = body.turn.rotation.apply(moment);
         load.force += frame.rotation.apply::<S, S>(force);
         load.moment += frame.rotation.apply::<S, S>(moment);
     };
-    load(mounted.body, a, action.on_body(sight));
-    load(mounted.on, b, action.reaction(relative, on, &mounted.mount));
+    load(mounted.body, body, a, action.on_body(sight, body));
+    load(mounted.on, on, b, action.reaction(relative, on, &mounted.mount));
     for (channel, power) in mounted.channels.iter().zip(action.powers) {
         if let Some(channel) = channel {
             out.powers[*channel] += power;

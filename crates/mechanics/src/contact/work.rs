@@ -1,0 +1,211 @@
+//! How what a face does changes with the motion of its body, where the surface stands still or translates: by virtual work.
+//!
+//! With n, t1, t2 the rows q_i of the rotation Q from body to mount axes, an angle about the axis a (body axes) moves a point r by
+//! `h_i·r` along the mount's axes, `h_i = q_i × a`. The moment's part about a is `a·M = Σ F_i (h_i·r)`, by the same lengths; and with
+//! ω the angular velocity (body axes) and ω' its change with the angle at fixed rates
+//!
+//! ```text
+//! ∂g/∂angle = h_n·r,   ∂v_i/∂angle = (h_i × ω + q_i × ω')·r,   ∂v_i/∂rate = h_i·r,   ∂(a_k·M)/∂angle at fixed F_i = (F × a)·(a_k × r)
+//! ```
+
+use integrate::lanes::{LANES, Lanes};
+
+use super::quads::{OUTPUTS, Points, Slopes};
+use crate::link::{Relative, Response, Responses, Turning};
+use crate::vector::{Matrix, Vector};
+
+/// How the rates of a point's two internal states change; as [`Response`].
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct RateResponse {
+    pub gap: [f64; 2],
+    pub velocity: [[f64; 2]; 3],
+    pub angle: [[f64; 2]; 3],
+    pub angle_rate: [[f64; 2]; 3],
+}
+
+/// What an angle does to the points.
+#[derive(Clone, Copy)]
+struct Turn {
+    /// `h_i`.
+    lengths: [Vector<f64>; 3],
+    /// What the components of the velocity change by.
+    swings: [Vector<f64>; 3],
+}
+
+impl Turn {
+    #[inline(always)]
+    fn new(rows: [Vector<f64>; 3], axis: Vector<f64>, drift: Vector<f64>, spin: Vector<f64>) -> Self {
+        let lengths = rows.map(|row| row.cross::<f64, f64>(axis));
+        let swing = |i: usize| lengths[i].cross::<f64, f64>(spin) + rows[i].cross::<f64, f64>(drift);
+        Self {
+            lengths,
+            swings: [swing(0), swing(1), swing(2)],
+        }
+    }
+}
+
+/// A change of what the law sees.
+#[derive(Clone, Copy)]
+struct Change {
+    gap: Option<Lanes>,
+    rate: Option<Lanes>,
+    slip: [Option<Lanes>; 2],
+}
+
+impl Change {
+    const NONE: Self = Self {
+        gap: None,
+        rate: None,
+        slip: [None; 2],
+    };
+}
+
+impl Slopes {
+    /// What the law's outputs change by.
+    #[inline(always)]
+    fn change(&self, change: Change) -> [Lanes; OUTPUTS] {
+        let mut out = [Lanes::ZERO; OUTPUTS];
+        let mut add = |part: Option<Lanes>, by: &[Lanes; OUTPUTS]| {
+            if let Some(part) = part {
+                for (out, by) in out.iter_mut().zip(by) {
+                    *out += *by * part;
+                }
+            }
+        };
+        add(change.gap, &self.by_gap);
+        add(change.slip[0], &self.by_slip[0]);
+        add(change.slip[1], &self.by_slip[1]);
+        add(change.rate, &self.by_rate);
+        out
+    }
+}
+
+impl Points {
+    /// The response of a face to the motion of its body with `R` free angles, where the law was differentiated, and that of the rates of
+    /// internal states, as many as `rates` takes; with the face's force (mount axes) and moment (body axes).
+    #[inline(always)]
+    pub fn respond<const R: usize>(
+        &self,
+        relative: &Relative<f64>,
+        turning: &Turning,
+        response: &mut Response,
+        rates: &mut [RateResponse],
+    ) -> (Vector<f64>, Vector<f64>) {
+        let internal = !rates.is_empty();
+        let Matrix(rows) = relative.rotation;
+        let rows = rows.map(Vector);
+        let mut turns = [Turn {
+            lengths: rows,
+            swings: rows,
+        }; R];
+        for (l, turn) in turns.iter_mut().enumerate() {
+            *turn = Turn::new(rows, turning.axes[l], turning.drifts[l], turning.spin);
+        }
+        let mut sums = [Lanes::ZERO; 8];
+        *response = Response::NONE;
+        for (number, (quad, slopes)) in self.quads.iter().zip(&self.slopes).enumerate() {
+            if !slopes.active {
+                continue;
+            }
+            let r = quad.position;
+            let damped = quad.grade.damped;
+            let along = |v: &Vector<f64>| -> Lanes { v.dot(r) };
+            let mut lengths = [[Lanes::ZERO; 3]; R];
+            for l in 0..R {
+                for i in 0..3 {
+                    lengths[l][i] = along(&turns[l].lengths[i]);
+                }
+            }
+            let mut point_rates = [RateResponse::default(); LANES];
+            let mut keep = |slot: &mut dyn FnMut(&mut RateResponse) -> &mut [f64; 2],
+                            out: &[Lanes; OUTPUTS]| {
+                let [a, b] = [out[5].to_array(), out[6].to_array()];
+                for (i, point) in point_rates.iter_mut().enumerate() {
+                    *slot(point) = [a[i], b[i]];
+                }
+            };
+            // Moments about the axes by the forces along the mount's axes; the effect as it is summed.
+            let effect = |out: &[Lanes; OUTPUTS], own: [Lanes; R]| -> Responses {
+                let mut work = [Lanes::ZERO; 3];
+                for k in 0..R {
+                    work[k] = own[k]
+                        + lengths[k][0] * out[0]
+                        + (lengths[k][1] * out[1] + lengths[k][2] * out[2]);
+                }
+                let [w0, w1, w2] = work;
+                let [f0, f1, f2, w0] = Lanes::sums([out[0], out[1], out[2], w0]);
+                let [w1, w2, friction, damping] = Lanes::sums([w1, w2, out[3], out[4]]);
+                [f0, f1, f2, w0, w1, w2, friction, damping]
+            };
+            let none = [Lanes::ZERO; R];
+
+            // The face's own force and moment, and how its moments change where the forces keep to the mount's axes.
+            let own: Vector<Lanes> = relative.rotation.transpose().apply(Vector(slopes.force));
+            let moment: Vector<Lanes> = r.cross(own);
+            let radial: Lanes = r.dot(own);
+            let ([f0, f1, f2], [m0, m1, m2]) = (slopes.force, moment.0);
+            for (sum, term) in sums.iter_mut().zip([f0, f1, f2, m0, m1, m2]) {
+                *sum += term;
+            }
+
+            add(&mut response.place[0], effect(&slopes.by_gap, none));
+            add(&mut response.velocity[1], effect(&slopes.by_slip[0], none));
+            add(&mut response.velocity[2], effect(&slopes.by_slip[1], none));
+            if damped {
+                add(&mut response.velocity[0], effect(&slopes.by_rate, none));
+            }
+            if internal {
+                keep(&mut |point| &mut point.gap, &slopes.by_gap);
+                keep(&mut |point| &mut point.velocity[0], &slopes.by_rate);
+                keep(&mut |point| &mut point.velocity[1], &slopes.by_slip[0]);
+                keep(&mut |point| &mut point.velocity[2], &slopes.by_slip[1]);
+            }
+            for l in 0..R {
+                let swings = &turns[l].swings;
+                let out = slopes.change(Change {
+                    gap: Some(lengths[l][0]),
+                    rate: damped.then(|| along(&swings[0])),
+                    slip: [Some(along(&swings[1])), Some(along(&swings[2]))],
+                });
+                // (F × a)·(a_k × r) = (a_k·F)(a·r) - (a_k·a)(F·r)
+                let axis = &turning.axes[l];
+                let reach = along(axis);
+                let mut turned = none;
+                for k in 0..R {
+                    let other = &turning.axes[k];
+                    let part: Lanes = other.dot(own);
+                    turned[k] = part * reach - radial * other.dot::<f64, f64>(*axis);
+                }
+                add(&mut response.angle[l], effect(&out, turned));
+                if internal {
+                    keep(&mut |point| &mut point.angle[l], &out);
+                }
+                let out = slopes.change(Change {
+                    rate: damped.then_some(lengths[l][0]),
+                    slip: [Some(lengths[l][1]), Some(lengths[l][2])],
+                    ..Change::NONE
+                });
+                add(&mut response.angle_rate[l], effect(&out, none));
+                if internal {
+                    keep(&mut |point| &mut point.angle_rate[l], &out);
+                }
+            }
+            if internal {
+                for (target, point) in rates.iter_mut().skip(LANES * number).zip(&point_rates[..quad.count]) {
+                    *target = *point;
+                }
+            }
+        }
+        let [f0, f1, f2, m0, m1, m2, ..] = sums;
+        let [f0, f1, f2, m0] = Lanes::sums([f0, f1, f2, m0]);
+        let [m1, m2, ..] = Lanes::sums([m1, m2, Lanes::ZERO, Lanes::ZERO]);
+        (Vector([f0, f1, f2]), Vector([m0, m1, m2]))
+    }
+}
+
+#[inline(always)]
+fn add(sum: &mut Responses, term: Responses) {
+    for (sum, term) in sum.iter_mut().zip(term) {
+        *sum += term;
+    }
+}
