@@ -94,31 +94,4 @@ impl Frame {
             angular_acceleration: rotation.apply(turn.spin_rate(angles(1), angles(2), true)),
         }
     }
-
-    /// The same, where only the translation moves: `held` is the frame's motion at any other time, `base` the
-    /// rotation of its base.
-    #[inline(always)]
-    #[must_use]
-    pub fn translate(
-        &self,
-        base: &Matrix<f64>,
-        held: &FrameMotion<f64>,
-        time: f64,
-        reference: f64,
-    ) -> FrameMotion<f64> {
-        let mut jets: [Jet<f64>; 3] = [[0.0; 3]; 3];
-        for (jet, motion) in jets.iter_mut().zip(&self.motions) {
-            *jet = match motion {
-                Motion::Constant(value) => [*value, 0.0, 0.0],
-                motion => motion.evaluate(time, reference),
-            };
-        }
-        let translation = |order: usize| Vector([jets[0][order], jets[1][order], jets[2][order]]);
-        FrameMotion {
-            position: Vector(self.origin) + base.apply::<f64, f64>(translation(0)),
-            velocity: base.apply(translation(1)),
-            acceleration: base.apply(translation(2)),
-            ..*held
-        }
-    }
 }

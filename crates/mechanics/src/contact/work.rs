@@ -44,39 +44,29 @@ impl Turn {
     }
 }
 
-/// A change of what the law sees.
-#[derive(Clone, Copy)]
-struct Change {
-    gap: Option<Lanes>,
-    rate: Option<Lanes>,
-    slip: [Option<Lanes>; 2],
-}
-
-impl Change {
-    const NONE: Self = Self {
-        gap: None,
-        rate: None,
-        slip: [None; 2],
-    };
-}
+/// What depends on slip: the tangential force and the loss in friction. (The normal force and the loss in contact damping do not.)
+const BY_SLIP: std::ops::Range<usize> = 1..4;
 
 impl Slopes {
-    /// What the law's outputs change by.
+    /// What the law's outputs change by with the slip; those of internal states too, if there are any.
     #[inline(always)]
-    fn change(&self, change: Change) -> [Lanes; OUTPUTS] {
+    fn by_slips(&self, slip: [Lanes; 2], internal: bool) -> [Lanes; OUTPUTS] {
         let mut out = [Lanes::ZERO; OUTPUTS];
-        let mut add = |part: Option<Lanes>, by: &[Lanes; OUTPUTS]| {
-            if let Some(part) = part {
-                for (out, by) in out.iter_mut().zip(by) {
-                    *out += *by * part;
-                }
-            }
-        };
-        add(change.gap, &self.by_gap);
-        add(change.slip[0], &self.by_slip[0]);
-        add(change.slip[1], &self.by_slip[1]);
-        add(change.rate, &self.by_rate);
+        let mut set = |o: usize| out[o] = self.by_slip[0][o] * slip[0] + self.by_slip[1][o] * slip[1];
+        BY_SLIP.for_each(&mut set);
+        if internal {
+            (5..7).for_each(&mut set);
+        }
         out
+    }
+
+    /// Adds what they change by with the gap or its rate.
+    #[inline(always)]
+    fn add(out: &mut [Lanes; OUTPUTS], by: &[Lanes; OUTPUTS], change: Lanes, all: bool) {
+        let outputs = if all { OUTPUTS } else { 4 };
+        for (out, by) in out[..outputs].iter_mut().zip(by) {
+            *out += *by * change;
+        }
     }
 }
 
@@ -124,20 +114,28 @@ impl Points {
                     *slot(point) = [a[i], b[i]];
                 }
             };
-            // Moments about the axes by the forces along the mount's axes; the effect as it is summed.
-            let effect = |out: &[Lanes; OUTPUTS], own: [Lanes; R]| -> Responses {
-                let mut work = [Lanes::ZERO; 3];
-                for k in 0..R {
-                    work[k] = own[k]
-                        + lengths[k][0] * out[0]
-                        + (lengths[k][1] * out[1] + lengths[k][2] * out[2]);
-                }
+            // The effect as it is summed, with the moments about the axes by the forces along the mount's axes.
+            let summed = |out: &[Lanes; OUTPUTS], work: [Lanes; 3]| -> Responses {
                 let [w0, w1, w2] = work;
                 let [f0, f1, f2, w0] = Lanes::sums([out[0], out[1], out[2], w0]);
                 let [w1, w2, friction, damping] = Lanes::sums([w1, w2, out[3], out[4]]);
                 [f0, f1, f2, w0, w1, w2, friction, damping]
             };
-            let none = [Lanes::ZERO; R];
+            let pressed = |out: &[Lanes; OUTPUTS]| -> Responses {
+                let mut work = [Lanes::ZERO; 3];
+                for k in 0..R {
+                    let [normal, t1, t2] = lengths[k];
+                    work[k] = normal * out[0] + (t1 * out[1] + t2 * out[2]);
+                }
+                summed(out, work)
+            };
+            let slid = |out: &[Lanes; OUTPUTS]| -> Responses {
+                let mut work = [Lanes::ZERO; 3];
+                for k in 0..R {
+                    work[k] = lengths[k][1] * out[1] + lengths[k][2] * out[2];
+                }
+                summed(out, work)
+            };
 
             // The face's own force and moment, and how its moments change where the forces keep to the mount's axes.
             let own: Vector<Lanes> = relative.rotation.transpose().apply(Vector(slopes.force));
@@ -148,11 +146,11 @@ impl Points {
                 *sum += term;
             }
 
-            add(&mut response.place[0], effect(&slopes.by_gap, none));
-            add(&mut response.velocity[1], effect(&slopes.by_slip[0], none));
-            add(&mut response.velocity[2], effect(&slopes.by_slip[1], none));
+            add(&mut response.place[0], pressed(&slopes.by_gap));
+            add(&mut response.velocity[1], slid(&slopes.by_slip[0]));
+            add(&mut response.velocity[2], slid(&slopes.by_slip[1]));
             if damped {
-                add(&mut response.velocity[0], effect(&slopes.by_rate, none));
+                add(&mut response.velocity[0], pressed(&slopes.by_rate));
             }
             if internal {
                 keep(&mut |point| &mut point.gap, &slopes.by_gap);
@@ -160,32 +158,40 @@ impl Points {
                 keep(&mut |point| &mut point.velocity[1], &slopes.by_slip[0]);
                 keep(&mut |point| &mut point.velocity[2], &slopes.by_slip[1]);
             }
+            let all = damped || internal;
             for l in 0..R {
                 let swings = &turns[l].swings;
-                let out = slopes.change(Change {
-                    gap: Some(lengths[l][0]),
-                    rate: damped.then(|| along(&swings[0])),
-                    slip: [Some(along(&swings[1])), Some(along(&swings[2]))],
-                });
+                let mut out = slopes.by_slips([along(&swings[1]), along(&swings[2])], internal);
+                Slopes::add(&mut out, &slopes.by_gap, lengths[l][0], all);
+                if damped {
+                    Slopes::add(&mut out, &slopes.by_rate, along(&swings[0]), true);
+                }
+                let mut change = pressed(&out);
+                if internal {
+                    keep(&mut |point| &mut point.angle[l], &out);
+                }
                 // (F × a)·(a_k × r) = (a_k·F)(a·r) - (a_k·a)(F·r)
                 let axis = &turning.axes[l];
                 let reach = along(axis);
-                let mut turned = none;
+                let mut turned = [Lanes::ZERO; LANES];
                 for k in 0..R {
                     let other = &turning.axes[k];
                     let part: Lanes = other.dot(own);
                     turned[k] = part * reach - radial * other.dot::<f64, f64>(*axis);
                 }
-                add(&mut response.angle[l], effect(&out, turned));
-                if internal {
-                    keep(&mut |point| &mut point.angle[l], &out);
+                for (sum, term) in change[3..].iter_mut().zip(Lanes::sums(turned)) {
+                    *sum += term;
                 }
-                let out = slopes.change(Change {
-                    rate: damped.then_some(lengths[l][0]),
-                    slip: [Some(lengths[l][1]), Some(lengths[l][2])],
-                    ..Change::NONE
-                });
-                add(&mut response.angle_rate[l], effect(&out, none));
+                add(&mut response.angle[l], change);
+
+                let mut out = slopes.by_slips([lengths[l][1], lengths[l][2]], internal);
+                let change = if damped {
+                    Slopes::add(&mut out, &slopes.by_rate, lengths[l][0], true);
+                    pressed(&out)
+                } else {
+                    slid(&out)
+                };
+                add(&mut response.angle_rate[l], change);
                 if internal {
                     keep(&mut |point| &mut point.angle_rate[l], &out);
                 }

@@ -166,18 +166,38 @@ impl System {
         d_positions.copy_from_slice(speeds);
         d_quadratures.fill(0.0);
         for free in &self.free {
-            self.force[free.body] = Vector::zero();
-            self.moment[free.body] = Vector::zero();
+            let kinematics = &self.kinematics[free.body];
+            let (mut force, mut moment) = (Vector::zero(), Vector::zero());
+            for face in free.faces.iter().map(|face| &self.faces[*face]) {
+                if face.plain {
+                    let internal = &internal[face.first_internal..][..face.internal_count];
+                    let rates = &mut d_internal[face.first_internal..][..face.internal_count];
+                    face.push(kinematics, (internal, rates), (&mut force, &mut moment), d_quadratures);
+                }
+            }
+            for coil in free.coils.iter().map(|coil| &self.coils[*coil]) {
+                if coil.plain {
+                    coil.push(
+                        kinematics,
+                        (&[], &mut []),
+                        (&mut force, &mut moment),
+                        d_quadratures,
+                    );
+                }
+            }
+            (self.force[free.body], self.moment[free.body]) = (force, moment);
         }
-        for face in &self.faces {
-            let internal = &internal[face.first_internal..][..face.internal_count];
-            let rates = &mut d_internal[face.first_internal..][..face.internal_count];
-            let moments = (&mut self.force[..], &mut self.moment[..]);
-            apply(face, &self.kinematics, internal, rates, moments, d_quadratures);
-        }
-        for coil in &self.coils {
-            let moments = (&mut self.force[..], &mut self.moment[..]);
-            apply(coil, &self.kinematics, &[], &mut [], moments, d_quadratures);
+        if !self.plain {
+            for face in self.faces.iter().filter(|face| !face.plain) {
+                let internal = &internal[face.first_internal..][..face.internal_count];
+                let rates = &mut d_internal[face.first_internal..][..face.internal_count];
+                let loads = (&mut self.force[..], &mut self.moment[..]);
+                apply(face, &self.kinematics, internal, rates, loads, d_quadratures);
+            }
+            for coil in self.coils.iter().filter(|coil| !coil.plain) {
+                let loads = (&mut self.force[..], &mut self.moment[..]);
+                apply(coil, &self.kinematics, &[], &mut [], loads, d_quadratures);
+            }
         }
         for free in &self.free {
             let (body, kinematics) = (&self.bodies[free.body], &self.kinematics[free.body]);
@@ -194,7 +214,34 @@ impl System {
     }
 }
 
-/// Adds what one element does.
+#[allow(private_bounds)]
+impl<E: Element> Mounted<E> {
+    /// What a plain element does to its body: added to force and moment.
+    #[inline(always)]
+    fn push(
+        &self,
+        kinematics: &Kinematics<f64>,
+        (internal, rates): (&[f64], &mut [f64]),
+        (force, moment): (&mut Vector<f64>, &mut Vector<f64>),
+        powers: &mut [f64],
+    ) {
+        let sight = &self.sight;
+        let relative: Relative<f64> = sight.relative(kinematics);
+        let effect = self.element.act(&self.points, &relative, internal, rates);
+        *force += sight.rotation.apply_transposed(effect.force);
+        *moment += effect.moment;
+        for (channel, power) in self.channels.iter().zip(effect.powers) {
+            if let Some(channel) = channel {
+                powers[*channel] += power;
+            }
+        }
+        if self.driven {
+            powers[0] += sight.mount_velocity.dot::<f64, f64>(effect.force);
+        }
+    }
+}
+
+/// Adds what an element does that is not plain.
 #[inline(always)]
 fn apply<E: Element>(
     mounted: &Mounted<E>,
@@ -215,13 +262,6 @@ fn apply<E: Element>(
         if let Some(channel) = channel {
             powers[*channel] += power;
         }
-    }
-    if !(mounted.on_free || mounted.driven) {
-        return;
-    }
-    if mounted.translation.is_some() {
-        powers[0] += sight.mount_velocity.dot::<f64, f64>(effect.force);
-        return;
     }
     let action = Action {
         force: effect.force,

@@ -10,6 +10,7 @@ use integrate::partitioned::Partitioned;
 use integrate::scalar::{Dual, Real};
 
 use super::forces::{Action, Element};
+use super::rows::{Columns, add_columns};
 use super::{FrameState, FreeBody, Mounted, System};
 use crate::body::{Body, Kinematics};
 use crate::contact::ContactFace;
@@ -58,11 +59,12 @@ impl System {
             kinematics.mass_matrix(&self.bodies[free.body], &free.free, mass);
             let turning = kinematics.turning(&free.free);
             let mut carried = Vector::zero();
+            let mut columns: Columns = [[[0.0; 6]; 6]; 2];
             for &face in &free.faces {
                 let face = &mut self.faces[face];
                 if face.plain {
                     carried += face.respond(kinematics, &turning, free);
-                    face.add_rows(free, &mut self.jacobian);
+                    face.add_rows(free, &mut columns, &mut self.jacobian);
                     face.add_rates(free, &mut self.jacobian);
                 }
             }
@@ -70,9 +72,10 @@ impl System {
                 let coil = &mut self.coils[coil];
                 if coil.plain {
                     carried += coil.respond(kinematics, &turning, free);
-                    coil.add_rows(free, &mut self.jacobian);
+                    coil.add_rows(free, &mut columns, &mut self.jacobian);
                 }
             }
+            add_columns(&columns, free, &mut self.jacobian);
             let coordinates = self.coordinates(free, x);
             let pass = Pass {
                 scene: &scene,
@@ -320,13 +323,10 @@ impl Pass<'_> {
         let body = &self.scene.bodies[free.body];
         let mut coordinates = self.coordinates.0.map(Dual::<D>::from);
         let mut speeds = self.coordinates.1.map(Dual::<D>::from);
-        let mut slots = [0; 3];
         let (n, angles) = (free.free.len(), D / 2);
-        let translations = n - angles;
-        for (slot, &k) in free.free[translations..].iter().enumerate() {
+        for (slot, &k) in free.free[free.translations..].iter().enumerate() {
             coordinates[k] = Dual::variable(self.coordinates.0[k], slot);
             speeds[k] = Dual::variable(self.coordinates.1[k], angles + slot);
-            slots[slot] = translations + slot;
         }
         let kinematics = Kinematics::new(coordinates, speeds, body.rolls());
         let frame = &self.scene.frames[free.body].motion;
@@ -336,8 +336,9 @@ impl Pass<'_> {
         for (row, &k) in free.free.iter().enumerate() {
             let component = kinematics.generalized(k, &force, &moment);
             for slot in 0..angles {
-                stiffness[row * n + slots[slot]] += component.derivative[slot];
-                damping[row * n + slots[slot]] += component.derivative[angles + slot];
+                let entry = row * n + free.translations + slot;
+                stiffness[entry] += component.derivative[slot];
+                damping[entry] += component.derivative[angles + slot];
             }
         }
     }

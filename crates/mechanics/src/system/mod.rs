@@ -20,7 +20,7 @@ use integrate::{KinkSigns, Problem, Singular};
 use crate::body::{Body, Kinematics};
 use crate::coil::Coil;
 use crate::contact::ContactFace;
-use crate::frame::FrameMotion;
+use crate::frame::{Frame, FrameMotion};
 use crate::friction::FrictionLaw;
 use crate::link::{Mount, Sight};
 use crate::surface::Plane;
@@ -70,8 +70,8 @@ struct FreeBody {
     body: usize,
     /// Its free coordinates.
     free: Vec<usize>,
-    /// The place of each coordinate among the free ones; beyond them: it is held.
-    slots: [usize; 6],
+    /// How many of them are translations; the others are angles.
+    translations: usize,
     /// Its first position among q, and its first speed among u.
     offset: usize,
     /// Its diagonal block in the Jacobian.
@@ -91,6 +91,9 @@ struct FrameState {
     keeps_orientation: bool,
     base: Matrix<f64>,
     motion: FrameMotion<f64>,
+    /// Which of the translations move, if it moves, and where it would be without them.
+    moving: Vec<usize>,
+    rest: Vector<f64>,
 }
 
 /// A system of bodies and elements, ready to be integrated.
@@ -122,6 +125,10 @@ pub struct System {
     jacobian: Partitioned,
     /// Whether anything depends on time explicitly.
     moves: bool,
+    /// Whether all elements are plain.
+    plain: bool,
+    /// Positions and speeds for which all this was evaluated.
+    placed: Vec<f64>,
 }
 
 impl System {
@@ -205,10 +212,8 @@ impl System {
             &x[free.offset..][..n],
             &x[self.layout.speeds + free.offset..][..n],
         );
-        for k in 0..6 {
-            if let (Some(q), Some(u)) = (q.get(free.slots[k]), u.get(free.slots[k])) {
-                (coordinates[k], speeds[k]) = (*q, *u);
-            }
+        for ((k, q), u) in free.free.iter().zip(q).zip(u) {
+            (coordinates[*k], speeds[*k]) = (*q, *u);
         }
         (coordinates, speeds)
     }
@@ -216,19 +221,26 @@ impl System {
     /// Brings frames, sights and the kinematics of all free bodies to `time` and state `x`.
     #[inline]
     fn place(&mut self, time: f64, x: &[f64]) {
-        if self.moves && time != self.frames_at {
+        let again = time != self.frames_at;
+        let own = &x[..2 * self.layout.speeds];
+        let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
+        if !again && own.iter().zip(&self.placed).all(same) {
+            return;
+        }
+        self.placed.copy_from_slice(own);
+        self.frames_at = time;
+        if self.moves && again {
             for (body, state) in self.bodies.iter().zip(&mut self.frames) {
-                if state.keeps_orientation && !state.fixed {
-                    state.motion = body
-                        .frame
-                        .translate(&state.base, &state.motion, time, self.reference);
-                } else if !state.fixed {
+                if state.fixed {
+                    continue;
+                }
+                if state.keeps_orientation {
+                    state.translate(&body.frame, time, self.reference);
+                } else {
                     state.motion = body.frame.evaluate(time, self.reference);
                 }
             }
         }
-        let again = time != self.frames_at;
-        self.frames_at = time;
         for number in 0..self.free.len() {
             let free = &self.free[number];
             let (coordinates, speeds) = self.coordinates(free, x);
@@ -241,6 +253,24 @@ impl System {
         for mounted in &mut self.coils {
             sight(mounted, &self.frames, &self.kinematics, again);
         }
+    }
+}
+
+impl FrameState {
+    /// Brings a frame that only translates to `time`.
+    #[inline(always)]
+    fn translate(&mut self, frame: &Frame, time: f64, reference: f64) {
+        let (mut position, mut velocity, mut acceleration) = (self.rest, Vector::zero(), Vector::zero());
+        for &k in &self.moving {
+            let [value, rate, second] = frame.motions[k].evaluate(time, reference);
+            let axis = self.base.column(k);
+            position += axis.scale(value);
+            velocity += axis.scale(rate);
+            acceleration += axis.scale(second);
+        }
+        self.motion.position = position;
+        self.motion.velocity = velocity;
+        self.motion.acceleration = acceleration;
     }
 }
 

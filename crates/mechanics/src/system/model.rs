@@ -7,8 +7,10 @@ use super::{FrameState, FreeBody, System, is_bristle, scale_of, scales, structur
 use crate::body::{Body, Kinematics};
 use crate::coil::Coil;
 use crate::contact::{ContactFace, Points, RateResponse};
+use crate::frame::Frame;
 use crate::friction::FrictionLaw;
 use crate::link::{Mount, Response, Sight, Translation};
+use crate::motion::Motion;
 use crate::surface::Plane;
 use crate::vector::Vector;
 
@@ -162,7 +164,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         let count = coordinates.len();
         free.push(FreeBody {
             body: number,
-            slots: std::array::from_fn(|k| coordinates.iter().position(|c| *c == k).unwrap_or(usize::MAX)),
+            translations: coordinates.iter().filter(|k| **k < 3).count(),
             free: coordinates,
             offset,
             pair: 0,
@@ -175,15 +177,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     if free.is_empty() {
         return Err(ModelError::NothingFree);
     }
-    let frames: Vec<FrameState> = bodies
-        .iter()
-        .map(|body| FrameState {
-            fixed: body.frame.is_fixed(),
-            keeps_orientation: body.frame.keeps_orientation(),
-            base: crate::turn::fixed(body.frame.orientation),
-            motion: body.frame.evaluate(0.0, 0.0),
-        })
-        .collect();
+    let frames: Vec<FrameState> = bodies.iter().map(|body| frame_state(&body.frame)).collect();
     let kinematics: Vec<Kinematics<f64>> = bodies
         .iter()
         .map(|body| Kinematics::new(body.initial, [0.0; 6], body.rolls()))
@@ -282,6 +276,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     }
     let (error_bounds, layer_bounds) = error_bounds(&error_scales, layout, &mounted_faces);
     let moves = frames.iter().any(|frame| !frame.fixed);
+    let plain = mounted_faces.iter().all(|m| m.plain) && mounted_coils.iter().all(|m| m.plain);
     Ok(System {
         accelerations: vec![[0.0; 6]; bodies.len()],
         force: vec![Vector::zero(); bodies.len()],
@@ -304,7 +299,30 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         kinematics,
         jacobian,
         moves,
+        plain,
+        placed: vec![f64::NAN; 2 * layout.speeds],
     })
+}
+
+/// A frame at time zero, and what of it moves.
+fn frame_state(frame: &Frame) -> FrameState {
+    let base = crate::turn::fixed(frame.orientation);
+    let (mut moving, mut rest) = (Vec::new(), Vector(frame.origin));
+    for k in 0..3 {
+        if let Motion::Constant(value) = frame.motions[k] {
+            rest += base.column(k).scale(value);
+        } else {
+            moving.push(k);
+        }
+    }
+    FrameState {
+        fixed: frame.is_fixed(),
+        keeps_orientation: frame.keeps_orientation(),
+        base,
+        motion: frame.evaluate(0.0, 0.0),
+        moving,
+        rest,
+    }
 }
 
 /// The widest admissible errors of positions and speeds, and those of speeds where a point sticks: see [`scales::WIDEST_TOLERANCE`].

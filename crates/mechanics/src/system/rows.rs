@@ -41,21 +41,19 @@ impl Mounted<ContactFace<Plane>> {
         let n = free.free.len();
         for (point, response) in self.rate_responses.iter().enumerate() {
             let [g_q, g_u, _] = jacobian.side_mut(self.first_internal / 2 + point, 0);
-            for (j, way) in free.ways().enumerate() {
+            for (j, &k) in free.free.iter().enumerate() {
                 for row in 0..2 {
-                    let (by_position, by_speed) = match way {
-                        Way::Along(k) => {
-                            let [x, y, z] = self.sight.rotation.column(k).0;
-                            let velocity = response.velocity.map(|rates| rates[row]);
-                            (
-                                response.gap[row] * x,
-                                velocity[0] * x + velocity[1] * y + velocity[2] * z,
-                            )
-                        }
-                        Way::About(slot) => (response.angle[slot][row], response.angle_rate[slot][row]),
+                    (g_q[row * n + j], g_u[row * n + j]) = if k < 3 {
+                        let [x, y, z] = self.sight.rotation.column(k).0;
+                        let velocity = response.velocity.map(|rates| rates[row]);
+                        (
+                            response.gap[row] * x,
+                            velocity[0] * x + velocity[1] * y + velocity[2] * z,
+                        )
+                    } else {
+                        let slot = j - free.translations;
+                        (response.angle[slot][row], response.angle_rate[slot][row])
                     };
-                    g_q[row * n + j] = by_position;
-                    g_u[row * n + j] = by_speed;
                 }
             }
         }
@@ -99,32 +97,11 @@ impl Mounted<Coil> {
     }
 }
 
-/// What a free coordinate does.
-#[derive(Clone, Copy)]
-enum Way {
-    /// It moves the origin along this axis of the reference frame.
-    Along(usize),
-    /// It turns the body: the slot of the angle.
-    About(usize),
-}
-
 impl FreeBody {
     /// How many angles are free.
     #[inline(always)]
     pub(super) fn angles(&self) -> usize {
-        self.free.iter().filter(|k| **k >= 3).count()
-    }
-
-    #[inline(always)]
-    fn ways(&self) -> impl Iterator<Item = Way> + '_ {
-        let translations = self.free.len() - self.angles();
-        self.free.iter().enumerate().map(move |(j, &k)| {
-            if k < 3 {
-                Way::Along(k)
-            } else {
-                Way::About(j - translations)
-            }
-        })
+        self.free.len() - self.translations
     }
 }
 
@@ -144,48 +121,60 @@ fn force(change: &Responses) -> Vector<f64> {
     Vector([change[0], change[1], change[2]])
 }
 
+/// How the load on a body changes with its coordinates (first) and their rates, by coordinate: force (axes of the reference frame) and
+/// moments about the axes of its free angles.
+pub(super) type Columns = [[[f64; 6]; 6]; 2];
+
+/// Adds them to the body's blocks.
+#[inline(always)]
+pub(super) fn add_columns(columns: &Columns, free: &FreeBody, jacobian: &mut Partitioned) {
+    let n = free.free.len();
+    let (stiffness, damping) = jacobian.blocks_mut(free.pair);
+    for (row, &k) in free.free.iter().enumerate() {
+        let component = if row < free.translations {
+            k
+        } else {
+            3 + row - free.translations
+        };
+        for (j, entry) in stiffness[row * n..][..n].iter_mut().enumerate() {
+            *entry += columns[0][j][component];
+        }
+        for (j, entry) in damping[row * n..][..n].iter_mut().enumerate() {
+            *entry += columns[1][j][component];
+        }
+    }
+}
+
 impl<E> Mounted<E> {
-    /// Adds the derivatives of generalized forces and powers by the coordinates of its body and their rates.
+    /// Adds the derivatives of the load on its body to `columns`, and keeps those of its powers.
     #[inline(always)]
-    pub(super) fn add_rows(&self, free: &FreeBody, jacobian: &mut Partitioned) {
-        let n = free.free.len();
+    pub(super) fn add_rows(&self, free: &FreeBody, columns: &mut Columns, jacobian: &mut Partitioned) {
         let (sight, response) = (&self.sight, &self.response);
-        for (j, way) in free.ways().enumerate() {
-            let (by_position, by_speed) = match way {
-                Way::Along(k) => {
-                    let direction = sight.rotation.column(k);
-                    (
-                        combined(&response.place, direction),
-                        combined(&response.velocity, direction),
-                    )
-                }
-                Way::About(slot) => (response.angle[slot], response.angle_rate[slot]),
+        for (rates, columns) in columns.iter_mut().enumerate() {
+            let (along, about) = if rates == 0 {
+                (&response.place, &response.angle)
+            } else {
+                (&response.velocity, &response.angle_rate)
             };
-            let (stiffness, damping) = jacobian.blocks_mut(free.pair);
-            for (row, way) in free.ways().enumerate() {
-                let (k, d) = match way {
-                    Way::Along(k) => {
-                        let direction = sight.rotation.column(k);
-                        (
-                            direction.dot::<f64, f64>(force(&by_position)),
-                            direction.dot::<f64, f64>(force(&by_speed)),
-                        )
-                    }
-                    Way::About(slot) => (by_position[3 + slot], by_speed[3 + slot]),
+            for (j, &k) in free.free.iter().enumerate() {
+                let change = if k < 3 {
+                    combined(along, sight.rotation.column(k))
+                } else {
+                    about[j - free.translations]
                 };
-                stiffness[row * n + j] += k;
-                damping[row * n + j] += d;
-            }
-            let work = |change: &Responses| sight.mount_velocity.dot::<f64, f64>(force(change));
-            let powers = [
-                [by_position[6], by_speed[6]],
-                [by_position[7], by_speed[7]],
-                [work(&by_position), work(&by_speed)],
-            ];
-            for (row, [by_position, by_speed]) in self.rows[0].iter().zip(powers) {
-                if let Some(row) = row {
-                    let (p_q, p_u) = jacobian.row_mut(*row);
-                    (p_q[j], p_u[j]) = (by_position, by_speed);
+                let own: Vector<f64> = sight.rotation.apply_transposed(force(&change));
+                let column = &mut columns[j];
+                for c in 0..3 {
+                    column[c] += own.0[c];
+                    column[3 + c] += change[3 + c];
+                }
+                let work = sight.mount_velocity.dot::<f64, f64>(force(&change));
+                for (row, power) in self.rows[0].iter().zip([change[6], change[7], work]) {
+                    if let Some(row) = row {
+                        let (by_position, by_speed) = jacobian.row_mut(*row);
+                        let row = if rates == 0 { by_position } else { by_speed };
+                        row[j] = power;
+                    }
                 }
             }
         }
@@ -213,10 +202,8 @@ impl<E> Mounted<E> {
             *sum += term;
         }
         *load += sight.rotation.apply_transposed(force(&change));
-        for (way, k) in free.ways().zip(&free.free) {
-            if let Way::About(slot) = way {
-                moments[k - 3] += change[3 + slot];
-            }
+        for (slot, k) in free.free[free.translations..].iter().enumerate() {
+            moments[k - 3] += change[3 + slot];
         }
         for (channel, power) in self.channels.iter().zip([change[6], change[7]]) {
             if let Some(channel) = channel {
