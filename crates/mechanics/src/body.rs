@@ -214,59 +214,72 @@ impl Kinematics<f64> {
     #[inline(always)]
     #[must_use]
     pub(crate) fn accelerations(&self, body: &Body, force: &Vector<f64>, moments: [f64; 3]) -> [f64; 6] {
-        let free = &body.free;
-        let zero = Vector::<f64>::zero();
-        let (mut lever, mut spin) = ([zero; 3], [zero; 3]);
+        let (free, axes, rotation) = (&body.free, &self.turn.axes, &self.turn.rotation);
+        let arm = Vector(body.center_of_gravity);
+        let central = arm == Vector::zero();
+        // By the angles' rates: the angular velocity, and the centre of gravity's velocity in held directions.
+        let mut spin = [Vector::<f64>::zero(); 3];
+        let mut held = [[0.0; 3]; 3];
         let mut right = [0.0; 3];
-        let central = body.center_of_gravity == [0.0; 3];
-        for k in 0..3 {
-            if free[3 + k] {
-                spin[k] = self.turn.axes[k];
-                right[k] = moments[k];
-            }
-        }
+        let mut torque = Vector::zero();
         if !central {
-            for k in (0..3).filter(|k| free[3 + k]) {
-                lever[k] = self.lever(body, k);
-                for c in 0..3 {
-                    right[k] -= if free[c] { lever[k].0[c] * force.0[c] } else { 0.0 };
-                }
+            let mut carried = *force;
+            for c in (0..3).filter(|c| !free[*c]) {
+                carried.0[c] = 0.0;
+                let length: Vector<f64> = arm.cross(Vector(rotation.0[c]));
+                held[c] = [0, 1, 2].map(|k| axes[k].dot::<f64, f64>(length));
             }
+            torque = arm.cross::<f64, f64>(rotation.apply_transposed(carried));
+        }
+        for k in (0..3).filter(|k| free[3 + k]) {
+            spin[k] = axes[k];
+            right[k] = moments[k] - axes[k].dot::<f64, f64>(torque);
         }
         let entry = |k: usize, l: usize| {
             let mut value = if k == l && !free[3 + k] { 1.0 } else { 0.0 };
             for c in 0..3 {
                 value += body.inertia[c] * spin[k].0[c] * spin[l].0[c];
-                if !central && !free[c] {
-                    value += body.mass * lever[k].0[c] * lever[l].0[c];
+            }
+            if !central && free[3 + k] && free[3 + l] {
+                for c in (0..3).filter(|c| !free[*c]) {
+                    value += body.mass * held[c][k] * held[c][l];
                 }
             }
             value
         };
-        // L D Lᵀ of the 3 × 3 matrix; a held roll leaves zeros.
-        let (d0, l10, l20) = if free[3] {
+        let turns = if free[3] {
+            // L D Lᵀ of the 3 × 3 matrix.
             let d0 = entry(0, 0);
-            (d0, entry(1, 0) / d0, entry(2, 0) / d0)
+            let (l10, l20) = (entry(1, 0) / d0, entry(2, 0) / d0);
+            let d1 = entry(1, 1) - l10 * l10 * d0;
+            let l21 = (entry(2, 1) - l20 * l10 * d0) / d1;
+            let d2 = entry(2, 2) - l20 * l20 * d0 - l21 * l21 * d1;
+            let y1 = right[1] - l10 * right[0];
+            let y2 = right[2] - l20 * right[0] - l21 * y1;
+            let yaw = y2 / d2;
+            let pitch = y1 / d1 - l21 * yaw;
+            [right[0] / d0 - l10 * pitch - l20 * yaw, pitch, yaw]
         } else {
-            (1.0, 0.0, 0.0)
+            let (a, b, c) = (entry(1, 1), entry(2, 1), entry(2, 2));
+            let inverse = 1.0 / (a * c - b * b);
+            [
+                0.0,
+                (c * right[1] - b * right[2]) * inverse,
+                (a * right[2] - b * right[1]) * inverse,
+            ]
         };
-        let d1 = entry(1, 1) - l10 * l10 * d0;
-        let l21 = (entry(2, 1) - l20 * l10 * d0) / d1;
-        let d2 = entry(2, 2) - l20 * l20 * d0 - l21 * l21 * d1;
-        let y1 = right[1] - l10 * right[0];
-        let y2 = right[2] - l20 * right[0] - l21 * y1;
-        let yaw = y2 / d2;
-        let pitch = y1 / d1 - l21 * yaw;
-        let roll = right[0] / d0 - l10 * pitch - l20 * yaw;
-        let turns = [roll, pitch, yaw];
         let mut out = [0.0; 6];
         let inverse = 1.0 / body.mass;
+        let mut swing = Vector::zero();
+        if !central {
+            let alpha = spin[0].scale::<f64, f64>(turns[0])
+                + spin[1].scale::<f64, f64>(turns[1])
+                + spin[2].scale::<f64, f64>(turns[2]);
+            swing = rotation.apply(alpha.cross::<f64, f64>(arm));
+        }
         for c in 0..3 {
             if free[c] {
-                out[c] = force.0[c] * inverse
-                    - lever[0].0[c] * turns[0]
-                    - lever[1].0[c] * turns[1]
-                    - lever[2].0[c] * turns[2];
+                out[c] = force.0[c] * inverse - swing.0[c];
             }
             out[3 + c] = turns[c];
         }

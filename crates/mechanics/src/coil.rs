@@ -14,7 +14,8 @@ use integrate::scalar::{Dual, Real};
 use serde::{Deserialize, Serialize};
 
 use crate::characteristic::Characteristic;
-use crate::link::{Relative, Response, Responses, Turning};
+use crate::body::Kinematics;
+use crate::link::{Effect, Relative, Response, Responses, Sight, Turning};
 use crate::vector::Vector;
 
 /// Force by compression.
@@ -150,6 +151,33 @@ impl Coil {
             spring: pull.spring,
             loss,
             guide_power,
+        }
+    }
+
+    /// What the coil does to its body, seen from a mount that does not turn: [`Coil::evaluate`] with as few products as there need be.
+    #[inline(always)]
+    pub(crate) fn effect(&self, sight: &Sight<f64>, body: &Kinematics<f64>) -> Effect {
+        let (rotation, spin, end) = (&body.turn.rotation, body.spin, self.end);
+        let (mut place, mut velocity) = (body.position, body.velocity);
+        if end != Vector::zero() {
+            place += rotation.apply(end);
+            velocity += rotation.apply(spin.cross::<f64, f64>(end));
+        }
+        let d = sight.position + sight.rotation.apply::<f64, f64>(place);
+        let rate = sight.velocity + sight.rotation.apply::<f64, f64>(velocity);
+        let pull = self.pull(d, rate, |length| self.spring(length));
+        let own: Vector<f64> =
+            rotation.apply_transposed(sight.rotation.apply_transposed::<f64, f64>(pull.force));
+        let brake = self.rotational_damping;
+        let moment = self.acts_at.cross::<f64, f64>(own) - spin.scale::<f64, f64>(brake);
+        let couple: Vector<f64> = (self.acts_at - end).cross(own);
+        Effect {
+            force: pull.force,
+            moment,
+            powers: [
+                pull.loss + spin.dot::<f64, f64>(spin) * brake,
+                couple.dot(spin),
+            ],
         }
     }
 

@@ -33,6 +33,18 @@ pub(super) trait Element: Sized {
         rates: &mut [f64],
     ) -> Effect;
 
+    /// The same seen from a mount that does not turn.
+    #[inline(always)]
+    fn act_from(
+        &self,
+        points: &Points,
+        (sight, body): (&Sight<f64>, &Kinematics<f64>),
+        internal: &[f64],
+        rates: &mut [f64],
+    ) -> Effect {
+        self.act(points, &sight.relative(body), internal, rates)
+    }
+
     /// The action with its derivatives; `rates` sees those of the rates of two internal states at a time.
     fn change<const N: usize>(
         &self,
@@ -74,6 +86,17 @@ impl Element for Coil {
             moment: relative.rotation.apply_transposed(coil.moment),
             powers: [coil.loss, coil.guide_power],
         }
+    }
+
+    #[inline(always)]
+    fn act_from(
+        &self,
+        _: &Points,
+        (sight, body): (&Sight<f64>, &Kinematics<f64>),
+        _: &[f64],
+        _: &mut [f64],
+    ) -> Effect {
+        self.effect(sight, body)
     }
 
     #[inline(always)]
@@ -226,8 +249,9 @@ impl<E: Element> Mounted<E> {
         powers: &mut [f64],
     ) {
         let sight = &self.sight;
-        let relative: Relative<f64> = sight.relative(kinematics);
-        let effect = self.element.act(&self.points, &relative, internal, rates);
+        let effect = self
+            .element
+            .act_from(&self.points, (sight, kinematics), internal, rates);
         *force += sight.rotation.apply_transposed(effect.force);
         *moment += effect.moment;
         for (channel, power) in self.channels.iter().zip(effect.powers) {
