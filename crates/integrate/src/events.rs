@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::lanes::LANES;
 use crate::problem::Problem;
-use crate::stages::Dense;
+use crate::stages::{Dense, leading_states};
 use crate::statistics::Statistics;
 
 /// A switch changed its mode.
@@ -32,11 +33,15 @@ pub(crate) struct Switches {
     muted: Vec<bool>,
     /// Switches that have changed at the present instant.
     changed: Vec<bool>,
+    /// States at a fraction of the step; only the leading ones, padded, are brought up to date.
     x: Vec<f64>,
+    dimension: usize,
+    leading: usize,
 }
 
 impl Switches {
-    pub fn new(modes: Vec<u8>, dimension: usize, capacity: usize) -> Self {
+    pub fn new<P: Problem>(problem: &P, modes: Vec<u8>, capacity: usize) -> Self {
+        let (dimension, leading) = (problem.dimension(), leading_states(problem));
         let count = modes.len();
         let capacity = if count == 0 { 0 } else { capacity };
         Self {
@@ -47,15 +52,18 @@ impl Switches {
             sizes: vec![0.0; count],
             muted: vec![false; count],
             changed: vec![false; count],
-            x: vec![0.0; dimension],
+            x: vec![0.0; dimension.next_multiple_of(LANES)],
+            dimension,
+            leading,
         }
     }
 
     /// Evaluates the margins at a fraction of the step.
     #[inline]
     fn evaluate<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>, theta: f64) {
-        dense.evaluate(theta, 0, &mut self.x);
-        problem.margins(dense.time(theta), &self.x, &self.modes, &mut self.margins);
+        dense.evaluate(theta, &mut self.x[..self.leading]);
+        let x = &self.x[..self.dimension];
+        problem.margins(dense.time(theta), x, &self.modes, &mut self.margins);
     }
 
     /// Whether a switch must leave its mode by the margins just evaluated.
@@ -190,7 +198,7 @@ impl Switches {
                 return;
             }
             let from = self.modes[index];
-            let to = problem.next_mode(time, &self.x, index, from);
+            let to = problem.next_mode(time, &self.x[..self.dimension], index, from);
             if to == from {
                 self.muted[index] = true;
                 continue;
@@ -205,7 +213,7 @@ impl Switches {
             });
             statistics.events += 1;
             // the margins of other switches may depend on this mode
-            problem.margins(time, &self.x, &self.modes, &mut self.margins);
+            problem.margins(time, &self.x[..self.dimension], &self.modes, &mut self.margins);
         }
     }
 }

@@ -7,8 +7,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::lanes::LANES;
 use crate::problem::Problem;
-use crate::stages::Dense;
+use crate::stages::{Dense, leading_states};
 
 /// How far the dense output is continued at most, in lengths of its step.
 const REACH: f64 = 6.0;
@@ -84,7 +85,10 @@ pub(crate) struct Kinks {
     low: Vec<f64>,
     high: Vec<f64>,
     trial: Vec<f64>,
+    /// States on the continued dense output; only the leading ones, padded, are brought up to date.
     x: Vec<f64>,
+    dimension: usize,
+    leading: usize,
 }
 
 impl Kinks {
@@ -101,7 +105,9 @@ impl Kinks {
             low: zero(),
             high: zero(),
             trial: zero(),
-            x: vec![0.0; problem.dimension()],
+            x: vec![0.0; problem.dimension().next_multiple_of(LANES)],
+            dimension: problem.dimension(),
+            leading: leading_states(problem),
         }
     }
 
@@ -194,8 +200,9 @@ impl Kinks {
 
     /// The functions at a place on the continued dense output, to `trial`.
     fn evaluate<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>, theta: f64) {
-        dense.evaluate(theta, 0, &mut self.x);
-        problem.kinks(dense.start + theta * dense.step, &self.x, &mut self.signs);
+        dense.evaluate(theta, &mut self.x[..self.leading]);
+        let time = dense.start + theta * dense.step;
+        problem.kinks(time, &self.x[..self.dimension], &mut self.signs);
         self.project();
     }
 

@@ -4,7 +4,7 @@ use super::Integrator;
 use crate::error::{Reason, StepError};
 use crate::kinks::{Ahead, Layer, Passage};
 use crate::problem::Problem;
-use crate::stages::{Dense, all_finite, combine, largest};
+use crate::stages::{Dense, add, all_finite, combine, largest};
 
 /// The part of the planned step that is tried behind a kink.
 const BEHIND_KINK: f64 = 0.5;
@@ -231,7 +231,8 @@ impl<P: Problem> Integrator<P> {
                 if self.extends[i] {
                     add(argument, 1.0, &done[(i - 1) * stride..]);
                 } else {
-                    combine(argument, &self.x, 1.0, tableau.a[i], done, stride, 0);
+                    let argument = &mut argument[..self.widths[i]];
+                    combine(argument, &self.x, 1.0, tableau.a[i], done, stride);
                 }
                 let alpha = tableau.alpha[i];
                 let time = if alpha == 1.0 {
@@ -243,7 +244,7 @@ impl<P: Problem> Integrator<P> {
                 if CHECKED && !all_finite(slope) {
                     return Err(not_finite(&slope[..n]));
                 }
-                combine(stage, slope, inverse, tableau.c[i], done, stride, 0);
+                combine(stage, slope, inverse, tableau.c[i], done, stride);
             }
             let d = tableau.d[i] * step;
             if !self.autonomous && d != 0.0 {
@@ -405,14 +406,6 @@ impl<P: Problem> Integrator<P> {
         step.min(longest)
             .max(self.options.minimum_step)
             .max(16.0 * f64::EPSILON * self.time.abs())
-    }
-}
-
-/// `target += factor · term`.
-#[inline(always)]
-fn add(target: &mut [f64], factor: f64, term: &[f64]) {
-    for (value, t) in target.iter_mut().zip(term) {
-        *value += factor * t;
     }
 }
 
