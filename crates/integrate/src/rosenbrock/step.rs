@@ -2,7 +2,7 @@
 
 use super::Integrator;
 use crate::error::{Reason, StepError};
-use crate::kinks::{Ahead, Layer, Passage};
+use crate::kinks::{Ahead, Layer, Passage, WHOLE_LANDING};
 use crate::problem::Problem;
 use crate::stages::{Dense, add, all_finite, combine, largest};
 
@@ -11,9 +11,6 @@ const BEHIND_KINK: f64 = 0.5;
 
 /// A layer in which nothing reverses (slip that comes to stick, say) is behind where errors are smaller than this.
 const SETTLED: f64 = 0.001;
-
-/// The part of the planned step that a step to a kink may have in one go.
-const WHOLE_LANDING: f64 = 0.7;
 
 /// Why an attempt failed, with the state to blame.
 struct Failure {
@@ -167,6 +164,7 @@ impl<P: Problem> Integrator<P> {
             .derivative(self.time, &self.x[..n], &mut self.dx[..n]);
         self.statistics.derivatives += 1;
         self.linearized = false;
+        self.switches.forget();
         self.look();
     }
 
@@ -294,6 +292,14 @@ impl<P: Problem> Integrator<P> {
         self.time = target;
         self.linearized = false;
         self.statistics.accept(step);
+        // All that is asked at the end is asked at once: what the problem has computed there serves several times.
+        if self.options.fixed_step.is_none() {
+            self.look();
+        }
+        if !self.switches.modes.is_empty() {
+            self.switches
+                .look(&mut self.problem, self.time, &self.x[..self.dimension]);
+        }
         if self.options.fixed_step.is_none() {
             let root = self.root(error);
             let (factor, genuine) = self
@@ -312,7 +318,6 @@ impl<P: Problem> Integrator<P> {
                 _ => {}
             }
             self.proposed_step = self.proposed_step.min(self.options.maximum_step).min(f64::MAX);
-            self.look();
             if let Some(Passage { layer, planned }) = self.passage
                 && (error < SETTLED || self.proposed_step >= planned || self.kinks.is_behind(&layer))
             {
