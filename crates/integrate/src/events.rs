@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::lanes::LANES;
 use crate::problem::Problem;
-use crate::stages::Dense;
+use crate::search::Search;
+use crate::stages::{Dense, leading_states};
 use crate::statistics::Statistics;
 
 /// A switch changed its mode.
@@ -25,18 +27,26 @@ pub(crate) struct Switches {
     pub modes: Vec<u8>,
     pub before: Vec<u8>,
     pub events: Vec<Event>,
+    /// Margins with the present modes: at the place that was evaluated last, at the beginning of what is searched, at the end of the step.
     margins: Vec<f64>,
-    /// Sizes of the margins in a bracket, to compare them with each other.
-    sizes: Vec<f64>,
+    at_start: Vec<f64>,
+    at_end: Vec<f64>,
+    /// Whether `at_start` holds them.
+    start_known: bool,
+    search: Search,
     /// Switches that are not looked at any more in this step: `next_mode` declined.
     muted: Vec<bool>,
     /// Switches that have changed at the present instant.
     changed: Vec<bool>,
+    /// States at a fraction of the step; only the leading ones, padded, are brought up to date.
     x: Vec<f64>,
+    dimension: usize,
+    leading: usize,
 }
 
 impl Switches {
-    pub fn new(modes: Vec<u8>, dimension: usize, capacity: usize) -> Self {
+    pub fn new<P: Problem>(problem: &P, modes: Vec<u8>, capacity: usize) -> Self {
+        let (dimension, leading) = (problem.dimension(), leading_states(problem));
         let count = modes.len();
         let capacity = if count == 0 { 0 } else { capacity };
         Self {
@@ -44,30 +54,44 @@ impl Switches {
             modes,
             events: Vec::with_capacity(capacity),
             margins: vec![0.0; count],
-            sizes: vec![0.0; count],
+            at_start: vec![0.0; count],
+            at_end: vec![0.0; count],
+            start_known: false,
+            search: Search::new(count),
             muted: vec![false; count],
             changed: vec![false; count],
-            x: vec![0.0; dimension],
+            x: vec![0.0; dimension.next_multiple_of(LANES)],
+            dimension,
+            leading,
         }
+    }
+
+    /// Tells that the margins at the place reached may have changed: those known of it are not used any more.
+    pub fn forget(&mut self) {
+        self.start_known = false;
+    }
+
+    /// Evaluates the margins at the end of a step. Before [`Switches::detect`], and apart from it: right after other functions were
+    /// evaluated there it may cost the problem little.
+    pub fn look<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
+        problem.margins(time, x, &self.modes, &mut self.at_end);
+    }
+
+    /// Brings the states to a fraction of the step.
+    #[inline]
+    fn place(&mut self, dense: &Dense<'_>, theta: f64) {
+        dense.evaluate(theta, &mut self.x[..self.leading]);
     }
 
     /// Evaluates the margins at a fraction of the step.
     #[inline]
     fn evaluate<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>, theta: f64) {
-        dense.evaluate(theta, 0, &mut self.x);
-        problem.margins(dense.time(theta), &self.x, &self.modes, &mut self.margins);
+        self.place(dense, theta);
+        let x = &self.x[..self.dimension];
+        problem.margins(dense.time(theta), x, &self.modes, &mut self.margins);
     }
 
-    /// Whether a switch must leave its mode by the margins just evaluated.
-    #[inline]
-    fn leaving(&self) -> bool {
-        self.margins
-            .iter()
-            .zip(&self.muted)
-            .any(|(margin, muted)| *margin <= 0.0 && !muted)
-    }
-
-    /// Finds all changes of modes in a step.
+    /// Finds all changes of modes in a step, at whose end [`Switches::look`] was called.
     pub fn detect<P: Problem>(
         &mut self,
         problem: &mut P,
@@ -80,28 +104,39 @@ impl Switches {
         self.muted.fill(false);
         let resolution = (4.0 * f64::EPSILON * dense.end.abs() / dense.step).max(1e-12);
         let mut from = 0.0;
+        let mut end_known = true;
         for to in [0.5, 1.0] {
-            loop {
-                if from > to {
-                    break;
+            while from <= to {
+                if to == 1.0 && end_known {
+                    self.margins.copy_from_slice(&self.at_end);
+                } else {
+                    self.evaluate(problem, dense, to);
                 }
-                self.evaluate(problem, dense, to);
-                if !self.leaving() {
+                if !leaving(&self.margins, &self.muted) {
+                    // The search for a change in the second half begins at the start all the same: there may be several.
+                    if to == 1.0 {
+                        std::mem::swap(&mut self.margins, &mut self.at_start);
+                        self.start_known = true;
+                    }
                     break;
                 }
                 let theta = self.locate(problem, dense, from, to, resolution);
+                self.start_known = false;
                 if self.events.len() >= maximum {
                     statistics.events_unresolved += 1;
                     return;
                 }
+                let known = self.events.len();
                 self.change(problem, dense, theta, maximum, statistics);
+                end_known &= self.events.len() == known;
                 // A change that leads straight to the next one is told apart by the resolution.
                 from = theta + resolution;
             }
         }
     }
 
-    /// The first instant in `from ..= to` at which a switch must leave, given that one must at `to`.
+    /// The first instant in `from ..= to` at which a switch must leave, given that one must at `to`, by the margins there; those at this
+    /// instant.
     fn locate<P: Problem>(
         &mut self,
         problem: &mut P,
@@ -110,68 +145,49 @@ impl Switches {
         to: f64,
         resolution: f64,
     ) -> f64 {
-        let (mut low, mut high) = (from, to);
-        for (size, margin) in self.sizes.iter_mut().zip(&self.margins) {
-            *size = margin.abs();
+        self.search.clear();
+        self.search.next().copy_from_slice(&self.margins);
+        self.search.put_high(to);
+        if !self.start_known {
+            self.evaluate(problem, dense, from);
+            self.at_start.copy_from_slice(&self.margins);
         }
-        self.evaluate(problem, dense, low);
-        if self.leaving() {
-            return low;
+        if leaving(&self.at_start, &self.muted) {
+            self.margins.copy_from_slice(&self.at_start);
+            return from;
         }
-        for (size, margin) in self.sizes.iter_mut().zip(&self.margins) {
-            *size = size.max(margin.abs());
-        }
-        let mut at_low = self.smallest();
-        self.evaluate(problem, dense, high);
-        let mut at_high = self.smallest();
-        // Illinois; bisection where four rounds do not shorten the bracket to an eighth
-        let mut width = high - low;
-        let (mut round, mut kept_low) = (0, None);
-        while high - low > resolution {
-            round += 1;
-            let mut theta = low + (high - low) * (at_low / (at_low - at_high));
-            if round % 4 == 0 {
-                if high - low > 0.125 * width {
-                    theta = 0.5 * (low + high);
-                }
-                width = high - low;
+        self.search.next().copy_from_slice(&self.at_start);
+        self.search.put_low(from);
+        loop {
+            let (low, high) = self.search.ends();
+            if high - low <= resolution {
+                break;
             }
-            // so near to an end that the bracket collapses if the sign there is as expected
-            theta = theta.max(low + 0.25 * resolution).min(high - 0.25 * resolution);
+            let theta = self.search.place(self.first_zero(), resolution);
             self.evaluate(problem, dense, theta);
-            let value = self.smallest();
-            if value > 0.0 {
-                (low, at_low) = (theta, value);
-                if kept_low == Some(false) {
-                    at_high *= 0.5;
-                }
-                kept_low = Some(false);
+            self.search.next().copy_from_slice(&self.margins);
+            if leaving(&self.margins, &self.muted) {
+                self.search.put_high(theta);
             } else {
-                (high, at_high) = (theta, value);
-                if kept_low == Some(true) {
-                    at_low *= 0.5;
-                }
-                kept_low = Some(true);
+                self.search.put_low(theta);
             }
         }
-        high
+        self.margins.copy_from_slice(self.search.high());
+        self.search.ends().1
     }
 
-    /// The smallest margin relative to its size.
-    fn smallest(&self) -> f64 {
-        let mut least = f64::INFINITY;
-        for ((margin, size), muted) in self.margins.iter().zip(&self.sizes).zip(&self.muted) {
-            if !muted {
-                let ratio = margin / size.max(f64::MIN_POSITIVE);
-                if ratio < least {
-                    least = ratio;
-                }
+    /// Where the first switch is expected to have to leave.
+    fn first_zero(&self) -> f64 {
+        let mut first = f64::INFINITY;
+        for (index, (margin, muted)) in self.search.high().iter().zip(&self.muted).enumerate() {
+            if *margin <= 0.0 && !muted {
+                first = first.min(self.search.zero(index));
             }
         }
-        least
+        first
     }
 
-    /// Changes the modes of all switches that must leave at an instant, each once.
+    /// Changes the modes of all switches that must leave at an instant, each once, by the margins there.
     fn change<P: Problem>(
         &mut self,
         problem: &mut P,
@@ -181,7 +197,7 @@ impl Switches {
         statistics: &mut Statistics,
     ) {
         self.changed.fill(false);
-        self.evaluate(problem, dense, theta);
+        self.place(dense, theta);
         let time = dense.time(theta);
         while let Some(index) =
             (0..self.modes.len()).find(|&i| self.margins[i] <= 0.0 && !self.muted[i] && !self.changed[i])
@@ -190,7 +206,7 @@ impl Switches {
                 return;
             }
             let from = self.modes[index];
-            let to = problem.next_mode(time, &self.x, index, from);
+            let to = problem.next_mode(time, &self.x[..self.dimension], index, from);
             if to == from {
                 self.muted[index] = true;
                 continue;
@@ -205,7 +221,16 @@ impl Switches {
             });
             statistics.events += 1;
             // the margins of other switches may depend on this mode
-            problem.margins(time, &self.x, &self.modes, &mut self.margins);
+            problem.margins(time, &self.x[..self.dimension], &self.modes, &mut self.margins);
         }
     }
+}
+
+/// Whether a switch must leave its mode by these margins.
+#[inline]
+fn leaving(margins: &[f64], muted: &[bool]) -> bool {
+    margins
+        .iter()
+        .zip(muted)
+        .any(|(margin, muted)| *margin <= 0.0 && !muted)
 }

@@ -7,8 +7,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::lanes::LANES;
 use crate::problem::Problem;
-use crate::stages::Dense;
+use crate::search::Search;
+use crate::stages::{Dense, leading_states};
 
 /// How far the dense output is continued at most, in lengths of its step.
 const REACH: f64 = 6.0;
@@ -25,6 +27,10 @@ const NEAR_KINK: f64 = 1e-4;
 const NEAR_LAYER: f64 = 0.05;
 /// Rounds of the search.
 const ROUNDS: usize = 15;
+/// The part of the planned step that a step to a kink may have in one go: where it lies farther away, it is enough to know about where.
+pub(crate) const WHOLE_LANDING: f64 = 0.7;
+/// About: the place of a distant kink may change by this part of its distance from one round to the next.
+const CERTAIN: f64 = 0.01;
 /// A direction that reverses: the layer begins at this size.
 const EDGE: f64 = 4.0;
 /// An error of a speed may have this part of the slowest slip.
@@ -78,30 +84,41 @@ pub(crate) struct Passage {
 #[derive(Clone, Debug)]
 pub(crate) struct Kinks {
     signs: KinkSigns,
-    /// Unit vectors of the directions at the start; zero: not to be looked at.
+    /// What was looked at last, and before: at the end and at the start of a step.
+    here: KinkSigns,
+    before: KinkSigns,
+    /// The size of the smallest direction here.
+    slowest: f64,
+    /// Unit vectors of the directions here; zero: not to be looked at.
     towards: Vec<[f64; 2]>,
+    /// Values, parts of the directions along `towards` beyond the edge, squares of their sizes: here, and along the dense output.
     now: Vec<f64>,
-    low: Vec<f64>,
-    high: Vec<f64>,
-    trial: Vec<f64>,
+    search: Search,
+    /// States on the continued dense output; only the leading ones, padded, are brought up to date.
     x: Vec<f64>,
+    dimension: usize,
+    leading: usize,
 }
 
 impl Kinks {
     pub fn new<P: Problem>(problem: &P) -> Self {
         let (values, directions) = problem.kink_counts();
-        let zero = || vec![0.0; values + directions];
+        let signs = KinkSigns {
+            values: vec![0.0; values],
+            directions: vec![[0.0; 2]; directions],
+        };
+        let functions = values + 2 * directions;
         Self {
-            signs: KinkSigns {
-                values: vec![0.0; values],
-                directions: vec![[0.0; 2]; directions],
-            },
+            here: signs.clone(),
+            before: signs.clone(),
+            signs,
+            slowest: f64::INFINITY,
             towards: vec![[0.0; 2]; directions],
-            now: zero(),
-            low: zero(),
-            high: zero(),
-            trial: zero(),
-            x: vec![0.0; problem.dimension()],
+            now: vec![0.0; functions],
+            search: Search::new(functions),
+            x: vec![0.0; problem.dimension().next_multiple_of(LANES)],
+            dimension: problem.dimension(),
+            leading: leading_states(problem),
         }
     }
 
@@ -116,35 +133,33 @@ impl Kinks {
         if !self.are_told() {
             return;
         }
-        problem.kinks(time, x, &mut self.signs);
-        for (towards, direction) in self.towards.iter_mut().zip(&self.signs.directions) {
-            let size = size(direction);
-            *towards = if size > 2.0 * EDGE {
+        std::mem::swap(&mut self.here, &mut self.before);
+        problem.kinks(time, x, &mut self.here);
+        let mut least = f64::INFINITY;
+        for (towards, direction) in self.towards.iter_mut().zip(&self.here.directions) {
+            let square = square(direction);
+            // passes over what is not a number
+            least = least.min(square);
+            *towards = if square > 4.0 * EDGE * EDGE {
+                let size = square.sqrt();
                 direction.map(|part| part / size)
             } else {
                 [0.0; 2]
             };
         }
-        self.project();
-        self.now.copy_from_slice(&self.trial);
+        self.slowest = least.sqrt();
+        project(&self.here, &self.towards, &mut self.now);
     }
 
     /// By how much bounds on errors in layers widen at the place that was looked at last: see [`Problem::layer_bounds`].
     pub fn slack(&self) -> f64 {
-        // `min` passes over what is not a number.
-        let slowest = self
-            .signs
-            .directions
-            .iter()
-            .map(size)
-            .fold(f64::INFINITY, f64::min);
-        (slowest * SLACK).max(1.0)
+        (self.slowest * SLACK).max(1.0)
     }
 
     /// Whether a layer lies behind: what reversed in it is large again, and points elsewhere.
     pub fn is_behind(&self, layer: &Layer) -> bool {
-        let direction = &self.signs.directions[layer.direction];
-        let size = size(direction);
+        let direction = &self.here.directions[layer.direction];
+        let size = square(direction).sqrt();
         size > OUT && direction[0] * layer.from[0] + direction[1] * layer.from[1] < 0.5 * size
     }
 
@@ -163,17 +178,20 @@ impl Kinks {
         if error * fifth(1.0 + reach) > TRUST {
             reach = libm::pow(TRUST / error, 0.2) - 1.0;
         }
+        let far = 1.0 + WHOLE_LANDING * (length / dense.step);
         loop {
-            let (low, high, index) = self.locate(problem, dense, 1.0 + reach, error)?;
-            let Some(direction) = index.checked_sub(self.signs.values.len()) else {
+            let Found { low, high, index } = self.locate(problem, dense, 1.0 + reach, far, error)?;
+            let values = self.here.values.len();
+            let Some(direction) = index.checked_sub(values) else {
                 let end = (high + overshoot(error, high)).max(1.0 + NEAR_KINK);
                 return Some(Ahead::Kink(dense.start + end * dense.step));
             };
-            self.evaluate(problem, dense, low);
-            if size(&self.signs.directions[direction]) < NARROW {
+            let square = self.search.low()[values + self.here.directions.len() + direction];
+            if square < NARROW * NARROW {
                 // Along the line between the ends of the bracket.
-                let fall = (self.low[index] - self.high[index]) / (high - low);
-                let middle = (self.low[index] + EDGE) / fall * dense.step;
+                let (at_low, at_high) = (self.search.low()[index], self.search.high()[index]);
+                let fall = (at_low - at_high) / (high - low);
+                let middle = (at_low + EDGE) / fall * dense.step;
                 let layer = |length| Layer {
                     length,
                     direction,
@@ -192,78 +210,107 @@ impl Kinks {
         }
     }
 
-    /// The functions at a place on the continued dense output, to `trial`.
-    fn evaluate<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>, theta: f64) {
-        dense.evaluate(theta, 0, &mut self.x);
-        problem.kinks(dense.start + theta * dense.step, &self.x, &mut self.signs);
-        self.project();
+    /// The functions at a place on the continued dense output, to the search; whether one of them has changed its sign.
+    fn evaluate<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>, theta: f64) -> bool {
+        dense.evaluate(theta, &mut self.x[..self.leading]);
+        let time = dense.start + theta * dense.step;
+        problem.kinks(time, &self.x[..self.dimension], &mut self.signs);
+        project(&self.signs, &self.towards, self.search.next());
+        let functions = self.signs.values.len() + self.signs.directions.len();
+        crossed(&self.now[..functions], self.search.next())
     }
 
-    fn project(&mut self) {
-        let (values, directions) = self.trial.split_at_mut(self.signs.values.len());
-        values.copy_from_slice(&self.signs.values);
-        for ((part, towards), direction) in directions
-            .iter_mut()
-            .zip(&self.towards)
-            .zip(&self.signs.directions)
-        {
-            let along = towards[0] * direction[0] + towards[1] * direction[1];
-            *part = if *towards == [0.0; 2] { 1.0 } else { along - EDGE };
-        }
-    }
-
-    /// A short bracket around the first zero up to `high`, and the function that has it.
+    /// A short bracket around the first zero up to `high`, and the function that has it; the place alone if it is certain to lie
+    /// beyond `far`.
     fn locate<P: Problem>(
         &mut self,
         problem: &mut P,
         dense: &Dense<'_>,
-        mut high: f64,
+        high: f64,
+        far: f64,
         error: f64,
-    ) -> Option<(f64, f64, usize)> {
-        let mut low = 1.0;
-        self.low.copy_from_slice(&self.now);
-        self.evaluate(problem, dense, high);
-        std::mem::swap(&mut self.high, &mut self.trial);
-        self.first_zero()?;
-        for round in 0..ROUNDS {
+    ) -> Option<Found> {
+        self.search.clear();
+        if !self.evaluate(problem, dense, high) {
+            return None;
+        }
+        self.search.put_high(high);
+        self.search.next().copy_from_slice(&self.now);
+        self.search.put_low(1.0);
+        project(&self.before, &self.towards, self.search.next());
+        self.search.put_aside(0.0);
+        let mut last = f64::INFINITY;
+        for _ in 0..ROUNDS {
+            let (low, high) = self.search.ends();
             let width = overshoot(error, high);
             if high - low <= width {
                 break;
             }
-            // The first zero of straight lines, once a little behind it and once before, so that the bracket closes; then the middle.
-            let fraction = self.first_zero().map_or(0.5, |(_, fraction)| fraction);
-            let guess = low + (high - low) * fraction;
-            let theta = match round % 3 {
-                0 => guess + 0.5 * width,
-                1 => guess - 0.5 * width,
-                _ => 0.5 * (low + high),
-            };
-            let theta = theta.clamp(low + 0.25 * width, high - 0.25 * width);
-            self.evaluate(problem, dense, theta);
-            let end = if crossed(&self.now, &self.trial) {
-                high = theta;
-                &mut self.high
+            let (index, expected) = self.first_zero(|index| self.search.zero(index))?;
+            let reached = expected - 1.0;
+            if expected > far && (expected - last).abs() < CERTAIN * reached && !self.reverses() {
+                let high = expected;
+                return Some(Found { low, high, index });
+            }
+            last = expected;
+            let theta = self.search.place(expected, width);
+            if self.evaluate(problem, dense, theta) {
+                self.search.put_high(theta);
             } else {
-                low = theta;
-                &mut self.low
-            };
-            std::mem::swap(end, &mut self.trial);
+                self.search.put_low(theta);
+            }
         }
-        self.first_zero().map(|(index, _)| (low, high, index))
+        let (low, high) = self.search.ends();
+        let line = |index| {
+            let (at_low, at_high): (f64, f64) = (self.search.low()[index], self.search.high()[index]);
+            at_low / (at_low - at_high)
+        };
+        let (index, _) = self.first_zero(line)?;
+        Some(Found { low, high, index })
     }
 
-    /// The function whose line between the ends of the bracket comes to zero first, and where, as a fraction of the bracket.
-    fn first_zero(&self) -> Option<(usize, f64)> {
+    /// The function that changes its sign in the bracket and comes to zero first, and where.
+    #[inline]
+    fn first_zero(&self, zero: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
         let mut first: Option<(usize, f64)> = None;
-        for (index, ((now, low), high)) in self.now.iter().zip(&self.low).zip(&self.high).enumerate() {
+        let functions = self.here.values.len() + self.here.directions.len();
+        let ends = self.now.iter().zip(self.search.high());
+        for (index, (now, high)) in ends.take(functions).enumerate() {
             if now * high < 0.0 {
-                let fraction = low / (low - high);
-                if first.is_none_or(|(_, least)| fraction < least) {
-                    first = Some((index, fraction));
+                let place = zero(index);
+                if first.is_none_or(|(_, least)| place < least) {
+                    first = Some((index, place));
                 }
             }
         }
         first
+    }
+
+    /// Whether a direction reverses in the bracket.
+    fn reverses(&self) -> bool {
+        let values = self.here.values.len();
+        crossed(&self.now[values..], &self.search.high()[values..])
+    }
+}
+
+/// Where the first zero lies.
+struct Found {
+    low: f64,
+    high: f64,
+    /// The function that has it.
+    index: usize,
+}
+
+/// Values, parts of the directions along `towards` beyond the edge, squares of the sizes of directions.
+fn project(signs: &KinkSigns, towards: &[[f64; 2]], functions: &mut [f64]) {
+    let (values, rest) = functions.split_at_mut(signs.values.len());
+    let (parts, squares) = rest.split_at_mut(signs.directions.len());
+    values.copy_from_slice(&signs.values);
+    let targets = parts.iter_mut().zip(squares);
+    for (((part, size), towards), direction) in targets.zip(towards).zip(&signs.directions) {
+        let along = towards[0] * direction[0] + towards[1] * direction[1];
+        *part = if *towards == [0.0; 2] { 1.0 } else { along - EDGE };
+        *size = square(direction);
     }
 }
 
@@ -272,9 +319,9 @@ fn overshoot(error: f64, theta: f64) -> f64 {
     OVERSHOOT * (4.0 * error * fifth(theta)).clamp(LEAST_OVERSHOOT, 1.0)
 }
 
-/// The length of a plane vector.
-fn size([a, b]: &[f64; 2]) -> f64 {
-    (a * a + b * b).sqrt()
+/// The square of the length of a plane vector.
+fn square([a, b]: &[f64; 2]) -> f64 {
+    a * a + b * b
 }
 
 fn fifth(x: f64) -> f64 {

@@ -22,6 +22,7 @@ mod problem;
 mod rodas;
 mod rosenbrock;
 pub mod scalar;
+mod search;
 mod stages;
 mod state;
 mod statistics;

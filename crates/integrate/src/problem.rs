@@ -18,6 +18,14 @@ pub trait Problem {
     /// Number of states.
     fn dimension(&self) -> usize;
 
+    /// How many leading states [`Problem::derivative`], [`Problem::linearize`], [`Problem::kinks`] and the functions of switches
+    /// read: the states behind them are quadratures, on which nothing depends.
+    ///
+    /// These functions still get a vector of all states, but those behind may hold anything.
+    fn read_states(&self) -> usize {
+        self.dimension()
+    }
+
     /// Fixed error scale of each state, positive; infinite: the state is not error controlled.
     ///
     /// The size of an error is the maximum norm `max |error_i| / (relative_tolerance · scale_i)`: the tolerance
@@ -110,6 +118,9 @@ pub trait Problem {
 impl<P: Problem + ?Sized> Problem for &mut P {
     fn dimension(&self) -> usize {
         (**self).dimension()
+    }
+    fn read_states(&self) -> usize {
+        (**self).read_states()
     }
     fn scales(&self) -> &[f64] {
         (**self).scales()

@@ -7,7 +7,7 @@ use crate::kinks::{Ahead, Kinks, Passage};
 use crate::lanes::LANES;
 use crate::options::Options;
 use crate::problem::Problem;
-use crate::stages::Dense;
+use crate::stages::{Dense, leading_states};
 use crate::state::{STATE_VERSION, State};
 use crate::statistics::Statistics;
 use crate::tableau::Tableau;
@@ -39,6 +39,9 @@ pub struct Integrator<P: Problem> {
     tableau: &'static Tableau,
     /// Stages whose argument is that of the stage before plus its `U`.
     extends: Vec<bool>,
+    /// How many leading states the argument of each stage needs: those that the problem reads, but all where the new states come
+    /// from it.
+    widths: Vec<usize>,
     dimension: usize,
     /// Length of a padded vector.
     stride: usize,
@@ -157,19 +160,25 @@ impl<P: Problem> Integrator<P> {
         }
         let segment_end = enter(&mut problem, &state)?;
         let tableau = options.method.tableau();
-        let extends = (0..tableau.stages())
+        let extends: Vec<bool> = (0..tableau.stages())
             .map(|i| i > 1 && tableau.a[i][..i - 1] == *tableau.a[i - 1] && tableau.a[i][i - 1] == 1.0)
+            .collect();
+        let whole = extends.iter().rposition(|extends| !extends).unwrap_or(0);
+        let leading = leading_states(&problem);
+        let widths = (0..tableau.stages())
+            .map(|i| if i < whole { leading } else { stride })
             .collect();
         let mut x = zero();
         x[..n].copy_from_slice(&state.x);
         let all_stages = vec![0.0; stride * tableau.stages()];
         let mut this = Self {
-            switches: Switches::new(state.modes, n, options.maximum_events),
+            switches: Switches::new(&problem, state.modes, options.maximum_events),
             kinks: Kinks::new(&problem),
             problem,
             options,
             tableau,
             extends,
+            widths,
             dimension: n,
             stride,
             plain_weights: weights.clone(),
@@ -331,7 +340,7 @@ impl<P: Problem> Integrator<P> {
             "range of the interpolated states"
         );
         let dense = self.dense();
-        dense.evaluate(dense.fraction(time), first, out);
+        dense.evaluate_range(dense.fraction(time), first, out);
     }
 
     fn dense(&self) -> Dense<'_> {

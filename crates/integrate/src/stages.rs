@@ -1,39 +1,14 @@
 //! Linear combinations of stages, and dense output.
 
+use wide::f64x4;
+
 // Vectors are padded with zeros to a multiple of this length.
 use crate::lanes::LANES;
+use crate::problem::Problem;
 use crate::tableau::{MAXIMUM_STAGES, Tableau};
 
-/// `out = base + scale · Σ_j weights_j stage_j`, with `stage_j` at `stages[j·stride + first..]`.
-///
-/// Not inlined: only the borrow of a function's argument tells the compiler that `out` overlaps nothing.
-#[inline(never)]
-fn combine_fixed<const K: usize>(
-    out: &mut [f64],
-    base: &[f64],
-    scale: f64,
-    weights: &[f64; K],
-    stages: &[f64],
-    stride: usize,
-    first: usize,
-) {
-    let n = out.len();
-    let base = &base[..n];
-    let mut rows = [base; K];
-    for (j, row) in rows.iter_mut().enumerate() {
-        *row = &stages[j * stride + first..][..n];
-    }
-    for k in 0..n {
-        let mut sum = weights[0] * rows[0][k];
-        for j in 1..K {
-            sum += weights[j] * rows[j][k];
-        }
-        out[k] = base[k] + scale * sum;
-    }
-}
-
-/// `out = base + scale · Σ_j weights_j stage_j`, as many stages as there are weights.
-#[inline(always)]
+/// `out = base + scale · Σ_j weights_j stage_j`, with `stage_j` at `stages[j·stride ..]`; the length of `out` is a multiple of [`LANES`].
+#[inline]
 pub(crate) fn combine(
     out: &mut [f64],
     base: &[f64],
@@ -41,23 +16,79 @@ pub(crate) fn combine(
     weights: &[f64],
     stages: &[f64],
     stride: usize,
-    first: usize,
 ) {
-    match *weights {
-        [a] => combine_fixed(out, base, scale, &[a], stages, stride, first),
-        [a, b] => combine_fixed(out, base, scale, &[a, b], stages, stride, first),
-        [a, b, c] => combine_fixed(out, base, scale, &[a, b, c], stages, stride, first),
-        [a, b, c, d] => combine_fixed(out, base, scale, &[a, b, c, d], stages, stride, first),
-        [a, b, c, d, e] => combine_fixed(out, base, scale, &[a, b, c, d, e], stages, stride, first),
-        [a, b, c, d, e, f] => combine_fixed(out, base, scale, &[a, b, c, d, e, f], stages, stride, first),
-        [a, b, c, d, e, f, g] => {
-            combine_fixed(out, base, scale, &[a, b, c, d, e, f, g], stages, stride, first)
-        }
-        [a, b, c, d, e, f, g, h] => {
-            combine_fixed(out, base, scale, &[a, b, c, d, e, f, g, h], stages, stride, first);
-        }
-        _ => unreachable!("methods have at most {MAXIMUM_STAGES} stages"),
+    let mut at = 0;
+    while at + 4 * LANES <= out.len() {
+        combine_groups::<4>(out, base, scale, weights, stages, stride, at);
+        at += 4 * LANES;
     }
+    if at + 2 * LANES <= out.len() {
+        combine_groups::<2>(out, base, scale, weights, stages, stride, at);
+        at += 2 * LANES;
+    }
+    if at + LANES <= out.len() {
+        combine_groups::<1>(out, base, scale, weights, stages, stride, at);
+    }
+}
+
+/// The same of `G` groups of [`LANES`] from `at` on, whose sums stay in registers.
+#[inline(always)]
+fn combine_groups<const G: usize>(
+    out: &mut [f64],
+    base: &[f64],
+    scale: f64,
+    weights: &[f64],
+    stages: &[f64],
+    stride: usize,
+    at: usize,
+) {
+    let mut sums = [f64x4::ZERO; G];
+    if let [first, weights @ ..] = weights {
+        sums = groups::<G>(stages, at).map(|group| group * f64x4::splat(*first));
+        let mut start = at;
+        for weight in weights {
+            start += stride;
+            let (row, weight) = (groups::<G>(stages, start), f64x4::splat(*weight));
+            for g in 0..G {
+                sums[g] += row[g] * weight;
+            }
+        }
+    }
+    let base = groups::<G>(base, at);
+    let scale = f64x4::splat(scale);
+    let out = &mut out[at..][..G * LANES];
+    for (g, out) in out.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
+        *out = (base[g] + sums[g] * scale).to_array();
+    }
+}
+
+/// `G` groups of values from `at` on.
+#[inline(always)]
+fn groups<const G: usize>(values: &[f64], at: usize) -> [f64x4; G] {
+    let (groups, _) = values[at..][..G * LANES].as_chunks::<LANES>();
+    std::array::from_fn(|g| f64x4::new(groups[g]))
+}
+
+/// `target += factor · term`; lengths are multiples of [`LANES`].
+#[inline(always)]
+pub(crate) fn add(target: &mut [f64], factor: f64, term: &[f64]) {
+    let factor = f64x4::splat(factor);
+    let pairs = target
+        .as_chunks_mut::<LANES>()
+        .0
+        .iter_mut()
+        .zip(term.as_chunks::<LANES>().0);
+    for (value, term) in pairs {
+        *value = (f64x4::new(*value) + factor * f64x4::new(*term)).to_array();
+    }
+}
+
+/// How many leading states of a padded vector hold all that a problem reads, see [`Problem::read_states`].
+pub(crate) fn leading_states<P: Problem>(problem: &P) -> usize {
+    problem
+        .read_states()
+        .min(problem.dimension())
+        .next_multiple_of(LANES)
 }
 
 /// Whether all values are finite; the length is a multiple of [`LANES`].
@@ -125,33 +156,70 @@ impl Dense<'_> {
         }
     }
 
-    /// States `first ..` to `out` at a fraction of the step.
+    /// As many leading states as `out` takes, a multiple of [`LANES`], at a fraction of the step.
     #[inline]
-    pub fn evaluate(&self, theta: f64, first: usize, out: &mut [f64]) {
-        let (x0, x1) = (&self.x0[first..][..out.len()], &self.x1[first..][..out.len()]);
+    pub fn evaluate(&self, theta: f64, out: &mut [f64]) {
+        let (x0, x1) = (&self.x0[..out.len()], &self.x1[..out.len()]);
         if theta == 1.0 {
-            out.copy_from_slice(x1);
+            for (out, x1) in out
+                .as_chunks_mut::<LANES>()
+                .0
+                .iter_mut()
+                .zip(x1.as_chunks::<LANES>().0)
+            {
+                *out = *x1;
+            }
             return;
         }
+        let weights = self.weights(theta);
+        let weights = &weights[..self.tableau.stages()];
+        combine(out, x0, 1.0, weights, self.stages, self.x0.len());
+        let theta = f64x4::splat(theta);
+        for ((out, x0), x1) in out
+            .as_chunks_mut::<LANES>()
+            .0
+            .iter_mut()
+            .zip(x0.as_chunks::<LANES>().0)
+            .zip(x1.as_chunks::<LANES>().0)
+        {
+            let change = f64x4::new(*x1) - f64x4::new(*x0);
+            *out = (f64x4::new(*out) + theta * change).to_array();
+        }
+    }
+
+    /// States `first ..`, as many as `out` takes.
+    pub fn evaluate_range(&self, theta: f64, first: usize, out: &mut [f64]) {
+        if theta == 1.0 {
+            out.copy_from_slice(&self.x1[first..][..out.len()]);
+            return;
+        }
+        let weights = self.weights(theta);
+        for (k, out) in (first..).zip(out) {
+            let column = self.stages[k..].iter().step_by(self.x0.len());
+            let mut terms = column.zip(&weights).map(|(stage, weight)| stage * weight);
+            let sum = terms
+                .next()
+                .map_or(0.0, |first| terms.fold(first, |sum, term| sum + term));
+            *out = self.x0[k] + sum + theta * (self.x1[k] - self.x0[k]);
+        }
+    }
+
+    /// By how much each stage counts at a fraction of the step.
+    #[inline]
+    fn weights(&self, theta: f64) -> [f64; MAXIMUM_STAGES] {
         let mut weights = [0.0; MAXIMUM_STAGES];
         let mut power = theta * (1.0 - theta);
         for row in self.tableau.dense {
-            for (weight, h) in weights.iter_mut().zip(*row) {
-                *weight += power * h;
+            match <&[f64; MAXIMUM_STAGES]>::try_from(*row) {
+                Ok(row) => add(&mut weights, power, row),
+                Err(_) => {
+                    for (weight, h) in weights.iter_mut().zip(*row) {
+                        *weight += power * h;
+                    }
+                }
             }
             power *= theta;
         }
-        combine(
-            out,
-            x0,
-            1.0,
-            &weights[..self.tableau.stages()],
-            self.stages,
-            self.x0.len(),
-            first,
-        );
-        for ((value, x0), x1) in out.iter_mut().zip(x0).zip(x1) {
-            *value += theta * (x1 - x0);
-        }
+        weights
     }
 }

@@ -2,18 +2,15 @@
 
 use super::Integrator;
 use crate::error::{Reason, StepError};
-use crate::kinks::{Ahead, Layer, Passage};
+use crate::kinks::{Ahead, Layer, Passage, WHOLE_LANDING};
 use crate::problem::Problem;
-use crate::stages::{Dense, all_finite, combine, largest};
+use crate::stages::{Dense, add, all_finite, combine, largest};
 
 /// The part of the planned step that is tried behind a kink.
 const BEHIND_KINK: f64 = 0.5;
 
 /// A layer in which nothing reverses (slip that comes to stick, say) is behind where errors are smaller than this.
 const SETTLED: f64 = 0.001;
-
-/// The part of the planned step that a step to a kink may have in one go.
-const WHOLE_LANDING: f64 = 0.7;
 
 /// Why an attempt failed, with the state to blame.
 struct Failure {
@@ -167,6 +164,7 @@ impl<P: Problem> Integrator<P> {
             .derivative(self.time, &self.x[..n], &mut self.dx[..n]);
         self.statistics.derivatives += 1;
         self.linearized = false;
+        self.switches.forget();
         self.look();
     }
 
@@ -231,7 +229,8 @@ impl<P: Problem> Integrator<P> {
                 if self.extends[i] {
                     add(argument, 1.0, &done[(i - 1) * stride..]);
                 } else {
-                    combine(argument, &self.x, 1.0, tableau.a[i], done, stride, 0);
+                    let argument = &mut argument[..self.widths[i]];
+                    combine(argument, &self.x, 1.0, tableau.a[i], done, stride);
                 }
                 let alpha = tableau.alpha[i];
                 let time = if alpha == 1.0 {
@@ -243,7 +242,7 @@ impl<P: Problem> Integrator<P> {
                 if CHECKED && !all_finite(slope) {
                     return Err(not_finite(&slope[..n]));
                 }
-                combine(stage, slope, inverse, tableau.c[i], done, stride, 0);
+                combine(stage, slope, inverse, tableau.c[i], done, stride);
             }
             let d = tableau.d[i] * step;
             if !self.autonomous && d != 0.0 {
@@ -293,6 +292,14 @@ impl<P: Problem> Integrator<P> {
         self.time = target;
         self.linearized = false;
         self.statistics.accept(step);
+        // All that is asked at the end is asked at once: what the problem has computed there serves several times.
+        if self.options.fixed_step.is_none() {
+            self.look();
+        }
+        if !self.switches.modes.is_empty() {
+            self.switches
+                .look(&mut self.problem, self.time, &self.x[..self.dimension]);
+        }
         if self.options.fixed_step.is_none() {
             let root = self.root(error);
             let (factor, genuine) = self
@@ -311,7 +318,6 @@ impl<P: Problem> Integrator<P> {
                 _ => {}
             }
             self.proposed_step = self.proposed_step.min(self.options.maximum_step).min(f64::MAX);
-            self.look();
             if let Some(Passage { layer, planned }) = self.passage
                 && (error < SETTLED || self.proposed_step >= planned || self.kinks.is_behind(&layer))
             {
@@ -405,14 +411,6 @@ impl<P: Problem> Integrator<P> {
         step.min(longest)
             .max(self.options.minimum_step)
             .max(16.0 * f64::EPSILON * self.time.abs())
-    }
-}
-
-/// `target += factor · term`.
-#[inline(always)]
-fn add(target: &mut [f64], factor: f64, term: &[f64]) {
-    for (value, t) in target.iter_mut().zip(term) {
-        *value += factor * t;
     }
 }
 

@@ -291,6 +291,10 @@ impl Problem for System {
         self.layout.len()
     }
 
+    fn read_states(&self) -> usize {
+        self.layout.len() - self.layout.quadratures
+    }
+
     fn scales(&self) -> &[f64] {
         &self.scales
     }
