@@ -12,6 +12,7 @@ mod control;
 mod dense_block;
 mod error;
 mod events;
+mod explicit;
 mod kinks;
 pub mod lanes;
 mod layout;

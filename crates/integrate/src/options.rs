@@ -17,6 +17,8 @@ use crate::tableau::Method;
 pub struct Options {
     /// The method.
     pub method: Method,
+    /// Whether steps may be explicit where the problem tells that nothing is stiff ([`crate::Problem::stiffness`]).
+    pub explicit_steps: bool,
     /// Admissible local error of each state, relative to its scale.
     pub relative_tolerance: f64,
     /// First step; none: estimated.
@@ -45,6 +47,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             method: Method::default(),
+            explicit_steps: true,
             relative_tolerance: 1e-6,
             initial_step: None,
             fixed_step: None,

@@ -70,6 +70,15 @@ pub trait Problem {
     /// `df_dt` comes filled with zeros: an autonomous problem need not touch it.
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]);
 
+    /// How fast the fastest part of the problem answers near `(time, x)`, 1/s: a bound of the size of the eigenvalues of J, which need
+    /// not be sharp; infinite: not known.
+    ///
+    /// Steps that are short beside it are made by an explicit method of order 5(4), which needs no Jacobian matrix.
+    fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
+        let _ = (time, x);
+        f64::INFINITY
+    }
+
     /// Factors `shift·I - J`.
     ///
     /// # Errors
@@ -140,6 +149,9 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     }
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         (**self).linearize(time, x, dx, df_dt);
+    }
+    fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
+        (**self).stiffness(time, x)
     }
     fn factor(&mut self, shift: f64) -> Result<(), Singular> {
         (**self).factor(shift)

@@ -10,7 +10,7 @@ use crate::problem::Problem;
 use crate::stages::{Dense, leading_states};
 use crate::state::{STATE_VERSION, State};
 use crate::statistics::Statistics;
-use crate::tableau::Tableau;
+use crate::tableau::{MAXIMUM_STAGES, Tableau};
 
 mod step;
 
@@ -37,6 +37,11 @@ pub struct Integrator<P: Problem> {
     problem: P,
     options: Options,
     tableau: &'static Tableau,
+    /// Methods of the last accepted step, and of the step being tried.
+    last_method: &'static Tableau,
+    trial_method: &'static Tableau,
+    /// How fast the fastest part of the problem answers at the place reached, see [`Problem::stiffness`].
+    stiffness: f64,
     /// Stages whose argument is that of the stage before plus its `U`.
     extends: Vec<bool>,
     /// How many leading states the argument of each stage needs: those that the problem reads, but all where the new states come
@@ -170,13 +175,16 @@ impl<P: Problem> Integrator<P> {
             .collect();
         let mut x = zero();
         x[..n].copy_from_slice(&state.x);
-        let all_stages = vec![0.0; stride * tableau.stages()];
+        let all_stages = vec![0.0; stride * MAXIMUM_STAGES];
         let mut this = Self {
             switches: Switches::new(&problem, state.modes, options.maximum_events),
             kinks: Kinks::new(&problem),
             problem,
             options,
             tableau,
+            last_method: tableau,
+            trial_method: tableau,
+            stiffness: f64::INFINITY,
             extends,
             widths,
             dimension: n,
@@ -345,7 +353,7 @@ impl<P: Problem> Integrator<P> {
 
     fn dense(&self) -> Dense<'_> {
         Dense {
-            tableau: self.tableau,
+            tableau: self.last_method,
             start: self.previous_time,
             step: self.time - self.previous_time,
             end: self.time,

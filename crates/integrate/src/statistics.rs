@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 pub struct Statistics {
     /// Accepted steps.
     pub steps: u64,
+    /// Those of them that were explicit.
+    #[serde(default)]
+    pub explicit_steps: u64,
     /// Steps rejected because of their error.
     pub rejected_error: u64,
     /// Steps rejected because a value was not finite.

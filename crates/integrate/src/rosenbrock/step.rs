@@ -2,15 +2,20 @@
 
 use super::Integrator;
 use crate::error::{Reason, StepError};
+use crate::explicit::DORMAND_PRINCE;
 use crate::kinks::{Ahead, Layer, Passage, WHOLE_LANDING};
 use crate::problem::Problem;
-use crate::stages::{Dense, add, all_finite, combine, largest};
+use crate::stages::{Dense, add, all_finite, combine, largest, leading_states};
 
 /// The part of the planned step that is tried behind a kink.
 const BEHIND_KINK: f64 = 0.5;
 
 /// A layer in which nothing reverses (slip that comes to stick, say) is behind where errors are smaller than this.
 const SETTLED: f64 = 0.001;
+
+/// Steps shorter than this, in units of the fastest answer of the problem, are explicit. The method is stable down to -3.3 on the real
+/// axis and all but stable up to 2 on the imaginary one; bounds of answers are larger than the answers.
+const EXPLICIT: f64 = 3.0;
 
 /// Why an attempt failed, with the state to blame.
 struct Failure {
@@ -165,6 +170,7 @@ impl<P: Problem> Integrator<P> {
         self.statistics.derivatives += 1;
         self.linearized = false;
         self.switches.forget();
+        self.stiffness = self.problem.stiffness(self.time, &self.x[..n]);
         self.look();
     }
 
@@ -196,7 +202,11 @@ impl<P: Problem> Integrator<P> {
     /// Only a checked attempt tells which state is to blame for a value that is not finite.
     #[inline]
     fn attempt<const CHECKED: bool>(&mut self, step: f64, target: f64) -> Result<f64, Failure> {
+        if self.options.explicit_steps && step * self.stiffness <= EXPLICIT {
+            return self.attempt_explicit::<CHECKED>(step, target);
+        }
         let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
+        self.trial_method = tableau;
         if !self.linearized {
             self.df_dt.fill(0.0);
             self.problem
@@ -253,7 +263,7 @@ impl<P: Problem> Integrator<P> {
         self.statistics.derivatives += tableau.stages() as u64 - 1;
         self.statistics.solves += tableau.stages() as u64;
 
-        let last = &stages[(tableau.stages() - 1) * stride..];
+        let last = &stages[(tableau.stages() - 1) * stride..][..stride];
         for ((new, old), u) in self.trial_x.iter_mut().zip(&*argument).zip(last) {
             *new = old + u;
         }
@@ -274,6 +284,58 @@ impl<P: Problem> Integrator<P> {
         Ok(error)
     }
 
+    /// The same by the explicit method, where nothing is stiff.
+    fn attempt_explicit<const CHECKED: bool>(&mut self, step: f64, target: f64) -> Result<f64, Failure> {
+        let (n, stride, tableau) = (self.dimension, self.stride, &DORMAND_PRINCE);
+        self.trial_method = tableau;
+        let (leading, end) = (leading_states(&self.problem), tableau.stages() - 2);
+        for i in 0..=end {
+            let (done, rest) = self.trial_stages.split_at_mut(i * stride);
+            let slope = if i == 0 {
+                &self.dx
+            } else {
+                let argument = if i == end {
+                    &mut self.trial_x[..]
+                } else {
+                    &mut self.argument[..leading]
+                };
+                combine(argument, &self.x, 1.0, tableau.a[i], done, stride);
+                let (argument, slope) = if i == end {
+                    (&self.trial_x, &mut self.trial_dx)
+                } else {
+                    (&self.argument, &mut self.slope)
+                };
+                let alpha = tableau.alpha[i];
+                let time = if alpha == 1.0 {
+                    target
+                } else {
+                    self.time + alpha * step
+                };
+                self.problem.derivative(time, &argument[..n], &mut slope[..n]);
+                self.statistics.derivatives += 1;
+                if CHECKED && !all_finite(slope) {
+                    return Err(not_finite(&slope[..n]));
+                }
+                &*slope
+            };
+            let stage = &mut rest[..stride];
+            stage.fill(0.0);
+            add(stage, step, slope);
+        }
+        for values in [&self.trial_x, &self.trial_dx] {
+            if !all_finite(values) {
+                return Err(not_finite(&values[..n]));
+            }
+        }
+        let (done, rest) = self.trial_stages.split_at_mut((end + 1) * stride);
+        let error = &mut rest[..stride];
+        error.fill(0.0);
+        for (weight, stage) in tableau.a[end + 1].iter().zip(done.chunks_exact(stride)) {
+            add(error, *weight, stage);
+        }
+        Ok(largest(error, &self.weights))
+    }
+
     #[inline]
     fn accept(
         &mut self,
@@ -291,8 +353,15 @@ impl<P: Problem> Integrator<P> {
         self.previous_time = self.time;
         self.time = target;
         self.linearized = false;
+        if !std::ptr::eq(self.last_method, self.trial_method) {
+            // The errors of another method say nothing of the trend.
+            self.controller.restart();
+        }
+        self.last_method = self.trial_method;
         self.statistics.accept(step);
+        self.statistics.explicit_steps += u64::from(self.last_method.gamma == 0.0);
         // All that is asked at the end is asked at once: what the problem has computed there serves several times.
+        self.stiffness = self.problem.stiffness(self.time, &self.x[..self.dimension]);
         if self.options.fixed_step.is_none() {
             self.look();
         }
@@ -327,7 +396,7 @@ impl<P: Problem> Integrator<P> {
             }
         }
         let dense = Dense {
-            tableau: self.tableau,
+            tableau: self.last_method,
             start: self.previous_time,
             step: self.time - self.previous_time,
             end: self.time,
@@ -353,7 +422,7 @@ impl<P: Problem> Integrator<P> {
     /// The root of an error that is proportional to the step.
     #[inline]
     fn root(&self, error: f64) -> f64 {
-        match self.tableau.embedded_order {
+        match self.trial_method.embedded_order {
             3 => error.sqrt().sqrt(),
             q => libm::pow(error, 1.0 / f64::from(q + 1)),
         }
@@ -361,7 +430,7 @@ impl<P: Problem> Integrator<P> {
 
     /// The state with the largest error in the last attempt, and the error.
     fn dominant(&self) -> (usize, f64) {
-        let last = &self.trial_stages[(self.tableau.stages() - 1) * self.stride..];
+        let last = &self.trial_stages[(self.trial_method.stages() - 1) * self.stride..][..self.stride];
         let mut found = (0, 0.0);
         for (i, (u, weight)) in last.iter().zip(&self.weights).enumerate() {
             let size = u.abs() * weight;

@@ -13,6 +13,7 @@ mod modes;
 mod observe;
 mod rows;
 mod sense;
+mod stiffness;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
 use integrate::{KinkSigns, Problem, Singular};
@@ -127,6 +128,8 @@ pub struct System {
     moves: bool,
     /// Whether all elements are plain.
     plain: bool,
+    /// Whether the speed of the system's answers can be bounded.
+    bounded: bool,
     /// Positions and speeds for which all this was evaluated.
     placed: Vec<f64>,
 }
@@ -331,6 +334,14 @@ impl Problem for System {
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         self.place(time, x);
         self.differentiate(time, x, dx, df_dt);
+    }
+
+    fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
+        if !self.bounded {
+            return f64::INFINITY;
+        }
+        self.place(time, x);
+        self.fastest_answer()
     }
 
     fn factor(&mut self, shift: f64) -> Result<(), Singular> {

@@ -3,6 +3,7 @@
 use integrate::partitioned::{Layout, Partitioned};
 use thiserror::Error;
 
+use super::stiffness::mobility;
 use super::{FrameState, FreeBody, System, is_bristle, scale_of, scales, structure};
 use crate::body::{Body, Kinematics};
 use crate::coil::Coil;
@@ -98,6 +99,8 @@ pub struct Mounted<E> {
     /// How its effect changed with the motion of its body when it was differentiated last, and its force then (mount axes).
     pub(super) response: Response,
     pub(super) force: Vector<f64>,
+    /// Bounds of how much a force at each of its points accelerates the point, 1/kg.
+    pub(super) mobilities: Vec<f64>,
     /// The same of the rates of its internal states, by point.
     pub(super) rate_responses: Vec<RateResponse>,
     /// Coupling blocks (body, on) and (on, body).
@@ -277,6 +280,21 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     let (error_bounds, layer_bounds) = error_bounds(&error_scales, layout, &mounted_faces);
     let moves = frames.iter().any(|frame| !frame.fixed);
     let plain = mounted_faces.iter().all(|m| m.plain) && mounted_coils.iter().all(|m| m.plain);
+    let bounded = plain
+        && free.iter().all(|free| frames[free.body].fixed)
+        && mounted_faces.iter().all(|face| face.internal_count == 0);
+    for face in &mut mounted_faces {
+        let body = &bodies[face.body];
+        face.mobilities = face
+            .element
+            .points
+            .iter()
+            .map(|point| mobility(body, point.position))
+            .collect();
+    }
+    for coil in &mut mounted_coils {
+        coil.mobilities = vec![mobility(&bodies[coil.body], coil.element.end)];
+    }
     Ok(System {
         accelerations: vec![[0.0; 6]; bodies.len()],
         force: vec![Vector::zero(); bodies.len()],
@@ -300,6 +318,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         jacobian,
         moves,
         plain,
+        bounded,
         placed: vec![f64::NAN; 2 * layout.speeds],
     })
 }
@@ -430,6 +449,7 @@ impl Placer<'_> {
             plain: on_number.is_none() && (!moves || translation.is_some()),
             response: Response::NONE,
             force: Vector::zero(),
+            mobilities: Vec::new(),
             rate_responses: vec![RateResponse::default(); pairs],
             translation,
             element,

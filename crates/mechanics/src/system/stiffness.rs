@@ -1,0 +1,57 @@
+//! How fast the system answers: a bound of its eigenvalues, so that the integrator knows where nothing is stiff.
+//!
+//! With b the mobility of a point (how much a force there accelerates it), the springs' part of the eigenvalues is at most
+//! `√(Σ k (1 + μ) b)`, since friction feeds the normal force's stiffness into the tangents; that of dampers at most `Σ c b`, where friction
+//! counts as the steepest damper of its law, `μN/max(|v|, v0)`. Sums over all points: an upper bound, some times too large.
+
+use integrate::scalar::Dual;
+
+use super::System;
+use crate::body::Body;
+use crate::friction::FrictionLaw;
+use crate::link::Relative;
+use crate::vector::Vector;
+
+/// A bound of the mobility of a point of a body (body axes), 1/kg: `1/m + |r|²/I` with the least inertia of the free angles.
+pub(super) fn mobility(body: &Body, point: Vector<f64>) -> f64 {
+    let arm = point - Vector(body.center_of_gravity);
+    let least = (0..3)
+        .filter(|k| body.free[3 + k])
+        .map(|k| body.inertia[k])
+        .fold(f64::INFINITY, f64::min);
+    1.0 / body.mass + arm.dot::<f64, f64>(arm) / least
+}
+
+impl System {
+    /// The bound at the state that [`System::place`] was called with, 1/s.
+    pub(super) fn fastest_answer(&self) -> f64 {
+        let (mut springs, mut dampers) = (0.0, 0.0);
+        for face in &self.faces {
+            let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
+            let element = &face.element;
+            let slowest = match element.law {
+                FrictionLaw::Tanh { reference_speed } => reference_speed,
+                FrictionLaw::Bristle { .. } => return f64::INFINITY,
+            };
+            let friction = element.coefficient;
+            element.motions(&face.points, &relative, |i, gap, [a, b]| {
+                if gap < 0.0 {
+                    let (point, mobility) = (&element.points[i], face.mobilities[i]);
+                    let slip = (a * a + b * b).sqrt();
+                    let drag = friction * point.stiffness * -gap / slip.max(slowest);
+                    springs += point.stiffness * (1.0 + friction) * mobility;
+                    dampers += (drag + point.damping * (1.0 + friction)) * mobility;
+                }
+            });
+        }
+        for coil in &self.coils {
+            let relative: Relative<f64> = coil.sight.relative(&self.kinematics[coil.body]);
+            let (element, mobility) = (&coil.element, coil.mobilities[0]);
+            let length = element.evaluate(&relative).length;
+            let [slope] = element.spring(Dual::<1>::variable(length, 0)).derivative;
+            springs += slope.abs() * mobility;
+            dampers += element.damping * mobility;
+        }
+        dampers + springs.sqrt()
+    }
+}
