@@ -255,3 +255,43 @@ pub(crate) fn solve_transposed(n: usize, a: &[f64], exchanges: &[usize], b: &mut
         b.swap(k, best);
     }
 }
+
+/// The product of two vectors.
+#[inline(always)]
+pub(crate) fn dot_of(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// `y += factor · A x` for a square block.
+#[inline(always)]
+pub(crate) fn multiply_add(n: usize, a: &[f64], x: &[f64], factor: f64, y: &mut [f64]) {
+    match n {
+        1 => fixed_multiply_add::<1>(a, x, factor, y),
+        2 => fixed_multiply_add::<2>(a, x, factor, y),
+        3 => fixed_multiply_add::<3>(a, x, factor, y),
+        4 => fixed_multiply_add::<4>(a, x, factor, y),
+        5 => fixed_multiply_add::<5>(a, x, factor, y),
+        6 => fixed_multiply_add::<6>(a, x, factor, y),
+        _ => rectangle_add(&a[..n * n], x, factor, y),
+    }
+}
+
+#[inline(always)]
+fn fixed_multiply_add<const N: usize>(a: &[f64], x: &[f64], factor: f64, y: &mut [f64]) {
+    let (x, y) = (&x[..N], &mut y[..N]);
+    for (row, y) in a[..N * N].chunks_exact(N).zip(y) {
+        let mut sum = 0.0;
+        for j in 0..N {
+            sum += row[j] * x[j];
+        }
+        *y += factor * sum;
+    }
+}
+
+/// The same for a block of any shape.
+#[inline(always)]
+pub(crate) fn rectangle_add(a: &[f64], x: &[f64], factor: f64, y: &mut [f64]) {
+    for (row, y) in a.chunks_exact(x.len()).zip(y) {
+        *y += factor * dot_of(row, x);
+    }
+}

@@ -18,7 +18,11 @@
 
 pub use crate::layout::{Layout, Structure};
 
+mod single;
+
+use self::single::{Single, Source};
 use crate::block_lu::BlockLu;
+use crate::dense_block::{dot_of, multiply_add, rectangle_add};
 use crate::problem::Singular;
 
 /// The structured Jacobian of a second-order system, and its factors.
@@ -43,6 +47,8 @@ pub struct Partitioned {
     lu: BlockLu,
     /// Number of coordinates of every body, 0 where they differ.
     uniform: usize,
+    /// What stands in for all of the factors where there is one small body and no internal state.
+    single: Option<Single>,
     shift: f64,
     work: Vec<f64>,
 }
@@ -178,6 +184,10 @@ impl Partitioned {
             damping: vec![0.0; entries],
             side_data: vec![0.0; side_entries],
             row_data: vec![0.0; row_entries],
+            single: match sizes[..] {
+                [size] if groups.is_empty() => Single::new(size, structure.quadratures),
+                _ => None,
+            },
             internals: 2 * groups.len(),
             quadratures: structure.quadratures,
             work: vec![0.0; speeds],
@@ -304,6 +314,20 @@ impl Partitioned {
     /// The matrix is singular.
     pub fn factor(&mut self, shift: f64) -> Result<(), Singular> {
         self.shift = shift;
+        if let Some(single) = &mut self.single {
+            let source = Source {
+                mass: &self.mass,
+                stiffness: &self.stiffness,
+                damping: &self.damping,
+                rows: &self.rows,
+                row_data: &self.row_data,
+            };
+            return if single.factor(shift, source) {
+                Ok(())
+            } else {
+                Err(Singular { block: 0 })
+            };
+        }
         let inverse = 1.0 / shift;
         self.lu.clear();
         for &Pair {
@@ -370,7 +394,16 @@ impl Partitioned {
     }
 
     /// Solves `(shift · I - J) y = b` in place.
+    #[inline]
     pub fn solve(&mut self, b: &mut [f64]) {
+        if let Some(single) = &self.single {
+            single.solve(b);
+            return;
+        }
+        self.solve_any(b);
+    }
+
+    fn solve_any(&mut self, b: &mut [f64]) {
         // Loops of a known length are unrolled: where all bodies have the same number of coordinates.
         match self.uniform {
             1 => self.solve_sized::<1>(b),
@@ -434,7 +467,7 @@ impl Partitioned {
                 let (at, n) = (self.offsets[side.body], size(self.sizes[side.body]));
                 let g_q = &self.side_data[side.start..][..2 * n];
                 for (target, g) in r.iter_mut().zip(g_q.chunks_exact(n)) {
-                    *target += inverse * dot(g, &q[at..at + n]);
+                    *target += inverse * dot_of(g, &q[at..at + n]);
                 }
             }
             let z = &group.inverse;
@@ -461,7 +494,7 @@ impl Partitioned {
                 for row in 0..2 {
                     let (g_q, g_u) = (&g_q[row * n..][..n], &g_u[row * n..][..n]);
                     let speeds = &u[at..at + n];
-                    r[row] += dot(g_u, speeds) + inverse * dot(g_q, speeds);
+                    r[row] += dot_of(g_u, speeds) + inverse * dot_of(g_q, speeds);
                 }
             }
             let z = &group.inverse;
@@ -471,51 +504,13 @@ impl Partitioned {
         for row in &self.rows {
             let (at, n) = (self.offsets[row.body], size(self.sizes[row.body]));
             let (p_q, p_u) = self.row_data[row.start..row.start + 2 * n].split_at(n);
-            w[row.quadrature] += dot(p_q, &q[at..at + n]) + dot(p_u, &u[at..at + n]);
+            w[row.quadrature] += dot_of(p_q, &q[at..at + n]) + dot_of(p_u, &u[at..at + n]);
         }
         for row in &self.internal_rows {
-            w[row.quadrature] += dot(&row.values, &s[2 * row.group..2 * row.group + 2]);
+            w[row.quadrature] += dot_of(&row.values, &s[2 * row.group..2 * row.group + 2]);
         }
         for k in w.iter_mut() {
             *k *= inverse;
         }
-    }
-}
-
-#[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// `y += factor · A x` for a square block.
-#[inline(always)]
-fn multiply_add(n: usize, a: &[f64], x: &[f64], factor: f64, y: &mut [f64]) {
-    match n {
-        1 => fixed_multiply_add::<1>(a, x, factor, y),
-        2 => fixed_multiply_add::<2>(a, x, factor, y),
-        3 => fixed_multiply_add::<3>(a, x, factor, y),
-        4 => fixed_multiply_add::<4>(a, x, factor, y),
-        5 => fixed_multiply_add::<5>(a, x, factor, y),
-        6 => fixed_multiply_add::<6>(a, x, factor, y),
-        _ => rectangle_add(&a[..n * n], x, factor, y),
-    }
-}
-
-#[inline(always)]
-fn fixed_multiply_add<const N: usize>(a: &[f64], x: &[f64], factor: f64, y: &mut [f64]) {
-    let (x, y) = (&x[..N], &mut y[..N]);
-    for (row, y) in a[..N * N].chunks_exact(N).zip(y) {
-        let mut sum = 0.0;
-        for j in 0..N {
-            sum += row[j] * x[j];
-        }
-        *y += factor * sum;
-    }
-}
-
-#[inline(always)]
-fn rectangle_add(a: &[f64], x: &[f64], factor: f64, y: &mut [f64]) {
-    for (row, y) in a.chunks_exact(x.len()).zip(y) {
-        *y += factor * dot(row, x);
     }
 }

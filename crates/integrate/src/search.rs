@@ -198,8 +198,10 @@ impl Search {
 mod tests {
     use super::*;
 
+    type Function<'a> = &'a dyn Fn(f64) -> f64;
+
     /// The zero, and how many evaluations it took, of the first of two functions to become negative.
-    fn find(functions: [&dyn Fn(f64) -> f64; 2], resolution: f64) -> (f64, usize) {
+    fn find(functions: [Function<'_>; 2], resolution: f64) -> (f64, usize) {
         let mut search = Search::new(2);
         let write = |search: &mut Search, at: f64| {
             let row = search.next();
@@ -236,7 +238,7 @@ mod tests {
         // a step has no value near zero, a step down to zero stays there
         let jump = |t: f64| if t < 0.123 { 1.0 } else { -1e3 };
         let floor = |t: f64| (0.4 - t).max(0.0);
-        let cases: [(&dyn Fn(f64) -> f64, f64, usize); 6] = [
+        let cases: [(Function<'_>, f64, usize); 6] = [
             (&line, 0.3, 3),
             (&curve, 0.8, 9),
             (&cliff, 0.7, 12),
@@ -246,7 +248,7 @@ mod tests {
         ];
         for resolution in [1e-3, 1e-7, 1e-12] {
             for (number, (function, zero, most)) in cases.iter().enumerate() {
-                for functions in [[*function, &never as &dyn Fn(f64) -> f64], [&never, *function]] {
+                for functions in [[*function, &never as Function<'_>], [&never, *function]] {
                     let (found, count) = find(functions, resolution);
                     println!("case {number}, {resolution}: {count}");
                     assert!(

@@ -131,7 +131,7 @@ impl Outputs {
     }
 
     /// The values of all columns (SI) at one instant; `modes` are those of the contact points, `start_energy` the
-    /// stored energy at the start (J).
+    /// stored energy at the start (J). Returns the ledger, which is among them.
     pub fn values(
         &self,
         system: &System,
@@ -139,7 +139,7 @@ impl Outputs {
         modes: &[u8],
         start_energy: f64,
         out: &mut Vec<f64>,
-    ) {
+    ) -> Ledger {
         let scene = Scene {
             seen,
             modes,
@@ -148,6 +148,7 @@ impl Outputs {
             ledger: Self::ledger(system, seen, start_energy),
         };
         out.extend(self.values.iter().map(|value| value(&scene)));
+        scene.ledger
     }
 
     /// The energy ledger at one instant.
