@@ -7,6 +7,7 @@ use crate::problem::{Problem, Singular};
 type Function<'a> = Box<dyn FnMut(f64, &[f64], &mut [f64]) + Send + 'a>;
 type Start<'a> = Box<dyn FnMut(f64, &[f64], &mut [u8]) + Send + 'a>;
 type Margins<'a> = Box<dyn FnMut(f64, &[f64], &[u8], &mut [f64]) + Send + 'a>;
+type Stiffness<'a> = Box<dyn FnMut(f64, &[f64]) -> f64 + Send + 'a>;
 type NextMode<'a> = Box<dyn FnMut(f64, &[f64], usize, u8) -> u8 + Send + 'a>;
 
 type Kinks<'a> = Box<dyn FnMut(f64, &[f64], &mut KinkSigns) + Send + 'a>;
@@ -52,6 +53,7 @@ pub struct Ordinary<'a> {
     time_derivative: Option<Function<'a>>,
     switches: Option<Switches<'a>>,
     layer_bounds: Vec<f64>,
+    stiffness: Option<Stiffness<'a>>,
     /// How many values and directions, and what writes them.
     kinks: Option<((usize, usize), Kinks<'a>)>,
     /// Ends of segments, ascending.
@@ -83,6 +85,7 @@ impl<'a> Ordinary<'a> {
             time_derivative: None,
             switches: None,
             layer_bounds: Vec::new(),
+            stiffness: None,
             kinks: None,
             breaks: Vec::new(),
             matrix,
@@ -113,6 +116,13 @@ impl<'a> Ordinary<'a> {
         function: impl FnMut(f64, &[f64], &mut KinkSigns) + Send + 'a,
     ) -> Self {
         self.kinks = Some(((values, directions), Box::new(function)));
+        self
+    }
+
+    /// How fast the fastest part of the problem answers, 1/s, see [`Problem::stiffness`]: `function(t, x)`.
+    #[must_use]
+    pub fn stiffness(mut self, function: impl FnMut(f64, &[f64]) -> f64 + Send + 'a) -> Self {
+        self.stiffness = Some(Box::new(function));
         self
     }
 
@@ -175,6 +185,13 @@ impl Problem for Ordinary<'_> {
         }
         if let Some(function) = &mut self.time_derivative {
             function(time, x, df_dt);
+        }
+    }
+
+    fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
+        match &mut self.stiffness {
+            Some(function) => function(time, x),
+            None => f64::INFINITY,
         }
     }
 

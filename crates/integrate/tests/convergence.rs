@@ -124,6 +124,107 @@ fn every_method_has_its_order() {
     }
 }
 
+/// Where nothing is stiff the steps are explicit: of order 5, with dense output of order 4, and without a Jacobian matrix.
+#[test]
+fn the_explicit_method_has_its_order() {
+    for (name, problem, exact) in [
+        (
+            "autonomous",
+            autonomous as fn() -> Ordinary<'static>,
+            autonomous_exact as fn(f64) -> [f64; 2],
+        ),
+        ("driven", driven, driven_exact),
+    ] {
+        let mild = || problem().stiffness(|_, _| 1.0);
+        let found = [16, 32, 64].map(|steps| errors(mild(), exact, Method::Rodas4, steps));
+        let order = slope(found[1].0, found[2].0);
+        let dense = slope(found[1].1, found[2].1);
+        println!("{name}: order {order:.2}, dense {dense:.2}, error {:.1e}", found[2].0);
+        assert!(order > 4.7, "{name}: order {order}");
+        assert!(dense > 3.7, "{name}: order of dense output {dense}");
+
+        let mut integrator =
+            Integrator::new(mild(), fixed(Method::Rodas4, 0.0625), 0.0, &exact(0.0)).unwrap();
+        integrator.step_to(1.0).unwrap();
+        let statistics = integrator.statistics();
+        assert_eq!((statistics.explicit_steps, statistics.jacobians), (1, 0));
+        // The first evaluation, and six a step.
+        assert_eq!(statistics.derivatives, 7);
+    }
+}
+
+/// The error estimate falls with the fifth power of the step: a tolerance a hundred thousand times smaller takes ten times as many steps.
+#[test]
+fn explicit_steps_follow_the_tolerance() {
+    let run = |tolerance: f64| {
+        let options = Options {
+            relative_tolerance: tolerance,
+            ..Options::default()
+        };
+        let oscillator = Ordinary::new(
+            vec![1.0; 2],
+            |_, x, dx| (dx[0], dx[1]) = (x[1], -x[0]),
+            |_, _, j| j.copy_from_slice(&[0.0, 1.0, -1.0, 0.0]),
+        )
+        .stiffness(|_, _| 1.0);
+        let mut integrator = Integrator::new(oscillator, options, 0.0, &[1.0, 0.0]).unwrap();
+        while integrator.time() < 20.0 {
+            integrator.step_to(20.0).unwrap();
+        }
+        let error = (integrator.x()[0] - libm::cos(20.0)).abs();
+        assert!(error < 100.0 * tolerance, "{tolerance}: {error}");
+        let statistics = integrator.statistics();
+        assert_eq!(statistics.explicit_steps, statistics.steps);
+        statistics.steps as f64
+    };
+    let ratio = run(1e-10) / run(1e-5);
+    assert!((7.0..13.0).contains(&ratio), "{ratio}");
+}
+
+/// A problem that is stiff for a time: `x' = -λ(t) (x - cos t) - sin t`, λ = 1 at first, then 1e5, then 1.
+#[test]
+fn steps_are_explicit_where_nothing_is_stiff_and_only_there() {
+    let lambda = |t: f64| if (2.0..4.0).contains(&t) { 1e5 } else { 1.0 };
+    let problem = |told: bool| {
+        Ordinary::new(
+            vec![1.0],
+            move |t, x, dx| dx[0] = -lambda(t) * (x[0] - libm::cos(t)) - libm::sin(t),
+            move |t, _, jacobian| jacobian[0] = -lambda(t),
+        )
+        .time_derivative(move |t, _, df_dt| df_dt[0] = -lambda(t) * libm::sin(t) - libm::cos(t))
+        .breaks(vec![2.0, 4.0])
+        .stiffness(move |t, _| if told { lambda(t) } else { f64::INFINITY })
+    };
+    let run = |told: bool, explicit_steps: bool| {
+        let options = Options {
+            explicit_steps,
+            relative_tolerance: 1e-7,
+            ..Options::default()
+        };
+        let mut integrator = Integrator::new(problem(told), options, 0.0, &[1.5]).unwrap();
+        while integrator.time() < 6.0 {
+            integrator.step_to(6.0).unwrap();
+            let time = integrator.time();
+            let rest = match time {
+                _ if time <= 2.0 => 0.5 * libm::exp(-time),
+                _ => 0.5 * libm::exp(-2.0) * libm::exp(-1e5 * (time - 2.0)),
+            };
+            let error = integrator.x()[0] - libm::cos(time) - rest;
+            assert!(error.abs() < 1e-5, "{time}: {error}");
+        }
+        integrator.statistics().clone()
+    };
+    let mixed = run(true, true);
+    assert!(mixed.explicit_steps > 5 && mixed.explicit_steps < mixed.steps, "{mixed:?}");
+    // Explicit through the stiff part it would take two seconds times 1e5/3.3 steps.
+    assert!(mixed.steps < 200, "{mixed:?}");
+    assert!(mixed.jacobians < mixed.steps);
+    for (told, explicit) in [(false, true), (true, false)] {
+        let implicit = run(told, explicit);
+        assert_eq!((implicit.explicit_steps, implicit.jacobians >= implicit.steps), (0, true));
+    }
+}
+
 /// α_i are the row sums of the untransformed coefficients, d_i those of Γ.
 #[test]
 fn coefficients_are_consistent() {

@@ -14,6 +14,7 @@ use mechanics::link::Mount;
 use mechanics::motion::{Motion, RampProfile};
 use mechanics::spline::Spline;
 use mechanics::system::{Model, System};
+use nalgebra::DMatrix;
 
 const TANH: FrictionLaw = FrictionLaw::Tanh { reference_speed: 0.7 };
 const BRISTLE: FrictionLaw = FrictionLaw::Bristle {
@@ -86,6 +87,8 @@ struct Seen {
     lifted: usize,
     stick: usize,
     slip: usize,
+    /// The fastest eigenvalue over its bound, where there is a bound.
+    bounds: Vec<f64>,
 }
 
 /// The matrix by differences: `rows[i][j] = ∂f_i/∂x_j`.
@@ -210,6 +213,24 @@ fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Seen {
         }
         let expected = by_differences(&mut system, time, &x, h);
         check_matrix(&mut system, time, &x, &expected, &mut random);
+        let bound = system.stiffness(time, &x);
+        if bound < f64::INFINITY {
+            let moving = 2 * layout.speeds;
+            let matrix = DMatrix::from_fn(moving, moving, |i, j| expected[i][j]);
+            let fastest = matrix
+                .complex_eigenvalues()
+                .iter()
+                .fold(0.0_f64, |most, value| most.max(value.norm()));
+            // A turning body's own answers, of the size of its angular velocity, are left out of the bound.
+            let turning = norm(&x[layout.speeds..moving]);
+            assert!(
+                fastest <= bound + 5.0 * turning,
+                "{fastest} 1/s, bound {bound}, turning {turning}"
+            );
+            if bound > 20.0 * turning {
+                seen.bounds.push(fastest / bound);
+            }
+        }
         let dx = rates(&mut system, time, &x);
         let mut df_dt = vec![0.0; n];
         system.linearize(time, &x, &dx, &mut df_dt);
@@ -390,6 +411,13 @@ fn on_a_base_that_does_not_turn() {
         let model = one_on_driven(free, law, 4.0, moving(false), [0.0; 6]);
         let seen = compare(&model, 4, 8, SPREAD);
         assert!(seen.open > 5 && seen.closed > 5);
+        // Only tanh has a bound of its answers, which is of use: not ten times too large.
+        assert_eq!(seen.bounds.len() > 3, law == TANH);
+        assert!(
+            seen.bounds.iter().all(|share| *share > 0.1),
+            "{:?}",
+            seen.bounds
+        );
     }
 }
 
