@@ -151,6 +151,15 @@ impl Kinks {
         project(&self.here, &self.towards, &mut self.now);
     }
 
+    /// Whether a kink or the edge of a layer lies between the place that was looked at last and another one.
+    pub fn cross<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) -> bool {
+        if !self.are_told() {
+            return false;
+        }
+        problem.kinks(time, x, &mut self.signs);
+        self.compare()
+    }
+
     /// By how much bounds on errors in layers widen at the place that was looked at last: see [`Problem::layer_bounds`].
     pub fn slack(&self) -> f64 {
         (self.slowest * SLACK).max(1.0)
@@ -215,6 +224,11 @@ impl Kinks {
         dense.evaluate(theta, &mut self.x[..self.leading]);
         let time = dense.start + theta * dense.step;
         problem.kinks(time, &self.x[..self.dimension], &mut self.signs);
+        self.compare()
+    }
+
+    /// The functions by the signs just evaluated, to the search; whether one of them has changed its sign.
+    fn compare(&mut self) -> bool {
         project(&self.signs, &self.towards, self.search.next());
         let functions = self.signs.values.len() + self.signs.directions.len();
         crossed(&self.now[..functions], self.search.next())

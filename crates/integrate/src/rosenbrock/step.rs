@@ -62,7 +62,7 @@ impl<P: Problem> Integrator<P> {
                 let index = (scaled_error > 0.0).then(|| self.dominant().0);
                 return Err(self.error(reason, step, index, scaled_error));
             }
-            let mut failure = match self.attempt::<false>(step, target) {
+            let mut failure = match self.attempt::<false>(step, target, landing.is_some()) {
                 Ok(error) if self.options.fixed_step.is_some() || error <= 1.0 => {
                     self.accept(step, target, error, cut, proposed, landing);
                     return Ok(());
@@ -109,7 +109,7 @@ impl<P: Problem> Integrator<P> {
                     Reason::NotFinite => {
                         scaled_error = f64::NAN;
                         // once more, to see where it begins
-                        if let Err(again) = self.attempt::<true>(tried, target) {
+                        if let Err(again) = self.attempt::<true>(tried, target, false) {
                             failure = again;
                         }
                     }
@@ -199,11 +199,24 @@ impl<P: Problem> Integrator<P> {
 
     /// Tries one step; the size of its error.
     ///
-    /// Only a checked attempt tells which state is to blame for a value that is not finite.
+    /// Only a checked attempt tells which state is to blame for a value that is not finite. A `landing` is to end just behind a kink.
     #[inline]
-    fn attempt<const CHECKED: bool>(&mut self, step: f64, target: f64) -> Result<f64, Failure> {
+    fn attempt<const CHECKED: bool>(
+        &mut self,
+        step: f64,
+        target: f64,
+        landing: bool,
+    ) -> Result<f64, Failure> {
         if self.options.explicit_steps && step * self.stiffness <= EXPLICIT {
-            return self.attempt_explicit::<CHECKED>(step, target);
+            let result = self.attempt_explicit::<CHECKED>(step, target);
+            // Across a kink the estimate of an explicit method's error can be small by chance, again and again until it is; that of a
+            // linearly implicit one, whose Jacobian matrix is that of the wrong side, is large.
+            let accepted = matches!(result, Ok(error) if error <= 1.0);
+            let x = &self.trial_x[..self.dimension];
+            if landing || !accepted || !self.kinks.cross(&mut self.problem, target, x) {
+                return result;
+            }
+            self.stiffness = f64::INFINITY;
         }
         let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
         self.trial_method = tableau;
