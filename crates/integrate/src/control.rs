@@ -17,6 +17,8 @@ pub(crate) struct Controller {
     root: f64,
     /// Rejections since the last accepted step.
     rejections: u32,
+    /// Whether that step was explicit: errors of another method say nothing of the trend.
+    explicit: bool,
 }
 
 impl Controller {
@@ -28,9 +30,16 @@ impl Controller {
     ///
     /// With `kinks`, the step before a rejection says nothing of the trend: a kink lies between.
     #[inline]
-    pub fn accept(&mut self, options: &Options, step: f64, root: f64, kinks: bool) -> (f64, bool) {
+    pub fn accept(
+        &mut self,
+        options: &Options,
+        step: f64,
+        root: f64,
+        kinks: bool,
+        explicit: bool,
+    ) -> (f64, bool) {
         let mut divisor = root / options.safety;
-        if self.step > 0.0 && !(kinks && self.rejections > 0) {
+        if self.step > 0.0 && self.explicit == explicit && !(kinks && self.rejections > 0) {
             divisor = divisor.max(root * root / (self.root * options.safety) * (self.step / step));
         }
         let wanted = 1.0 / divisor;
@@ -40,6 +49,7 @@ impl Controller {
         }
         self.rejections = 0;
         self.step = step;
+        self.explicit = explicit;
         // the root of the smallest error that counts, 0.01, lies near 0.3 for all methods
         self.root = root.max(0.3);
         (factor, wanted < options.maximum_factor)

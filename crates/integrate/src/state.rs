@@ -8,7 +8,7 @@ use crate::kinks::{Ahead, Passage};
 use crate::statistics::Statistics;
 
 /// Version of [`State`].
-pub const STATE_VERSION: u32 = 3;
+pub const STATE_VERSION: u32 = 4;
 
 /// All that is needed to continue an integration with the same bits.
 ///

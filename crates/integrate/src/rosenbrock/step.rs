@@ -370,13 +370,10 @@ impl<P: Problem> Integrator<P> {
         self.previous_time = self.time;
         self.time = target;
         self.linearized = false;
-        if !std::ptr::eq(self.last_method, self.trial_method) {
-            // The errors of another method say nothing of the trend.
-            self.controller.restart();
-        }
         self.last_method = self.trial_method;
         self.statistics.accept(step);
-        self.statistics.explicit_steps += u64::from(self.last_method.gamma == 0.0);
+        let explicit = self.last_method.gamma == 0.0;
+        self.statistics.explicit_steps += u64::from(explicit);
         // All that is asked at the end is asked at once: what the problem has computed there serves several times.
         self.stiffness = self.problem.stiffness(self.time, &self.x[..self.dimension]);
         if self.options.fixed_step.is_none() {
@@ -390,7 +387,7 @@ impl<P: Problem> Integrator<P> {
             let root = self.root(error);
             let (factor, genuine) = self
                 .controller
-                .accept(&self.options, step, root, self.kinks.are_told());
+                .accept(&self.options, step, root, self.kinks.are_told(), explicit);
             let next = step * factor;
             // A step cut short by a limit says little about the step that was planned.
             self.proposed_step = if cut && !genuine { next.max(proposed) } else { next };

@@ -11,9 +11,13 @@ use study::summary::Measure;
 /// Every measure that the summary has too, in SI: the same to rounding, whatever moves.
 #[test]
 fn limits_measures_are_those_of_the_summary() {
-    let set: Vec<String> = ["simulation.output_units=si", "simulation.duration=8 s"]
-        .map(str::to_owned)
-        .to_vec();
+    let set: Vec<String> = [
+        "simulation.output_units=si",
+        "simulation.output_interval=1 ms",
+        "simulation.duration=8 s",
+    ]
+    .map(str::to_owned)
+    .to_vec();
     for name in [
         "vdrun_toe_-0.2_psi_0.012",
         "cdrun_toe_0.2_psi_0.012",
@@ -24,7 +28,7 @@ fn limits_measures_are_those_of_the_summary() {
         let mut set = set.clone();
         if name.starts_with("warp") {
             // Its motions end with their tables or ramps.
-            set.truncate(1);
+            set.truncate(2);
         }
         let case = builtin::case_with(name, &set).unwrap();
         let found = measure(&case).unwrap();
@@ -79,7 +83,8 @@ fn limits_measures_are_those_of_the_summary() {
                 same(&format!("peak_{side}_{axis}_moment"), Some(peak));
             }
         }
-        // Shares and times by the rows of the table, which see contacts each 0.01 s only.
+        // Shares and times by the rows of the table: a wedge that hangs free rattles with 400 Hz, so that rows each 0.01 s would see
+        // contacts too seldom.
         for face in ["column", "slope"] {
             let states: Vec<&[f64]> = ["lower_right", "lower_left", "upper_right", "upper_left"]
                 .map(|corner| result.column(&format!("{face}_{corner}_state")).unwrap())
@@ -91,7 +96,7 @@ fn limits_measures_are_those_of_the_summary() {
             let off = found.get(&format!("lift_off_time_{face}")).unwrap();
             let end = case.simulation.duration;
             assert!(
-                (off - open as f64 / rows as f64 * end).abs() < 0.02 * end,
+                (off - open as f64 / rows as f64 * end).abs() < 0.005 * end,
                 "{name} {off} {open}"
             );
         }
