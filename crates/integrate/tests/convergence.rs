@@ -139,7 +139,10 @@ fn the_explicit_method_has_its_order() {
         let found = [16, 32, 64].map(|steps| errors(mild(), exact, Method::Rodas4, steps));
         let order = slope(found[1].0, found[2].0);
         let dense = slope(found[1].1, found[2].1);
-        println!("{name}: order {order:.2}, dense {dense:.2}, error {:.1e}", found[2].0);
+        println!(
+            "{name}: order {order:.2}, dense {dense:.2}, error {:.1e}",
+            found[2].0
+        );
         assert!(order > 4.7, "{name}: order {order}");
         assert!(dense > 3.7, "{name}: order of dense output {dense}");
 
@@ -215,13 +218,19 @@ fn steps_are_explicit_where_nothing_is_stiff_and_only_there() {
         integrator.statistics().clone()
     };
     let mixed = run(true, true);
-    assert!(mixed.explicit_steps > 5 && mixed.explicit_steps < mixed.steps, "{mixed:?}");
+    assert!(
+        mixed.explicit_steps > 5 && mixed.explicit_steps < mixed.steps,
+        "{mixed:?}"
+    );
     // Explicit through the stiff part it would take two seconds times 1e5/3.3 steps.
     assert!(mixed.steps < 200, "{mixed:?}");
     assert!(mixed.jacobians < mixed.steps);
     for (told, explicit) in [(false, true), (true, false)] {
         let implicit = run(told, explicit);
-        assert_eq!((implicit.explicit_steps, implicit.jacobians >= implicit.steps), (0, true));
+        assert_eq!(
+            (implicit.explicit_steps, implicit.jacobians >= implicit.steps),
+            (0, true)
+        );
     }
 }
 

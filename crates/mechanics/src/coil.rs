@@ -13,8 +13,8 @@
 use integrate::scalar::{Dual, Real};
 use serde::{Deserialize, Serialize};
 
-use crate::characteristic::Characteristic;
 use crate::body::Kinematics;
+use crate::characteristic::Characteristic;
 use crate::link::{Effect, Relative, Response, Responses, Sight, Turning};
 use crate::vector::Vector;
 
@@ -174,10 +174,7 @@ impl Coil {
         Effect {
             force: pull.force,
             moment,
-            powers: [
-                pull.loss + spin.dot::<f64, f64>(spin) * brake,
-                couple.dot(spin),
-            ],
+            powers: [pull.loss + spin.dot::<f64, f64>(spin) * brake, couple.dot(spin)],
         }
     }
 
@@ -211,13 +208,9 @@ impl Coil {
         let dot = |a: Vector<f64>, b: Vector<f64>| -> f64 { a.dot(b) };
         let (end, spin) = (self.end, turning.spin);
         let swing = cross(spin, end);
-        let (d, rate) = (
-            relative.position + turned(end),
-            relative.velocity + turned(swing),
-        );
-        let seed = |v: Vector<f64>, first: usize| {
-            Vector([0, 1, 2].map(|i| Dual::<6>::variable(v.0[i], first + i)))
-        };
+        let (d, rate) = (relative.position + turned(end), relative.velocity + turned(swing));
+        let seed =
+            |v: Vector<f64>, first: usize| Vector([0, 1, 2].map(|i| Dual::<6>::variable(v.0[i], first + i)));
         let pull = self.pull(seed(d, 0), seed(rate, 3), |length| self.spring(length));
         let force = pull.force.value();
         let own: Vector<f64> = rotation.apply_transposed(force);

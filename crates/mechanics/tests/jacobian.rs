@@ -413,11 +413,7 @@ fn on_a_base_that_does_not_turn() {
         assert!(seen.open > 5 && seen.closed > 5);
         // Only tanh has a bound of its answers, which is of use: not ten times too large.
         assert_eq!(seen.bounds.len() > 3, law == TANH);
-        assert!(
-            seen.bounds.iter().all(|share| *share > 0.1),
-            "{:?}",
-            seen.bounds
-        );
+        assert!(seen.bounds.iter().all(|share| *share > 0.1), "{:?}", seen.bounds);
     }
 }
 

@@ -385,9 +385,9 @@ impl<P: Problem> Integrator<P> {
         }
         if self.options.fixed_step.is_none() {
             let root = self.root(error);
-            let (factor, genuine) = self
-                .controller
-                .accept(&self.options, step, root, self.kinks.are_told(), explicit);
+            let (factor, genuine) =
+                self.controller
+                    .accept(&self.options, step, root, self.kinks.are_told(), explicit);
             let next = step * factor;
             // A step cut short by a limit says little about the step that was planned.
             self.proposed_step = if cut && !genuine { next.max(proposed) } else { next };

@@ -131,7 +131,11 @@ impl View {
         let speed = |i: usize| -> Lanes { self.growth[i].dot::<Lanes, Lanes>(r) + self.speeds[i] };
         Meeting {
             gap: self.normal.dot::<Lanes, Lanes>(r) + self.distance,
-            gap_rate: if quad.grade.damped { speed(0) } else { Lanes::zero() },
+            gap_rate: if quad.grade.damped {
+                speed(0)
+            } else {
+                Lanes::zero()
+            },
             slip: [speed(1), speed(2)],
         }
     }

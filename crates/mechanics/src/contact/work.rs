@@ -197,7 +197,11 @@ impl Points {
                 }
             }
             if internal {
-                for (target, point) in rates.iter_mut().skip(LANES * number).zip(&point_rates[..quad.count]) {
+                for (target, point) in rates
+                    .iter_mut()
+                    .skip(LANES * number)
+                    .zip(&point_rates[..quad.count])
+                {
                     *target = *point;
                 }
             }

@@ -159,7 +159,11 @@ impl System {
         let load = &sense.loads[free.body];
         let force = frame.rotation.apply_transposed::<Dual<1>, Dual<1>>(load.force) - force;
         let carried: Vector<Dual<1>> = frame.rotation.apply_transposed(load.moment);
-        let moment = kinematics.turn.rotation.apply_transposed::<Dual<1>, Dual<1>>(carried) - moment;
+        let moment = kinematics
+            .turn
+            .rotation
+            .apply_transposed::<Dual<1>, Dual<1>>(carried)
+            - moment;
         let n = free.free.len();
         let mut mass = vec![0.0; n * n];
         self.kinematics[free.body].mass_matrix(body, &free.free, &mut mass);

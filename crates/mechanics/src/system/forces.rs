@@ -25,13 +25,7 @@ pub(super) struct Action<S> {
 /// An element between two bodies.
 pub(super) trait Element: Sized {
     /// What it does to the body that it carries; `rates` receives the rates of the internal states.
-    fn act(
-        &self,
-        points: &Points,
-        relative: &Relative<f64>,
-        internal: &[f64],
-        rates: &mut [f64],
-    ) -> Effect;
+    fn act(&self, points: &Points, relative: &Relative<f64>, internal: &[f64], rates: &mut [f64]) -> Effect;
 
     /// The same seen from a mount that does not turn.
     #[inline(always)]
@@ -56,13 +50,7 @@ pub(super) trait Element: Sized {
 
 impl Element for ContactFace<Plane> {
     #[inline(always)]
-    fn act(
-        &self,
-        points: &Points,
-        relative: &Relative<f64>,
-        internal: &[f64],
-        rates: &mut [f64],
-    ) -> Effect {
+    fn act(&self, points: &Points, relative: &Relative<f64>, internal: &[f64], rates: &mut [f64]) -> Effect {
         self.effect(points, relative, internal, rates)
     }
 
@@ -195,7 +183,12 @@ impl System {
                 if face.plain {
                     let internal = &internal[face.first_internal..][..face.internal_count];
                     let rates = &mut d_internal[face.first_internal..][..face.internal_count];
-                    face.push(kinematics, (internal, rates), (&mut force, &mut moment), d_quadratures);
+                    face.push(
+                        kinematics,
+                        (internal, rates),
+                        (&mut force, &mut moment),
+                        d_quadratures,
+                    );
                 }
             }
             for coil in free.coils.iter().map(|coil| &self.coils[*coil]) {

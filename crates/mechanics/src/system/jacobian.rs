@@ -307,8 +307,7 @@ impl Pass<'_> {
         let frame = &self.scene.frames[free.body];
         if !frame.fixed {
             let gravity = self.scene.gravity;
-            let (force, moment) =
-                kinematics.inertia(body, &frame.motion, true, gravity, self.accelerations);
+            let (force, moment) = kinematics.inertia(body, &frame.motion, true, gravity, self.accelerations);
             load.force += -force;
             load.moment += -moment;
         }

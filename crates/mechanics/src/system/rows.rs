@@ -195,10 +195,7 @@ impl<E> Mounted<E> {
         let (sight, response) = (&self.sight, &self.response);
         let acceleration = translation.acceleration(on);
         let mut change = combined(&response.place, sight.velocity);
-        for (sum, term) in change
-            .iter_mut()
-            .zip(combined(&response.velocity, acceleration))
-        {
+        for (sum, term) in change.iter_mut().zip(combined(&response.velocity, acceleration)) {
             *sum += term;
         }
         *load += sight.rotation.apply_transposed(force(&change));
