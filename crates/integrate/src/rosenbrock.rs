@@ -12,6 +12,7 @@ use crate::state::{STATE_VERSION, State};
 use crate::statistics::Statistics;
 use crate::tableau::{MAXIMUM_STAGES, Tableau};
 
+mod attempt;
 mod step;
 
 /// Integrates a [`Problem`] step by step.

@@ -183,22 +183,14 @@ impl System {
                 if face.plain {
                     let internal = &internal[face.first_internal..][..face.internal_count];
                     let rates = &mut d_internal[face.first_internal..][..face.internal_count];
-                    face.push(
-                        kinematics,
-                        (internal, rates),
-                        (&mut force, &mut moment),
-                        d_quadratures,
-                    );
+                    let load = (&mut force, &mut moment);
+                    push(face, kinematics, (internal, rates), load, d_quadratures);
                 }
             }
             for coil in free.coils.iter().map(|coil| &self.coils[*coil]) {
                 if coil.plain {
-                    coil.push(
-                        kinematics,
-                        (&[], &mut []),
-                        (&mut force, &mut moment),
-                        d_quadratures,
-                    );
+                    let load = (&mut force, &mut moment);
+                    push(coil, kinematics, (&[], &mut []), load, d_quadratures);
                 }
             }
             (self.force[free.body], self.moment[free.body]) = (force, moment);
@@ -230,31 +222,28 @@ impl System {
     }
 }
 
-#[allow(private_bounds)]
-impl<E: Element> Mounted<E> {
-    /// What a plain element does to its body: added to force and moment.
-    #[inline(always)]
-    fn push(
-        &self,
-        kinematics: &Kinematics<f64>,
-        (internal, rates): (&[f64], &mut [f64]),
-        (force, moment): (&mut Vector<f64>, &mut Vector<f64>),
-        powers: &mut [f64],
-    ) {
-        let sight = &self.sight;
-        let effect = self
-            .element
-            .act_from(&self.points, (sight, kinematics), internal, rates);
-        *force += sight.rotation.apply_transposed(effect.force);
-        *moment += effect.moment;
-        for (channel, power) in self.channels.iter().zip(effect.powers) {
-            if let Some(channel) = channel {
-                powers[*channel] += power;
-            }
+/// Adds what a plain element does to its body to force and moment.
+#[inline(always)]
+fn push<E: Element>(
+    mounted: &Mounted<E>,
+    kinematics: &Kinematics<f64>,
+    (internal, rates): (&[f64], &mut [f64]),
+    (force, moment): (&mut Vector<f64>, &mut Vector<f64>),
+    powers: &mut [f64],
+) {
+    let sight = &mounted.sight;
+    let effect = mounted
+        .element
+        .act_from(&mounted.points, (sight, kinematics), internal, rates);
+    *force += sight.rotation.apply_transposed(effect.force);
+    *moment += effect.moment;
+    for (channel, power) in mounted.channels.iter().zip(effect.powers) {
+        if let Some(channel) = channel {
+            powers[*channel] += power;
         }
-        if self.driven {
-            powers[0] += sight.mount_velocity.dot::<f64, f64>(effect.force);
-        }
+    }
+    if mounted.driven {
+        powers[0] += sight.mount_velocity.dot::<f64, f64>(effect.force);
     }
 }
 

@@ -11,9 +11,11 @@ mod jacobian;
 mod model;
 mod modes;
 mod observe;
+mod placer;
 mod rows;
 mod sense;
 mod stiffness;
+mod time;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
 use integrate::{KinkSigns, Problem, Singular};

@@ -1,0 +1,127 @@
+//! Elements put in their places: what is known of each once the model is.
+
+use integrate::partitioned::Partitioned;
+
+use super::FrameState;
+use super::model::{Channel, ChannelKind, ModelError, Mounted, Parts};
+use crate::body::{Body, Kinematics};
+use crate::contact::{Points, RateResponse};
+use crate::link::{Mount, Response, Sight, Translation};
+use crate::vector::Vector;
+
+/// Puts elements in their places.
+pub(super) struct Placer<'m> {
+    pub bodies: &'m [Body],
+    pub frames: &'m [FrameState],
+    pub kinematics: &'m [Kinematics<f64>],
+    pub free_number: &'m [Option<usize>],
+    pub parts: &'m mut Parts,
+}
+
+impl Placer<'_> {
+    pub fn place<E>(
+        &mut self,
+        element: E,
+        name: &str,
+        body: usize,
+        on: usize,
+        mount: Mount,
+        kinds: [Option<ChannelKind>; 2],
+        pairs: usize,
+    ) -> Result<Mounted<E>, ModelError> {
+        let count = self.bodies.len();
+        for number in [body, on] {
+            if number >= count {
+                return Err(ModelError::NoSuchBody { number, count });
+            }
+        }
+        if body == on {
+            return Err(ModelError::Itself {
+                body: self.bodies[body].name.clone(),
+            });
+        }
+        let Some(number) = self.free_number[body] else {
+            return Err(ModelError::NotFree {
+                body: self.bodies[body].name.clone(),
+            });
+        };
+        let on_number = self.free_number[on];
+        let parts = &mut *self.parts;
+        let driven = on_number.is_none() && !self.frames[on].fixed;
+        let channels = kinds.map(|kind| {
+            kind.map(|kind| {
+                parts.channels.push(Channel {
+                    kind,
+                    element: name.to_owned(),
+                });
+                parts.channels.len() - 1
+            })
+        });
+        let quadratures = [channels[0], channels[1], driven.then_some(0)];
+        let rows = [Some(number), on_number].map(|end| {
+            quadratures.map(|quadrature| {
+                parts.quadrature_bodies.push((quadrature?, end?));
+                Some(parts.quadrature_bodies.len() - 1)
+            })
+        });
+        let first_pair = parts.internal_pairs.len();
+        let first_internal_row = parts.quadrature_pairs.len();
+        for pair in first_pair..first_pair + pairs {
+            parts
+                .internal_pairs
+                .push([Some(number), on_number].into_iter().flatten().collect());
+            // Friction loss and the work of the motion depend on the bristle.
+            for quadrature in [channels[0].unwrap_or(0), 0] {
+                parts.quadrature_pairs.push((quadrature, pair));
+            }
+        }
+        let translates = driven && self.frames[on].keeps_orientation && self.frames[body].fixed;
+        let translation =
+            translates.then(|| Translation::new(&self.frames[on].motion, &self.kinematics[on], &mount));
+        let moves = !self.frames[on].fixed || !self.frames[body].fixed;
+        Ok(Mounted {
+            plain: on_number.is_none() && (!moves || translation.is_some()),
+            response: Response::NONE,
+            force: Vector::zero(),
+            mobilities: Vec::new(),
+            rate_responses: vec![RateResponse::default(); pairs],
+            translation,
+            element,
+            points: Points::default(),
+            body,
+            on,
+            first_internal: 2 * first_pair,
+            internal_count: 2 * pairs,
+            channels,
+            on_free: on_number.is_some(),
+            moves,
+            driven,
+            sight: Sight::new(
+                &self.frames[body].motion,
+                &self.frames[on].motion,
+                &self.kinematics[on],
+                &mount,
+            ),
+            mount,
+            pairs: [0; 2],
+            rows,
+            first_internal_row,
+        })
+    }
+}
+
+impl<E> Mounted<E> {
+    /// The free bodies that it touches, by their numbers among the free ones.
+    pub(super) fn touches(&self, free_number: &[Option<usize>]) -> impl Iterator<Item = usize> + use<E> {
+        [self.body, self.on]
+            .map(|body| free_number[body])
+            .into_iter()
+            .flatten()
+    }
+
+    pub(super) fn find_pairs(&mut self, jacobian: &Partitioned, free_number: &[Option<usize>]) {
+        if let (Some(body), Some(on)) = (free_number[self.body], free_number[self.on]) {
+            self.pairs = [jacobian.pair(body, on), jacobian.pair(on, body)];
+        }
+    }
+}

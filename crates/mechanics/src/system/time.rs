@@ -1,0 +1,172 @@
+//! The explicit dependence of the rates on time, through the motions of prescribed bodies and reference frames.
+
+use integrate::scalar::Dual;
+
+use super::forces::Element;
+use super::{FrameState, Mounted, System};
+use crate::body::Kinematics;
+use crate::frame::FrameMotion;
+use crate::link::{Relative, Sight};
+use crate::vector::{Matrix, Vector};
+
+impl System {
+    /// The partial derivative of all rates by time.
+    pub(super) fn differentiate_time(&mut self, time: f64, x: &[f64], df_dt: &mut [f64]) {
+        let layout = self.layout;
+        let [_, d_speeds, d_internal, d_quadratures] = layout.split_mut(df_dt);
+        for (body, load) in self.load_rate.iter_mut().enumerate() {
+            *load = (Vector::zero(), [0.0; 3]);
+            let Some(number) = self.free_number[body] else {
+                continue;
+            };
+            if self.frames[body].fixed {
+                continue;
+            }
+            // The inertia forces change with a moving reference frame: this needs its jerk.
+            let clock = Dual::<1>::variable(time, 0);
+            let frame = self.bodies[body].frame.evaluate(clock, self.reference);
+            let free = &self.free[number];
+            let mut coordinates = self.bodies[body].initial;
+            let mut speeds = [0.0; 6];
+            for (j, &k) in free.free.iter().enumerate() {
+                coordinates[k] = x[free.offset + j];
+                speeds[k] = x[layout.speeds + free.offset + j];
+            }
+            let kinematics = Kinematics::<Dual<1>>::new(
+                coordinates.map(Dual::from),
+                speeds.map(Dual::from),
+                self.bodies[body].rolls(),
+            );
+            let accelerations = &self.accelerations[body];
+            let (force, moment) =
+                kinematics.inertia(&self.bodies[body], &frame, true, self.gravity, accelerations);
+            *load = (
+                -rate_of(&force),
+                self.kinematics[body].about_axes(&-rate_of(&moment)),
+            );
+        }
+        for face in self.faces.iter().filter(|face| face.moves) {
+            let rates = &mut d_internal[face.first_internal..][..face.internal_count];
+            let (free, frame) = (self.free_number[face.body], &self.frames[face.on].motion);
+            if let (true, Some(free)) = (face.plain, free) {
+                face.in_time(
+                    &self.free[free],
+                    frame,
+                    &mut self.load_rate[face.body],
+                    d_quadratures,
+                );
+                face.rates_in_time(frame, rates);
+                continue;
+            }
+            let scene = (&self.frames[..], &self.kinematics[..]);
+            time_derivative(face, scene, rates, &mut self.load_rate, d_quadratures);
+        }
+        for coil in self.coils.iter().filter(|coil| coil.moves) {
+            let (free, frame) = (self.free_number[coil.body], &self.frames[coil.on].motion);
+            if let (true, Some(free)) = (coil.plain, free) {
+                coil.in_time(
+                    &self.free[free],
+                    frame,
+                    &mut self.load_rate[coil.body],
+                    d_quadratures,
+                );
+                continue;
+            }
+            let scene = (&self.frames[..], &self.kinematics[..]);
+            time_derivative(coil, scene, &mut [], &mut self.load_rate, d_quadratures);
+        }
+        for free in &self.free {
+            let (force, moments) = &self.load_rate[free.body];
+            let accelerations =
+                self.kinematics[free.body].accelerations(&self.bodies[free.body], force, *moments);
+            for (j, &k) in free.free.iter().enumerate() {
+                d_speeds[free.offset + j] = accelerations[k];
+            }
+        }
+    }
+}
+
+/// The derivative by time of what one element does.
+#[inline(always)]
+fn time_derivative<E: Element>(
+    mounted: &Mounted<E>,
+    (frames, kinematics): (&[FrameState], &[Kinematics<f64>]),
+    d_internal: &mut [f64],
+    load_rate: &mut [(Vector<f64>, [f64; 3])],
+    d_quadratures: &mut [f64],
+) {
+    let on = lift_kinematics(&kinematics[mounted.on]);
+    let (a, b) = (
+        moving(&frames[mounted.body].motion),
+        moving(&frames[mounted.on].motion),
+    );
+    let sight = Sight::new(&a, &b, &on, &mounted.mount);
+    let relative: Relative<Dual<1>> = sight.relative(&kinematics[mounted.body]);
+    let action = mounted
+        .element
+        .change(&mounted.points, &relative, |point, [rate]: [[f64; 2]; 1]| {
+            d_internal[2 * point..2 * point + 2].copy_from_slice(&rate);
+        });
+    let mut add = |body: usize, (force, moment): (Vector<Dual<1>>, Vector<Dual<1>>)| {
+        let (sum, moments) = &mut load_rate[body];
+        *sum += rate_of(&force);
+        for (sum, moment) in moments
+            .iter_mut()
+            .zip(kinematics[body].about_axes(&rate_of(&moment)))
+        {
+            *sum += moment;
+        }
+    };
+    add(mounted.body, action.on_body(&sight, &kinematics[mounted.body]));
+    if mounted.on_free {
+        add(mounted.on, action.reaction(&relative, &on, &mounted.mount));
+    }
+    for (channel, power) in mounted.channels.iter().zip(action.powers) {
+        if let Some(channel) = channel {
+            d_quadratures[*channel] += power.derivative[0];
+        }
+    }
+    if mounted.driven {
+        d_quadratures[0] += action.drive_power(&relative, &sight).derivative[0];
+    }
+}
+
+/// The derivatives of a vector that carries one.
+#[inline(always)]
+fn rate_of(v: &Vector<Dual<1>>) -> Vector<f64> {
+    Vector(v.0.map(|component| component.derivative[0]))
+}
+
+/// A frame's pose and velocity with their derivatives by time; accelerations have none here.
+fn moving(motion: &FrameMotion<f64>) -> FrameMotion<Dual<1>> {
+    let with = |value: Vector<f64>, rate: Vector<f64>| {
+        Vector(std::array::from_fn(|k| Dual {
+            value: value.0[k],
+            derivative: [rate.0[k]],
+        }))
+    };
+    let spin = |j: usize| -> Vector<f64> { motion.angular_velocity.cross(motion.rotation.column(j)) };
+    let columns = [0, 1, 2].map(|j| with(motion.rotation.column(j), spin(j)).0);
+    FrameMotion {
+        position: with(motion.position, motion.velocity),
+        rotation: Matrix(columns).transpose(),
+        velocity: with(motion.velocity, motion.acceleration),
+        angular_velocity: with(motion.angular_velocity, motion.angular_acceleration),
+        acceleration: Vector::lift(motion.acceleration),
+        angular_acceleration: Vector::lift(motion.angular_acceleration),
+    }
+}
+
+fn lift_kinematics(kinematics: &Kinematics<f64>) -> Kinematics<Dual<1>> {
+    Kinematics {
+        position: Vector::lift(kinematics.position),
+        velocity: Vector::lift(kinematics.velocity),
+        turn: crate::turn::Turn {
+            rotation: Matrix::lift(kinematics.turn.rotation),
+            axes: kinematics.turn.axes.map(Vector::lift),
+        },
+        rates: kinematics.rates.map(Dual::from),
+        spin: Vector::lift(kinematics.spin),
+        angular_velocity: Vector::lift(kinematics.angular_velocity),
+    }
+}
