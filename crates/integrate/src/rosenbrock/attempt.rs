@@ -79,12 +79,7 @@ impl<P: Problem> Integrator<P> {
                     let argument = &mut argument[..self.widths[i]];
                     combine(argument, &self.x, 1.0, tableau.a[i], done, stride);
                 }
-                let alpha = tableau.alpha[i];
-                let time = if alpha == 1.0 {
-                    target
-                } else {
-                    self.time + alpha * step
-                };
+                let time = stage_time(tableau.alpha[i], self.time, step, target);
                 self.problem.derivative(time, &argument[..n], &mut slope[..n]);
                 if CHECKED && !all_finite(slope) {
                     return Err(not_finite(&slope[..n]));
@@ -142,12 +137,7 @@ impl<P: Problem> Integrator<P> {
                 } else {
                     (&self.argument, &mut self.slope)
                 };
-                let alpha = tableau.alpha[i];
-                let time = if alpha == 1.0 {
-                    target
-                } else {
-                    self.time + alpha * step
-                };
+                let time = stage_time(tableau.alpha[i], self.time, step, target);
                 self.problem.derivative(time, &argument[..n], &mut slope[..n]);
                 self.statistics.derivatives += 1;
                 if CHECKED && !all_finite(slope) {
@@ -171,6 +161,16 @@ impl<P: Problem> Integrator<P> {
             add(error, *weight, stage);
         }
         Ok(CAUTION * largest(error, &self.weights))
+    }
+}
+
+/// The time of a stage; the last ones stand at the end itself.
+#[inline(always)]
+fn stage_time(alpha: f64, start: f64, step: f64, target: f64) -> f64 {
+    if alpha == 1.0 {
+        target
+    } else {
+        start + alpha * step
     }
 }
 

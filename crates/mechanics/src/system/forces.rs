@@ -6,8 +6,8 @@ use std::ops::Mul;
 use super::{Mounted, System};
 use crate::body::Kinematics;
 use crate::coil::{Coil, CoilForce};
-use crate::contact::{ContactFace, FaceResultant, Points};
-use crate::link::{Effect, Mount, Relative, Sight};
+use crate::contact::{ContactFace, FaceResultant, Points, RateResponse};
+use crate::link::{Effect, Mount, Relative, Response, Sight, Turning};
 use crate::surface::Plane;
 use crate::vector::Vector;
 
@@ -39,6 +39,17 @@ pub(super) trait Element: Sized {
         self.act(points, &sight.relative(body), internal, rates)
     }
 
+    /// How that changes with the motion of a body with `R` free angles, seen from a mount that does not turn, and how the rates of internal
+    /// states do, as many as `rates` takes; with the force (mount axes) and the moment (body axes).
+    fn respond<const R: usize>(
+        &self,
+        points: &Points,
+        relative: &Relative<f64>,
+        turning: &Turning,
+        response: &mut Response,
+        rates: &mut [RateResponse],
+    ) -> (Vector<f64>, Vector<f64>);
+
     /// The action with its derivatives; `rates` sees those of the rates of two internal states at a time.
     fn change<const N: usize>(
         &self,
@@ -52,6 +63,18 @@ impl Element for ContactFace<Plane> {
     #[inline(always)]
     fn act(&self, points: &Points, relative: &Relative<f64>, internal: &[f64], rates: &mut [f64]) -> Effect {
         self.effect(points, relative, internal, rates)
+    }
+
+    #[inline(always)]
+    fn respond<const R: usize>(
+        &self,
+        points: &Points,
+        relative: &Relative<f64>,
+        turning: &Turning,
+        response: &mut Response,
+        rates: &mut [RateResponse],
+    ) -> (Vector<f64>, Vector<f64>) {
+        points.respond::<R>(relative, turning, response, rates)
     }
 
     #[inline(always)]
@@ -85,6 +108,18 @@ impl Element for Coil {
         _: &mut [f64],
     ) -> Effect {
         self.effect(sight, body)
+    }
+
+    #[inline(always)]
+    fn respond<const R: usize>(
+        &self,
+        _: &Points,
+        relative: &Relative<f64>,
+        turning: &Turning,
+        response: &mut Response,
+        _: &mut [RateResponse],
+    ) -> (Vector<f64>, Vector<f64>) {
+        Self::respond::<R>(self, relative, turning, response)
     }
 
     #[inline(always)]

@@ -10,7 +10,7 @@ use integrate::partitioned::Partitioned;
 use integrate::scalar::{Dual, Real};
 
 use super::forces::{Action, Element};
-use super::rows::{Columns, add_columns};
+use super::rows::{Columns, add_columns, respond};
 use super::{FrameState, FreeBody, Mounted, System};
 use crate::body::{Body, Kinematics};
 use crate::contact::ContactFace;
@@ -63,7 +63,7 @@ impl System {
             for &face in &free.faces {
                 let face = &mut self.faces[face];
                 if face.plain {
-                    carried += face.respond(kinematics, &turning, free);
+                    carried += respond(face, kinematics, &turning, free);
                     face.add_rows(free, &mut columns, &mut self.jacobian);
                     face.add_rates(free, &mut self.jacobian);
                 }
@@ -71,7 +71,7 @@ impl System {
             for &coil in &free.coils {
                 let coil = &mut self.coils[coil];
                 if coil.plain {
-                    carried += coil.respond(kinematics, &turning, free);
+                    carried += respond(coil, kinematics, &turning, free);
                     coil.add_rows(free, &mut columns, &mut self.jacobian);
                 }
             }

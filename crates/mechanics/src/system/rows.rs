@@ -1,40 +1,41 @@
 //! Rows of the Jacobian by plain elements: those whose neighbour is prescribed and does not turn, nor the frame of their body.
 //!
 //! A coordinate moves the body's origin along a column of the sight's rotation, or turns the body about the axis of an angle; what the
-//! element does then is in its [`Response`].
+//! element does then is in its [`crate::link::Response`].
 
 use integrate::partitioned::Partitioned;
 
+use super::forces::Element;
 use super::{FreeBody, Mounted};
 use crate::body::Kinematics;
-use crate::coil::Coil;
 use crate::contact::ContactFace;
 use crate::frame::FrameMotion;
 use crate::link::{Relative, Responses, Turning};
 use crate::surface::Plane;
 use crate::vector::Vector;
 
-impl Mounted<ContactFace<Plane>> {
-    /// Differentiates the face; its moment (body axes).
-    #[inline(always)]
-    pub(super) fn respond(
-        &mut self,
-        kinematics: &Kinematics<f64>,
-        turning: &Turning,
-        free: &FreeBody,
-    ) -> Vector<f64> {
-        let relative: Relative<f64> = self.sight.relative(kinematics);
-        let (points, response, rates) = (&self.points, &mut self.response, &mut self.rate_responses[..]);
-        let (force, moment) = match free.angles() {
-            0 => points.respond::<0>(&relative, turning, response, rates),
-            1 => points.respond::<1>(&relative, turning, response, rates),
-            2 => points.respond::<2>(&relative, turning, response, rates),
-            _ => points.respond::<3>(&relative, turning, response, rates),
-        };
-        self.force = force;
-        moment
-    }
+/// Differentiates a plain element; its moment (body axes).
+#[inline(always)]
+pub(super) fn respond<E: Element>(
+    mounted: &mut Mounted<E>,
+    kinematics: &Kinematics<f64>,
+    turning: &Turning,
+    free: &FreeBody,
+) -> Vector<f64> {
+    let relative: Relative<f64> = mounted.sight.relative(kinematics);
+    let (element, points, response) = (&mounted.element, &mounted.points, &mut mounted.response);
+    let rates = &mut mounted.rate_responses[..];
+    let (force, moment) = match free.angles() {
+        0 => element.respond::<0>(points, &relative, turning, response, rates),
+        1 => element.respond::<1>(points, &relative, turning, response, rates),
+        2 => element.respond::<2>(points, &relative, turning, response, rates),
+        _ => element.respond::<3>(points, &relative, turning, response, rates),
+    };
+    mounted.force = force;
+    moment
+}
 
+impl Mounted<ContactFace<Plane>> {
     /// The derivatives of the rates of internal states.
     #[inline(always)]
     pub(super) fn add_rates(&self, free: &FreeBody, jacobian: &mut Partitioned) {
@@ -72,28 +73,6 @@ impl Mounted<ContactFace<Plane>> {
                 target[row] = response.gap[row] * speed + velocity.dot::<f64, f64>(acceleration);
             }
         }
-    }
-}
-
-impl Mounted<Coil> {
-    /// Differentiates the coil; its moment (body axes).
-    #[inline(always)]
-    pub(super) fn respond(
-        &mut self,
-        kinematics: &Kinematics<f64>,
-        turning: &Turning,
-        free: &FreeBody,
-    ) -> Vector<f64> {
-        let relative: Relative<f64> = self.sight.relative(kinematics);
-        let (coil, response) = (&self.element, &mut self.response);
-        let (force, moment) = match free.angles() {
-            0 => coil.respond::<0>(&relative, turning, response),
-            1 => coil.respond::<1>(&relative, turning, response),
-            2 => coil.respond::<2>(&relative, turning, response),
-            _ => coil.respond::<3>(&relative, turning, response),
-        };
-        self.force = force;
-        moment
     }
 }
 
