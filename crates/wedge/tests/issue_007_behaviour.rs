@@ -2,7 +2,8 @@
 //! made the wedge slide to and fro, and the energy lost was wrong by a third.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use integrate::{Integrator, Method, Options};
+use integrate::{Integrator, Method, Options, Reason};
+use mechanics::coil::CoilLaw;
 use wedge::parameters::Damping;
 use wedge::{Wedge, thesis};
 
@@ -45,4 +46,23 @@ fn wide_tolerances_neither_crawl_nor_lose_the_energy() {
             }
         }
     }
+}
+
+/// A coil of 1e300 N/m cannot be integrated. Explicit steps of no length, each within its tolerance, hid that for as many steps as were allowed.
+#[test]
+fn a_run_that_cannot_go_on_stops_at_once() {
+    let mut parameters = thesis::parameters(Damping::Constant, -0.003, 0.012);
+    parameters.coil.law = CoilLaw::Linear { stiffness: 1e300 };
+    let wedge = Wedge::new(parameters).unwrap();
+    let options = Options {
+        maximum_steps: 10_000,
+        ..Options::default()
+    };
+    let mut integrator = Integrator::new(wedge.system, options, 0.0, &wedge.initial_state).unwrap();
+    let stopped = (0..10_000).find_map(|_| integrator.step_to(1.0).err());
+    assert!(
+        !matches!(stopped.as_ref().unwrap().reason, Reason::MaximumSteps { .. }),
+        "{stopped:?}"
+    );
+    assert!(integrator.statistics().rejected() < 5_000);
 }

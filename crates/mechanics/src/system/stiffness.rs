@@ -12,6 +12,9 @@ use crate::friction::FrictionLaw;
 use crate::link::Relative;
 use crate::vector::Vector;
 
+/// From here on (1/s) no step that is worth making is explicit; explicit steps of no length would only hide that a run cannot go on.
+const FASTEST: f64 = 1e9;
+
 /// A bound of the mobility of a point of a body (body axes), 1/kg: `1/m + |r|²/I` with the least inertia of the free angles.
 pub(super) fn mobility(body: &Body, point: Vector<f64>) -> f64 {
     let arm = point - Vector(body.center_of_gravity);
@@ -52,6 +55,7 @@ impl System {
             springs += slope.abs() * mobility;
             dampers += element.damping * mobility;
         }
-        dampers + springs.sqrt()
+        let bound = dampers + springs.sqrt();
+        if bound < FASTEST { bound } else { f64::INFINITY }
     }
 }
