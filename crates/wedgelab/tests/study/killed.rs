@@ -147,7 +147,7 @@ fn limits_ten_thousand_runs_survive_ten_kills() {
         .replace("count = 12", "count = 100")
         .replace("0.12 s", "0.02 s");
     fs::write(path.join("large.toml"), text).unwrap();
-    assert_eq!(kill_often(path, "large.toml", "killed", 10, 200, 4000), 10);
+    assert_eq!(kill_often(path, "large.toml", "killed", 10, 100, 1500), 10);
     done(path, &["study", "large.toml", "--out", "killed", "--quiet"]);
     assert!(recorded(path, "large.toml", "killed").into_iter().eq(0..10_000));
     done(
