@@ -36,12 +36,29 @@ impl Lanes {
     pub fn to_array(self) -> [f64; LANES] {
         self.0.to_array()
     }
+    /// One of the four numbers.
+    ///
+    /// # Panics
+    /// If there is no such lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(self, lane: usize) -> f64 {
+        self.0.to_array()[lane]
+    }
+    /// Replaces one of the four numbers.
+    ///
+    /// # Panics
+    /// If there is no such lane.
+    #[inline(always)]
+    pub fn put(&mut self, lane: usize, value: f64) {
+        self.0.as_mut_array()[lane] = value;
+    }
     /// The sum of the lanes of each of four.
     #[inline(always)]
     #[must_use]
-    pub fn sums(rows: [Self; LANES]) -> [f64; LANES] {
+    pub fn sums(rows: [Self; LANES]) -> Self {
         let [a, b, c, d] = f64x4::transpose(rows.map(|row| row.0));
-        ((a + b) + (c + d)).to_array()
+        Self((a + b) + (c + d))
     }
 }
 
@@ -174,6 +191,43 @@ fn unsaturated(s: Lanes) -> (Lanes, Lanes) {
     )
 }
 
+/// Up to this size sine and cosine come from their polynomials: `π/4`, less what the highest word of a number leaves out.
+const EIGHTH_TURN: f64 = 0.785_397_5;
+
+/// Sine and cosine, with the bits that `libm` gives: its polynomials (those of FreeBSD's `k_sin.c` and `k_cos.c`, error below one unit in
+/// the last place) where all are small, itself elsewhere.
+#[inline(always)]
+fn sin_cos(x: Lanes) -> (Lanes, Lanes) {
+    let size = Lanes(x.0.abs());
+    if !size.at_most(Lanes::from(EIGHTH_TURN)).all() {
+        return large_angles(x);
+    }
+    let z = x * x;
+    let w = z * z;
+    let r = 8.333_333_333_322_49e-3
+        + z * (-1.984_126_982_985_795e-4 + z * 2.755_731_370_707_006_8e-6)
+        + z * w * (-2.505_076_025_340_686_3e-8 + z * 1.589_690_995_211_55e-10);
+    let sine = x + z * x * (-1.666_666_666_666_663_2e-1 + z * r);
+    let r = z * (4.166_666_666_666_66e-2 + z * (-1.388_888_888_887_411e-3 + z * 2.480_158_728_947_673e-5))
+        + w * w
+            * (-2.755_731_435_139_066_3e-7
+                + z * (2.087_572_321_298_175e-9 + z * -1.135_964_755_778_819_5e-11));
+    let half = z * 0.5;
+    let w = 1.0 - half;
+    let cosine = w + (((1.0 - w) - half) + z * r);
+    (sine, cosine)
+}
+
+#[cold]
+#[inline(never)]
+fn large_angles(x: Lanes) -> (Lanes, Lanes) {
+    let pairs = x.to_array().map(libm::sincos);
+    (
+        Lanes::new(pairs.map(|(s, _)| s)),
+        Lanes::new(pairs.map(|(_, c)| c)),
+    )
+}
+
 impl Number for Lanes {
     type Mask = LaneMask;
     type Plain = Self;
@@ -208,6 +262,10 @@ impl Number for Lanes {
     #[inline(always)]
     fn tanh_ratio(self) -> Self {
         tanh_ratio(self).0
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        sin_cos(self)
     }
 }
 
@@ -404,6 +462,11 @@ impl<const N: usize> Number for LaneDual<N> {
         let (value, slope) = tanh_ratio(self.value);
         self.chain(value, slope)
     }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (s, c) = sin_cos(self.value);
+        (self.chain(s, c), self.chain(c, -s))
+    }
 }
 
 #[cfg(test)]
@@ -437,6 +500,30 @@ mod tests {
     }
 
     #[test]
+    fn sines_and_cosines_have_the_bits_of_single_numbers() {
+        let edges = [
+            0.0,
+            -0.0,
+            1e-300,
+            1e-9,
+            2e-8,
+            0.785_397_4,
+            0.785_398_3,
+            f64::MIN_POSITIVE,
+        ];
+        let sweep = (0..20_000).map(|i| 1e-8 * libm::exp(1e-3 * f64::from(i)) * (1.0 + 1e-7 * f64::from(i)));
+        for x in edges.into_iter().chain(sweep) {
+            for x in [x, -x] {
+                let (s, c) = Lanes::new([x, 0.1, -0.3, 0.7]).sin_cos();
+                let (sine, cosine) = libm::sincos(x);
+                assert_eq!((s.at(0), c.at(0)), (sine, cosine), "{x}");
+                let (tenth, _) = libm::sincos(0.1);
+                assert_eq!(s.at(1), tenth);
+            }
+        }
+    }
+
+    #[test]
     fn masks_and_sums() {
         let a = Lanes::new([1.0, 2.0, 3.0, 4.0]);
         let mask = a
@@ -445,7 +532,7 @@ mod tests {
         assert_eq!([0, 1, 2, 3].map(|i| mask.at(i)), [false, true, false, false]);
         assert!(!mask.all() && !mask.none() && a.at_most(Lanes::from(4.0)).all());
         assert_eq!(
-            Lanes::sums([a, a * 2.0, -a, Lanes::from(0.0)]),
+            Lanes::sums([a, a * 2.0, -a, Lanes::from(0.0)]).to_array(),
             [10.0, 20.0, -10.0, 0.0]
         );
     }

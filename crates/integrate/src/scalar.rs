@@ -94,6 +94,9 @@ pub trait Number:
     /// `tanh(sqrt(s)) / sqrt(s)` for `s ≥ 0`: smooth, also at `s = 0`, where it is 1.
     #[must_use]
     fn tanh_ratio(self) -> Self;
+    /// Sine and cosine.
+    #[must_use]
+    fn sin_cos(self) -> (Self, Self);
 
     /// Zero.
     #[inline(always)]
@@ -116,13 +119,6 @@ pub trait Real: Number<Plain = f64, Mask = bool> {
     fn recip(self) -> Self {
         let r = 1.0 / self.value();
         self.chain(r, -r * r)
-    }
-    /// Sine and cosine.
-    #[inline(always)]
-    #[must_use]
-    fn sin_cos(self) -> (Self, Self) {
-        let (s, c) = libm::sincos(self.value());
-        (self.chain(s, c), self.chain(c, -s))
     }
     /// The hyperbolic tangent.
     #[inline(always)]
@@ -222,6 +218,10 @@ impl Number for f64 {
             tanh(x) / x
         }
     }
+    #[inline(always)]
+    fn sin_cos(self) -> (f64, f64) {
+        libm::sincos(self)
+    }
 }
 
 impl Real for f64 {}
@@ -229,7 +229,7 @@ impl Real for f64 {}
 /// A value with its `N` partial derivatives.
 ///
 /// ```
-/// use integrate::scalar::{Dual, Real};
+/// use integrate::scalar::{Dual, Number};
 /// let x = Dual::<1>::variable(0.5, 0);
 /// let y = x * x + x.sin_cos().0;
 /// assert_eq!(y.derivative[0], 2.0 * 0.5 + libm::cos(0.5));
@@ -309,6 +309,11 @@ impl<const N: usize> Number for Dual<N> {
     fn tanh_ratio(self) -> Self {
         let (value, slope) = tanh_ratio(self.value);
         self.chain(value, slope)
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (s, c) = libm::sincos(self.value);
+        (self.chain(s, c), self.chain(c, -s))
     }
 }
 

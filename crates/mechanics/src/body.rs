@@ -12,7 +12,7 @@
 
 use std::ops::{Add, Mul};
 
-use integrate::scalar::Real;
+use integrate::scalar::Number;
 use serde::{Deserialize, Serialize};
 
 use crate::frame::{Frame, FrameMotion};
@@ -67,6 +67,32 @@ impl Body {
     pub(crate) fn rolls(&self) -> bool {
         self.free[3] || self.initial[3] != 0.0
     }
+
+    /// What its motion depends on.
+    #[inline(always)]
+    pub(crate) fn rigid(&self) -> Rigid<f64> {
+        Rigid {
+            mass: self.mass,
+            inertia: self.inertia,
+            center_of_gravity: Vector(self.center_of_gravity),
+            central: self.center_of_gravity == [0.0; 3],
+            free: self.free,
+            rolls: self.rolls(),
+        }
+    }
+}
+
+/// What of a body its motion depends on: of one body, or of the same body in several runs side by side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rigid<P> {
+    pub mass: P,
+    pub inertia: [P; 3],
+    pub center_of_gravity: Vector<P>,
+    /// Whether the centre of gravity is the origin.
+    pub central: bool,
+    pub free: [bool; 6],
+    /// Whether roll can differ from zero.
+    pub rolls: bool,
 }
 
 /// Position and velocity of a body relative to its reference frame, in that frame's axes (SI).
@@ -86,7 +112,7 @@ pub struct Kinematics<S> {
     pub angular_velocity: Vector<S>,
 }
 
-impl<S: Real> Kinematics<S> {
+impl<S: Number> Kinematics<S> {
     /// From all six coordinates and their rates.
     #[inline(always)]
     #[must_use]
@@ -132,12 +158,30 @@ impl<S: Real> Kinematics<S> {
     ) -> (Vector<S>, Vector<S>)
     where
         S: Add<T, Output = S>,
-        T: Real + Mul<S, Output = S>,
+        T: Number + Mul<S, Output = S>,
+    {
+        self.inertia_of(&body.rigid(), frame, frame_moves, gravity, accelerations)
+    }
+
+    /// The same of one or several bodies.
+    #[inline(always)]
+    pub(crate) fn inertia_of<T, P>(
+        &self,
+        body: &Rigid<P>,
+        frame: &FrameMotion<T>,
+        frame_moves: bool,
+        gravity: Vector<f64>,
+        accelerations: &[f64; 6],
+    ) -> (Vector<S>, Vector<S>)
+    where
+        S: Add<T, Output = S> + Mul<P, Output = S>,
+        T: Number + Mul<S, Output = S>,
+        P: Number,
     {
         let a = accelerations;
         let turn = &self.turn;
         let turning = [S::from(a[3]), S::from(a[4]), S::from(a[5])];
-        let (mut omega, mut alpha) = (self.spin, turn.spin_rate(self.rates, turning, body.rolls()));
+        let (mut omega, mut alpha) = (self.spin, turn.spin_rate(self.rates, turning, body.rolls));
         let field: Vector<T> = frame.acceleration - Vector::<T>::lift(gravity);
         let own: Vector<T> = frame.rotation.apply_transposed(field);
         let mut force = Vector([S::from(a[0]), S::from(a[1]), S::from(a[2])]) + own;
@@ -154,14 +198,13 @@ impl<S: Real> Kinematics<S> {
             alpha += turn.rotation.apply_transposed::<S, S>(drag + spin_rate);
             omega += turn.rotation.apply_transposed::<S, S>(Vector::<S>::zero() + spin);
         }
-        let central = body.center_of_gravity == [0.0; 3];
-        if !central {
-            let arm = Vector(body.center_of_gravity);
+        if !body.central {
+            let arm = body.center_of_gravity;
             let swing: Vector<S> = omega.cross(arm);
-            let own: Vector<S> = alpha.cross::<f64, S>(arm) + omega.cross(swing);
+            let own: Vector<S> = alpha.cross::<P, S>(arm) + omega.cross(swing);
             force += turn.rotation.apply::<S, S>(own);
         }
-        let force = force.scale(body.mass);
+        let force = force.scale::<P, S>(body.mass);
         // Euler's equations.
         let ([w1, w2, w3], [e1, e2, e3]) = (omega.0, alpha.0);
         let [i1, i2, i3] = body.inertia;
@@ -170,8 +213,8 @@ impl<S: Real> Kinematics<S> {
             e2 * i2 + w3 * w1 * (i1 - i3),
             e3 * i3 + w1 * w2 * (i2 - i1),
         ]);
-        if !central {
-            let [x, y, z] = body.center_of_gravity;
+        if !body.central {
+            let [x, y, z] = body.center_of_gravity.0;
             let [f1, f2, f3] = turn.rotation.apply_transposed::<S, S>(force).0;
             moment += Vector([f3 * y - f2 * z, f1 * z - f3 * x, f2 * x - f1 * y]);
         }
@@ -179,30 +222,11 @@ impl<S: Real> Kinematics<S> {
     }
 }
 
-impl Kinematics<f64> {
+impl<P: Number<Plain = P>> Kinematics<P> {
     /// The parts of a moment (body axes) about the axes of roll, pitch, yaw.
     #[inline(always)]
-    pub(crate) fn about_axes(&self, moment: &Vector<f64>) -> [f64; 3] {
-        [0, 1, 2].map(|k| self.turn.axes[k].dot::<f64, f64>(*moment))
-    }
-
-    /// What the elements on the body need to know of its free angles.
-    pub(crate) fn turning(&self, free: &[usize]) -> Turning {
-        let [roll, pitch, yaw] = self.turn.axes;
-        let before_yaw = pitch.scale::<f64, f64>(self.rates[1]);
-        let before_roll = before_yaw + yaw.scale::<f64, f64>(self.rates[2]);
-        // An axis turns with the angles behind it: pitch comes first, then yaw, then roll.
-        let drifts = [before_roll.cross(roll), Vector::zero(), before_yaw.cross(yaw)];
-        let mut turning = Turning {
-            axes: self.turn.axes,
-            drifts,
-            spin: self.spin,
-        };
-        for (slot, k) in free.iter().filter(|k| **k >= 3).enumerate() {
-            turning.axes[slot] = self.turn.axes[k - 3];
-            turning.drifts[slot] = drifts[k - 3];
-        }
-        turning
+    pub(crate) fn about_axes(&self, moment: &Vector<P>) -> [P; 3] {
+        [0, 1, 2].map(|k| self.turn.axes[k].dot::<P, P>(*moment))
     }
 
     /// Accelerations of the six coordinates (held ones: zero) under a force at the body's origin (frame axes) and moments about
@@ -213,30 +237,30 @@ impl Kinematics<f64> {
     /// directions. A body that cannot be accelerated (no inertia) gives infinite or undefined values.
     #[inline(always)]
     #[must_use]
-    pub(crate) fn accelerations(&self, body: &Body, force: &Vector<f64>, moments: [f64; 3]) -> [f64; 6] {
+    pub(crate) fn accelerations(&self, body: &Rigid<P>, force: &Vector<P>, moments: [P; 3]) -> [P; 6] {
         let (free, axes, rotation) = (&body.free, &self.turn.axes, &self.turn.rotation);
-        let arm = Vector(body.center_of_gravity);
-        let central = arm == Vector::zero();
+        let (arm, central) = (body.center_of_gravity, body.central);
+        let (zero, one) = (P::zero(), P::from(1.0));
         // By the angles' rates: the angular velocity, and the centre of gravity's velocity in held directions.
-        let mut spin = [Vector::<f64>::zero(); 3];
-        let mut held = [[0.0; 3]; 3];
-        let mut right = [0.0; 3];
+        let mut spin = [Vector::<P>::zero(); 3];
+        let mut held = [[zero; 3]; 3];
+        let mut right = [zero; 3];
         let mut torque = Vector::zero();
         if !central {
             let mut carried = *force;
             for c in (0..3).filter(|c| !free[*c]) {
-                carried.0[c] = 0.0;
-                let length: Vector<f64> = arm.cross(Vector(rotation.0[c]));
-                held[c] = [0, 1, 2].map(|k| axes[k].dot::<f64, f64>(length));
+                carried.0[c] = zero;
+                let length: Vector<P> = arm.cross(Vector(rotation.0[c]));
+                held[c] = [0, 1, 2].map(|k| axes[k].dot::<P, P>(length));
             }
-            torque = arm.cross::<f64, f64>(rotation.apply_transposed(carried));
+            torque = arm.cross::<P, P>(rotation.apply_transposed(carried));
         }
         for k in (0..3).filter(|k| free[3 + k]) {
             spin[k] = axes[k];
-            right[k] = moments[k] - axes[k].dot::<f64, f64>(torque);
+            right[k] = moments[k] - axes[k].dot::<P, P>(torque);
         }
         let entry = |k: usize, l: usize| {
-            let mut value = if k == l && !free[3 + k] { 1.0 } else { 0.0 };
+            let mut value = if k == l && !free[3 + k] { one } else { zero };
             for c in 0..3 {
                 value += body.inertia[c] * spin[k].0[c] * spin[l].0[c];
             }
@@ -261,21 +285,21 @@ impl Kinematics<f64> {
             [right[0] / d0 - l10 * pitch - l20 * yaw, pitch, yaw]
         } else {
             let (a, b, c) = (entry(1, 1), entry(2, 1), entry(2, 2));
-            let inverse = 1.0 / (a * c - b * b);
+            let inverse = one / (a * c - b * b);
             [
-                0.0,
+                zero,
                 (c * right[1] - b * right[2]) * inverse,
                 (a * right[2] - b * right[1]) * inverse,
             ]
         };
-        let mut out = [0.0; 6];
-        let inverse = 1.0 / body.mass;
+        let mut out = [zero; 6];
+        let inverse = one / body.mass;
         let mut swing = Vector::zero();
         if !central {
-            let alpha = spin[0].scale::<f64, f64>(turns[0])
-                + spin[1].scale::<f64, f64>(turns[1])
-                + spin[2].scale::<f64, f64>(turns[2]);
-            swing = rotation.apply(alpha.cross::<f64, f64>(arm));
+            let alpha = spin[0].scale::<P, P>(turns[0])
+                + spin[1].scale::<P, P>(turns[1])
+                + spin[2].scale::<P, P>(turns[2]);
+            swing = rotation.apply(alpha.cross::<P, P>(arm));
         }
         for c in 0..3 {
             if free[c] {
@@ -284,6 +308,27 @@ impl Kinematics<f64> {
             out[3 + c] = turns[c];
         }
         out
+    }
+}
+
+impl Kinematics<f64> {
+    /// What the elements on the body need to know of its free angles.
+    pub(crate) fn turning(&self, free: &[usize]) -> Turning {
+        let [roll, pitch, yaw] = self.turn.axes;
+        let before_yaw = pitch.scale::<f64, f64>(self.rates[1]);
+        let before_roll = before_yaw + yaw.scale::<f64, f64>(self.rates[2]);
+        // An axis turns with the angles behind it: pitch comes first, then yaw, then roll.
+        let drifts = [before_roll.cross(roll), Vector::zero(), before_yaw.cross(yaw)];
+        let mut turning = Turning {
+            axes: self.turn.axes,
+            drifts,
+            spin: self.spin,
+        };
+        for (slot, k) in free.iter().filter(|k| **k >= 3).enumerate() {
+            turning.axes[slot] = self.turn.axes[k - 3];
+            turning.drifts[slot] = drifts[k - 3];
+        }
+        turning
     }
 
     /// The velocity of the centre of gravity by the rate of angle `k` (roll, pitch, yaw), frame axes.

@@ -10,12 +10,15 @@
 //! and a guiding couple; the couple does work when the body turns, and this work is integrated and entered in the
 //! energy ledger under its own name. With `acts_at = "seat"` the force acts at the coil's end, and there is no couple.
 
-use integrate::scalar::{Dual, Real};
+use std::ops::Mul;
+
+use integrate::lanes::Lanes;
+use integrate::scalar::{Dual, Number, Real};
 use serde::{Deserialize, Serialize};
 
 use crate::body::Kinematics;
 use crate::characteristic::Characteristic;
-use crate::link::{Effect, Relative, Response, Responses, Sight, Turning};
+use crate::link::{Effect, Relative, Response, Responses, Sight, Turning, combined};
 use crate::vector::Vector;
 
 /// Force by compression.
@@ -64,6 +67,17 @@ pub struct Coil {
     pub rotational_damping: f64,
     /// Whether the spring can pull.
     pub pulls: bool,
+}
+
+/// What of a coil its force depends on, but for the spring's law: of one coil, or of the same coil in several runs side by side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seating<P> {
+    pub end: Vector<P>,
+    pub acts_at: Vector<P>,
+    pub damping: P,
+    pub rotational_damping: P,
+    /// Whether it ends at the body's origin.
+    pub central: bool,
 }
 
 /// Spring and dashpot alone.
@@ -131,7 +145,7 @@ impl Coil {
             d += arm;
             rate += relative.angular_velocity.cross(arm);
         }
-        let pull = self.pull(d, rate, spring);
+        let pull = pull(self.damping, d, rate, spring);
         let force = pull.force;
         let turn = relative.angular_velocity;
         let brake = turn.scale(-self.rotational_damping);
@@ -157,39 +171,18 @@ impl Coil {
     /// What the coil does to its body, seen from a mount that does not turn: [`Coil::evaluate`] with as few products as there need be.
     #[inline(always)]
     pub(crate) fn effect(&self, sight: &Sight<f64>, body: &Kinematics<f64>) -> Effect {
-        let (rotation, spin, end) = (&body.turn.rotation, body.spin, self.end);
-        let (mut place, mut velocity) = (body.position, body.velocity);
-        if end != Vector::zero() {
-            place += rotation.apply(end);
-            velocity += rotation.apply(spin.cross::<f64, f64>(end));
-        }
-        let d = sight.position + sight.rotation.apply::<f64, f64>(place);
-        let rate = sight.velocity + sight.rotation.apply::<f64, f64>(velocity);
-        let pull = self.pull(d, rate, |length| self.spring(length));
-        let own: Vector<f64> =
-            rotation.apply_transposed(sight.rotation.apply_transposed::<f64, f64>(pull.force));
-        let brake = self.rotational_damping;
-        let moment = self.acts_at.cross::<f64, f64>(own) - spin.scale::<f64, f64>(brake);
-        let couple: Vector<f64> = (self.acts_at - end).cross(own);
-        Effect {
-            force: pull.force,
-            moment,
-            powers: [pull.loss + spin.dot::<f64, f64>(spin) * brake, couple.dot(spin)],
-        }
+        self.seating().effect(sight, body, |length| self.spring(length))
     }
 
-    /// Spring and dashpot between the seat and the coil's end at `d`, which moves with `rate`.
+    /// What its force depends on, but for the spring's law.
     #[inline(always)]
-    fn pull<S: Real>(&self, d: Vector<S>, rate: Vector<S>, spring: impl FnOnce(S) -> S) -> Pull<S> {
-        let length = d.dot::<S, S>(d).sqrt();
-        let spring = spring(length);
-        let along = d.scale(spring / length);
-        Pull {
-            force: along - rate.scale::<f64, S>(self.damping),
-            along,
-            length,
-            spring,
-            loss: rate.dot::<S, S>(rate) * self.damping,
+    pub(crate) fn seating(&self) -> Seating<f64> {
+        Seating {
+            end: self.end,
+            acts_at: self.acts_at,
+            damping: self.damping,
+            rotational_damping: self.rotational_damping,
+            central: self.end == Vector::zero(),
         }
     }
 
@@ -211,7 +204,9 @@ impl Coil {
         let (d, rate) = (relative.position + turned(end), relative.velocity + turned(swing));
         let seed =
             |v: Vector<f64>, first: usize| Vector([0, 1, 2].map(|i| Dual::<6>::variable(v.0[i], first + i)));
-        let pull = self.pull(seed(d, 0), seed(rate, 3), |length| self.spring(length));
+        let pull = pull(self.damping, seed(d, 0), seed(rate, 3), |length| {
+            self.spring(length)
+        });
         let force = pull.force.value();
         let own: Vector<f64> = rotation.apply_transposed(force);
         // The guiding couple's power is that of the force at a velocity of its own.
@@ -221,14 +216,12 @@ impl Coil {
         let levers = arms.map(turned);
         let damping = self.rotational_damping;
         let effect = |force: Vector<f64>, loss: f64| -> Responses {
-            let mut out = [0.0; 8];
-            out[..3].copy_from_slice(&force.0);
+            let [x, y, z] = force.0;
+            let mut moments = [0.0, 0.0, 0.0, dot(guide, force)];
             for k in 0..R {
-                out[3 + k] = dot(levers[k], force);
+                moments[k] = dot(levers[k], force);
             }
-            out[6] = loss;
-            out[7] = dot(guide, force);
-            out
+            [Lanes::new([x, y, z, loss]), Lanes::new(moments)]
         };
         let column = |index: usize| {
             effect(
@@ -240,33 +233,31 @@ impl Coil {
         response.place = [column(0), column(1), column(2)];
         response.velocity = [column(3), column(4), column(5)];
         // The end of a coil that acts elsewhere moves with the angles.
-        let moved = |columns: &[Responses; 3], by: Vector<f64>| -> Responses {
-            let [x, y, z] = by.0;
-            std::array::from_fn(|o| columns[0][o] * x + columns[1][o] * y + columns[2][o] * z)
-        };
         let central = end == Vector::zero();
         for l in 0..R {
             let (axis, drift) = (turning.axes[l], turning.drifts[l]);
-            let (mut angle, mut angle_rate) = ([0.0; 8], [0.0; 8]);
+            let (mut angle, mut angle_rate) = ([Lanes::ZERO; 2], [Lanes::ZERO; 2]);
             if !central {
                 let arm = turned(cross(axis, end));
                 let carried = turned(cross(axis, swing) + cross(drift, end));
-                angle = moved(&response.place, arm);
-                for (sum, term) in angle.iter_mut().zip(moved(&response.velocity, carried)) {
+                angle = combined(&response.place, arm);
+                for (sum, term) in angle.iter_mut().zip(combined(&response.velocity, carried)) {
                     *sum += term;
                 }
-                angle_rate = moved(&response.velocity, arm);
+                angle_rate = combined(&response.velocity, arm);
             }
+            let guide_change = cross(axis, cross(spin, offset)) + cross(drift, offset);
+            let mut moments = [0.0, 0.0, 0.0, dot(own, guide_change)];
+            let mut brakes = [0.0, 0.0, 0.0, dot(own, cross(axis, offset))];
             for k in 0..R {
                 let other = turning.axes[k];
-                angle[3 + k] += dot(cross(own, axis), arms[k]) - damping * dot(other, drift);
-                angle_rate[3 + k] -= damping * dot(other, axis);
+                moments[k] = dot(cross(own, axis), arms[k]) - damping * dot(other, drift);
+                brakes[k] = -damping * dot(other, axis);
             }
-            angle[6] += 2.0 * damping * dot(spin, drift);
-            angle_rate[6] += 2.0 * damping * dot(spin, axis);
-            let guide_change = cross(axis, cross(spin, offset)) + cross(drift, offset);
-            angle[7] += dot(own, guide_change);
-            angle_rate[7] += dot(own, cross(axis, offset));
+            angle[0] += Lanes::new([0.0, 0.0, 0.0, 2.0 * damping * dot(spin, drift)]);
+            angle[1] += Lanes::new(moments);
+            angle_rate[0] += Lanes::new([0.0, 0.0, 0.0, 2.0 * damping * dot(spin, axis)]);
+            angle_rate[1] += Lanes::new(brakes);
             (response.angle[l], response.angle_rate[l]) = (angle, angle_rate);
         }
         (force, cross(self.acts_at, own) - spin.scale(damping))
@@ -276,12 +267,7 @@ impl Coil {
     #[inline(always)]
     pub fn spring<S: Real>(&self, length: S) -> S {
         let compression = -length + self.free_length;
-        let force = self.law.force(compression);
-        if self.pulls || force.value() > 0.0 {
-            force
-        } else {
-            S::zero()
-        }
+        taut(self.law.force(compression), self.pulls)
     }
 
     /// Stored energy at a length, J; zero at the free length.
@@ -298,5 +284,60 @@ impl Coil {
             CoilLaw::Table(table) => table.energy(compression),
             CoilLaw::Given { .. } => 0.0,
         }
+    }
+}
+
+impl<P: Number<Plain = P>> Seating<P> {
+    /// What one or several coils do to their bodies, with the spring force (N) by the length (m).
+    #[inline(always)]
+    pub fn effect(&self, sight: &Sight<P>, body: &Kinematics<P>, spring: impl FnOnce(P) -> P) -> Effect<P> {
+        let (rotation, spin, end) = (&body.turn.rotation, body.spin, self.end);
+        let (mut place, mut velocity) = (body.position, body.velocity);
+        if !self.central {
+            place += rotation.apply(end);
+            velocity += rotation.apply(spin.cross::<P, P>(end));
+        }
+        let d = sight.position + sight.rotation.apply::<P, P>(place);
+        let rate = sight.velocity + sight.rotation.apply::<P, P>(velocity);
+        let pull = pull(self.damping, d, rate, spring);
+        let own: Vector<P> = rotation.apply_transposed(sight.rotation.apply_transposed::<P, P>(pull.force));
+        let brake = self.rotational_damping;
+        let moment = self.acts_at.cross::<P, P>(own) - spin.scale::<P, P>(brake);
+        let couple: Vector<P> = (self.acts_at - end).cross(own);
+        Effect {
+            force: pull.force,
+            moment,
+            powers: [pull.loss + spin.dot::<P, P>(spin) * brake, couple.dot(spin)],
+        }
+    }
+}
+
+/// Spring and dashpot between the seat and the coil's end at `d`, which moves with `rate`.
+#[inline(always)]
+fn pull<S: Number + Mul<P, Output = S>, P: Copy>(
+    damping: P,
+    d: Vector<S>,
+    rate: Vector<S>,
+    spring: impl FnOnce(S) -> S,
+) -> Pull<S> {
+    let length = d.dot::<S, S>(d).sqrt();
+    let spring = spring(length);
+    let along = d.scale(spring / length);
+    Pull {
+        force: along - rate.scale::<P, S>(damping),
+        along,
+        length,
+        spring,
+        loss: rate.dot::<S, S>(rate) * damping,
+    }
+}
+
+/// The force of a spring, which may not be able to pull.
+#[inline(always)]
+pub(crate) fn taut<S: Number>(force: S, pulls: bool) -> S {
+    if pulls {
+        force
+    } else {
+        S::blend(S::Plain::zero().below(force.plain()), force, S::zero())
     }
 }

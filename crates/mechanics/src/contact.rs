@@ -11,12 +11,14 @@ mod chain;
 mod quads;
 mod work;
 
+use std::ops::Mul;
+
 use integrate::scalar::{Number, Real};
 
-pub(crate) use quads::Points;
+pub(crate) use quads::{Points, View};
 pub(crate) use work::RateResponse;
 
-use crate::friction::{Friction, FrictionLaw, bristle, tanh};
+use crate::friction::{Friction, FrictionLaw, bristle, dot, tanh};
 use crate::link::Relative;
 use crate::surface::Surface;
 use crate::vector::Vector;
@@ -72,25 +74,33 @@ pub struct PointContact<S: Number> {
 
 /// What one point (or four in lanes) is made of.
 #[derive(Clone, Copy, Debug)]
-struct Grade<P> {
-    stiffness: P,
-    damping: P,
+pub(crate) struct Grade<P> {
+    pub stiffness: P,
+    pub damping: P,
     /// Whether there is any damping.
-    damped: bool,
-    share: P,
+    pub damped: bool,
+    pub share: P,
+}
+
+/// What the forces at the points of a face depend on, but for the points themselves: of one face, or of the same face in several runs
+/// side by side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Grip<P> {
+    pub coefficient: P,
+    pub law: FrictionLaw<P>,
 }
 
 /// What a law sees of a point (or of four).
 #[derive(Clone, Copy, Debug)]
-struct Meeting<S> {
-    gap: S,
-    gap_rate: S,
-    slip: [S; 2],
+pub(crate) struct Meeting<S> {
+    pub gap: S,
+    pub gap_rate: S,
+    pub slip: [S; 2],
 }
 
 /// The forces at a point (or at four).
 #[derive(Clone, Copy, Debug)]
-struct Touch<S: Number> {
+pub(crate) struct Touch<S: Number> {
     normal: S,
     friction: Friction<S>,
     damping_loss: S,
@@ -144,7 +154,9 @@ impl<F: Surface> ContactFace<F> {
                 None => [S::zero(); 2],
             };
             let mut contact = self.geometry(point, relative);
-            let touch = self.touch(&point.grade(), closed, &contact.meeting(), deflection);
+            let touch = self
+                .grip()
+                .touch(&point.grade(), closed, &contact.meeting(), deflection);
             contact.normal = touch.normal;
             contact.friction = touch.friction;
             contact.damping_loss = touch.damping_loss;
@@ -180,15 +192,42 @@ impl<F: Surface> ContactFace<F> {
         }
     }
 
+    /// What the forces at its points depend on, but for the points themselves.
+    #[inline(always)]
+    pub(crate) fn grip(&self) -> Grip<f64> {
+        Grip {
+            coefficient: self.coefficient,
+            law: self.law,
+        }
+    }
+
+    /// Friction of a point that carries `share` of the face's tangential stiffness.
+    #[inline(always)]
+    pub fn friction<S: Number>(
+        &self,
+        share: S::Plain,
+        normal: S,
+        slip: [S; 2],
+        deflection: [S; 2],
+    ) -> Friction<S> {
+        self.grip().friction(share, normal, slip, deflection)
+    }
+}
+
+impl<P: Number<Plain = P>> Grip<P> {
     /// The forces at a point: none of the surface where it is not closed.
     #[inline(always)]
-    fn touch<S: Number>(
+    pub fn touch<S>(
         &self,
         grade: &Grade<S::Plain>,
         closed: S::Mask,
         at: &Meeting<S>,
         deflection: [S; 2],
-    ) -> Touch<S> {
+    ) -> Touch<S>
+    where
+        S: Number + Mul<P, Output = S>,
+        S::Plain: Mul<P, Output = S::Plain>,
+    {
         let elastic = S::blend(closed, at.gap.by(-grade.stiffness), S::zero());
         let (mut normal, mut damping_loss) = (elastic, S::zero());
         if grade.damped {
@@ -207,17 +246,21 @@ impl<F: Surface> ContactFace<F> {
     /// How far a point is from its law's own change between stick and slip, see [`Friction::load`]; of no meaning with a bristle where it
     /// is open.
     #[inline(always)]
-    fn load<S: Number>(
+    fn load<S>(
         &self,
         grade: &Grade<S::Plain>,
         closed: S::Mask,
         at: &Meeting<S>,
         deflection: [S; 2],
-    ) -> S::Plain {
+    ) -> S::Plain
+    where
+        S: Number + Mul<P, Output = S>,
+        S::Plain: Mul<P, Output = S::Plain>,
+    {
         match self.law {
             FrictionLaw::Tanh { reference_speed } => {
                 let slip = at.slip.map(S::plain);
-                (slip[0] * slip[0] + slip[1] * slip[1]).sqrt() * (1.0 / reference_speed)
+                dot::<S::Plain>(slip, slip).sqrt() * (P::from(1.0) / reference_speed)
             }
             FrictionLaw::Bristle { .. } => self.touch(grade, closed, at, deflection).friction.load,
         }
@@ -225,13 +268,11 @@ impl<F: Surface> ContactFace<F> {
 
     /// Friction of a point that carries `share` of the face's tangential stiffness.
     #[inline(always)]
-    pub fn friction<S: Number>(
-        &self,
-        share: S::Plain,
-        normal: S,
-        slip: [S; 2],
-        deflection: [S; 2],
-    ) -> Friction<S> {
+    fn friction<S>(&self, share: S::Plain, normal: S, slip: [S; 2], deflection: [S; 2]) -> Friction<S>
+    where
+        S: Number + Mul<P, Output = S>,
+        S::Plain: Mul<P, Output = S::Plain>,
+    {
         let limit = normal * self.coefficient;
         match self.law {
             FrictionLaw::Tanh { reference_speed } => tanh::friction(limit, reference_speed, slip),
@@ -254,7 +295,7 @@ impl<S: Number> PointContact<S> {
 }
 
 impl ContactPoint {
-    fn grade(&self) -> Grade<f64> {
+    pub(crate) fn grade(&self) -> Grade<f64> {
         Grade {
             stiffness: self.stiffness,
             damping: self.damping,

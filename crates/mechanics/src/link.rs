@@ -6,7 +6,8 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use integrate::scalar::Real;
+use integrate::lanes::Lanes;
+use integrate::scalar::{Number, Real};
 
 use crate::body::Kinematics;
 use crate::frame::FrameMotion;
@@ -73,10 +74,12 @@ impl<S: Real> Sight<S> {
             mount_angular_velocity: axes.apply_transposed(spin),
         }
     }
+}
 
+impl<S: Number> Sight<S> {
     /// Body `a` seen from the mount.
     #[inline(always)]
-    pub fn relative<A: Real, O: Real>(&self, a: &Kinematics<A>) -> Relative<O>
+    pub fn relative<A: Number, O: Number>(&self, a: &Kinematics<A>) -> Relative<O>
     where
         S: Mul<A, Output = O> + Mul<O, Output = O> + Add<O, Output = O> + Sub<O, Output = O>,
     {
@@ -95,11 +98,11 @@ impl<S: Real> Sight<S> {
 
 /// A mount on a prescribed body that moves without turning, seen by a body in a fixed frame: what stays the same.
 #[derive(Clone, Copy, Debug)]
-pub struct Translation {
+pub struct Translation<P = f64> {
     /// From mount axes to fixed axes.
-    axes: Matrix<f64>,
+    pub(crate) axes: Matrix<P>,
     /// From the origin of `b`'s frame to the mount's origin, fixed axes.
-    arm: Vector<f64>,
+    pub(crate) arm: Vector<P>,
 }
 
 impl Translation {
@@ -113,18 +116,22 @@ impl Translation {
         }
     }
 
-    /// Brings position and velocities of a sight up to date.
-    #[inline(always)]
-    pub fn update(&self, sight: &mut Sight<f64>, a: &FrameMotion<f64>, b: &FrameMotion<f64>) {
-        sight.position = self.axes.apply_transposed(a.position - b.position - self.arm);
-        sight.mount_velocity = self.axes.apply_transposed(b.velocity);
-        sight.velocity = -sight.mount_velocity;
-    }
-
     /// The acceleration of the frame as the mount sees it: the rate of the sight's velocity.
     #[inline(always)]
     pub fn acceleration(&self, b: &FrameMotion<f64>) -> Vector<f64> {
         -self.axes.apply_transposed::<f64, f64>(b.acceleration)
+    }
+}
+
+impl<P: Number<Plain = P>> Translation<P> {
+    /// Brings position and velocities of a sight up to date.
+    #[inline(always)]
+    pub fn update(&self, sight: &mut Sight<P>, a: &FrameMotion<P>, b: &FrameMotion<P>) {
+        sight.position = self
+            .axes
+            .apply_transposed::<P, P>(a.position - b.position - self.arm);
+        sight.mount_velocity = self.axes.apply_transposed::<P, P>(b.velocity);
+        sight.velocity = -sight.mount_velocity;
     }
 }
 
@@ -143,13 +150,13 @@ pub struct Relative<S> {
 
 /// What an element does to the body that it carries.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Effect {
+pub(crate) struct Effect<P = f64> {
     /// Force, mount axes, N.
-    pub force: Vector<f64>,
+    pub force: Vector<P>,
     /// Moment about the body's origin, body axes, N·m.
-    pub moment: Vector<f64>,
+    pub moment: Vector<P>,
     /// Powers of the element's channels, W.
-    pub powers: [f64; 2],
+    pub powers: [P; 2],
 }
 
 /// The free angles of a body: their axes, how its angular velocity changes with them at fixed rates, and the angular velocity (body axes).
@@ -161,8 +168,9 @@ pub(crate) struct Turning {
     pub spin: Vector<f64>,
 }
 
-/// Changes of an element's [`Effect`]: force along the mount's axes, moments about the axes of the free angles (three slots), two powers.
-pub(crate) type Responses = [f64; 8];
+/// Changes of an element's [`Effect`]: force along the mount's axes with the first power, moments about the axes of the free angles (three
+/// slots) with the second power.
+pub(crate) type Responses = [Lanes; 2];
 
 /// How an element's effect changes with the motion of the body that it carries.
 #[derive(Clone, Copy, Debug)]
@@ -180,9 +188,16 @@ pub(crate) struct Response {
 impl Response {
     /// No change.
     pub const NONE: Self = Self {
-        place: [[0.0; 8]; 3],
-        velocity: [[0.0; 8]; 3],
-        angle: [[0.0; 8]; 3],
-        angle_rate: [[0.0; 8]; 3],
+        place: [[Lanes::ZERO; 2]; 3],
+        velocity: [[Lanes::ZERO; 2]; 3],
+        angle: [[Lanes::ZERO; 2]; 3],
+        angle_rate: [[Lanes::ZERO; 2]; 3],
     };
+}
+
+/// `Σ_i weights_i columns_i`.
+#[inline(always)]
+pub(crate) fn combined(columns: &[Responses; 3], weights: Vector<f64>) -> Responses {
+    let [x, y, z] = weights.0;
+    [0, 1].map(|o| columns[0][o] * x + columns[1][o] * y + columns[2][o] * z)
 }

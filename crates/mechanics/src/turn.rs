@@ -5,7 +5,7 @@
 //! `ω = pitch˙ e_pitch + yaw˙ e_yaw + roll˙ e_roll`; with roll held this is (u4 sin q3, u3, u4 cos q3) in the axes of the reference
 //! frame, and (u3 sin q4, u3 cos q4, u4) in those of the body, where moments are taken.
 
-use integrate::scalar::Real;
+use integrate::scalar::Number;
 
 use crate::vector::{Matrix, Vector, rotation_x, rotation_y, rotation_z};
 
@@ -18,7 +18,7 @@ pub struct Turn<S> {
     pub axes: [Vector<S>; 3],
 }
 
-impl<S: Real> Turn<S> {
+impl<S: Number> Turn<S> {
     /// The turn by the angles roll, pitch, yaw (rad). `rolls` tells whether roll may differ from zero: without it,
     /// nothing is spent on it.
     #[inline(always)]

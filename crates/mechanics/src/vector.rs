@@ -160,7 +160,7 @@ impl<S: Real> Matrix<S> {
 /// Rotation about +x by the angle with this sine and cosine.
 #[inline(always)]
 #[must_use]
-pub fn rotation_x<S: Real>((s, c): (S, S)) -> Matrix<S> {
+pub fn rotation_x<S: Number>((s, c): (S, S)) -> Matrix<S> {
     let (o, i) = (S::zero(), S::from(1.0));
     Matrix([[i, o, o], [o, c, -s], [o, s, c]])
 }
@@ -168,7 +168,7 @@ pub fn rotation_x<S: Real>((s, c): (S, S)) -> Matrix<S> {
 /// Rotation about +y by the angle with this sine and cosine.
 #[inline(always)]
 #[must_use]
-pub fn rotation_y<S: Real>((s, c): (S, S)) -> Matrix<S> {
+pub fn rotation_y<S: Number>((s, c): (S, S)) -> Matrix<S> {
     let (o, i) = (S::zero(), S::from(1.0));
     Matrix([[c, o, s], [o, i, o], [-s, o, c]])
 }
@@ -176,7 +176,7 @@ pub fn rotation_y<S: Real>((s, c): (S, S)) -> Matrix<S> {
 /// Rotation about +z by the angle with this sine and cosine.
 #[inline(always)]
 #[must_use]
-pub fn rotation_z<S: Real>((s, c): (S, S)) -> Matrix<S> {
+pub fn rotation_z<S: Number>((s, c): (S, S)) -> Matrix<S> {
     let (o, i) = (S::zero(), S::from(1.0));
     Matrix([[c, -s, o], [s, c, o], [o, o, i]])
 }

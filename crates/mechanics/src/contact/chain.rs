@@ -46,8 +46,9 @@ impl Sums {
     #[inline(always)]
     fn over_lanes(&self) -> FaceResultant<f64> {
         let ([fx, fy, fz], [mx, my, mz]) = (self.force.0, self.moment.0);
-        let [fx, fy, fz, mx] = Lanes::sums([fx, fy, fz, mx]);
-        let [my, mz, friction_loss, damping_loss] = Lanes::sums([my, mz, self.losses[0], self.losses[1]]);
+        let [fx, fy, fz, mx] = Lanes::sums([fx, fy, fz, mx]).to_array();
+        let [my, mz, friction_loss, damping_loss] =
+            Lanes::sums([my, mz, self.losses[0], self.losses[1]]).to_array();
         FaceResultant {
             force: Vector([fx, fy, fz]),
             moment: Vector([mx, my, mz]),

@@ -9,11 +9,14 @@
 //!
 //! so that gap, gap rate and slip of all points are linear in their places. The laws are those of [`ContactFace`].
 
+use std::ops::{Add, Mul};
+
 use integrate::lanes::{LANES, LaneDual, LaneMask, Lanes};
 use integrate::scalar::{Mask, Number};
 
-use super::{ContactFace, ContactPoint, Grade, Meeting};
-use crate::link::{Effect, Relative};
+use super::{ContactFace, ContactPoint, Grade, Meeting, Touch};
+use crate::body::Kinematics;
+use crate::link::{Effect, Relative, Sight};
 use crate::surface::Plane;
 use crate::vector::{Matrix, Vector};
 
@@ -45,10 +48,12 @@ pub(super) struct Slopes {
     pub by_deflection: [[Lanes; OUTPUTS]; 2],
 }
 
-/// The points of a face, ready for evaluation, and the derivatives where [`ContactFace::linearize`] was called last.
+/// The points of a face, ready for evaluation; what the law sees of them where [`Points::meet`] was called last, and its derivatives where
+/// [`ContactFace::linearize`] was.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Points {
     pub(super) quads: Vec<Quad>,
+    met: Vec<Meeting<Lanes>>,
     pub(super) slopes: Vec<Slopes>,
 }
 
@@ -56,9 +61,34 @@ impl Points {
     /// The points of a face.
     pub fn new(points: &[ContactPoint]) -> Self {
         let quads: Vec<Quad> = points.chunks(LANES).map(Quad::new).collect();
+        let nowhere = Meeting {
+            gap: Lanes::ZERO,
+            gap_rate: Lanes::ZERO,
+            slip: [Lanes::ZERO; 2],
+        };
         Self {
+            met: vec![nowhere; quads.len()],
             slopes: vec![Slopes::NONE; quads.len()],
             quads,
+        }
+    }
+
+    /// Sees where the points are and how they move.
+    #[inline(always)]
+    pub fn meet(&mut self, view: &View<f64>) {
+        for (quad, met) in self.quads.iter().zip(&mut self.met) {
+            *met = view.meet(quad.position, quad.grade.damped);
+        }
+    }
+
+    /// Gap and slip of every point.
+    #[inline(always)]
+    pub fn motions(&self, mut each: impl FnMut(usize, f64, [f64; 2])) {
+        for (number, (quad, at)) in self.quads.iter().zip(&self.met).enumerate() {
+            let (gap, slip) = (at.gap.to_array(), at.slip.map(Lanes::to_array));
+            for i in 0..quad.count {
+                each(LANES * number + i, gap[i], [slip[0][i], slip[1][i]]);
+            }
         }
     }
 }
@@ -100,20 +130,38 @@ impl Quad {
 
 /// A plane and its motion as the body sees them: what is linear in the places of points.
 #[derive(Clone, Copy, Debug)]
-struct View {
-    distance: f64,
-    normal: Vector<f64>,
-    speeds: [f64; 3],
+pub(crate) struct View<P> {
+    distance: P,
+    normal: Vector<P>,
+    speeds: [P; 3],
     /// By what the components of the velocity grow with the place.
-    growth: [Vector<f64>; 3],
+    growth: [Vector<P>; 3],
+    /// From body axes to mount axes.
+    rotation: Matrix<P>,
 }
 
-impl View {
+impl<P: Number<Plain = P>> View<P> {
+    /// From a mount that does not turn: `v_i = c_i + (e_i × ω)·r` with ω in body axes.
     #[inline(always)]
-    fn new(relative: &Relative<f64>) -> Self {
+    pub fn of(sight: &Sight<P>, body: &Kinematics<P>) -> Self {
+        let rotation: Matrix<P> = sight.rotation.times(body.turn.rotation);
+        let place: Vector<P> = sight.rotation.apply(body.position);
+        let velocity: Vector<P> = sight.rotation.apply(body.velocity);
+        let [n, t1, t2] = rotation.0.map(Vector);
+        Self {
+            distance: sight.position.0[0] + place.0[0],
+            normal: n,
+            speeds: (sight.velocity + velocity).0,
+            growth: [n.cross(body.spin), t1.cross(body.spin), t2.cross(body.spin)],
+            rotation,
+        }
+    }
+
+    #[inline(always)]
+    pub fn new(relative: &Relative<P>) -> Self {
         let Matrix([n, t1, t2]) = relative.rotation;
         let [w0, w1, w2] = relative.angular_velocity.0;
-        let mix = |a: f64, x: [f64; 3], b: f64, y: [f64; 3]| {
+        let mix = |a: P, x: [P; 3], b: P, y: [P; 3]| {
             Vector([a * x[0] - b * y[0], a * x[1] - b * y[1], a * x[2] - b * y[2]])
         };
         Self {
@@ -121,23 +169,38 @@ impl View {
             normal: Vector(n),
             speeds: relative.velocity.0,
             growth: [mix(w1, t2, w2, t1), mix(w2, n, w0, t2), mix(w0, t1, w1, n)],
+            rotation: relative.rotation,
         }
     }
 
-    /// What the law sees of four points; the gap's rate only where there is contact damping.
+    /// What the law sees of a point in several runs, or of four points in one; the gap's rate only where there is contact damping.
     #[inline(always)]
-    fn meet(&self, quad: &Quad) -> Meeting<Lanes> {
-        let r = quad.position;
-        let speed = |i: usize| -> Lanes { self.growth[i].dot::<Lanes, Lanes>(r) + self.speeds[i] };
+    pub fn meet<F>(&self, place: Vector<F>, damped: bool) -> Meeting<F>
+    where
+        F: Number + Add<P, Output = F>,
+        P: Mul<F, Output = F>,
+    {
+        let speed = |i: usize| -> F { self.growth[i].dot::<F, F>(place) + self.speeds[i] };
         Meeting {
-            gap: self.normal.dot::<Lanes, Lanes>(r) + self.distance,
-            gap_rate: if quad.grade.damped {
-                speed(0)
-            } else {
-                Lanes::zero()
-            },
+            gap: self.normal.dot::<F, F>(place) + self.distance,
+            gap_rate: if damped { speed(0) } else { F::zero() },
             slip: [speed(1), speed(2)],
         }
+    }
+
+    /// What it does to the body: forces along the mount's axes, moments (body axes), losses in friction and in contact damping.
+    #[inline(always)]
+    pub fn push<F>(&self, place: Vector<F>, touch: &Touch<F>) -> [F; 8]
+    where
+        F: Number,
+        P: Mul<F, Output = F>,
+    {
+        let [t1, t2] = touch.friction.force;
+        let force = Vector([touch.normal, t1, t2]);
+        let own: Vector<F> = self.rotation.transpose().apply(force);
+        let moment: Vector<F> = place.cross(own);
+        let ([f1, f2, f3], [m1, m2, m3]) = (force.0, moment.0);
+        [f1, f2, f3, m1, m2, m3, touch.friction.loss, touch.damping_loss]
     }
 }
 
@@ -151,28 +214,22 @@ impl ContactFace<Plane> {
     #[inline(always)]
     pub(crate) fn effect(
         &self,
-        points: &Points,
-        relative: &Relative<f64>,
+        points: &mut Points,
+        view: &View<f64>,
         deflections: &[f64],
         rates: &mut [f64],
     ) -> Effect {
-        let view = View::new(relative);
+        points.meet(view);
+        let grip = self.grip();
         let mut sums = [Lanes::zero(); 8];
-        for (number, quad) in points.quads.iter().enumerate() {
-            let at = view.meet(quad);
-            let closed = closed(quad, &at);
+        for (number, (quad, at)) in points.quads.iter().zip(&points.met).enumerate() {
+            let closed = closed(quad, at);
             if closed.none() && deflections.is_empty() {
                 continue;
             }
             let first = LANES * number;
-            let touch = self.touch(&quad.grade, closed, &at, quad.deflection(deflections, first));
-            let [t1, t2] = touch.friction.force;
-            let force = Vector([touch.normal, t1, t2]);
-            let own: Vector<Lanes> = relative.rotation.transpose().apply(force);
-            let moment: Vector<Lanes> = quad.position.cross(own);
-            let ([f1, f2, f3], [m1, m2, m3]) = (force.0, moment.0);
-            let terms = [f1, f2, f3, m1, m2, m3, touch.friction.loss, touch.damping_loss];
-            for (sum, term) in sums.iter_mut().zip(terms) {
+            let touch = grip.touch(&quad.grade, closed, at, quad.deflection(deflections, first));
+            for (sum, term) in sums.iter_mut().zip(view.push(quad.position, &touch)) {
                 *sum += term;
             }
             if !deflections.is_empty() {
@@ -184,8 +241,8 @@ impl ContactFace<Plane> {
             }
         }
         let [f1, f2, f3, m1, m2, m3, friction, damping] = sums;
-        let [f1, f2, f3, m1] = Lanes::sums([f1, f2, f3, m1]);
-        let [m2, m3, friction, damping] = Lanes::sums([m2, m3, friction, damping]);
+        let [f1, f2, f3, m1] = Lanes::sums([f1, f2, f3, m1]).to_array();
+        let [m2, m3, friction, damping] = Lanes::sums([m2, m3, friction, damping]).to_array();
         Effect {
             force: Vector([f1, f2, f3]),
             moment: Vector([m1, m2, m3]),
@@ -195,21 +252,13 @@ impl ContactFace<Plane> {
 
     /// Gap and friction load of every point.
     #[inline(always)]
-    pub(crate) fn signs(
-        &self,
-        points: &Points,
-        relative: &Relative<f64>,
-        deflections: &[f64],
-        mut each: impl FnMut(usize, f64, f64),
-    ) {
-        let view = View::new(relative);
-        for (number, quad) in points.quads.iter().enumerate() {
-            let at = view.meet(quad);
+    pub(crate) fn signs(&self, points: &Points, deflections: &[f64], mut each: impl FnMut(usize, f64, f64)) {
+        for (number, (quad, at)) in points.quads.iter().zip(&points.met).enumerate() {
             let first = LANES * number;
-            let load = self.load(
+            let load = self.grip().load(
                 &quad.grade,
-                closed(quad, &at),
-                &at,
+                closed(quad, at),
+                at,
                 quad.deflection(deflections, first),
             );
             let (gap, load) = (at.gap.to_array(), load.to_array());
@@ -219,39 +268,20 @@ impl ContactFace<Plane> {
         }
     }
 
-    /// Gap and slip of every point.
-    #[inline(always)]
-    pub(crate) fn motions(
-        &self,
-        points: &Points,
-        relative: &Relative<f64>,
-        mut each: impl FnMut(usize, f64, [f64; 2]),
-    ) {
-        let view = View::new(relative);
-        for (number, quad) in points.quads.iter().enumerate() {
-            let at = view.meet(quad);
-            let (gap, slip) = (at.gap.to_array(), at.slip.map(Lanes::to_array));
-            for i in 0..quad.count {
-                each(LANES * number + i, gap[i], [slip[0][i], slip[1][i]]);
-            }
-        }
-    }
-
     /// Differentiates the law at every point.
-    pub(crate) fn linearize(&self, points: &mut Points, relative: &Relative<f64>, deflections: &[f64]) {
-        let view = View::new(relative);
-        for (number, (quad, slopes)) in points.quads.iter().zip(&mut points.slopes).enumerate() {
-            let at = view.meet(quad);
-            let closed = closed(quad, &at);
+    pub(crate) fn linearize(&self, points: &mut Points, deflections: &[f64]) {
+        let quads = points.quads.iter().zip(&points.met);
+        for (number, ((quad, at), slopes)) in quads.zip(&mut points.slopes).enumerate() {
+            let closed = closed(quad, at);
             slopes.active = !(closed.none() && deflections.is_empty());
             if !slopes.active {
                 continue;
             }
             let deflection = quad.deflection(deflections, LANES * number);
             match (quad.grade.damped, deflections.is_empty()) {
-                (false, true) => self.differentiate::<3>(quad, closed, &at, deflection, slopes),
-                (true, true) => self.differentiate::<4>(quad, closed, &at, deflection, slopes),
-                _ => self.differentiate::<6>(quad, closed, &at, deflection, slopes),
+                (false, true) => self.differentiate::<3>(quad, closed, at, deflection, slopes),
+                (true, true) => self.differentiate::<4>(quad, closed, at, deflection, slopes),
+                _ => self.differentiate::<6>(quad, closed, at, deflection, slopes),
             }
         }
     }
@@ -279,7 +309,7 @@ impl ContactFace<Plane> {
             gap_rate: seed(at.gap_rate, 3),
         };
         let deflection = [seed(deflection[0], 4), seed(deflection[1], 5)];
-        let touch = self.touch(&quad.grade, closed, &seeded, deflection);
+        let touch = self.grip().touch(&quad.grade, closed, &seeded, deflection);
         let ([t1, t2], [r1, r2]) = (touch.friction.force, touch.friction.rate);
         let outputs = [
             touch.normal,

@@ -117,9 +117,10 @@ impl Points {
             // The effect as it is summed, with the moments about the axes by the forces along the mount's axes.
             let summed = |out: &[Lanes; OUTPUTS], work: [Lanes; 3]| -> Responses {
                 let [w0, w1, w2] = work;
-                let [f0, f1, f2, w0] = Lanes::sums([out[0], out[1], out[2], w0]);
-                let [w1, w2, friction, damping] = Lanes::sums([w1, w2, out[3], out[4]]);
-                [f0, f1, f2, w0, w1, w2, friction, damping]
+                [
+                    Lanes::sums([out[0], out[1], out[2], out[3]]),
+                    Lanes::sums([w0, w1, w2, out[4]]),
+                ]
             };
             let pressed = |out: &[Lanes; OUTPUTS]| -> Responses {
                 let mut work = [Lanes::ZERO; 3];
@@ -179,9 +180,7 @@ impl Points {
                     let part: Lanes = other.dot(own);
                     turned[k] = part * reach - radial * other.dot::<f64, f64>(*axis);
                 }
-                for (sum, term) in change[3..].iter_mut().zip(Lanes::sums(turned)) {
-                    *sum += term;
-                }
+                change[1] += Lanes::sums(turned);
                 add(&mut response.angle[l], change);
 
                 let mut out = slopes.by_slips([lengths[l][1], lengths[l][2]], internal);
@@ -207,15 +206,14 @@ impl Points {
             }
         }
         let [f0, f1, f2, m0, m1, m2, ..] = sums;
-        let [f0, f1, f2, m0] = Lanes::sums([f0, f1, f2, m0]);
-        let [m1, m2, ..] = Lanes::sums([m1, m2, Lanes::ZERO, Lanes::ZERO]);
+        let [f0, f1, f2, m0] = Lanes::sums([f0, f1, f2, m0]).to_array();
+        let [m1, m2, ..] = Lanes::sums([m1, m2, Lanes::ZERO, Lanes::ZERO]).to_array();
         (Vector([f0, f1, f2]), Vector([m0, m1, m2]))
     }
 }
 
 #[inline(always)]
 fn add(sum: &mut Responses, term: Responses) {
-    for (sum, term) in sum.iter_mut().zip(term) {
-        *sum += term;
-    }
+    sum[0] += term[0];
+    sum[1] += term[1];
 }

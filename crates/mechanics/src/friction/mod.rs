@@ -9,18 +9,18 @@ use serde::{Deserialize, Serialize};
 /// The friction laws. Which one is active is part of every result.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", tag = "law")]
-pub enum FrictionLaw {
+pub enum FrictionLaw<P = f64> {
     /// Smoothed Coulomb friction, see [`tanh`]: creeps under a held load.
     Tanh {
         /// Reference speed v0, m/s.
-        reference_speed: f64,
+        reference_speed: P,
     },
     /// An elastic element in series with the slider, see [`bristle`]: holds a load.
     Bristle {
         /// Tangential stiffness of the face, N/m.
-        stiffness: f64,
+        stiffness: P,
         /// Tangential damping of the face, N·s/m.
-        damping: f64,
+        damping: P,
     },
 }
 

@@ -1,12 +1,13 @@
 //! The right-hand side: forces, accelerations, rates of the internal states, powers.
 
-use integrate::scalar::{Dual, Real};
+use integrate::scalar::{Dual, Number, Real};
 use std::ops::Mul;
 
 use super::{Mounted, System};
-use crate::body::Kinematics;
+use crate::body::{Kinematics, Rigid};
 use crate::coil::{Coil, CoilForce};
-use crate::contact::{ContactFace, FaceResultant, Points, RateResponse};
+use crate::contact::{ContactFace, FaceResultant, Points, RateResponse, View};
+use crate::frame::FrameMotion;
 use crate::link::{Effect, Mount, Relative, Response, Sight, Turning};
 use crate::surface::Plane;
 use crate::vector::Vector;
@@ -25,19 +26,22 @@ pub(super) struct Action<S> {
 /// An element between two bodies.
 pub(super) trait Element: Sized {
     /// What it does to the body that it carries; `rates` receives the rates of the internal states.
-    fn act(&self, points: &Points, relative: &Relative<f64>, internal: &[f64], rates: &mut [f64]) -> Effect;
-
-    /// The same seen from a mount that does not turn.
-    #[inline(always)]
-    fn act_from(
+    fn act(
         &self,
-        points: &Points,
-        (sight, body): (&Sight<f64>, &Kinematics<f64>),
+        points: &mut Points,
+        relative: &Relative<f64>,
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Effect {
-        self.act(points, &sight.relative(body), internal, rates)
-    }
+    ) -> Effect;
+
+    /// The same seen from a mount that does not turn.
+    fn act_from(
+        &self,
+        points: &mut Points,
+        seen: (&Sight<f64>, &Kinematics<f64>),
+        internal: &[f64],
+        rates: &mut [f64],
+    ) -> Effect;
 
     /// How that changes with the motion of a body with `R` free angles, seen from a mount that does not turn, and how the rates of internal
     /// states do, as many as `rates` takes; with the force (mount axes) and the moment (body axes).
@@ -61,8 +65,25 @@ pub(super) trait Element: Sized {
 
 impl Element for ContactFace<Plane> {
     #[inline(always)]
-    fn act(&self, points: &Points, relative: &Relative<f64>, internal: &[f64], rates: &mut [f64]) -> Effect {
-        self.effect(points, relative, internal, rates)
+    fn act(
+        &self,
+        points: &mut Points,
+        relative: &Relative<f64>,
+        internal: &[f64],
+        rates: &mut [f64],
+    ) -> Effect {
+        self.effect(points, &View::new(relative), internal, rates)
+    }
+
+    #[inline(always)]
+    fn act_from(
+        &self,
+        points: &mut Points,
+        (sight, body): (&Sight<f64>, &Kinematics<f64>),
+        internal: &[f64],
+        rates: &mut [f64],
+    ) -> Effect {
+        self.effect(points, &View::of(sight, body), internal, rates)
     }
 
     #[inline(always)]
@@ -90,7 +111,7 @@ impl Element for ContactFace<Plane> {
 
 impl Element for Coil {
     #[inline(always)]
-    fn act(&self, _: &Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> Effect {
+    fn act(&self, _: &mut Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> Effect {
         let coil = self.evaluate(relative);
         Effect {
             force: coil.force,
@@ -102,7 +123,7 @@ impl Element for Coil {
     #[inline(always)]
     fn act_from(
         &self,
-        _: &Points,
+        _: &mut Points,
         (sight, body): (&Sight<f64>, &Kinematics<f64>),
         _: &[f64],
         _: &mut [f64],
@@ -214,7 +235,8 @@ impl System {
         for free in &self.free {
             let kinematics = &self.kinematics[free.body];
             let (mut force, mut moment) = (Vector::zero(), Vector::zero());
-            for face in free.faces.iter().map(|face| &self.faces[*face]) {
+            for &face in &free.faces {
+                let face = &mut self.faces[face];
                 if face.plain {
                     let internal = &internal[face.first_internal..][..face.internal_count];
                     let rates = &mut d_internal[face.first_internal..][..face.internal_count];
@@ -222,7 +244,8 @@ impl System {
                     push(face, kinematics, (internal, rates), load, d_quadratures);
                 }
             }
-            for coil in free.coils.iter().map(|coil| &self.coils[*coil]) {
+            for &coil in &free.coils {
+                let coil = &mut self.coils[coil];
                 if coil.plain {
                     let load = (&mut force, &mut moment);
                     push(coil, kinematics, (&[], &mut []), load, d_quadratures);
@@ -230,25 +253,28 @@ impl System {
             }
             (self.force[free.body], self.moment[free.body]) = (force, moment);
         }
+        self.met = true;
         if !self.plain {
-            for face in self.faces.iter().filter(|face| !face.plain) {
+            for face in self.faces.iter_mut().filter(|face| !face.plain) {
                 let internal = &internal[face.first_internal..][..face.internal_count];
                 let rates = &mut d_internal[face.first_internal..][..face.internal_count];
                 let loads = (&mut self.force[..], &mut self.moment[..]);
                 apply(face, &self.kinematics, internal, rates, loads, d_quadratures);
             }
-            for coil in self.coils.iter().filter(|coil| !coil.plain) {
+            for coil in self.coils.iter_mut().filter(|coil| !coil.plain) {
                 let loads = (&mut self.force[..], &mut self.moment[..]);
                 apply(coil, &self.kinematics, &[], &mut [], loads, d_quadratures);
             }
         }
         for free in &self.free {
-            let (body, kinematics) = (&self.bodies[free.body], &self.kinematics[free.body]);
             let frame = &self.frames[free.body];
-            let (force, moment) =
-                kinematics.inertia(body, &frame.motion, !frame.fixed, self.gravity, &[0.0; 6]);
-            let (force, moment) = (self.force[free.body] - force, self.moment[free.body] - moment);
-            let accelerations = kinematics.accelerations(body, &force, kinematics.about_axes(&moment));
+            let accelerations = accelerate(
+                &self.kinematics[free.body],
+                &self.bodies[free.body].rigid(),
+                (&frame.motion, !frame.fixed),
+                self.gravity,
+                (self.force[free.body], self.moment[free.body]),
+            );
             let target = &mut d_speeds[free.offset..free.offset + free.free.len()];
             for (target, &k) in target.iter_mut().zip(&free.free) {
                 *target = accelerations[k];
@@ -260,7 +286,7 @@ impl System {
 /// Adds what a plain element does to its body to force and moment.
 #[inline(always)]
 fn push<E: Element>(
-    mounted: &Mounted<E>,
+    mounted: &mut Mounted<E>,
     kinematics: &Kinematics<f64>,
     (internal, rates): (&[f64], &mut [f64]),
     (force, moment): (&mut Vector<f64>, &mut Vector<f64>),
@@ -269,23 +295,50 @@ fn push<E: Element>(
     let sight = &mounted.sight;
     let effect = mounted
         .element
-        .act_from(&mounted.points, (sight, kinematics), internal, rates);
-    *force += sight.rotation.apply_transposed(effect.force);
+        .act_from(&mut mounted.points, (sight, kinematics), internal, rates);
+    let channels = (&mounted.channels, mounted.driven);
+    add_effect(&effect, sight, channels, (force, moment), powers);
+}
+
+/// Adds what a plain element does to force and moment on its body and to the powers of its channels; a neighbour that is driven does work.
+#[inline(always)]
+pub(super) fn add_effect<P: Number<Plain = P>>(
+    effect: &Effect<P>,
+    sight: &Sight<P>,
+    (channels, driven): (&[Option<usize>; 2], bool),
+    (force, moment): (&mut Vector<P>, &mut Vector<P>),
+    powers: &mut [P],
+) {
+    *force += sight.rotation.apply_transposed::<P, P>(effect.force);
     *moment += effect.moment;
-    for (channel, power) in mounted.channels.iter().zip(effect.powers) {
+    for (channel, power) in channels.iter().zip(effect.powers) {
         if let Some(channel) = channel {
             powers[*channel] += power;
         }
     }
-    if mounted.driven {
-        powers[0] += sight.mount_velocity.dot::<f64, f64>(effect.force);
+    if driven {
+        powers[0] += sight.mount_velocity.dot::<P, P>(effect.force);
     }
+}
+
+/// The accelerations of a body's coordinates under force and moment, in a reference frame that may move.
+#[inline(always)]
+pub(super) fn accelerate<P: Number<Plain = P>>(
+    kinematics: &Kinematics<P>,
+    body: &Rigid<P>,
+    (frame, frame_moves): (&FrameMotion<P>, bool),
+    gravity: Vector<f64>,
+    (force, moment): (Vector<P>, Vector<P>),
+) -> [P; 6] {
+    let (inertia, turning) = kinematics.inertia_of(body, frame, frame_moves, gravity, &[0.0; 6]);
+    let (force, moment) = (force - inertia, moment - turning);
+    kinematics.accelerations(body, &force, kinematics.about_axes(&moment))
 }
 
 /// Adds what an element does that is not plain.
 #[inline(always)]
 fn apply<E: Element>(
-    mounted: &Mounted<E>,
+    mounted: &mut Mounted<E>,
     kinematics: &[Kinematics<f64>],
     internal: &[f64],
     internal_rates: &mut [f64],
@@ -295,7 +348,7 @@ fn apply<E: Element>(
     let relative: Relative<f64> = mounted.sight.relative(&kinematics[mounted.body]);
     let effect = mounted
         .element
-        .act(&mounted.points, &relative, internal, internal_rates);
+        .act(&mut mounted.points, &relative, internal, internal_rates);
     let sight = &mounted.sight;
     forces[mounted.body] += sight.rotation.apply_transposed(effect.force);
     moments[mounted.body] += effect.moment;

@@ -6,6 +6,7 @@
 //! the others one pass a free body, whose positions and speeds are seeded, everything else being constant, and one more, with a
 //! single derivative, for the explicit dependence on time.
 
+use integrate::lanes::Lanes;
 use integrate::partitioned::Partitioned;
 use integrate::scalar::{Dual, Real};
 
@@ -34,6 +35,7 @@ impl System {
     pub(super) fn differentiate(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         let layout = self.layout;
         let [_, _, internal, _] = layout.split(x);
+        self.meet();
         for free in &self.free {
             for (j, &k) in free.free.iter().enumerate() {
                 self.accelerations[free.body][k] = dx[layout.speeds + free.offset + j];
@@ -49,9 +51,8 @@ impl System {
         };
         self.jacobian.clear();
         for face in &mut self.faces {
-            let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
             let deflections = &internal[face.first_internal..][..face.internal_count];
-            face.element.linearize(&mut face.points, &relative, deflections);
+            face.element.linearize(&mut face.points, deflections);
         }
         for (number, free) in self.free.iter().enumerate() {
             let kinematics = &self.kinematics[free.body];
@@ -59,7 +60,7 @@ impl System {
             kinematics.mass_matrix(&self.bodies[free.body], &free.free, mass);
             let turning = kinematics.turning(&free.free);
             let mut carried = Vector::zero();
-            let mut columns: Columns = [[[0.0; 6]; 6]; 2];
+            let mut columns: Columns = [[[Lanes::ZERO; 2]; 6]; 2];
             for &face in &free.faces {
                 let face = &mut self.faces[face];
                 if face.plain {

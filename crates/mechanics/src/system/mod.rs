@@ -18,6 +18,7 @@ mod stiffness;
 mod time;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
+use integrate::scalar::Number;
 use integrate::{KinkSigns, Problem, Singular};
 
 use crate::body::{Body, Kinematics};
@@ -134,6 +135,8 @@ pub struct System {
     bounded: bool,
     /// Positions and speeds for which all this was evaluated.
     placed: Vec<f64>,
+    /// Whether the faces have seen their points there.
+    met: bool,
 }
 
 impl System {
@@ -233,6 +236,7 @@ impl System {
             return;
         }
         self.placed.copy_from_slice(own);
+        self.met = false;
         self.frames_at = time;
         if self.moves && again {
             for (body, state) in self.bodies.iter().zip(&mut self.frames) {
@@ -265,18 +269,30 @@ impl FrameState {
     /// Brings a frame that only translates to `time`.
     #[inline(always)]
     fn translate(&mut self, frame: &Frame, time: f64, reference: f64) {
-        let (mut position, mut velocity, mut acceleration) = (self.rest, Vector::zero(), Vector::zero());
-        for &k in &self.moving {
-            let [value, rate, second] = frame.motions[k].evaluate(time, reference);
-            let axis = self.base.column(k);
-            position += axis.scale(value);
-            velocity += axis.scale(rate);
-            acceleration += axis.scale(second);
-        }
-        self.motion.position = position;
-        self.motion.velocity = velocity;
-        self.motion.acceleration = acceleration;
+        let moves = self.moving.iter().map(|&k| {
+            let jet: [f64; 3] = frame.motions[k].evaluate(time, reference);
+            (self.base.column(k), jet)
+        });
+        travel(&mut self.motion, self.rest, moves);
     }
+}
+
+/// Brings a frame to its place: from where it is at rest along each axis by value, rate and second derivative.
+#[inline(always)]
+fn travel<P: Number<Plain = P>>(
+    motion: &mut FrameMotion<P>,
+    rest: Vector<P>,
+    moves: impl Iterator<Item = (Vector<P>, [P; 3])>,
+) {
+    let (mut position, mut velocity, mut acceleration) = (rest, Vector::zero(), Vector::zero());
+    for (axis, [value, rate, second]) in moves {
+        position += axis.scale::<P, P>(value);
+        velocity += axis.scale::<P, P>(rate);
+        acceleration += axis.scale::<P, P>(second);
+    }
+    motion.position = position;
+    motion.velocity = velocity;
+    motion.acceleration = acceleration;
 }
 
 /// Brings an element's sight up to date, where it can have changed.

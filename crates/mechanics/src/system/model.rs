@@ -321,6 +321,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         plain,
         bounded,
         placed: vec![f64::NAN; 2 * layout.speeds],
+        met: false,
     })
 }
 

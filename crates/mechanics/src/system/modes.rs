@@ -9,6 +9,7 @@
 use integrate::KinkSigns;
 
 use super::System;
+use crate::contact::View;
 use crate::friction::FrictionLaw;
 use crate::link::Relative;
 
@@ -99,34 +100,50 @@ impl Signs {
 }
 
 impl System {
-    /// Gap and load of every point, in the order of faces and points.
+    /// Sees where all points are and how they move at the state that [`System::place`] was called with: before what follows.
+    #[inline(always)]
+    pub(super) fn meet(&mut self) {
+        if self.met {
+            return;
+        }
+        self.met = true;
+        for face in &mut self.faces {
+            let kinematics = &self.kinematics[face.body];
+            let view = if face.plain {
+                View::of(&face.sight, kinematics)
+            } else {
+                View::new(&face.sight.relative(kinematics))
+            };
+            face.points.meet(&view);
+        }
+    }
+
+    /// Gap and load of every point, in the order of faces and points, where [`System::meet`] was called.
     #[inline(always)]
     fn signs(&self, x: &[f64], mut each: impl FnMut(usize, Signs)) {
         let [_, _, internal, _] = self.layout.split(x);
         let mut index = 0;
         for face in &self.faces {
-            let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
             let deflections = &internal[face.first_internal..][..face.internal_count];
             let law = usize::from(matches!(face.element.law, FrictionLaw::Bristle { .. }));
-            face.element
-                .signs(&face.points, &relative, deflections, |i, gap, load| {
-                    each(index + i, Signs { gap, load, law });
-                });
+            face.element.signs(&face.points, deflections, |i, gap, load| {
+                each(index + i, Signs { gap, load, law });
+            });
             index += face.element.points.len();
         }
     }
 
     /// What foretells kinks: the gap of every point (m), and the slip of closed points over the reference speed of their law
     /// (open points and bristles: not a number).
-    pub(super) fn kink_signs(&self, signs: &mut KinkSigns) {
+    pub(super) fn kink_signs(&mut self, signs: &mut KinkSigns) {
+        self.meet();
         let mut index = 0;
         for face in &self.faces {
-            let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
             let scale = match face.element.law {
                 FrictionLaw::Tanh { reference_speed } => 1.0 / reference_speed,
                 FrictionLaw::Bristle { .. } => f64::NAN,
             };
-            face.element.motions(&face.points, &relative, |i, gap, slip| {
+            face.points.motions(|i, gap, slip| {
                 signs.values[index + i] = gap;
                 let closed = if gap < 0.0 { scale } else { f64::NAN };
                 signs.directions[index + i] = slip.map(|part| part * closed);
@@ -135,7 +152,8 @@ impl System {
         }
     }
 
-    pub(super) fn find_modes(&self, x: &[f64], modes: &mut [u8]) {
+    pub(super) fn find_modes(&mut self, x: &[f64], modes: &mut [u8]) {
+        self.meet();
         self.signs(x, |i, signs| {
             modes[i] = if signs.gap < CLOSING_GAP {
                 signs.closed()
@@ -145,13 +163,15 @@ impl System {
         });
     }
 
-    pub(super) fn mode_margins(&self, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+    pub(super) fn mode_margins(&mut self, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+        self.meet();
         self.signs(x, |i, signs| {
             margins[i] = signs.margin(Mode::from_number(modes[i]))
         });
     }
 
-    pub(super) fn follow_mode(&self, x: &[f64], index: usize, mode: u8) -> u8 {
+    pub(super) fn follow_mode(&mut self, x: &[f64], index: usize, mode: u8) -> u8 {
+        self.meet();
         let mut next = mode;
         self.signs(x, |i, signs| {
             if i == index {

@@ -3,6 +3,7 @@
 //! A coordinate moves the body's origin along a column of the sight's rotation, or turns the body about the axis of an angle; what the
 //! element does then is in its [`crate::link::Response`].
 
+use integrate::lanes::Lanes;
 use integrate::partitioned::Partitioned;
 
 use super::forces::Element;
@@ -10,7 +11,7 @@ use super::{FreeBody, Mounted};
 use crate::body::Kinematics;
 use crate::contact::ContactFace;
 use crate::frame::FrameMotion;
-use crate::link::{Relative, Responses, Turning};
+use crate::link::{Relative, Responses, Sight, Turning, combined};
 use crate::surface::Plane;
 use crate::vector::Vector;
 
@@ -84,25 +85,31 @@ impl FreeBody {
     }
 }
 
-/// `Σ_i weights_i columns_i`.
-#[inline(always)]
-fn combined(columns: &[Responses; 3], weights: Vector<f64>) -> Responses {
-    let mut out = [0.0; 8];
-    for o in 0..8 {
-        out[o] = columns[0][o] * weights.0[0] + columns[1][o] * weights.0[1] + columns[2][o] * weights.0[2];
+/// What becomes of a force along the mount's axes: its components along the axes of the body's reference frame, and the work that the
+/// mount's velocity does against it.
+struct Onward([Lanes; 3]);
+
+impl Onward {
+    #[inline(always)]
+    fn new(sight: &Sight<f64>) -> Self {
+        let row = |i: usize| {
+            let [x, y, z] = sight.rotation.0[i];
+            Lanes::new([x, y, z, sight.mount_velocity.0[i]])
+        };
+        Self([row(0), row(1), row(2)])
     }
-    out
+
+    /// Of the force that a change begins with.
+    #[inline(always)]
+    fn of(&self, change: &Responses) -> Lanes {
+        let [x, y, z, _] = change[0].to_array();
+        self.0[0] * x + self.0[1] * y + self.0[2] * z
+    }
 }
 
-/// The force along the mount's axes.
-#[inline(always)]
-fn force(change: &Responses) -> Vector<f64> {
-    Vector([change[0], change[1], change[2]])
-}
-
-/// How the load on a body changes with its coordinates (first) and their rates, by coordinate: force (axes of the reference frame) and
-/// moments about the axes of its free angles.
-pub(super) type Columns = [[[f64; 6]; 6]; 2];
+/// How the load on a body changes with its coordinates (first) and their rates, by coordinate: force (axes of the reference frame), and
+/// moments about the axes of its free angles, each with a fourth number of no meaning.
+pub(super) type Columns = [[[Lanes; 2]; 6]; 2];
 
 /// Adds them to the body's blocks.
 #[inline(always)]
@@ -110,16 +117,15 @@ pub(super) fn add_columns(columns: &Columns, free: &FreeBody, jacobian: &mut Par
     let n = free.free.len();
     let (stiffness, damping) = jacobian.blocks_mut(free.pair);
     for (row, &k) in free.free.iter().enumerate() {
-        let component = if row < free.translations {
-            k
+        let (part, component) = if row < free.translations {
+            (0, k)
         } else {
-            3 + row - free.translations
+            (1, row - free.translations)
         };
-        for (j, entry) in stiffness[row * n..][..n].iter_mut().enumerate() {
-            *entry += columns[0][j][component];
-        }
-        for (j, entry) in damping[row * n..][..n].iter_mut().enumerate() {
-            *entry += columns[1][j][component];
+        for (block, columns) in [&mut *stiffness, &mut *damping].into_iter().zip(columns) {
+            for (entry, column) in block[row * n..][..n].iter_mut().zip(columns) {
+                *entry += column[part].at(component);
+            }
         }
     }
 }
@@ -129,6 +135,7 @@ impl<E> Mounted<E> {
     #[inline(always)]
     pub(super) fn add_rows(&self, free: &FreeBody, columns: &mut Columns, jacobian: &mut Partitioned) {
         let (sight, response) = (&self.sight, &self.response);
+        let onward = Onward::new(sight);
         for (rates, columns) in columns.iter_mut().enumerate() {
             let (along, about) = if rates == 0 {
                 (&response.place, &response.angle)
@@ -141,14 +148,12 @@ impl<E> Mounted<E> {
                 } else {
                     about[j - free.translations]
                 };
-                let own: Vector<f64> = sight.rotation.apply_transposed(force(&change));
-                let column = &mut columns[j];
-                for c in 0..3 {
-                    column[c] += own.0[c];
-                    column[3 + c] += change[3 + c];
-                }
-                let work = sight.mount_velocity.dot::<f64, f64>(force(&change));
-                for (row, power) in self.rows[0].iter().zip([change[6], change[7], work]) {
+                let own = onward.of(&change);
+                let [force, moments] = &mut columns[j];
+                *force += own;
+                *moments += change[1];
+                let powers = [change[0].at(3), change[1].at(3), own.at(3)];
+                for (row, power) in self.rows[0].iter().zip(powers) {
                     if let Some(row) = row {
                         let (by_position, by_speed) = jacobian.row_mut(*row);
                         let row = if rates == 0 { by_position } else { by_speed };
@@ -173,22 +178,23 @@ impl<E> Mounted<E> {
         };
         let (sight, response) = (&self.sight, &self.response);
         let acceleration = translation.acceleration(on);
-        let mut change = combined(&response.place, sight.velocity);
-        for (sum, term) in change.iter_mut().zip(combined(&response.velocity, acceleration)) {
-            *sum += term;
-        }
-        *load += sight.rotation.apply_transposed(force(&change));
+        let (places, velocities) = (
+            combined(&response.place, sight.velocity),
+            combined(&response.velocity, acceleration),
+        );
+        let change = [places[0] + velocities[0], places[1] + velocities[1]];
+        let [x, y, z, work] = Onward::new(sight).of(&change).to_array();
+        *load += Vector([x, y, z]);
         for (slot, k) in free.free[free.translations..].iter().enumerate() {
-            moments[k - 3] += change[3 + slot];
+            moments[k - 3] += change[1].at(slot);
         }
-        for (channel, power) in self.channels.iter().zip([change[6], change[7]]) {
+        for (channel, power) in self.channels.iter().zip([change[0].at(3), change[1].at(3)]) {
             if let Some(channel) = channel {
                 d_quadratures[*channel] += power;
             }
         }
         if self.driven {
-            d_quadratures[0] += sight.mount_velocity.dot::<f64, f64>(force(&change))
-                - acceleration.dot::<f64, f64>(self.force);
+            d_quadratures[0] += work - acceleration.dot::<f64, f64>(self.force);
         }
     }
 }

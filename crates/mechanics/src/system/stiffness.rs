@@ -27,17 +27,17 @@ pub(super) fn mobility(body: &Body, point: Vector<f64>) -> f64 {
 
 impl System {
     /// The bound at the state that [`System::place`] was called with, 1/s.
-    pub(super) fn fastest_answer(&self) -> f64 {
+    pub(super) fn fastest_answer(&mut self) -> f64 {
+        self.meet();
         let (mut springs, mut dampers) = (0.0, 0.0);
         for face in &self.faces {
-            let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
             let element = &face.element;
             let slowest = match element.law {
                 FrictionLaw::Tanh { reference_speed } => reference_speed,
                 FrictionLaw::Bristle { .. } => return f64::INFINITY,
             };
             let friction = element.coefficient;
-            element.motions(&face.points, &relative, |i, gap, [a, b]| {
+            face.points.motions(|i, gap, [a, b]| {
                 if gap < 0.0 {
                     let (point, mobility) = (&element.points[i], face.mobilities[i]);
                     let slip = (a * a + b * b).sqrt();
