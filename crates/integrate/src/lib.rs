@@ -3,7 +3,8 @@
 //! A [`Problem`] gives its right-hand side and brings its own structured linear algebra (for which [`BlockLu`] is at
 //! hand); an [`Integrator`] makes accepted steps with a stiffly accurate Rosenbrock [`Method`], controls their
 //! error, gives dense output, and times the changes of discrete switches. Nothing is allocated in a step, and the
-//! same input gives the same bits on every system.
+//! same input gives the same bits on every system. A [`Team`] makes the steps of several runs side by side, with the bits of
+//! each run alone.
 
 #![warn(missing_docs)]
 
@@ -28,6 +29,7 @@ mod stages;
 mod state;
 mod statistics;
 mod tableau;
+mod together;
 
 pub use block_lu::BlockLu;
 pub use error::{Reason, SetupError, StepError};
@@ -36,7 +38,8 @@ pub use kinks::KinkSigns;
 pub use options::Options;
 pub use ordinary::Ordinary;
 pub use problem::{Problem, Singular};
-pub use rosenbrock::Integrator;
+pub use rosenbrock::{Call, Integrator, Progress};
 pub use state::{STATE_VERSION, State};
 pub use statistics::Statistics;
 pub use tableau::{MAXIMUM_STAGES, Method, Tableau, UnknownMethod};
+pub use together::{MOST_PLACES, OneByOne, Team, Together};

@@ -14,6 +14,10 @@ use crate::tableau::{MAXIMUM_STAGES, Tableau};
 
 mod attempt;
 mod step;
+mod underway;
+
+use underway::Underway;
+pub use underway::{Call, Progress};
 
 /// Integrates a [`Problem`] step by step.
 ///
@@ -82,6 +86,7 @@ pub struct Integrator<P: Problem> {
     stages: Vec<f64>,
 
     // The step being tried.
+    underway: Underway,
     trial_stages: Vec<f64>,
     trial_x: Vec<f64>,
     trial_dx: Vec<f64>,
@@ -209,6 +214,7 @@ impl<P: Problem> Integrator<P> {
             autonomous: true,
             linearized: false,
             stages: all_stages.clone(),
+            underway: Underway::NONE,
             trial_stages: all_stages,
             trial_x: zero(),
             trial_dx: zero(),

@@ -1,6 +1,7 @@
-//! One attempt at a step: the stages of the method, the new states and their error.
+//! One attempt at a step: the stages of the method, the new states and their error. It goes from one right-hand side to the next.
 
 use super::Integrator;
+use super::underway::{Phase, Underway};
 use crate::error::Reason;
 use crate::explicit::DORMAND_PRINCE;
 use crate::problem::Problem;
@@ -20,28 +21,34 @@ pub(super) struct Failure {
     pub index: Option<usize>,
 }
 
+/// How far an attempt came: until it wants a right-hand side (nothing), or to its end with the size of its error.
+pub(super) type Advance = Result<Option<f64>, Failure>;
+
+/// The stage of the explicit method whose argument is the new state.
+pub(super) const EXPLICIT_END: usize = 6;
+const _: () = assert!(DORMAND_PRINCE.alpha.len() == EXPLICIT_END + 2);
+
 impl<P: Problem> Integrator<P> {
-    /// Tries one step; the size of its error.
+    /// Goes on with the attempt under way.
     ///
-    /// Only a checked attempt tells which state is to blame for a value that is not finite. A `landing` is to end just behind a kink.
+    /// Only a checked attempt tells which state is to blame for a value that is not finite.
     #[inline]
-    pub(super) fn attempt<const CHECKED: bool>(
-        &mut self,
-        step: f64,
-        target: f64,
-        landing: bool,
-    ) -> Result<f64, Failure> {
-        if self.options.explicit_steps && step * self.stiffness <= EXPLICIT {
-            let result = self.attempt_explicit::<CHECKED>(step, target);
-            // Across a kink the estimate of an explicit method's error can be small by chance, again and again until it is; that of a
-            // linearly implicit one, whose Jacobian matrix is that of the wrong side, is large.
-            let accepted = matches!(result, Ok(error) if error <= 1.0);
-            let x = &self.trial_x[..self.dimension];
-            if landing || !accepted || !self.kinks.cross(&mut self.problem, target, x) {
-                return result;
+    pub(super) fn advance(&mut self) -> Advance {
+        match self.underway.phase {
+            Phase::Implicit(stage) => self.after_stage(stage),
+            Phase::End => self.after_end(),
+            Phase::Explicit(stage) => self.after_explicit_stage(stage),
+            Phase::Idle | Phase::Start => {
+                if self.options.explicit_steps && self.underway.step * self.stiffness <= EXPLICIT {
+                    self.begin_explicit()
+                } else {
+                    self.begin_implicit()
+                }
             }
-            self.stiffness = f64::INFINITY;
         }
+    }
+
+    fn begin_implicit(&mut self) -> Advance {
         let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
         self.trial_method = tableau;
         if !self.linearized {
@@ -52,7 +59,7 @@ impl<P: Problem> Integrator<P> {
             self.linearized = true;
             self.autonomous = self.df_dt.iter().all(|value| *value == 0.0);
         }
-        let inverse = 1.0 / step;
+        let inverse = 1.0 / self.underway.step;
         self.statistics.factorizations += 1;
         if let Err(singular) = self.problem.factor(inverse / tableau.gamma) {
             return Err(Failure {
@@ -62,41 +69,64 @@ impl<P: Problem> Integrator<P> {
                 index: None,
             });
         }
-        let (stages, argument, slope) = (
-            &mut self.trial_stages[..],
-            &mut self.argument[..],
-            &mut self.slope[..],
-        );
-        for i in 0..tableau.stages() {
-            let (done, rest) = stages.split_at_mut(i * stride);
-            let stage = &mut rest[..stride];
-            if i == 0 {
-                stage.copy_from_slice(&self.dx);
-            } else {
-                if self.extends[i] {
-                    add(argument, 1.0, &done[(i - 1) * stride..]);
-                } else {
-                    let argument = &mut argument[..self.widths[i]];
-                    combine(argument, &self.x, 1.0, tableau.a[i], done, stride);
-                }
-                let time = stage_time(tableau.alpha[i], self.time, step, target);
-                self.problem.derivative(time, &argument[..n], &mut slope[..n]);
-                if CHECKED && !all_finite(slope) {
-                    return Err(not_finite(&slope[..n]));
-                }
-                combine(stage, slope, inverse, tableau.c[i], done, stride);
-            }
-            let d = tableau.d[i] * step;
-            if !self.autonomous && d != 0.0 {
-                add(stage, d, &self.df_dt);
-            }
-            self.problem.solve(&mut stage[..n]);
-        }
-        self.statistics.derivatives += tableau.stages() as u64 - 1;
-        self.statistics.solves += tableau.stages() as u64;
+        self.trial_stages[..stride].copy_from_slice(&self.dx);
+        self.solve_stage(0)
+    }
 
-        let last = &stages[(tableau.stages() - 1) * stride..][..stride];
-        for ((new, old), u) in self.trial_x.iter_mut().zip(&*argument).zip(last) {
+    #[inline]
+    fn after_stage(&mut self, i: usize) -> Advance {
+        let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
+        if self.underway.checked && !all_finite(&self.slope) {
+            return Err(not_finite(&self.slope[..n]));
+        }
+        let (done, rest) = self.trial_stages.split_at_mut(i * stride);
+        let inverse = 1.0 / self.underway.step;
+        combine(
+            &mut rest[..stride],
+            &self.slope,
+            inverse,
+            tableau.c[i],
+            done,
+            stride,
+        );
+        self.solve_stage(i)
+    }
+
+    /// Solves for a stage, and wants the next one.
+    #[inline]
+    fn solve_stage(&mut self, i: usize) -> Advance {
+        let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
+        let Underway { step, target, .. } = self.underway;
+        let next = i + 1;
+        let done = &mut self.trial_stages[..next * stride];
+        let stage = &mut done[i * stride..];
+        let d = tableau.d[i] * step;
+        if !self.autonomous && d != 0.0 {
+            add(stage, d, &self.df_dt);
+        }
+        self.problem.solve(&mut stage[..n]);
+        if next == tableau.stages() {
+            return self.end_of_stages();
+        }
+        if self.extends[next] {
+            add(&mut self.argument, 1.0, stage);
+        } else {
+            let argument = &mut self.argument[..self.widths[next]];
+            combine(argument, &self.x, 1.0, tableau.a[next], done, stride);
+        }
+        let time = stage_time(tableau.alpha[next], self.time, step, target);
+        self.want(time, Phase::Implicit(next));
+        Ok(None)
+    }
+
+    #[inline]
+    fn end_of_stages(&mut self) -> Advance {
+        let (n, stride, count) = (self.dimension, self.stride, self.tableau.stages());
+        self.statistics.derivatives += count as u64 - 1;
+        self.statistics.solves += count as u64;
+
+        let last = &self.trial_stages[(count - 1) * stride..][..stride];
+        for ((new, old), u) in self.trial_x.iter_mut().zip(&self.argument).zip(last) {
             *new = old + u;
         }
         if !all_finite(&self.trial_x) {
@@ -104,60 +134,89 @@ impl<P: Problem> Integrator<P> {
         }
         let error = largest(last, &self.weights);
         if error > 1.0 && self.options.fixed_step.is_none() {
-            return Ok(error);
+            return Ok(Some(error));
         }
         // The derivative at the end belongs to the step: a step into a place where there is none is rejected.
-        self.problem
-            .derivative(target, &self.trial_x[..n], &mut self.trial_dx[..n]);
+        self.underway.error = error;
+        self.want(self.underway.target, Phase::End);
+        Ok(None)
+    }
+
+    #[inline]
+    fn after_end(&mut self) -> Advance {
         self.statistics.derivatives += 1;
         if !all_finite(&self.trial_dx) {
-            return Err(not_finite(&self.trial_dx[..n]));
+            return Err(not_finite(&self.trial_dx[..self.dimension]));
         }
-        Ok(error)
+        Ok(Some(self.underway.error))
     }
 
     /// The same by the explicit method, where nothing is stiff.
-    fn attempt_explicit<const CHECKED: bool>(&mut self, step: f64, target: f64) -> Result<f64, Failure> {
-        let (n, stride, tableau) = (self.dimension, self.stride, &DORMAND_PRINCE);
-        self.trial_method = tableau;
-        let (leading, end) = (leading_states(&self.problem), tableau.stages() - 2);
-        for i in 0..=end {
-            let (done, rest) = self.trial_stages.split_at_mut(i * stride);
-            let slope = if i == 0 {
-                &self.dx
-            } else {
-                let argument = if i == end {
-                    &mut self.trial_x[..]
-                } else {
-                    &mut self.argument[..leading]
-                };
-                combine(argument, &self.x, 1.0, tableau.a[i], done, stride);
-                let (argument, slope) = if i == end {
-                    (&self.trial_x, &mut self.trial_dx)
-                } else {
-                    (&self.argument, &mut self.slope)
-                };
-                let time = stage_time(tableau.alpha[i], self.time, step, target);
-                self.problem.derivative(time, &argument[..n], &mut slope[..n]);
-                self.statistics.derivatives += 1;
-                if CHECKED && !all_finite(slope) {
-                    return Err(not_finite(&slope[..n]));
-                }
-                &*slope
-            };
-            let stage = &mut rest[..stride];
-            stage.fill(0.0);
-            add(stage, step, slope);
+    fn begin_explicit(&mut self) -> Advance {
+        self.trial_method = &DORMAND_PRINCE;
+        let first = &mut self.trial_stages[..self.stride];
+        first.fill(0.0);
+        add(first, self.underway.step, &self.dx);
+        self.want_explicit_stage(1);
+        Ok(None)
+    }
+
+    fn want_explicit_stage(&mut self, i: usize) {
+        let Underway { step, target, .. } = self.underway;
+        let argument = if i == EXPLICIT_END {
+            &mut self.trial_x[..]
+        } else {
+            &mut self.argument[..leading_states(&self.problem)]
+        };
+        let done = &self.trial_stages[..i * self.stride];
+        combine(argument, &self.x, 1.0, DORMAND_PRINCE.a[i], done, self.stride);
+        let time = stage_time(DORMAND_PRINCE.alpha[i], self.time, step, target);
+        self.want(time, Phase::Explicit(i));
+    }
+
+    fn after_explicit_stage(&mut self, i: usize) -> Advance {
+        let n = self.dimension;
+        self.statistics.derivatives += 1;
+        let slope = if i == EXPLICIT_END {
+            &self.trial_dx
+        } else {
+            &self.slope
+        };
+        if self.underway.checked && !all_finite(slope) {
+            return Err(not_finite(&slope[..n]));
         }
+        let stage = &mut self.trial_stages[i * self.stride..][..self.stride];
+        stage.fill(0.0);
+        add(stage, self.underway.step, slope);
+        if i < EXPLICIT_END {
+            self.want_explicit_stage(i + 1);
+            return Ok(None);
+        }
+        let error = self.explicit_error()?;
+        // Across a kink the estimate of an explicit method's error can be small by chance, again and again until it is; that of a
+        // linearly implicit one, whose Jacobian matrix is that of the wrong side, is large.
+        let Underway { target, landing, .. } = self.underway;
+        let x = &self.trial_x[..n];
+        if landing.is_some() || error > 1.0 || !self.kinks.cross(&mut self.problem, target, x) {
+            return Ok(Some(error));
+        }
+        self.stiffness = f64::INFINITY;
+        self.begin_implicit()
+    }
+
+    /// The size of the error of an explicit step all of whose stages are there.
+    fn explicit_error(&mut self) -> Result<f64, Failure> {
+        let stride = self.stride;
         for values in [&self.trial_x, &self.trial_dx] {
             if !all_finite(values) {
-                return Err(not_finite(&values[..n]));
+                return Err(not_finite(&values[..self.dimension]));
             }
         }
-        let (done, rest) = self.trial_stages.split_at_mut((end + 1) * stride);
+        let (done, rest) = self.trial_stages.split_at_mut((EXPLICIT_END + 1) * stride);
         let error = &mut rest[..stride];
         error.fill(0.0);
-        for (weight, stage) in tableau.a[end + 1].iter().zip(done.chunks_exact(stride)) {
+        let weights = DORMAND_PRINCE.a[EXPLICIT_END + 1];
+        for (weight, stage) in weights.iter().zip(done.chunks_exact(stride)) {
             add(error, *weight, stage);
         }
         Ok(CAUTION * largest(error, &self.weights))

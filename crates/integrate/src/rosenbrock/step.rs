@@ -2,6 +2,7 @@
 
 use super::Integrator;
 use super::attempt::Failure;
+use super::underway::{Phase, Progress, Underway};
 use crate::error::{Reason, StepError};
 use crate::kinks::{Ahead, Layer, Passage, WHOLE_LANDING};
 use crate::problem::Problem;
@@ -19,6 +20,20 @@ impl<P: Problem> Integrator<P> {
     /// # Errors
     /// If the limit does not lie ahead, or no step can be made; the last accepted step then stays in place.
     pub fn step_to(&mut self, limit: f64) -> Result<(), StepError> {
+        self.begin_step(limit)?;
+        while self.go_on()? == Progress::Wants {
+            self.wanted().evaluate();
+        }
+        Ok(())
+    }
+
+    /// Begins a step as [`Integrator::step_to`] makes it, whose right-hand sides the caller evaluates: [`Integrator::go_on`].
+    ///
+    /// # Errors
+    /// If the limit does not lie ahead, or no step can be made.
+    #[inline]
+    pub fn begin_step(&mut self, limit: f64) -> Result<(), StepError> {
+        self.underway.phase = Phase::Idle;
         if limit.is_nan() || limit <= self.time {
             return Err(self.error(Reason::Limit { limit }, 0.0, None, 0.0));
         }
@@ -29,7 +44,7 @@ impl<P: Problem> Integrator<P> {
         let proposed = self.proposed_step.min(self.options.maximum_step);
         let (mut step, mut target) = self.fit(proposed, end);
         let mut landing = None;
-        if let Some(ahead @ (Ahead::Kink(time) | Ahead::Layer(time, _))) = self.ahead.take()
+        if let Some(ahead @ (Ahead::Kink(time) | Ahead::Layer(time, _))) = self.ahead
             && time > self.time
             && time < target
         {
@@ -41,75 +56,148 @@ impl<P: Problem> Integrator<P> {
                 (step, target, landing) = (distance, time, Some(ahead));
             }
         }
-        let mut cut = step < proposed;
-        let mut scaled_error = 0.0;
-        loop {
-            let statistics = &self.statistics;
-            if statistics.steps + statistics.rejected() >= self.options.maximum_steps {
-                let reason = Reason::MaximumSteps {
-                    maximum: self.options.maximum_steps,
-                };
-                let index = (scaled_error > 0.0).then(|| self.dominant().0);
-                return Err(self.error(reason, step, index, scaled_error));
-            }
-            let mut failure = match self.attempt::<false>(step, target, landing.is_some()) {
-                Ok(error) if self.options.fixed_step.is_some() || error <= 1.0 => {
-                    self.accept(step, target, error, cut, proposed, landing);
-                    return Ok(());
-                }
-                Ok(error) => {
-                    self.statistics.rejected_error += 1;
-                    scaled_error = error;
-                    step *= if landing.is_some() {
-                        // It got across. Half of the way is on this side, and from there the kink is seen more exactly.
-                        0.5
-                    } else {
-                        let root = self.root(error);
-                        self.controller.reject(&self.options, root)
-                    };
-                    Failure {
-                        reason: Reason::Error,
-                        index: None,
-                    }
-                }
-                Err(failure) => {
-                    self.controller.fail();
-                    match failure.reason {
-                        Reason::Singular { .. } => {
-                            self.statistics.rejected_singular += 1;
-                            step *= 0.5;
-                        }
-                        _ => {
-                            self.statistics.rejected_not_finite += 1;
-                            step *= 0.25;
-                        }
-                    }
-                    failure
-                }
+        self.underway = Underway {
+            phase: Phase::Start,
+            end,
+            proposed,
+            step,
+            target,
+            landing,
+            cut: step < proposed,
+            ..Underway::NONE
+        };
+        self.check_number()
+    }
+
+    /// Goes on with the step begun, until a right-hand side is wanted or the step is made. The caller evaluates what
+    /// [`Integrator::wanted`] gives before it calls this again. Where no step was begun nothing is done.
+    ///
+    /// # Errors
+    /// If no step can be made; the last accepted step then stays in place.
+    #[inline]
+    pub fn go_on(&mut self) -> Result<Progress, StepError> {
+        while self.underway.phase != Phase::Idle {
+            let outcome = match self.advance() {
+                Ok(None) => return Ok(Progress::Wants),
+                Ok(Some(error)) => Ok(error),
+                Err(failure) => Err(failure),
             };
-            let minimum = self
-                .options
-                .minimum_step
-                .max(4.0 * f64::EPSILON * self.time.abs())
-                .max(f64::MIN_POSITIVE);
-            if step < minimum || self.options.fixed_step.is_some() {
-                let tried = target - self.time;
-                match failure.reason {
-                    Reason::Error => failure.index = Some(self.dominant().0),
-                    Reason::NotFinite => {
-                        scaled_error = f64::NAN;
-                        // once more, to see where it begins
-                        if let Err(again) = self.attempt::<true>(tried, target, false) {
-                            failure = again;
-                        }
-                    }
-                    _ => scaled_error = f64::NAN,
+            match outcome {
+                Ok(error)
+                    if !self.underway.checked && (self.options.fixed_step.is_some() || error <= 1.0) =>
+                {
+                    self.underway.phase = Phase::Idle;
+                    self.accept(error);
                 }
-                return Err(self.error(failure.reason, tried, failure.index, scaled_error));
+                _ => self.reject(outcome)?,
             }
-            (step, target) = self.fit(step, end);
-            (cut, landing) = (false, None);
         }
+        Ok(Progress::Accepted)
+    }
+
+    /// Whether one more attempt is admissible.
+    fn check_number(&mut self) -> Result<(), StepError> {
+        let (statistics, maximum) = (&self.statistics, self.options.maximum_steps);
+        if statistics.steps + statistics.rejected() < maximum {
+            return Ok(());
+        }
+        let Underway {
+            step, scaled_error, ..
+        } = self.underway;
+        let index = (scaled_error > 0.0).then(|| self.dominant().0);
+        Err(self.give_up(Reason::MaximumSteps { maximum }, step, index, scaled_error))
+    }
+
+    /// Plans another attempt after one that failed or whose error is too large.
+    #[cold]
+    fn reject(&mut self, outcome: Result<f64, Failure>) -> Result<(), StepError> {
+        let Underway {
+            end,
+            mut step,
+            target,
+            landing,
+            mut scaled_error,
+            checked,
+            blamed,
+            ..
+        } = self.underway;
+        let tried = target - self.time;
+        if checked {
+            let failure = outcome.err().unwrap_or(Failure {
+                reason: Reason::NotFinite,
+                index: blamed,
+            });
+            return Err(self.give_up(failure.reason, tried, failure.index, f64::NAN));
+        }
+        let failure = match outcome {
+            Ok(error) => {
+                self.statistics.rejected_error += 1;
+                scaled_error = error;
+                step *= if landing.is_some() {
+                    // It got across. Half of the way is on this side, and from there the kink is seen more exactly.
+                    0.5
+                } else {
+                    let root = self.root(error);
+                    self.controller.reject(&self.options, root)
+                };
+                Failure {
+                    reason: Reason::Error,
+                    index: None,
+                }
+            }
+            Err(failure) => {
+                self.controller.fail();
+                match failure.reason {
+                    Reason::Singular { .. } => {
+                        self.statistics.rejected_singular += 1;
+                        step *= 0.5;
+                    }
+                    _ => {
+                        self.statistics.rejected_not_finite += 1;
+                        step *= 0.25;
+                    }
+                }
+                failure
+            }
+        };
+        let minimum = self
+            .options
+            .minimum_step
+            .max(4.0 * f64::EPSILON * self.time.abs())
+            .max(f64::MIN_POSITIVE);
+        let last = step < minimum || self.options.fixed_step.is_some();
+        if last && failure.reason != Reason::NotFinite {
+            let (index, scaled_error) = match failure.reason {
+                Reason::Error => (Some(self.dominant().0), scaled_error),
+                _ => (failure.index, f64::NAN),
+            };
+            return Err(self.give_up(failure.reason, tried, index, scaled_error));
+        }
+        let (step, target) = if last {
+            // once more, to see where it begins
+            (tried, target)
+        } else {
+            self.fit(step, end)
+        };
+        self.underway = Underway {
+            phase: Phase::Start,
+            step,
+            target,
+            landing: None,
+            cut: false,
+            scaled_error,
+            checked: last,
+            blamed: failure.index,
+            ..self.underway
+        };
+        if last { Ok(()) } else { self.check_number() }
+    }
+
+    /// The step cannot be made.
+    fn give_up(&mut self, reason: Reason, step: f64, index: Option<usize>, scaled_error: f64) -> StepError {
+        self.underway.phase = Phase::Idle;
+        self.ahead = None;
+        self.error(reason, step, index, scaled_error)
     }
 
     fn error(&self, reason: Reason, step: f64, index: Option<usize>, scaled_error: f64) -> StepError {
@@ -154,6 +242,7 @@ impl<P: Problem> Integrator<P> {
     }
 
     pub(super) fn evaluate_derivative(&mut self) {
+        self.underway.phase = Phase::Idle;
         let n = self.dimension;
         self.problem
             .derivative(self.time, &self.x[..n], &mut self.dx[..n]);
@@ -188,15 +277,16 @@ impl<P: Problem> Integrator<P> {
     }
 
     #[inline]
-    fn accept(
-        &mut self,
-        step: f64,
-        target: f64,
-        error: f64,
-        cut: bool,
-        proposed: f64,
-        landing: Option<Ahead>,
-    ) {
+    fn accept(&mut self, error: f64) {
+        let Underway {
+            step,
+            target,
+            cut,
+            proposed,
+            landing,
+            ..
+        } = self.underway;
+        self.ahead = None;
         std::mem::swap(&mut self.previous_x, &mut self.x);
         std::mem::swap(&mut self.x, &mut self.trial_x);
         std::mem::swap(&mut self.dx, &mut self.trial_dx);

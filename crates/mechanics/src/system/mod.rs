@@ -3,6 +3,7 @@
 //! State vector `(q, u, s, w)`: free coordinates of all free bodies, their rates, internal states of the elements
 //! (bristle deflections), and quadratures (work of the prescribed motions, every dissipation). SI units.
 
+mod abreast;
 mod along;
 mod drive;
 mod equilibrium;
@@ -30,6 +31,7 @@ use crate::link::{Mount, Sight};
 use crate::surface::Plane;
 use crate::vector::{Matrix, Vector};
 
+pub use abreast::Abreast;
 pub use along::{Along, Direction, DriveChange};
 pub use drive::DriveError;
 pub use equilibrium::NoEquilibrium;

@@ -10,7 +10,7 @@ use wedge::{BOLSTER, Wedge};
 
 use super::clock::ContactClock;
 use super::{Measures, place};
-use crate::case::Case;
+use crate::case::{Case, Simulation};
 use crate::closed_form;
 use crate::metrics::{Cycle, first_harmonic};
 use crate::run::{MAXIMUM_STEPS, RunError, friction_losses, options, row_count, row_time};
@@ -33,23 +33,52 @@ const _: () = assert!(MOST_STEPS <= MAXIMUM_STEPS);
 /// # Errors
 /// The run cannot begin or does not come to its end.
 pub fn measure(case: &Case) -> Result<Measures, Unmeasured> {
-    let refused = |error: RunError| Unmeasured::Refused(error.to_string());
-    let wedge = Wedge::new(case.parameters.clone()).map_err(|error| refused(error.into()))?;
-    let options = integrate::Options {
-        maximum_steps: MOST_STEPS,
-        ..options(case)
-    };
-    let integrator = Integrator::new(wedge.system.clone(), options, 0.0, &wedge.initial_state)
-        .map_err(|error| refused(error.into()))?;
-    let mut measuring = Measuring::new(case, wedge, integrator);
-    let end = case.simulation.duration;
-    while measuring.integrator.time() < end {
-        if let Err(error) = measuring.integrator.step_to(end) {
-            return Err(Unmeasured::Stopped(error.to_string()));
-        }
-        measuring.after_step();
+    Begun::new(case)?.finish()
+}
+
+/// A run that begins, and what is measured of it.
+pub(crate) struct Begun {
+    pub measuring: Measuring,
+    pub integrator: Integrator<System>,
+}
+
+impl Begun {
+    /// Begins the run of a case.
+    ///
+    /// # Errors
+    /// It cannot begin.
+    pub fn new(case: &Case) -> Result<Self, Unmeasured> {
+        let refused = |error: RunError| Unmeasured::Refused(error.to_string());
+        let wedge = Wedge::new(case.parameters.clone()).map_err(|error| refused(error.into()))?;
+        let options = integrate::Options {
+            maximum_steps: MOST_STEPS,
+            ..options(case)
+        };
+        let integrator = Integrator::new(wedge.system.clone(), options, 0.0, &wedge.initial_state)
+            .map_err(|error| refused(error.into()))?;
+        Ok(Self {
+            measuring: Measuring::new(&case.simulation, wedge, &integrator),
+            integrator,
+        })
     }
-    Ok(measuring.finish())
+
+    /// Makes all its steps, with nobody beside it.
+    ///
+    /// # Errors
+    /// It does not come to its end.
+    pub fn finish(self) -> Result<Measures, Unmeasured> {
+        let Self {
+            mut measuring,
+            mut integrator,
+        } = self;
+        while integrator.time() < measuring.end() {
+            if let Err(error) = integrator.step_to(measuring.end()) {
+                return Err(Unmeasured::Stopped(error.to_string()));
+            }
+            measuring.after_step(&integrator);
+        }
+        Ok(measuring.finish(&integrator))
+    }
 }
 
 /// The rows of a run, as far as measures need them. Kept between runs, so that they need no new memory.
@@ -61,13 +90,16 @@ struct Series {
 }
 
 thread_local! {
-    static SERIES: RefCell<Series> = RefCell::default();
+    /// Those of runs that are over: there are as many as there were runs under way at once.
+    static SERIES: RefCell<Vec<Series>> = const { RefCell::new(Vec::new()) };
 }
 
-struct Measuring<'c> {
-    case: &'c Case,
+/// What is measured of a run on its way. The steps are made by whoever has its integrator.
+pub(crate) struct Measuring {
+    /// The end of the run and the time between rows, s.
+    duration: f64,
+    interval: f64,
     wedge: Wedge,
-    integrator: Integrator<System>,
     cycle: Option<Cycle>,
     /// The averaging window and its number of cycles.
     window: Option<(f64, f64, u32)>,
@@ -88,13 +120,13 @@ struct Measuring<'c> {
     series: Series,
 }
 
-impl<'c> Measuring<'c> {
-    fn new(case: &'c Case, mut wedge: Wedge, integrator: Integrator<System>) -> Self {
-        let cycle = Cycle::of(&case.parameters);
-        let duration = case.simulation.duration;
+impl Measuring {
+    fn new(simulation: &Simulation, mut wedge: Wedge, integrator: &Integrator<System>) -> Self {
+        let cycle = Cycle::of(&wedge.parameters);
+        let (duration, interval) = (simulation.duration, simulation.output_interval);
         let window = cycle.and_then(|cycle| cycle.window(duration));
         let averaged = window.map_or((0.0, duration), |(start, end, _)| (start, end));
-        let mut series = SERIES.with(RefCell::take);
+        let mut series = SERIES.with(|kept| kept.borrow_mut().pop()).unwrap_or_default();
         for values in [
             &mut series.times,
             &mut series.displacement,
@@ -111,7 +143,7 @@ impl<'c> Measuring<'c> {
             start_energy,
             probes: Vec::with_capacity(2),
             next_row: 0,
-            rows: row_count(duration, case.simulation.output_interval),
+            rows: row_count(duration, interval),
             buffer: start,
             sums: [[0.0; 4]; 2],
             counts: [0; 2],
@@ -119,45 +151,49 @@ impl<'c> Measuring<'c> {
             peaks_from: averaged.0,
             events: 0,
             series,
-            case,
+            duration,
+            interval,
             wedge,
-            integrator,
         };
         this.observe_row(0.0);
         this.next_row = 1;
         this
     }
 
-    fn after_step(&mut self) {
-        let time = self.integrator.time();
-        self.events += self.integrator.events().len() as u64;
-        self.clock.step(self.integrator.events(), time);
-        self.probe();
-        let simulation = &self.case.simulation;
-        let (duration, interval) = (simulation.duration, simulation.output_interval);
-        self.wedge.system.segment_like(self.integrator.problem());
+    /// When the run ends, s.
+    pub fn end(&self) -> f64 {
+        self.duration
+    }
+
+    /// Measures an accepted step.
+    pub fn after_step(&mut self, integrator: &Integrator<System>) {
+        let time = integrator.time();
+        self.events += integrator.events().len() as u64;
+        self.clock.step(integrator.events(), time);
+        self.probe(integrator);
+        self.wedge.system.segment_like(integrator.problem());
         while self.next_row < self.rows {
-            let row = row_time(self.next_row, self.rows, duration, interval);
+            let row = row_time(self.next_row, self.rows, self.duration, self.interval);
             if row > time {
                 break;
             }
-            self.integrator.interpolate(row, &mut self.buffer);
+            integrator.interpolate(row, &mut self.buffer);
             self.observe_row(row);
             self.next_row += 1;
         }
     }
 
     /// Notes the friction losses at the ends of the averaging window.
-    fn probe(&mut self) {
+    fn probe(&mut self, integrator: &Integrator<System>) {
         let (start, end) = match self.window {
             Some((start, end, _)) => (start, end),
             None => return,
         };
         while let Some(time) = [start, end].get(self.probes.len()) {
-            if *time > self.integrator.time() {
+            if *time > integrator.time() {
                 return;
             }
-            self.integrator.interpolate(*time, &mut self.buffer);
+            integrator.interpolate(*time, &mut self.buffer);
             let losses = friction_losses(&self.wedge.system, &self.buffer);
             self.probes.push(losses);
         }
@@ -165,7 +201,7 @@ impl<'c> Measuring<'c> {
 
     fn observe_row(&mut self, time: f64) {
         let seen = self.wedge.system.observe(time, &self.buffer);
-        let found = Outputs::resultants(self.case.parameters.damping, &self.wedge.system, &seen);
+        let found = Outputs::resultants(self.wedge.parameters.damping, &self.wedge.system, &seen);
         let (displacement, speed) = (
             seen.bodies[BOLSTER].travel.0[2],
             seen.bodies[BOLSTER].velocity.0[2],
@@ -176,9 +212,9 @@ impl<'c> Measuring<'c> {
             *peak = peak.max(moment.abs());
         }
         let Some(cycle) = self.cycle else { return };
-        if let Some(up) = cycle.branch(self.case.parameters.damping, time, displacement, speed) {
+        if let Some(up) = cycle.branch(self.wedge.parameters.damping, time, displacement, speed) {
             let branch = usize::from(up);
-            let load = closed_form::load(&self.case.parameters, displacement);
+            let load = closed_form::load(&self.wedge.parameters, displacement);
             let forces: [f64; 4] = [
                 found.vertical,
                 found.vertical_on_side_frame,
@@ -195,7 +231,8 @@ impl<'c> Measuring<'c> {
         self.series.on_bolster.push(found.on_bolster.0.0[2]);
     }
 
-    fn finish(mut self) -> Measures {
+    /// The measures, after the last step.
+    pub fn finish(&mut self, integrator: &Integrator<System>) -> Measures {
         let mut measures = Measures::NONE;
         let values = &mut measures.0;
         self.averages(values);
@@ -205,7 +242,7 @@ impl<'c> Measuring<'c> {
             // A face that never touches has no share.
             values[place::STICK + face] = self.clock.sticking[face] / self.clock.touching[face];
         }
-        let quasi_static = closed_form::wedge(&self.case.parameters);
+        let quasi_static = closed_form::wedge(&self.wedge.parameters);
         for (side, direction) in [Direction::Up, Direction::Down].into_iter().enumerate() {
             if let Some(slide) = quasi_static.slide(direction, quasi_static.branch(direction), 1.0) {
                 values[place::QUASI_STATIC_RATIOS + side] = slide.column_normal * libm::cos(quasi_static.toe);
@@ -215,7 +252,7 @@ impl<'c> Measuring<'c> {
             .map(|direction| quasi_static.jam_margin(direction, quasi_static.branch(direction)));
         values[place::JAM_MARGIN] = margins[0].min(margins[1]);
         values[place::JAM_MARGIN + 1..=place::JAM_MARGIN + 2].copy_from_slice(&margins);
-        let (time, x) = (self.integrator.time(), self.integrator.x());
+        let (time, x) = (integrator.time(), integrator.x());
         let lost = friction_losses(&self.wedge.system, x);
         let (from, to, period) = match (self.window, self.probes.as_slice()) {
             (Some((start, end, _)), [from, to]) => (*from, *to, end - start),
@@ -228,8 +265,9 @@ impl<'c> Measuring<'c> {
         values[place::RESIDUAL] = Outputs::ledger(&self.wedge.system, &seen, self.start_energy)
             .relative_residual(self.start_energy);
         values[place::EVENTS] = self.events as f64;
-        values[place::STEPS] = self.integrator.statistics().steps as f64;
-        SERIES.with(|kept| kept.replace(self.series));
+        values[place::STEPS] = integrator.statistics().steps as f64;
+        let series = std::mem::take(&mut self.series);
+        SERIES.with(|kept| kept.borrow_mut().push(series));
         measures
     }
 

@@ -132,3 +132,70 @@ fn input_variants_that_fail_are_records_with_reasons() {
         assert_eq!(record.reason.is_empty(), !wild);
     }
 }
+
+/// Computes all variants side by side, in the order in which they end; so many at most.
+fn many(study: &Study, numbers: impl IntoIterator<Item = u64>, most: usize) -> Vec<Record> {
+    let mut numbers = numbers.into_iter();
+    let mut found = Vec::new();
+    records::run_many(study, &mut || numbers.next(), &mut |record| {
+        found.push(record);
+        found.len() < most
+    });
+    found
+}
+
+fn bytes_of(study: &Study, numbers: impl IntoIterator<Item = u64>) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for number in numbers {
+        records::run(study, number).write(study.fingerprint(), &mut bytes);
+    }
+    bytes
+}
+
+/// Variants of several kinds, some of which are refused or stop.
+fn mixed() -> Study {
+    study(&format!(
+        "{HEAD}sampling = \"full_factorial\"\n[vary]\nwedge.damping = [\"variable\", \"constant\"]\n\
+         friction.law = [\"tanh\", \"bristle\"]\nsimulation.relative_tolerance = [1e-6, 1e-3]\nfriction.column = [0.3, 0.4]\n\
+         simulation.output_interval = [\"0.01 s\", \"0.03 s\"]\nsimulation.duration = [\"0.02 s\", \"0.04 s\"]\n\
+         control_coil.stiffness = [\"2000 lbf/in\", \"1e300 lbf/in\"]\n"
+    ))
+}
+
+#[test]
+fn limits_side_by_side_variants_have_the_records_that_they_have_alone() {
+    let study = mixed();
+    let alone = bytes_of(&study, 0..study.count());
+    let found = many(&study, 0..study.count(), usize::MAX);
+    assert_eq!(found.len() as u64, study.count());
+    let mut sorted = found.clone();
+    sorted.sort_by_key(|record| record.number);
+    let bytes = |records: &[Record]| {
+        let mut bytes = Vec::new();
+        for record in records {
+            record.write(study.fingerprint(), &mut bytes);
+        }
+        bytes
+    };
+    assert!(bytes(&sorted) == alone);
+    // In any order and company.
+    assert!(records::run_all(&study, 0..study.count()) == alone);
+    let backwards: Vec<u64> = (0..study.count()).rev().collect();
+    assert!(records::run_all(&study, backwards.clone()) == bytes_of(&study, backwards));
+    for status in [Status::Complete, Status::Refused, Status::Stopped] {
+        assert!(found.iter().any(|record| record.status == status), "{status:?}");
+    }
+}
+
+#[test]
+fn limits_who_asks_for_no_more_gets_what_is_under_way() {
+    let study = small();
+    let twice = (0..study.count()).chain(0..study.count()).chain(0..study.count());
+    let found = many(&study, twice, 1);
+    // One more than the places that were taken when the first one ended, at most.
+    assert!(!found.is_empty() && found.len() < 9, "{}", found.len());
+    for record in &found {
+        assert_eq!(*record, records::run(&study, record.number));
+    }
+    assert!(many(&study, [], 1).is_empty());
+}
