@@ -1,24 +1,452 @@
-//! Right-hand sides of several systems at once.
+//! Systems of one shape side by side: the right-hand sides of several runs at once, one run a lane.
+//!
+//! The lines are those of [`System`]'s own right-hand side ([`super::forces`], [`crate::body`], [`crate::contact`], [`crate::coil`]), with four
+//! runs in the place of one number; sums are taken in the same order. So each run has the bits that it has alone, whoever is beside it.
+//!
+//! Limits: all elements are plain (their neighbours are prescribed and do not turn), friction is by tanh, coils are linear.
 
+use integrate::lanes::{LANES, Lanes};
+use integrate::scalar::{Mask, Number};
 use integrate::{Call, Together};
 
-use super::System;
+use super::forces::{accelerate, add_effect};
+use super::{Mounted, System, travel};
+use crate::body::{Kinematics, Rigid};
+use crate::coil::{Coil, CoilLaw, Seating, taut};
+use crate::contact::{ContactFace, Grade, Grip, View};
+use crate::frame::FrameMotion;
+use crate::friction::FrictionLaw;
+use crate::link::{Effect, Sight, Translation};
+use crate::surface::Plane;
+use crate::vector::{Matrix, Vector};
 
-/// Evaluates the right-hand sides of systems of one kind at once.
-#[derive(Debug)]
-pub struct Abreast;
+/// Four systems of one shape.
+#[derive(Clone, Debug)]
+pub struct Abreast {
+    shape: Shape,
+    frames: Vec<FrameLanes>,
+    bodies: Vec<BodyLanes>,
+    faces: Vec<FaceLanes>,
+    coils: Vec<CoilLanes>,
+    /// States that are read, and rates.
+    x: Vec<Lanes>,
+    dx: Vec<Lanes>,
+}
+
+/// What systems must have in common to sit side by side.
+#[derive(Clone, Debug, PartialEq)]
+struct Shape {
+    gravity: Vector<f64>,
+    states: usize,
+    speeds: usize,
+    quadratures: usize,
+    /// By frame, which translations move.
+    moving: Vec<Vec<usize>>,
+    /// By free body: its number, its free coordinates, whether it can be rolled, whether its centre of gravity is its origin.
+    bodies: Vec<(usize, Vec<usize>, bool, bool)>,
+    faces: Vec<(Place, Vec<bool>)>,
+    /// Whether the spring can pull, whether it ends at the origin.
+    coils: Vec<(Place, bool, bool)>,
+}
+
+/// Where an element sits.
+#[derive(Clone, Debug, PartialEq)]
+struct Place {
+    body: usize,
+    on: usize,
+    channels: [Option<usize>; 2],
+    driven: bool,
+    translates: bool,
+}
+
+#[derive(Clone, Debug)]
+struct FrameLanes {
+    motion: FrameMotion<Lanes>,
+    rest: Vector<Lanes>,
+    /// Coordinates that move: number, axis, value with rate and second derivative.
+    moves: Vec<(usize, Vector<Lanes>, [Lanes; 3])>,
+}
+
+#[derive(Clone, Debug)]
+struct BodyLanes {
+    /// Its number among all bodies, its first position.
+    number: usize,
+    offset: usize,
+    free: Vec<usize>,
+    rigid: Rigid<Lanes>,
+    initial: [Lanes; 6],
+    faces: Vec<usize>,
+    coils: Vec<usize>,
+}
+
+/// How an element sees the body that it carries.
+#[derive(Clone, Debug)]
+struct SightLanes {
+    place: Place,
+    sight: Sight<Lanes>,
+    translation: Translation<Lanes>,
+}
+
+#[derive(Clone, Debug)]
+struct FaceLanes {
+    at: SightLanes,
+    grip: Grip<Lanes>,
+    points: Vec<(Vector<Lanes>, Grade<Lanes>)>,
+}
+
+#[derive(Clone, Debug)]
+struct CoilLanes {
+    at: SightLanes,
+    seating: Seating<Lanes>,
+    stiffness: Lanes,
+    free_length: Lanes,
+    pulls: bool,
+}
 
 impl Abreast {
-    /// Places for systems like this one; none: such systems cannot be evaluated at once.
+    /// Room for systems of the shape of this one, which sits in all places; none if such systems cannot sit side by side.
     #[must_use]
-    pub fn of(_: &System) -> Option<Self> {
-        Some(Self)
+    pub fn of(system: &System) -> Option<Self> {
+        let shape = Shape::of(system)?;
+        let zero = Lanes::zero();
+        let (none, flat) = (Vector([zero; 3]), Matrix([[zero; 3]; 3]));
+        let motion = FrameMotion {
+            position: none,
+            rotation: flat,
+            velocity: none,
+            angular_velocity: none,
+            acceleration: none,
+            angular_acceleration: none,
+        };
+        let frames = shape.moving.iter().map(|moving| FrameLanes {
+            motion,
+            rest: none,
+            moves: moving.iter().map(|&k| (k, none, [zero; 3])).collect(),
+        });
+        let bodies = system.free.iter().zip(&shape.bodies);
+        let bodies = bodies.map(|(free, (number, coordinates, rolls, central))| BodyLanes {
+            number: *number,
+            offset: free.offset,
+            free: coordinates.clone(),
+            rigid: Rigid {
+                mass: zero,
+                inertia: [zero; 3],
+                center_of_gravity: none,
+                central: *central,
+                free: system.bodies[*number].free,
+                rolls: *rolls,
+            },
+            initial: [zero; 6],
+            faces: free.faces.clone(),
+            coils: free.coils.clone(),
+        });
+        let at = |place: &Place| SightLanes {
+            place: place.clone(),
+            sight: Sight {
+                position: none,
+                rotation: flat,
+                velocity: none,
+                angular_velocity: none,
+                mount_velocity: none,
+                mount_angular_velocity: none,
+            },
+            translation: Translation {
+                axes: flat,
+                arm: none,
+            },
+        };
+        let faces = shape.faces.iter().map(|(place, points)| FaceLanes {
+            at: at(place),
+            grip: Grip {
+                coefficient: zero,
+                law: FrictionLaw::Tanh {
+                    reference_speed: zero,
+                },
+            },
+            points: points
+                .iter()
+                .map(|&damped| {
+                    let grade = Grade {
+                        stiffness: zero,
+                        damping: zero,
+                        damped,
+                        share: zero,
+                    };
+                    (none, grade)
+                })
+                .collect(),
+        });
+        let coils = shape.coils.iter().map(|(place, pulls, central)| CoilLanes {
+            at: at(place),
+            seating: Seating {
+                end: none,
+                acts_at: none,
+                damping: zero,
+                rotational_damping: zero,
+                central: *central,
+            },
+            stiffness: zero,
+            free_length: zero,
+            pulls: *pulls,
+        });
+        let mut this = Self {
+            frames: frames.collect(),
+            bodies: bodies.collect(),
+            faces: faces.collect(),
+            coils: coils.collect(),
+            x: vec![zero; 2 * shape.speeds],
+            dx: vec![zero; shape.states],
+            shape,
+        };
+        for place in 0..LANES {
+            this.put(place, system);
+        }
+        Some(this)
     }
 
-    /// Whether a system may sit beside those for which this was made.
+    /// Whether a system may sit beside those that there is room for.
     #[must_use]
-    pub fn admits(&self, _: &System) -> bool {
-        true
+    pub fn admits(&self, system: &System) -> bool {
+        Shape::of(system).is_some_and(|shape| shape == self.shape)
+    }
+}
+
+impl Shape {
+    fn of(system: &System) -> Option<Self> {
+        if !system.bounded {
+            return None;
+        }
+        let place = |place: Place| place;
+        let mut faces = Vec::new();
+        for face in &system.faces {
+            let points = &face.element.points;
+            // A quad of points is damped as a whole.
+            let damped = points.chunks(LANES).flat_map(|quad| {
+                let damped = quad.iter().any(|point| point.damping > 0.0);
+                quad.iter().map(move |_| damped)
+            });
+            faces.push((place(Place::of(face)), damped.collect()));
+        }
+        let mut coils = Vec::new();
+        for coil in &system.coils {
+            let CoilLaw::Linear { .. } = coil.element.law else {
+                return None;
+            };
+            let central = coil.element.seating().central;
+            coils.push((place(Place::of(coil)), coil.element.pulls, central));
+        }
+        let bodies = system.free.iter().map(|free| {
+            let rigid = system.bodies[free.body].rigid();
+            (free.body, free.free.clone(), rigid.rolls, rigid.central)
+        });
+        Some(Self {
+            gravity: system.gravity,
+            states: system.layout.len(),
+            speeds: system.layout.speeds,
+            quadratures: system.layout.quadratures,
+            moving: system
+                .frames
+                .iter()
+                .map(|frame| {
+                    if frame.fixed {
+                        Vec::new()
+                    } else {
+                        frame.moving.clone()
+                    }
+                })
+                .collect(),
+            bodies: bodies.collect(),
+            faces,
+            coils,
+        })
+    }
+}
+
+impl Place {
+    fn of<E>(mounted: &Mounted<E>) -> Self {
+        Self {
+            body: mounted.body,
+            on: mounted.on,
+            channels: mounted.channels,
+            driven: mounted.driven,
+            translates: mounted.translation.is_some(),
+        }
+    }
+}
+
+/// Puts a vector into a lane.
+fn put_vector(lanes: &mut Vector<Lanes>, lane: usize, value: &Vector<f64>) {
+    for (lanes, value) in lanes.0.iter_mut().zip(value.0) {
+        lanes.put(lane, value);
+    }
+}
+
+/// Puts a matrix into a lane.
+fn put_matrix(lanes: &mut Matrix<Lanes>, lane: usize, value: &Matrix<f64>) {
+    for (lanes, value) in lanes.0.as_flattened_mut().iter_mut().zip(value.0.as_flattened()) {
+        lanes.put(lane, *value);
+    }
+}
+
+impl SightLanes {
+    fn put<E>(&mut self, lane: usize, mounted: &Mounted<E>) {
+        let (sight, own) = (&mut self.sight, &mounted.sight);
+        put_matrix(&mut sight.rotation, lane, &own.rotation);
+        for (lanes, value) in [
+            (&mut sight.position, &own.position),
+            (&mut sight.velocity, &own.velocity),
+            (&mut sight.angular_velocity, &own.angular_velocity),
+            (&mut sight.mount_velocity, &own.mount_velocity),
+            (&mut sight.mount_angular_velocity, &own.mount_angular_velocity),
+        ] {
+            put_vector(lanes, lane, value);
+        }
+        if let Some(translation) = &mounted.translation {
+            put_matrix(&mut self.translation.axes, lane, &translation.axes);
+            put_vector(&mut self.translation.arm, lane, &translation.arm);
+        }
+    }
+
+    /// Brings it to the present place of the frames.
+    #[inline(always)]
+    fn update(&mut self, frames: &[FrameLanes]) {
+        if self.place.translates {
+            let (a, b) = (&frames[self.place.body].motion, &frames[self.place.on].motion);
+            self.translation.update(&mut self.sight, a, b);
+        }
+    }
+}
+
+impl FaceLanes {
+    fn put(&mut self, lane: usize, mounted: &Mounted<ContactFace<Plane>>) {
+        self.at.put(lane, mounted);
+        let grip = mounted.element.grip();
+        self.grip.coefficient.put(lane, grip.coefficient);
+        if let (
+            FrictionLaw::Tanh {
+                reference_speed: lanes,
+            },
+            FrictionLaw::Tanh { reference_speed },
+        ) = (&mut self.grip.law, grip.law)
+        {
+            lanes.put(lane, reference_speed);
+        }
+        for ((position, grade), point) in self.points.iter_mut().zip(&mounted.element.points) {
+            put_vector(position, lane, &point.position);
+            let own = point.grade();
+            grade.stiffness.put(lane, own.stiffness);
+            grade.damping.put(lane, own.damping);
+            grade.share.put(lane, own.share);
+        }
+    }
+
+    /// What its points do: [`ContactFace::effect`] with runs in lanes instead of points.
+    #[inline(always)]
+    fn effect(&self, body: &Kinematics<Lanes>) -> Effect<Lanes> {
+        let view = View::of(&self.at.sight, body);
+        let zero = Lanes::zero();
+        let mut sums = [[zero; 8]; LANES];
+        for points in self.points.chunks(LANES) {
+            for (sums, (position, grade)) in sums.iter_mut().zip(points) {
+                let at = view.meet::<Lanes>(*position, grade.damped);
+                let closed = at.gap.below(zero);
+                if closed.none() {
+                    continue;
+                }
+                let touch = self.grip.touch(grade, closed, &at, [zero; 2]);
+                for (sum, term) in sums.iter_mut().zip(view.push(*position, &touch)) {
+                    *sum += term;
+                }
+            }
+        }
+        let [a, b, c, d] = &sums;
+        let sum = |k: usize| (a[k] + b[k]) + (c[k] + d[k]);
+        Effect {
+            force: Vector([sum(0), sum(1), sum(2)]),
+            moment: Vector([sum(3), sum(4), sum(5)]),
+            powers: [sum(6), sum(7)],
+        }
+    }
+}
+
+impl CoilLanes {
+    fn put(&mut self, lane: usize, mounted: &Mounted<Coil>) {
+        self.at.put(lane, mounted);
+        let (seating, own) = (&mut self.seating, mounted.element.seating());
+        put_vector(&mut seating.end, lane, &own.end);
+        put_vector(&mut seating.acts_at, lane, &own.acts_at);
+        seating.damping.put(lane, own.damping);
+        seating.rotational_damping.put(lane, own.rotational_damping);
+        if let CoilLaw::Linear { stiffness } = mounted.element.law {
+            self.stiffness.put(lane, stiffness);
+        }
+        self.free_length.put(lane, mounted.element.free_length);
+    }
+
+    #[inline(always)]
+    fn effect(&self, body: &Kinematics<Lanes>) -> Effect<Lanes> {
+        self.seating.effect(&self.at.sight, body, |length| {
+            let compression = -length + self.free_length;
+            taut(compression * self.stiffness, self.pulls)
+        })
+    }
+}
+
+impl Abreast {
+    /// Rates at the states and frames that are in place.
+    #[inline(always)]
+    fn forces(&mut self) {
+        let Shape {
+            gravity,
+            states,
+            speeds,
+            quadratures,
+            ..
+        } = self.shape;
+        for frame in &mut self.frames {
+            if !frame.moves.is_empty() {
+                let moves = frame.moves.iter().map(|(_, axis, jet)| (*axis, *jet));
+                travel(&mut frame.motion, frame.rest, moves);
+            }
+        }
+        for at in self
+            .faces
+            .iter_mut()
+            .map(|face| &mut face.at)
+            .chain(self.coils.iter_mut().map(|coil| &mut coil.at))
+        {
+            at.update(&self.frames);
+        }
+        let (d_positions, rest) = self.dx.split_at_mut(speeds);
+        let (d_speeds, rest) = rest.split_at_mut(speeds);
+        let powers = &mut rest[states - 2 * speeds - quadratures..];
+        d_positions.copy_from_slice(&self.x[speeds..]);
+        powers.fill(Lanes::zero());
+        for body in &self.bodies {
+            let (mut coordinates, mut rates) = (body.initial, [Lanes::zero(); 6]);
+            for (j, &k) in body.free.iter().enumerate() {
+                coordinates[k] = self.x[body.offset + j];
+                rates[k] = self.x[speeds + body.offset + j];
+            }
+            let kinematics = Kinematics::new(coordinates, rates, body.rigid.rolls);
+            let (mut force, mut moment) = (Vector::zero(), Vector::zero());
+            let mut add = |effect: &Effect<Lanes>, at: &SightLanes| {
+                let channels = (&at.place.channels, at.place.driven);
+                add_effect(effect, &at.sight, channels, (&mut force, &mut moment), powers);
+            };
+            for face in body.faces.iter().map(|face| &self.faces[*face]) {
+                add(&face.effect(&kinematics), &face.at);
+            }
+            for coil in body.coils.iter().map(|coil| &self.coils[*coil]) {
+                add(&coil.effect(&kinematics), &coil.at);
+            }
+            let frame = (&self.frames[body.number].motion, false);
+            let accelerations = accelerate(&kinematics, &body.rigid, frame, gravity, (force, moment));
+            let target = &mut d_speeds[body.offset..body.offset + body.free.len()];
+            for (target, &k) in target.iter_mut().zip(&body.free) {
+                *target = accelerations[k];
+            }
+        }
     }
 }
 
@@ -26,14 +454,81 @@ impl Together for Abreast {
     type Problem = System;
 
     fn places(&self) -> usize {
-        4
+        LANES
     }
 
-    fn put(&mut self, _: usize, _: &System) {}
+    fn put(&mut self, place: usize, system: &System) {
+        for (lanes, (body, frame)) in self
+            .frames
+            .iter_mut()
+            .zip(system.bodies.iter().zip(&system.frames))
+        {
+            let own = &frame.motion;
+            put_matrix(&mut lanes.motion.rotation, place, &own.rotation);
+            for (lanes, value) in [
+                (&mut lanes.motion.position, &own.position),
+                (&mut lanes.motion.velocity, &own.velocity),
+                (&mut lanes.motion.angular_velocity, &own.angular_velocity),
+                (&mut lanes.motion.acceleration, &own.acceleration),
+                (&mut lanes.motion.angular_acceleration, &own.angular_acceleration),
+                (&mut lanes.rest, &frame.rest),
+            ] {
+                put_vector(lanes, place, value);
+            }
+            for (k, axis, jet) in &mut lanes.moves {
+                put_vector(axis, place, &frame.base.column(*k));
+                let values: [f64; 3] = body.frame.motions[*k].evaluate(0.0, 0.0);
+                for (lanes, value) in jet.iter_mut().zip(values) {
+                    lanes.put(place, value);
+                }
+            }
+        }
+        for lanes in &mut self.bodies {
+            let body = &system.bodies[lanes.number];
+            let (rigid, own) = (&mut lanes.rigid, body.rigid());
+            rigid.mass.put(place, own.mass);
+            put_vector(&mut rigid.center_of_gravity, place, &own.center_of_gravity);
+            for (lanes, value) in rigid.inertia.iter_mut().zip(own.inertia) {
+                lanes.put(place, value);
+            }
+            for (lanes, value) in lanes.initial.iter_mut().zip(body.initial) {
+                lanes.put(place, value);
+            }
+            for (j, &k) in lanes.free.iter().enumerate() {
+                self.x[lanes.offset + j].put(place, body.initial[k]);
+            }
+        }
+        for (lanes, face) in self.faces.iter_mut().zip(&system.faces) {
+            lanes.put(place, face);
+        }
+        for (lanes, coil) in self.coils.iter_mut().zip(&system.coils) {
+            lanes.put(place, coil);
+        }
+    }
 
     fn derivatives(&mut self, calls: &mut [Option<Call<'_, System>>]) {
-        for call in calls.iter_mut().flatten() {
-            call.evaluate();
+        for (place, call) in calls.iter().enumerate() {
+            let Some(Call { problem, time, x, .. }) = call else {
+                continue;
+            };
+            for (frame, body) in self.frames.iter_mut().zip(&problem.bodies) {
+                for (k, _, jet) in &mut frame.moves {
+                    let values: [f64; 3] = body.frame.motions[*k].evaluate(*time, problem.reference);
+                    for (lanes, value) in jet.iter_mut().zip(values) {
+                        lanes.put(place, value);
+                    }
+                }
+            }
+            for (lanes, value) in self.x.iter_mut().zip(*x) {
+                lanes.put(place, *value);
+            }
+        }
+        self.forces();
+        for (place, call) in calls.iter_mut().enumerate() {
+            let Some(call) = call else { continue };
+            for (value, lanes) in call.dx.iter_mut().zip(&self.dx) {
+                *value = lanes.at(place);
+            }
         }
     }
 }
