@@ -32,7 +32,7 @@ impl<P: Problem> Integrator<P> {
     /// Goes on with the attempt under way.
     ///
     /// Only a checked attempt tells which state is to blame for a value that is not finite.
-    #[inline]
+    #[inline(always)]
     pub(super) fn advance(&mut self) -> Advance {
         match self.underway.phase {
             Phase::Implicit(stage) => self.after_stage(stage),
@@ -48,6 +48,7 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
+    #[inline(never)]
     fn begin_implicit(&mut self) -> Advance {
         let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
         self.trial_method = tableau;
@@ -73,7 +74,7 @@ impl<P: Problem> Integrator<P> {
         self.solve_stage(0)
     }
 
-    #[inline]
+    #[inline(always)]
     fn after_stage(&mut self, i: usize) -> Advance {
         let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
         if self.underway.checked && !all_finite(&self.slope) {
@@ -93,7 +94,7 @@ impl<P: Problem> Integrator<P> {
     }
 
     /// Solves for a stage, and wants the next one.
-    #[inline]
+    #[inline(always)]
     fn solve_stage(&mut self, i: usize) -> Advance {
         let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
         let Underway { step, target, .. } = self.underway;
@@ -119,7 +120,7 @@ impl<P: Problem> Integrator<P> {
         Ok(None)
     }
 
-    #[inline]
+    #[inline(always)]
     fn end_of_stages(&mut self) -> Advance {
         let (n, stride, count) = (self.dimension, self.stride, self.tableau.stages());
         self.statistics.derivatives += count as u64 - 1;
@@ -142,7 +143,7 @@ impl<P: Problem> Integrator<P> {
         Ok(None)
     }
 
-    #[inline]
+    #[inline(always)]
     fn after_end(&mut self) -> Advance {
         self.statistics.derivatives += 1;
         if !all_finite(&self.trial_dx) {
@@ -152,6 +153,7 @@ impl<P: Problem> Integrator<P> {
     }
 
     /// The same by the explicit method, where nothing is stiff.
+    #[inline(never)]
     fn begin_explicit(&mut self) -> Advance {
         self.trial_method = &DORMAND_PRINCE;
         let first = &mut self.trial_stages[..self.stride];
@@ -174,6 +176,7 @@ impl<P: Problem> Integrator<P> {
         self.want(time, Phase::Explicit(i));
     }
 
+    #[inline(never)]
     fn after_explicit_stage(&mut self, i: usize) -> Advance {
         let n = self.dimension;
         self.statistics.derivatives += 1;

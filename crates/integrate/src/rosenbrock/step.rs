@@ -74,25 +74,28 @@ impl<P: Problem> Integrator<P> {
     ///
     /// # Errors
     /// If no step can be made; the last accepted step then stays in place.
-    #[inline]
+    #[inline(always)]
     pub fn go_on(&mut self) -> Result<Progress, StepError> {
         while self.underway.phase != Phase::Idle {
-            let outcome = match self.advance() {
+            match self.advance() {
                 Ok(None) => return Ok(Progress::Wants),
-                Ok(Some(error)) => Ok(error),
-                Err(failure) => Err(failure),
-            };
-            match outcome {
-                Ok(error)
-                    if !self.underway.checked && (self.options.fixed_step.is_some() || error <= 1.0) =>
-                {
-                    self.underway.phase = Phase::Idle;
-                    self.accept(error);
-                }
-                _ => self.reject(outcome)?,
+                Ok(Some(error)) => self.end_attempt(Ok(error))?,
+                Err(failure) => self.end_attempt(Err(failure))?,
             }
         }
         Ok(Progress::Accepted)
+    }
+
+    /// Accepts the step, or plans another attempt.
+    fn end_attempt(&mut self, outcome: Result<f64, Failure>) -> Result<(), StepError> {
+        match outcome {
+            Ok(error) if !self.underway.checked && (self.options.fixed_step.is_some() || error <= 1.0) => {
+                self.underway.phase = Phase::Idle;
+                self.accept(error);
+                Ok(())
+            }
+            _ => self.reject(outcome),
+        }
     }
 
     /// Whether one more attempt is admissible.

@@ -29,7 +29,7 @@ pub struct Call<'a, P> {
 
 impl<P: Problem> Call<'_, P> {
     /// Lets the problem itself evaluate it.
-    #[inline]
+    #[inline(always)]
     pub fn evaluate(&mut self) {
         self.problem.derivative(self.time, self.x, self.dx);
     }
@@ -96,7 +96,7 @@ impl Underway {
 
 impl<P: Problem> Integrator<P> {
     /// The evaluation for which [`Integrator::go_on`] has stopped; between steps it means nothing.
-    #[inline]
+    #[inline(always)]
     pub fn wanted(&mut self) -> Call<'_, P> {
         let n = self.dimension;
         let (x, dx) = match self.underway.phase {
