@@ -166,29 +166,31 @@ impl From<f64> for Lanes {
 /// From `x = √s = 20` on, tanh is 1 to the last bit.
 const SATURATED: f64 = 400.0;
 
-/// Value and slope by `s` of `tanh(√s)/√s`.
+/// Value of `tanh(√s)/√s`, and its slope by `s` if it is asked for.
 #[inline(always)]
-fn tanh_ratio(s: Lanes) -> (Lanes, Lanes) {
+fn tanh_ratio<const SLOPE: bool>(s: Lanes) -> (Lanes, Lanes) {
     if !s.0.simd_le(f64x4::splat(SATURATED)).any() {
         let ratio = 1.0 / s.sqrt();
-        return (ratio, ratio * -0.5 / s);
+        return (ratio, if SLOPE { ratio * -0.5 / s } else { s });
     }
-    unsaturated(s)
+    unsaturated::<SLOPE>(s)
 }
 
 /// The same where a lane needs tanh itself.
 #[inline(never)]
-fn unsaturated(s: Lanes) -> (Lanes, Lanes) {
+fn unsaturated<const SLOPE: bool>(s: Lanes) -> (Lanes, Lanes) {
     let x = s.sqrt();
-    let t = Lanes(x.0.tanh());
+    // Not near zero, where there is the series: 1 - 2/(e^2x + 1) has all digits but one or two.
+    let t = 1.0 - 2.0 / (Lanes((x * 2.0).0.exp()) + 1.0);
     let ratio = t / x;
-    let slope = (1.0 - t * t - ratio) / (s * 2.0);
     let small = s.below(Lanes::from(SERIES));
     let (near, near_slope) = series(s);
-    (
-        Lanes::blend(small, near, ratio),
-        Lanes::blend(small, near_slope, slope),
-    )
+    let value = Lanes::blend(small, near, ratio);
+    if !SLOPE {
+        return (value, s);
+    }
+    let slope = (1.0 - t * t - ratio) / (s * 2.0);
+    (value, Lanes::blend(small, near_slope, slope))
 }
 
 /// Up to this size sine and cosine come from their polynomials: `π/4`, less what the highest word of a number leaves out.
@@ -261,7 +263,7 @@ impl Number for Lanes {
     }
     #[inline(always)]
     fn tanh_ratio(self) -> Self {
-        tanh_ratio(self).0
+        tanh_ratio::<false>(self).0
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
@@ -459,7 +461,7 @@ impl<const N: usize> Number for LaneDual<N> {
     }
     #[inline(always)]
     fn tanh_ratio(self) -> Self {
-        let (value, slope) = tanh_ratio(self.value);
+        let (value, slope) = tanh_ratio::<true>(self.value);
         self.chain(value, slope)
     }
     #[inline(always)]

@@ -83,6 +83,14 @@ pub(crate) fn add(target: &mut [f64], factor: f64, term: &[f64]) {
     }
 }
 
+/// `target = factor · term`; lengths are multiples of [`LANES`].
+#[inline(always)]
+pub(crate) fn scale(target: &mut [f64], factor: f64, term: &[f64]) {
+    for (value, term) in target.iter_mut().zip(term) {
+        *value = factor * term;
+    }
+}
+
 /// How many leading states of a padded vector hold all that a problem reads, see [`Problem::read_states`].
 pub(crate) fn leading_states<P: Problem>(problem: &P) -> usize {
     problem

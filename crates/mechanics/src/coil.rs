@@ -202,8 +202,15 @@ impl Coil {
         let (end, spin) = (self.end, turning.spin);
         let swing = cross(spin, end);
         let (d, rate) = (relative.position + turned(end), relative.velocity + turned(swing));
-        let seed =
-            |v: Vector<f64>, first: usize| Vector([0, 1, 2].map(|i| Dual::<6>::variable(v.0[i], first + i)));
+        // Written out: `array::map` is not always inlined.
+        let variable = |v: Vector<f64>, i: usize, first: usize| Dual::<6>::variable(v.0[i], first + i);
+        let seed = |v: Vector<f64>, first: usize| {
+            Vector([
+                variable(v, 0, first),
+                variable(v, 1, first),
+                variable(v, 2, first),
+            ])
+        };
         let pull = pull(self.damping, seed(d, 0), seed(rate, 3), |length| {
             self.spring(length)
         });

@@ -5,7 +5,7 @@ use super::underway::{Phase, Underway};
 use crate::error::Reason;
 use crate::explicit::DORMAND_PRINCE;
 use crate::problem::Problem;
-use crate::stages::{add, all_finite, combine, largest, leading_states};
+use crate::stages::{add, all_finite, combine, largest, leading_states, scale};
 
 /// Steps shorter than this, in units of the fastest answer of the problem, are explicit. The method is stable down to -3.3 on the real
 /// axis and all but stable up to 2 on the imaginary one; bounds of answers are larger than the answers.
@@ -157,8 +157,7 @@ impl<P: Problem> Integrator<P> {
     fn begin_explicit(&mut self) -> Advance {
         self.trial_method = &DORMAND_PRINCE;
         let first = &mut self.trial_stages[..self.stride];
-        first.fill(0.0);
-        add(first, self.underway.step, &self.dx);
+        scale(first, self.underway.step, &self.dx);
         self.want_explicit_stage(1);
         Ok(None)
     }
@@ -189,8 +188,7 @@ impl<P: Problem> Integrator<P> {
             return Err(not_finite(&slope[..n]));
         }
         let stage = &mut self.trial_stages[i * self.stride..][..self.stride];
-        stage.fill(0.0);
-        add(stage, self.underway.step, slope);
+        scale(stage, self.underway.step, slope);
         if i < EXPLICIT_END {
             self.want_explicit_stage(i + 1);
             return Ok(None);

@@ -235,10 +235,10 @@ impl Shape {
             let central = coil.element.seating().central;
             coils.push((place(Place::of(coil)), coil.element.pulls, central));
         }
-        let bodies = system.free.iter().map(|free| {
-            let rigid = system.bodies[free.body].rigid();
-            (free.body, free.free.clone(), rigid.rolls, rigid.central)
-        });
+        let bodies = system
+            .free
+            .iter()
+            .map(|free| (free.body, free.free.clone(), free.rigid.rolls, free.rigid.central));
         Some(Self {
             gravity: system.gravity,
             states: system.layout.len(),

@@ -270,7 +270,7 @@ impl System {
             let frame = &self.frames[free.body];
             let accelerations = accelerate(
                 &self.kinematics[free.body],
-                &self.bodies[free.body].rigid(),
+                &free.rigid,
                 (&frame.motion, !frame.fixed),
                 self.gravity,
                 (self.force[free.body], self.moment[free.body]),

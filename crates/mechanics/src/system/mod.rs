@@ -22,7 +22,7 @@ use integrate::partitioned::{Layout, Partitioned, Structure};
 use integrate::scalar::Number;
 use integrate::{KinkSigns, Problem, Singular};
 
-use crate::body::{Body, Kinematics};
+use crate::body::{Body, Kinematics, Rigid};
 use crate::coil::Coil;
 use crate::contact::ContactFace;
 use crate::frame::{Frame, FrameMotion};
@@ -78,6 +78,8 @@ struct FreeBody {
     free: Vec<usize>,
     /// How many of them are translations; the others are angles.
     translations: usize,
+    /// What its motion depends on.
+    rigid: Rigid<f64>,
     /// Its first position among q, and its first speed among u.
     offset: usize,
     /// Its diagonal block in the Jacobian.

@@ -170,6 +170,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             body: number,
             translations: coordinates.iter().filter(|k| **k < 3).count(),
             free: coordinates,
+            rigid: body.rigid(),
             offset,
             pair: 0,
             plain: body.frame.is_fixed(),

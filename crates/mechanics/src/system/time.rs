@@ -77,8 +77,7 @@ impl System {
         }
         for free in &self.free {
             let (force, moments) = &self.load_rate[free.body];
-            let accelerations =
-                self.kinematics[free.body].accelerations(&self.bodies[free.body].rigid(), force, *moments);
+            let accelerations = self.kinematics[free.body].accelerations(&free.rigid, force, *moments);
             for (j, &k) in free.free.iter().enumerate() {
                 d_speeds[free.offset + j] = accelerations[k];
             }
