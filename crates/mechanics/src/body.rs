@@ -108,8 +108,6 @@ pub struct Kinematics<S> {
     pub rates: [S; 3],
     /// Angular velocity, body axes.
     pub spin: Vector<S>,
-    /// The same in the reference frame's axes.
-    pub angular_velocity: Vector<S>,
 }
 
 impl<S: Number> Kinematics<S> {
@@ -127,8 +125,14 @@ impl<S: Number> Kinematics<S> {
             turn,
             rates,
             spin,
-            angular_velocity: turn.rotation.apply(spin),
         }
+    }
+
+    /// Angular velocity, axes of the reference frame.
+    #[inline(always)]
+    #[must_use]
+    pub fn angular_velocity(&self) -> Vector<S> {
+        self.turn.rotation.apply(self.spin)
     }
 
     /// The generalized force of coordinate `k` by a force at the body's origin (frame axes) and a moment about it (body axes).
@@ -194,7 +198,7 @@ impl<S: Number> Kinematics<S> {
             let centripetal: Vector<S> = spin.cross(swing);
             let coriolis: Vector<S> = spin.cross(self.velocity);
             force += transport + centripetal + coriolis + coriolis;
-            let drag: Vector<S> = spin.cross(self.angular_velocity);
+            let drag: Vector<S> = spin.cross(self.angular_velocity());
             alpha += turn.rotation.apply_transposed::<S, S>(drag + spin_rate);
             omega += turn.rotation.apply_transposed::<S, S>(Vector::<S>::zero() + spin);
         }
@@ -382,12 +386,10 @@ impl Kinematics<f64> {
         let place: Vector<f64> = self.position + arm;
         let spin: Vector<f64> = frame.rotation.apply_transposed(frame.angular_velocity);
         let origin: Vector<f64> = frame.rotation.apply_transposed(frame.velocity);
-        let own: Vector<f64> = self.angular_velocity.cross(arm);
+        let turning = self.angular_velocity();
+        let own: Vector<f64> = turning.cross(arm);
         let carried: Vector<f64> = spin.cross(place);
-        (
-            origin + self.velocity + own + carried,
-            self.angular_velocity + spin,
-        )
+        (origin + self.velocity + own + carried, turning + spin)
     }
 
     /// Position of a point of the body in the fixed frame.

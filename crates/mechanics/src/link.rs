@@ -59,7 +59,7 @@ impl<S: Real> Sight<S> {
         let place: Vector<S> = b.rotation.apply(body.position);
         let swing: Vector<S> = b.angular_velocity.cross(place);
         let own: Vector<S> = b.rotation.apply(body.velocity);
-        let spin: Vector<S> = b.angular_velocity + b.rotation.apply::<S, S>(body.angular_velocity);
+        let spin: Vector<S> = b.angular_velocity + b.rotation.apply::<S, S>(body.angular_velocity());
         let lever: Vector<S> = spin.cross(arm);
         let velocity = b.velocity + swing + own + lever;
         let origin = b.position + place + arm;
@@ -86,7 +86,7 @@ impl<S: Number> Sight<S> {
         let place: Vector<O> = self.rotation.apply(a.position);
         let velocity: Vector<O> = self.rotation.apply(a.velocity);
         let swing: Vector<O> = self.angular_velocity.cross(place);
-        let spin: Vector<O> = self.rotation.apply(a.angular_velocity);
+        let spin: Vector<O> = self.rotation.apply(a.angular_velocity());
         Relative {
             position: self.position + place,
             rotation: self.rotation.times(a.turn.rotation),
@@ -99,39 +99,58 @@ impl<S: Number> Sight<S> {
 /// A mount on a prescribed body that moves without turning, seen by a body in a fixed frame: what stays the same.
 #[derive(Clone, Copy, Debug)]
 pub struct Translation<P = f64> {
-    /// From mount axes to fixed axes.
-    pub(crate) axes: Matrix<P>,
-    /// From the origin of `b`'s frame to the mount's origin, fixed axes.
-    pub(crate) arm: Vector<P>,
+    /// From the mount's origin to that of the body's frame while `b` rests, mount axes.
+    pub(crate) rest: Vector<P>,
+    /// The directions in which `b` moves, mount axes.
+    pub(crate) ways: [Vector<P>; 3],
 }
 
 impl Translation {
-    /// The constant part of a sight; `b` may be anywhere along its motion.
-    pub fn new(b: &FrameMotion<f64>, body: &Kinematics<f64>, mount: &Mount) -> Self {
+    /// The constant part of the sight of a frame `a`; `b` rests at `rest` (fixed axes) and moves along `ways` (fixed axes, at most three).
+    pub fn new(
+        a: &FrameMotion<f64>,
+        b: &FrameMotion<f64>,
+        (rest, ways): (Vector<f64>, impl Iterator<Item = Vector<f64>>),
+        body: &Kinematics<f64>,
+        mount: &Mount,
+    ) -> Self {
         let turn: Matrix<f64> = b.rotation.times(body.turn.rotation);
         let place: Vector<f64> = b.rotation.apply(body.position);
-        Self {
-            axes: turn.times(mount.rotation),
-            arm: place + turn.apply::<f64, f64>(mount.origin),
+        let axes: Matrix<f64> = turn.times(mount.rotation);
+        let arm = place + turn.apply::<f64, f64>(mount.origin);
+        let mut own = [Vector::zero(); 3];
+        for (own, way) in own.iter_mut().zip(ways) {
+            *own = axes.apply_transposed(way);
         }
-    }
-
-    /// The acceleration of the frame as the mount sees it: the rate of the sight's velocity.
-    #[inline(always)]
-    pub fn acceleration(&self, b: &FrameMotion<f64>) -> Vector<f64> {
-        -self.axes.apply_transposed::<f64, f64>(b.acceleration)
+        Self {
+            rest: axes.apply_transposed::<f64, f64>(a.position - rest - arm),
+            ways: own,
+        }
     }
 }
 
 impl<P: Number<Plain = P>> Translation<P> {
-    /// Brings position and velocities of a sight up to date.
+    /// Brings position and velocities of a sight up to date with value, rate and second derivative of each way.
     #[inline(always)]
-    pub fn update(&self, sight: &mut Sight<P>, a: &FrameMotion<P>, b: &FrameMotion<P>) {
-        sight.position = self
-            .axes
-            .apply_transposed::<P, P>(a.position - b.position - self.arm);
-        sight.mount_velocity = self.axes.apply_transposed::<P, P>(b.velocity);
-        sight.velocity = -sight.mount_velocity;
+    pub fn update(&self, sight: &mut Sight<P>, jets: impl Iterator<Item = [P; 3]>) {
+        let (mut position, mut velocity) = (self.rest, Vector::zero());
+        for (way, [value, rate, _]) in self.ways.iter().zip(jets) {
+            position = position - way.scale::<P, P>(value);
+            velocity += way.scale::<P, P>(rate);
+        }
+        sight.position = position;
+        sight.mount_velocity = velocity;
+        sight.velocity = -velocity;
+    }
+
+    /// The acceleration of the frame as the mount sees it: the rate of the sight's velocity.
+    #[inline(always)]
+    pub fn acceleration(&self, jets: impl Iterator<Item = [P; 3]>) -> Vector<P> {
+        let mut acceleration = Vector::zero();
+        for (way, [.., second]) in self.ways.iter().zip(jets) {
+            acceleration = acceleration - way.scale::<P, P>(second);
+        }
+        acceleration
     }
 }
 

@@ -10,7 +10,7 @@ use integrate::scalar::{Mask, Number};
 use integrate::{Call, Together};
 
 use super::forces::{accelerate, add_effect};
-use super::{Mounted, System, travel};
+use super::{Mounted, System};
 use crate::body::{Kinematics, Rigid};
 use crate::coil::{Coil, CoilLaw, Seating, taut};
 use crate::contact::{ContactFace, Grade, Grip, View};
@@ -61,10 +61,10 @@ struct Place {
 
 #[derive(Clone, Debug)]
 struct FrameLanes {
+    /// Of a frame that stands still.
     motion: FrameMotion<Lanes>,
-    rest: Vector<Lanes>,
-    /// Coordinates that move: number, axis, value with rate and second derivative.
-    moves: Vec<(usize, Vector<Lanes>, [Lanes; 3])>,
+    /// Number, and value with rate and second derivative, of each coordinate that moves.
+    moves: Vec<(usize, [Lanes; 3])>,
 }
 
 #[derive(Clone, Debug)]
@@ -120,8 +120,7 @@ impl Abreast {
         };
         let frames = shape.moving.iter().map(|moving| FrameLanes {
             motion,
-            rest: none,
-            moves: moving.iter().map(|&k| (k, none, [zero; 3])).collect(),
+            moves: moving.iter().map(|&k| (k, [zero; 3])).collect(),
         });
         let bodies = system.free.iter().zip(&shape.bodies);
         let bodies = bodies.map(|(free, (number, coordinates, rolls, central))| BodyLanes {
@@ -151,8 +150,8 @@ impl Abreast {
                 mount_angular_velocity: none,
             },
             translation: Translation {
-                axes: flat,
-                arm: none,
+                rest: none,
+                ways: [none; 3],
             },
         };
         let faces = shape.faces.iter().map(|(place, points)| FaceLanes {
@@ -247,13 +246,7 @@ impl Shape {
             moving: system
                 .frames
                 .iter()
-                .map(|frame| {
-                    if frame.fixed {
-                        Vec::new()
-                    } else {
-                        frame.moving.clone()
-                    }
-                })
+                .map(|frame| frame.moves.iter().map(|way| way.coordinate).collect())
                 .collect(),
             bodies: bodies.collect(),
             faces,
@@ -302,8 +295,10 @@ impl SightLanes {
             put_vector(lanes, lane, value);
         }
         if let Some(translation) = &mounted.translation {
-            put_matrix(&mut self.translation.axes, lane, &translation.axes);
-            put_vector(&mut self.translation.arm, lane, &translation.arm);
+            put_vector(&mut self.translation.rest, lane, &translation.rest);
+            for (lanes, way) in self.translation.ways.iter_mut().zip(&translation.ways) {
+                put_vector(lanes, lane, way);
+            }
         }
     }
 
@@ -311,8 +306,8 @@ impl SightLanes {
     #[inline(always)]
     fn update(&mut self, frames: &[FrameLanes]) {
         if self.place.translates {
-            let (a, b) = (&frames[self.place.body].motion, &frames[self.place.on].motion);
-            self.translation.update(&mut self.sight, a, b);
+            let jets = frames[self.place.on].moves.iter().map(|(_, jet)| *jet);
+            self.translation.update(&mut self.sight, jets);
         }
     }
 }
@@ -403,12 +398,6 @@ impl Abreast {
             quadratures,
             ..
         } = self.shape;
-        for frame in &mut self.frames {
-            if !frame.moves.is_empty() {
-                let moves = frame.moves.iter().map(|(_, axis, jet)| (*axis, *jet));
-                travel(&mut frame.motion, frame.rest, moves);
-            }
-        }
         for at in self
             .faces
             .iter_mut()
@@ -471,12 +460,10 @@ impl Together for Abreast {
                 (&mut lanes.motion.angular_velocity, &own.angular_velocity),
                 (&mut lanes.motion.acceleration, &own.acceleration),
                 (&mut lanes.motion.angular_acceleration, &own.angular_acceleration),
-                (&mut lanes.rest, &frame.rest),
             ] {
                 put_vector(lanes, place, value);
             }
-            for (k, axis, jet) in &mut lanes.moves {
-                put_vector(axis, place, &frame.base.column(*k));
+            for (k, jet) in &mut lanes.moves {
                 let values: [f64; 3] = body.frame.motions[*k].evaluate(0.0, 0.0);
                 for (lanes, value) in jet.iter_mut().zip(values) {
                     lanes.put(place, value);
@@ -512,7 +499,7 @@ impl Together for Abreast {
                 continue;
             };
             for (frame, body) in self.frames.iter_mut().zip(&problem.bodies) {
-                for (k, _, jet) in &mut frame.moves {
+                for (k, jet) in &mut frame.moves {
                     let values: [f64; 3] = body.frame.motions[*k].evaluate(*time, problem.reference);
                     for (lanes, value) in jet.iter_mut().zip(values) {
                         lanes.put(place, value);

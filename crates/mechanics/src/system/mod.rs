@@ -19,7 +19,6 @@ mod stiffness;
 mod time;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
-use integrate::scalar::Number;
 use integrate::{KinkSigns, Problem, Singular};
 
 use crate::body::{Body, Kinematics, Rigid};
@@ -29,7 +28,7 @@ use crate::frame::{Frame, FrameMotion};
 use crate::friction::FrictionLaw;
 use crate::link::{Mount, Sight};
 use crate::surface::Plane;
-use crate::vector::{Matrix, Vector};
+use crate::vector::Vector;
 
 pub use abreast::Abreast;
 pub use along::{Along, Direction, DriveChange};
@@ -97,11 +96,21 @@ struct FreeBody {
 struct FrameState {
     fixed: bool,
     keeps_orientation: bool,
-    base: Matrix<f64>,
     motion: FrameMotion<f64>,
-    /// Which of the translations move, if it moves, and where it would be without them.
-    moving: Vec<usize>,
+    /// The translations that move, and where it would be without them.
+    moves: Vec<Move>,
     rest: Vector<f64>,
+}
+
+/// A translation of a frame that moves.
+#[derive(Clone, Copy, Debug)]
+struct Move {
+    /// Which coordinate.
+    coordinate: usize,
+    /// Its axis, fixed axes.
+    axis: Vector<f64>,
+    /// Its value with rate and second derivative.
+    jet: [f64; 3],
 }
 
 /// A system of bodies and elements, ready to be integrated.
@@ -273,40 +282,39 @@ impl FrameState {
     /// Brings a frame that only translates to `time`.
     #[inline(always)]
     fn translate(&mut self, frame: &Frame, time: f64, reference: f64) {
-        let moves = self.moving.iter().map(|&k| {
-            let jet: [f64; 3] = frame.motions[k].evaluate(time, reference);
-            (self.base.column(k), jet)
-        });
-        travel(&mut self.motion, self.rest, moves);
+        let (mut position, mut velocity, mut acceleration) = (self.rest, Vector::zero(), Vector::zero());
+        for way in &mut self.moves {
+            way.jet = frame.motions[way.coordinate].evaluate(time, reference);
+            let [value, rate, second] = way.jet;
+            position += way.axis.scale(value);
+            velocity += way.axis.scale(rate);
+            acceleration += way.axis.scale(second);
+        }
+        self.motion.position = position;
+        self.motion.velocity = velocity;
+        self.motion.acceleration = acceleration;
     }
-}
 
-/// Brings a frame to its place: from where it is at rest along each axis by value, rate and second derivative.
-#[inline(always)]
-fn travel<P: Number<Plain = P>>(
-    motion: &mut FrameMotion<P>,
-    rest: Vector<P>,
-    moves: impl Iterator<Item = (Vector<P>, [P; 3])>,
-) {
-    let (mut position, mut velocity, mut acceleration) = (rest, Vector::zero(), Vector::zero());
-    for (axis, [value, rate, second]) in moves {
-        position += axis.scale::<P, P>(value);
-        velocity += axis.scale::<P, P>(rate);
-        acceleration += axis.scale::<P, P>(second);
+    /// Value, rate and second derivative of each translation that moves.
+    #[inline(always)]
+    fn jets(&self) -> impl Iterator<Item = [f64; 3]> {
+        self.moves.iter().map(|way| way.jet)
     }
-    motion.position = position;
-    motion.velocity = velocity;
-    motion.acceleration = acceleration;
 }
 
 /// Brings an element's sight up to date, where it can have changed.
 #[inline(always)]
 fn sight<E>(mounted: &mut Mounted<E>, frames: &[FrameState], kinematics: &[Kinematics<f64>], again: bool) {
     if mounted.on_free || (again && mounted.moves) {
-        let (a, b) = (&frames[mounted.body].motion, &frames[mounted.on].motion);
+        let (a, b) = (&frames[mounted.body], &frames[mounted.on]);
         match &mounted.translation {
-            Some(translation) => translation.update(&mut mounted.sight, a, b),
-            None => mounted.sight = Sight::new(a, b, &kinematics[mounted.on], &mounted.mount),
+            Some(translation) => {
+                translation.update(&mut mounted.sight, b.jets());
+            }
+            None => {
+                let seat = &kinematics[mounted.on];
+                mounted.sight = Sight::new(&a.motion, &b.motion, seat, &mounted.mount);
+            }
         }
     }
 }

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::placer::Placer;
 use super::stiffness::mobility;
-use super::{FrameState, FreeBody, System, is_bristle, scale_of, scales, structure};
+use super::{FrameState, FreeBody, Move, System, is_bristle, scale_of, scales, structure};
 use crate::body::{Body, Kinematics};
 use crate::coil::Coil;
 use crate::contact::{ContactFace, Points, RateResponse};
@@ -329,20 +329,25 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
 /// A frame at time zero, and what of it moves.
 fn frame_state(frame: &Frame) -> FrameState {
     let base = crate::turn::fixed(frame.orientation);
-    let (mut moving, mut rest) = (Vec::new(), Vector(frame.origin));
-    for k in 0..3 {
-        if let Motion::Constant(value) = frame.motions[k] {
-            rest += base.column(k).scale(value);
+    let (mut moves, mut rest) = (Vec::new(), Vector(frame.origin));
+    for coordinate in 0..3 {
+        let axis = base.column(coordinate);
+        if let Motion::Constant(value) = frame.motions[coordinate] {
+            rest += axis.scale(value);
         } else {
-            moving.push(k);
+            let jet = frame.motions[coordinate].evaluate(0.0, 0.0);
+            moves.push(Move {
+                coordinate,
+                axis,
+                jet,
+            });
         }
     }
     FrameState {
         fixed: frame.is_fixed(),
         keeps_orientation: frame.keeps_orientation(),
-        base,
         motion: frame.evaluate(0.0, 0.0),
-        moving,
+        moves,
         rest,
     }
 }

@@ -76,8 +76,13 @@ impl Placer<'_> {
             }
         }
         let translates = driven && self.frames[on].keeps_orientation && self.frames[body].fixed;
-        let translation =
-            translates.then(|| Translation::new(&self.frames[on].motion, &self.kinematics[on], &mount));
+        let translation = translates.then(|| {
+            let frame = &self.frames[on];
+            let ways = frame.moves.iter().map(|way| way.axis);
+            let seat = &self.kinematics[on];
+            let own = &self.frames[body].motion;
+            Translation::new(own, &frame.motion, (frame.rest, ways), seat, &mount)
+        });
         let moves = !self.frames[on].fixed || !self.frames[body].fixed;
         Ok(Mounted {
             plain: on_number.is_none() && (!moves || translation.is_some()),

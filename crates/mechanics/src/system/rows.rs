@@ -7,10 +7,9 @@ use integrate::lanes::Lanes;
 use integrate::partitioned::Partitioned;
 
 use super::forces::Element;
-use super::{FreeBody, Mounted};
+use super::{FrameState, FreeBody, Mounted};
 use crate::body::Kinematics;
 use crate::contact::ContactFace;
-use crate::frame::FrameMotion;
 use crate::link::{Relative, Responses, Sight, Turning, combined};
 use crate::surface::Plane;
 use crate::vector::Vector;
@@ -63,11 +62,11 @@ impl Mounted<ContactFace<Plane>> {
 
     /// Their derivatives by time.
     #[inline(always)]
-    pub(super) fn rates_in_time(&self, on: &FrameMotion<f64>, d_internal: &mut [f64]) {
+    pub(super) fn rates_in_time(&self, on: &FrameState, d_internal: &mut [f64]) {
         let Some(translation) = &self.translation else {
             return;
         };
-        let (speed, acceleration) = (self.sight.velocity.0[0], translation.acceleration(on));
+        let (speed, acceleration) = (self.sight.velocity.0[0], translation.acceleration(on.jets()));
         for (target, response) in d_internal.chunks_exact_mut(2).zip(&self.rate_responses) {
             for row in 0..2 {
                 let velocity = Vector(response.velocity.map(|rates| rates[row]));
@@ -169,7 +168,7 @@ impl<E> Mounted<E> {
     pub(super) fn in_time(
         &self,
         free: &FreeBody,
-        on: &FrameMotion<f64>,
+        on: &FrameState,
         (load, moments): &mut (Vector<f64>, [f64; 3]),
         d_quadratures: &mut [f64],
     ) {
@@ -177,7 +176,7 @@ impl<E> Mounted<E> {
             return;
         };
         let (sight, response) = (&self.sight, &self.response);
-        let acceleration = translation.acceleration(on);
+        let acceleration = translation.acceleration(on.jets());
         let (places, velocities) = (
             combined(&response.place, sight.velocity),
             combined(&response.velocity, acceleration),

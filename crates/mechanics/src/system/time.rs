@@ -47,7 +47,7 @@ impl System {
         }
         for face in self.faces.iter().filter(|face| face.moves) {
             let rates = &mut d_internal[face.first_internal..][..face.internal_count];
-            let (free, frame) = (self.free_number[face.body], &self.frames[face.on].motion);
+            let (free, frame) = (self.free_number[face.body], &self.frames[face.on]);
             if let (true, Some(free)) = (face.plain, free) {
                 face.in_time(
                     &self.free[free],
@@ -62,7 +62,7 @@ impl System {
             time_derivative(face, scene, rates, &mut self.load_rate, d_quadratures);
         }
         for coil in self.coils.iter().filter(|coil| coil.moves) {
-            let (free, frame) = (self.free_number[coil.body], &self.frames[coil.on].motion);
+            let (free, frame) = (self.free_number[coil.body], &self.frames[coil.on]);
             if let (true, Some(free)) = (coil.plain, free) {
                 coil.in_time(
                     &self.free[free],
@@ -166,6 +166,5 @@ fn lift_kinematics(kinematics: &Kinematics<f64>) -> Kinematics<Dual<1>> {
         },
         rates: kinematics.rates.map(Dual::from),
         spin: Vector::lift(kinematics.spin),
-        angular_velocity: Vector::lift(kinematics.angular_velocity),
     }
 }
