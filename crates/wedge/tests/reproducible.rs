@@ -4,6 +4,7 @@
 mod common;
 
 use common::{INCH, LBF_PER_IN, Random, TOE, YAW, bristle, free, with_law};
+use integrate::lanes::Runs;
 use integrate::{Call, Problem, Together};
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::{CoilLaw, CoilLine};
@@ -12,7 +13,7 @@ use mechanics::system::{Abreast, System};
 use wedge::parameters::{Damping, Parameters};
 use wedge::{Wedge, thesis};
 
-const PLACES: usize = 4;
+const PLACES: usize = Runs::COUNT;
 
 /// The same wedge with other numbers in all that may differ from run to run.
 fn varied(base: &Parameters, numbers: &mut Random) -> Parameters {

@@ -1,10 +1,11 @@
-//! `calls KIND NUMBER`: calls the wedge's `right-hand-side` or `jacobian` that many times, or the right-hand sides of four wedges side by
+//! `calls KIND NUMBER`: calls the wedge's `right-hand-side` or `jacobian` that many times, or the right-hand sides of as many wedges as there are lanes, side by
 //! side (`abreast`); for counting instructions.
 
 use std::hint::black_box;
 use std::process::ExitCode;
 
 use benchmarks::sliding_wedge;
+use integrate::lanes::Runs;
 use integrate::{Call, Problem, Together};
 use mechanics::system::{Abreast, System};
 use wedge::parameters::Damping;
@@ -39,19 +40,19 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// The right-hand sides of four wedges side by side, that many times.
+/// The right-hand sides of as many wedges as there are lanes, side by side, that many times.
 fn abreast(system: &System, x: &[f64], number: u32) -> ExitCode {
     let Some(mut lanes) = Abreast::of(system) else {
         eprintln!("such wedges cannot sit side by side");
         return ExitCode::FAILURE;
     };
-    let mut systems = [0; 4].map(|_| system.clone());
-    let mut rates = [0; 4].map(|_| vec![0.0; x.len()]);
+    let mut systems = [0; Runs::COUNT].map(|_| system.clone());
+    let mut rates = [0; Runs::COUNT].map(|_| vec![0.0; x.len()]);
     let mut time = 2.0;
     for _ in 0..number {
         time += 1e-9;
         let mut places = systems.iter_mut().zip(&mut rates);
-        let mut calls = [0; 4].map(|_| {
+        let mut calls = [0; Runs::COUNT].map(|_| {
             let (problem, dx) = places.next()?;
             let x = black_box(x);
             Some(Call { problem, time, x, dx })

@@ -1,11 +1,11 @@
 //! Systems of one shape side by side: the right-hand sides of several runs at once, one run a lane.
 //!
-//! The lines are those of [`System`]'s own right-hand side ([`super::forces`], [`crate::body`], [`crate::contact`], [`crate::coil`]), with four
-//! runs in the place of one number; sums are taken in the same order. So each run has the bits that it has alone, whoever is beside it.
+//! The lines are those of [`System`]'s own right-hand side ([`super::forces`], [`crate::body`], [`crate::contact`], [`crate::coil`]), with several
+//! runs ([`Runs`]) in the place of one number; sums are taken in the same order. So each run has the bits that it has alone, whoever is beside it.
 //!
 //! Limits: all elements are plain (their neighbours are prescribed and do not turn), friction is by tanh, coils are linear.
 
-use integrate::lanes::{LANES, Lanes};
+use integrate::lanes::{LANES, Runs};
 use integrate::scalar::{Mask, Number};
 use integrate::{Call, Together};
 
@@ -20,17 +20,17 @@ use crate::link::{Effect, Sight, Translation};
 use crate::surface::Plane;
 use crate::vector::{Matrix, Vector};
 
-/// Four systems of one shape.
+/// Systems of one shape, one a lane.
 #[derive(Clone, Debug)]
 pub struct Abreast {
     shape: Shape,
-    frames: Vec<FrameLanes>,
-    bodies: Vec<BodyLanes>,
-    faces: Vec<FaceLanes>,
-    coils: Vec<CoilLanes>,
+    frames: Vec<FrameRuns>,
+    bodies: Vec<BodyRuns>,
+    faces: Vec<FaceRuns>,
+    coils: Vec<CoilRuns>,
     /// States that are read, and rates.
-    x: Vec<Lanes>,
-    dx: Vec<Lanes>,
+    x: Vec<Runs>,
+    dx: Vec<Runs>,
 }
 
 /// What systems must have in common to sit side by side.
@@ -60,46 +60,46 @@ struct Place {
 }
 
 #[derive(Clone, Debug)]
-struct FrameLanes {
+struct FrameRuns {
     /// Of a frame that stands still.
-    motion: FrameMotion<Lanes>,
+    motion: FrameMotion<Runs>,
     /// Number, and value with rate and second derivative, of each coordinate that moves.
-    moves: Vec<(usize, [Lanes; 3])>,
+    moves: Vec<(usize, [Runs; 3])>,
 }
 
 #[derive(Clone, Debug)]
-struct BodyLanes {
+struct BodyRuns {
     /// Its number among all bodies, its first position.
     number: usize,
     offset: usize,
     free: Vec<usize>,
-    rigid: Rigid<Lanes>,
-    initial: [Lanes; 6],
+    rigid: Rigid<Runs>,
+    initial: [Runs; 6],
     faces: Vec<usize>,
     coils: Vec<usize>,
 }
 
 /// How an element sees the body that it carries.
 #[derive(Clone, Debug)]
-struct SightLanes {
+struct SightRuns {
     place: Place,
-    sight: Sight<Lanes>,
-    translation: Translation<Lanes>,
+    sight: Sight<Runs>,
+    translation: Translation<Runs>,
 }
 
 #[derive(Clone, Debug)]
-struct FaceLanes {
-    at: SightLanes,
-    grip: Grip<Lanes>,
-    points: Vec<(Vector<Lanes>, Grade<Lanes>)>,
+struct FaceRuns {
+    at: SightRuns,
+    grip: Grip<Runs>,
+    points: Vec<(Vector<Runs>, Grade<Runs>)>,
 }
 
 #[derive(Clone, Debug)]
-struct CoilLanes {
-    at: SightLanes,
-    seating: Seating<Lanes>,
-    stiffness: Lanes,
-    free_length: Lanes,
+struct CoilRuns {
+    at: SightRuns,
+    seating: Seating<Runs>,
+    stiffness: Runs,
+    free_length: Runs,
     pulls: bool,
 }
 
@@ -108,7 +108,7 @@ impl Abreast {
     #[must_use]
     pub fn of(system: &System) -> Option<Self> {
         let shape = Shape::of(system)?;
-        let zero = Lanes::zero();
+        let zero = Runs::zero();
         let (none, flat) = (Vector([zero; 3]), Matrix([[zero; 3]; 3]));
         let motion = FrameMotion {
             position: none,
@@ -118,12 +118,12 @@ impl Abreast {
             acceleration: none,
             angular_acceleration: none,
         };
-        let frames = shape.moving.iter().map(|moving| FrameLanes {
+        let frames = shape.moving.iter().map(|moving| FrameRuns {
             motion,
             moves: moving.iter().map(|&k| (k, [zero; 3])).collect(),
         });
         let bodies = system.free.iter().zip(&shape.bodies);
-        let bodies = bodies.map(|(free, (number, coordinates, rolls, central))| BodyLanes {
+        let bodies = bodies.map(|(free, (number, coordinates, rolls, central))| BodyRuns {
             number: *number,
             offset: free.offset,
             free: coordinates.clone(),
@@ -139,7 +139,7 @@ impl Abreast {
             faces: free.faces.clone(),
             coils: free.coils.clone(),
         });
-        let at = |place: &Place| SightLanes {
+        let at = |place: &Place| SightRuns {
             place: place.clone(),
             sight: Sight {
                 position: none,
@@ -154,7 +154,7 @@ impl Abreast {
                 ways: [none; 3],
             },
         };
-        let faces = shape.faces.iter().map(|(place, points)| FaceLanes {
+        let faces = shape.faces.iter().map(|(place, points)| FaceRuns {
             at: at(place),
             grip: Grip {
                 coefficient: zero,
@@ -175,7 +175,7 @@ impl Abreast {
                 })
                 .collect(),
         });
-        let coils = shape.coils.iter().map(|(place, pulls, central)| CoilLanes {
+        let coils = shape.coils.iter().map(|(place, pulls, central)| CoilRuns {
             at: at(place),
             seating: Seating {
                 end: none,
@@ -197,7 +197,7 @@ impl Abreast {
             dx: vec![zero; shape.states],
             shape,
         };
-        for place in 0..LANES {
+        for place in 0..Runs::COUNT {
             this.put(place, system);
         }
         Some(this)
@@ -268,20 +268,20 @@ impl Place {
 }
 
 /// Puts a vector into a lane.
-fn put_vector(lanes: &mut Vector<Lanes>, lane: usize, value: &Vector<f64>) {
+fn put_vector(lanes: &mut Vector<Runs>, lane: usize, value: &Vector<f64>) {
     for (lanes, value) in lanes.0.iter_mut().zip(value.0) {
         lanes.put(lane, value);
     }
 }
 
 /// Puts a matrix into a lane.
-fn put_matrix(lanes: &mut Matrix<Lanes>, lane: usize, value: &Matrix<f64>) {
+fn put_matrix(lanes: &mut Matrix<Runs>, lane: usize, value: &Matrix<f64>) {
     for (lanes, value) in lanes.0.as_flattened_mut().iter_mut().zip(value.0.as_flattened()) {
         lanes.put(lane, *value);
     }
 }
 
-impl SightLanes {
+impl SightRuns {
     fn put<E>(&mut self, lane: usize, mounted: &Mounted<E>) {
         let (sight, own) = (&mut self.sight, &mounted.sight);
         put_matrix(&mut sight.rotation, lane, &own.rotation);
@@ -304,7 +304,7 @@ impl SightLanes {
 
     /// Brings it to the present place of the frames.
     #[inline(always)]
-    fn update(&mut self, frames: &[FrameLanes]) {
+    fn update(&mut self, frames: &[FrameRuns]) {
         if self.place.translates {
             let jets = frames[self.place.on].moves.iter().map(|(_, jet)| *jet);
             self.translation.update(&mut self.sight, jets);
@@ -312,7 +312,7 @@ impl SightLanes {
     }
 }
 
-impl FaceLanes {
+impl FaceRuns {
     fn put(&mut self, lane: usize, mounted: &Mounted<ContactFace<Plane>>) {
         self.at.put(lane, mounted);
         let grip = mounted.element.grip();
@@ -337,13 +337,13 @@ impl FaceLanes {
 
     /// What its points do: [`ContactFace::effect`] with runs in lanes instead of points.
     #[inline(always)]
-    fn effect(&self, body: &Kinematics<Lanes>) -> Effect<Lanes> {
+    fn effect(&self, body: &Kinematics<Runs>) -> Effect<Runs> {
         let view = View::of(&self.at.sight, body);
-        let zero = Lanes::zero();
+        let zero = Runs::zero();
         let mut sums = [[zero; 8]; LANES];
         for points in self.points.chunks(LANES) {
             for (sums, (position, grade)) in sums.iter_mut().zip(points) {
-                let at = view.meet::<Lanes>(*position, grade.damped);
+                let at = view.meet::<Runs>(*position, grade.damped);
                 let closed = at.gap.below(zero);
                 if closed.none() {
                     continue;
@@ -364,7 +364,7 @@ impl FaceLanes {
     }
 }
 
-impl CoilLanes {
+impl CoilRuns {
     fn put(&mut self, lane: usize, mounted: &Mounted<Coil>) {
         self.at.put(lane, mounted);
         let (seating, own) = (&mut self.seating, mounted.element.seating());
@@ -379,7 +379,7 @@ impl CoilLanes {
     }
 
     #[inline(always)]
-    fn effect(&self, body: &Kinematics<Lanes>) -> Effect<Lanes> {
+    fn effect(&self, body: &Kinematics<Runs>) -> Effect<Runs> {
         self.seating.effect(&self.at.sight, body, |length| {
             let compression = -length + self.free_length;
             taut(compression * self.stiffness, self.pulls)
@@ -410,16 +410,16 @@ impl Abreast {
         let (d_speeds, rest) = rest.split_at_mut(speeds);
         let powers = &mut rest[states - 2 * speeds - quadratures..];
         d_positions.copy_from_slice(&self.x[speeds..]);
-        powers.fill(Lanes::zero());
+        powers.fill(Runs::zero());
         for body in &self.bodies {
-            let (mut coordinates, mut rates) = (body.initial, [Lanes::zero(); 6]);
+            let (mut coordinates, mut rates) = (body.initial, [Runs::zero(); 6]);
             for (j, &k) in body.free.iter().enumerate() {
                 coordinates[k] = self.x[body.offset + j];
                 rates[k] = self.x[speeds + body.offset + j];
             }
             let kinematics = Kinematics::new(coordinates, rates, body.rigid.rolls);
             let (mut force, mut moment) = (Vector::zero(), Vector::zero());
-            let mut add = |effect: &Effect<Lanes>, at: &SightLanes| {
+            let mut add = |effect: &Effect<Runs>, at: &SightRuns| {
                 let channels = (&at.place.channels, at.place.driven);
                 add_effect(effect, &at.sight, channels, (&mut force, &mut moment), powers);
             };
@@ -443,7 +443,7 @@ impl Together for Abreast {
     type Problem = System;
 
     fn places(&self) -> usize {
-        LANES
+        Runs::COUNT
     }
 
     fn put(&mut self, place: usize, system: &System) {
