@@ -151,25 +151,7 @@ impl<S: Number> Kinematics<S> {
     ///
     /// `frame` is the motion of the reference frame, `gravity` the field in fixed axes (m/s²).
     #[inline(always)]
-    #[must_use]
-    pub fn inertia<T>(
-        &self,
-        body: &Body,
-        frame: &FrameMotion<T>,
-        frame_moves: bool,
-        gravity: Vector<f64>,
-        accelerations: &[f64; 6],
-    ) -> (Vector<S>, Vector<S>)
-    where
-        S: Add<T, Output = S>,
-        T: Number + Mul<S, Output = S>,
-    {
-        self.inertia_of(&body.rigid(), frame, frame_moves, gravity, accelerations)
-    }
-
-    /// The same of one or several bodies.
-    #[inline(always)]
-    pub(crate) fn inertia_of<T, P>(
+    pub(crate) fn inertia<T, P>(
         &self,
         body: &Rigid<P>,
         frame: &FrameMotion<T>,

@@ -150,7 +150,7 @@ impl System {
             accelerations[k] = dx[self.layout.speeds + free.offset + j];
         }
         let (force, moment) = kinematics.inertia(
-            body,
+            &free.rigid,
             frame,
             !self.frames[free.body].fixed,
             self.gravity,

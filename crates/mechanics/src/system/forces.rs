@@ -330,7 +330,7 @@ pub(super) fn accelerate<P: Number<Plain = P>>(
     gravity: Vector<f64>,
     (force, moment): (Vector<P>, Vector<P>),
 ) -> [P; 6] {
-    let (inertia, turning) = kinematics.inertia_of(body, frame, frame_moves, gravity, &[0.0; 6]);
+    let (inertia, turning) = kinematics.inertia(body, frame, frame_moves, gravity, &[0.0; 6]);
     let (force, moment) = (force - inertia, moment - turning);
     kinematics.accelerations(body, &force, kinematics.about_axes(&moment))
 }

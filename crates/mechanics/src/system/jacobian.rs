@@ -162,7 +162,8 @@ impl Pass<'_> {
         let frame = &self.scene.frames[free.body];
         if !frame.fixed {
             let gravity = self.scene.gravity;
-            let (force, moment) = kinematics.inertia(body, &frame.motion, true, gravity, self.accelerations);
+            let (force, moment) =
+                kinematics.inertia(&free.rigid, &frame.motion, true, gravity, self.accelerations);
             load.force += -force;
             load.moment += -moment;
         }
@@ -184,7 +185,8 @@ impl Pass<'_> {
         }
         let kinematics = Kinematics::new(coordinates, speeds, body.rolls());
         let frame = &self.scene.frames[free.body].motion;
-        let (force, moment) = kinematics.inertia(body, frame, false, self.scene.gravity, self.accelerations);
+        let (force, moment) =
+            kinematics.inertia(&free.rigid, frame, false, self.scene.gravity, self.accelerations);
         let (force, moment) = (-force, Vector::<Dual<D>>::lift(*carried) - moment);
         let (stiffness, damping) = jacobian.blocks_mut(free.pair);
         for (row, &k) in free.free.iter().enumerate() {

@@ -35,11 +35,10 @@ impl System {
             let kinematics = Kinematics::<Dual<1>>::new(
                 coordinates.map(Dual::from),
                 speeds.map(Dual::from),
-                self.bodies[body].rolls(),
+                free.rigid.rolls,
             );
             let accelerations = &self.accelerations[body];
-            let (force, moment) =
-                kinematics.inertia(&self.bodies[body], &frame, true, self.gravity, accelerations);
+            let (force, moment) = kinematics.inertia(&free.rigid, &frame, true, self.gravity, accelerations);
             *load = (
                 -rate_of(&force),
                 self.kinematics[body].about_axes(&-rate_of(&moment)),
