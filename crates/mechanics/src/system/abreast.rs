@@ -215,7 +215,6 @@ impl Shape {
         if !system.bounded {
             return None;
         }
-        let place = |place: Place| place;
         let mut faces = Vec::new();
         for face in &system.faces {
             let points = &face.element.points;
@@ -224,7 +223,7 @@ impl Shape {
                 let damped = quad.iter().any(|point| point.damping > 0.0);
                 quad.iter().map(move |_| damped)
             });
-            faces.push((place(Place::of(face)), damped.collect()));
+            faces.push((Place::of(face), damped.collect()));
         }
         let mut coils = Vec::new();
         for coil in &system.coils {
@@ -232,7 +231,7 @@ impl Shape {
                 return None;
             };
             let central = coil.element.seating().central;
-            coils.push((place(Place::of(coil)), coil.element.pulls, central));
+            coils.push((Place::of(coil), coil.element.pulls, central));
         }
         let bodies = system
             .free
@@ -388,6 +387,19 @@ impl CoilRuns {
 }
 
 impl Abreast {
+    /// Brings the frames of one system to a time.
+    #[inline(always)]
+    fn travel(&mut self, place: usize, system: &System, time: f64) {
+        for (frame, body) in self.frames.iter_mut().zip(&system.bodies) {
+            for (k, jet) in &mut frame.moves {
+                let values: [f64; 3] = body.frame.motions[*k].evaluate(time, system.reference);
+                for (lanes, value) in jet.iter_mut().zip(values) {
+                    lanes.put(place, value);
+                }
+            }
+        }
+    }
+
     /// Rates at the states and frames that are in place.
     #[inline(always)]
     fn forces(&mut self) {
@@ -447,11 +459,8 @@ impl Together for Abreast {
     }
 
     fn put(&mut self, place: usize, system: &System) {
-        for (lanes, (body, frame)) in self
-            .frames
-            .iter_mut()
-            .zip(system.bodies.iter().zip(&system.frames))
-        {
+        self.travel(place, system, 0.0);
+        for (lanes, frame) in self.frames.iter_mut().zip(&system.frames) {
             let own = &frame.motion;
             put_matrix(&mut lanes.motion.rotation, place, &own.rotation);
             for (lanes, value) in [
@@ -463,16 +472,10 @@ impl Together for Abreast {
             ] {
                 put_vector(lanes, place, value);
             }
-            for (k, jet) in &mut lanes.moves {
-                let values: [f64; 3] = body.frame.motions[*k].evaluate(0.0, 0.0);
-                for (lanes, value) in jet.iter_mut().zip(values) {
-                    lanes.put(place, value);
-                }
-            }
         }
-        for lanes in &mut self.bodies {
-            let body = &system.bodies[lanes.number];
-            let (rigid, own) = (&mut lanes.rigid, body.rigid());
+        for (lanes, free) in self.bodies.iter_mut().zip(&system.free) {
+            let body = &system.bodies[free.body];
+            let (rigid, own) = (&mut lanes.rigid, &free.rigid);
             rigid.mass.put(place, own.mass);
             put_vector(&mut rigid.center_of_gravity, place, &own.center_of_gravity);
             for (lanes, value) in rigid.inertia.iter_mut().zip(own.inertia) {
@@ -498,14 +501,7 @@ impl Together for Abreast {
             let Some(Call { problem, time, x, .. }) = call else {
                 continue;
             };
-            for (frame, body) in self.frames.iter_mut().zip(&problem.bodies) {
-                for (k, jet) in &mut frame.moves {
-                    let values: [f64; 3] = body.frame.motions[*k].evaluate(*time, problem.reference);
-                    for (lanes, value) in jet.iter_mut().zip(values) {
-                        lanes.put(place, value);
-                    }
-                }
-            }
+            self.travel(place, problem, *time);
             for (lanes, value) in self.x.iter_mut().zip(*x) {
                 lanes.put(place, *value);
             }
