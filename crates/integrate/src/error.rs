@@ -95,6 +95,8 @@ pub enum Reason {
         /// Its diagonal block.
         block: usize,
     },
+    /// Newton's method did not find a stage.
+    Unsolved,
     /// The largest number of steps was exceeded.
     MaximumSteps {
         /// This number.
@@ -165,6 +167,11 @@ impl std::fmt::Display for StepError {
                 f,
                 "at time {time} the matrix of a step of {step} is singular in block {block}: \
                  look for an infinite or missing partial derivative"
+            ),
+            Reason::Unsolved => write!(
+                f,
+                "at time {time} the equations of a step of {step} could not be solved: look for a jump in the problem, \
+                 or choose another method"
             ),
             Reason::MaximumSteps { maximum } => {
                 write!(

@@ -1,7 +1,7 @@
-//! The explicit method for where nothing is stiff, in the form of the others' rows: γ is zero, `U_i = h f(t + α_i h, x + Σ_j a_ij U_j)`,
-//! the seventh argument is the new state, and the eighth row of `a` makes the error estimate of the seven `U`.
+//! The explicit method for where nothing is stiff: the seventh argument is the new state, and the eighth row of `a` makes the error
+//! estimate of the seven `U`.
 
-use crate::tableau::Tableau;
+use crate::tableau::{Family, Tableau};
 
 /// Weights of the new state.
 const B: [f64; 7] = [
@@ -31,6 +31,7 @@ pub static DORMAND_PRINCE: Tableau = Tableau {
     citation: "J. R. Dormand, P. J. Prince: A family of embedded Runge-Kutta formulae, J. Comp. Appl. Math. 6 (1980) 19; dense \
                output: E. Hairer, S. P. Nørsett, G. Wanner: Solving Ordinary Differential Equations I, 2nd ed., Springer 1993, \
                section II.6, and code DOPRI5",
+    family: Family::Explicit,
     order: 5,
     embedded_order: 4,
     dense_order: 4,

@@ -1,7 +1,7 @@
 //! Linearly implicit one-step integration of stiff, kinked ordinary differential equations. Knows no physics.
 //!
 //! A [`Problem`] gives its right-hand side and brings its own structured linear algebra (for which [`BlockLu`] is at
-//! hand); an [`Integrator`] makes accepted steps with a stiffly accurate Rosenbrock [`Method`], controls their
+//! hand); an [`Integrator`] makes accepted steps with a stiffly accurate [`Method`], controls their
 //! error, gives dense output, and times the changes of discrete switches. Nothing is allocated in a step, and the
 //! same input gives the same bits on every system. A [`Team`] makes the steps of several runs side by side, with the bits of
 //! each run alone.
@@ -30,6 +30,7 @@ mod state;
 mod statistics;
 mod tableau;
 mod together;
+mod tr_bdf2;
 
 pub use block_lu::BlockLu;
 pub use error::{Reason, SetupError, StepError};
@@ -41,5 +42,5 @@ pub use problem::{Problem, Singular};
 pub use rosenbrock::{Call, Integrator, Progress};
 pub use state::{STATE_VERSION, State};
 pub use statistics::Statistics;
-pub use tableau::{MAXIMUM_STAGES, Method, Tableau, UnknownMethod};
+pub use tableau::{Family, MAXIMUM_STAGES, Method, Tableau, UnknownMethod};
 pub use together::{MOST_PLACES, OneByOne, Team, Together};

@@ -58,6 +58,7 @@ pub struct Ordinary<'a> {
     kinks: Option<((usize, usize), Kinks<'a>)>,
     /// Ends of segments, ascending.
     breaks: Vec<f64>,
+    displacements: usize,
     matrix: BlockLu,
 }
 
@@ -79,6 +80,7 @@ impl<'a> Ordinary<'a> {
     ) -> Self {
         let matrix = BlockLu::new(&[scales.len()], &[]);
         Self {
+            displacements: scales.len(),
             scales,
             derivative: Box::new(derivative),
             jacobian: Box::new(jacobian),
@@ -126,6 +128,13 @@ impl<'a> Ordinary<'a> {
         self
     }
 
+    /// How many leading states are displacements, see [`Problem::displacements`]; without this call all are.
+    #[must_use]
+    pub fn displacements(mut self, count: usize) -> Self {
+        self.displacements = count;
+        self
+    }
+
     /// The largest admissible errors while a direction is in its layer, see [`Problem::layer_bounds`].
     #[must_use]
     pub fn layer_bounds(mut self, bounds: Vec<f64>) -> Self {
@@ -156,6 +165,10 @@ impl<'a> Ordinary<'a> {
 impl Problem for Ordinary<'_> {
     fn dimension(&self) -> usize {
         self.scales.len()
+    }
+
+    fn displacements(&self) -> usize {
+        self.displacements
     }
 
     fn layer_bounds(&self) -> &[f64] {

@@ -26,6 +26,13 @@ pub trait Problem {
         self.dimension()
     }
 
+    /// How many leading states are displacements: the rate of each is another state, or smooth like one.
+    ///
+    /// A method that damps fast vibrations instead of following them ([`crate::Method::TrBdf2`]) holds the tolerance in these alone.
+    fn displacements(&self) -> usize {
+        self.read_states()
+    }
+
     /// Fixed error scale of each state, positive; infinite: the state is not error controlled.
     ///
     /// The size of an error is the maximum norm `max |error_i| / (relative_tolerance · scale_i)`: the tolerance
@@ -69,6 +76,12 @@ pub trait Problem {
     ///
     /// `df_dt` comes filled with zeros: an autonomous problem need not touch it.
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]);
+
+    /// The same without `∂f/∂t`, for methods that do not need it. `unused` has the length of `dx`; what is written there is lost.
+    fn linearize_states(&mut self, time: f64, x: &[f64], dx: &[f64], unused: &mut [f64]) {
+        unused.fill(0.0);
+        self.linearize(time, x, dx, unused);
+    }
 
     /// How fast the fastest part of the problem answers near `(time, x)`, 1/s: a bound of the size of the eigenvalues of J, which need
     /// not be sharp; infinite: not known.
@@ -131,6 +144,9 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     fn read_states(&self) -> usize {
         (**self).read_states()
     }
+    fn displacements(&self) -> usize {
+        (**self).displacements()
+    }
     fn scales(&self) -> &[f64] {
         (**self).scales()
     }
@@ -149,6 +165,9 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     }
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         (**self).linearize(time, x, dx, df_dt);
+    }
+    fn linearize_states(&mut self, time: f64, x: &[f64], dx: &[f64], unused: &mut [f64]) {
+        (**self).linearize_states(time, x, dx, unused);
     }
     fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
         (**self).stiffness(time, x)

@@ -1,11 +1,12 @@
 //! The coefficients of the methods of the Rodas family.
 
-use crate::tableau::Tableau;
+use crate::tableau::{Family, Tableau};
 
 /// Hairer & Wanner's RODAS.
 pub static RODAS4: Tableau = Tableau {
     name: "Rodas4",
     citation: "E. Hairer, G. Wanner: Solving Ordinary Differential Equations II, 2nd ed., Springer 1996, section VI.4",
+    family: Family::LinearlyImplicit,
     order: 4,
     embedded_order: 3,
     dense_order: 3,
@@ -82,6 +83,7 @@ pub static RODAS4: Tableau = Tableau {
 pub static RODAS42: Tableau = Tableau {
     name: "Rodas42",
     citation: "E. Hairer, G. Wanner: code RODAS (METH = 2), 1996",
+    family: Family::LinearlyImplicit,
     order: 4,
     embedded_order: 3,
     dense_order: 3,
@@ -159,6 +161,7 @@ pub static RODAS4P: Tableau = Tableau {
     name: "Rodas4P",
     citation: "G. Steinebach: Order-reduction of ROW-methods for DAEs and method of lines applications, \
                TU Darmstadt, Preprint 1741, 1995",
+    family: Family::LinearlyImplicit,
     order: 4,
     embedded_order: 3,
     dense_order: 3,
@@ -232,6 +235,7 @@ pub static RODAS4P2: Tableau = Tableau {
     name: "Rodas4P2",
     citation: "G. Steinebach: Improvement of Rosenbrock-Wanner method RODASP, in: Progress in \
                Differential-Algebraic Equations II, Springer 2020",
+    family: Family::LinearlyImplicit,
     order: 4,
     embedded_order: 3,
     dense_order: 3,
@@ -316,6 +320,7 @@ pub static RODAS5P: Tableau = Tableau {
     name: "Rodas5P",
     citation: "G. Steinebach: Construction of Rosenbrock-Wanner method Rodas5P and numerical benchmarks within the \
                Julia Differential Equations package, BIT Numerical Mathematics 63, 27 (2023)",
+    family: Family::LinearlyImplicit,
     order: 5,
     embedded_order: 4,
     dense_order: 4,

@@ -10,12 +10,14 @@ use crate::problem::Problem;
 use crate::stages::{Dense, leading_states};
 use crate::state::{STATE_VERSION, State};
 use crate::statistics::Statistics;
-use crate::tableau::{MAXIMUM_STAGES, Tableau};
+use crate::tableau::{Family, MAXIMUM_STAGES, Tableau};
 
 mod attempt;
+mod newton;
 mod step;
 mod underway;
 
+use newton::Newton;
 use underway::Underway;
 pub use underway::{Call, Progress};
 
@@ -92,6 +94,7 @@ pub struct Integrator<P: Problem> {
     trial_dx: Vec<f64>,
     argument: Vec<f64>,
     slope: Vec<f64>,
+    newton: Newton,
 }
 
 impl<P: Problem> std::fmt::Debug for Integrator<P> {
@@ -121,6 +124,7 @@ impl<P: Problem> Integrator<P> {
             ahead: None,
             passage: None,
             controller: Controller::default(),
+            slope: Vec::new(),
             statistics: Statistics::default(),
         };
         let mut this = Self::resume(problem, options, state)?;
@@ -171,8 +175,14 @@ impl<P: Problem> Integrator<P> {
         }
         let segment_end = enter(&mut problem, &state)?;
         let tableau = options.method.tableau();
+        let linearly_implicit = tableau.family == Family::LinearlyImplicit;
         let extends: Vec<bool> = (0..tableau.stages())
-            .map(|i| i > 1 && tableau.a[i][..i - 1] == *tableau.a[i - 1] && tableau.a[i][i - 1] == 1.0)
+            .map(|i| {
+                linearly_implicit
+                    && i > 1
+                    && tableau.a[i][..i - 1] == *tableau.a[i - 1]
+                    && tableau.a[i][i - 1] == 1.0
+            })
             .collect();
         let whole = extends.iter().rposition(|extends| !extends).unwrap_or(0);
         let leading = leading_states(&problem);
@@ -182,6 +192,10 @@ impl<P: Problem> Integrator<P> {
         let mut x = zero();
         x[..n].copy_from_slice(&state.x);
         let all_stages = vec![0.0; stride * MAXIMUM_STAGES];
+        let newton = match tableau.family {
+            Family::DiagonallyImplicit => Newton::new(&problem, options.relative_tolerance, stride),
+            _ => Newton::default(),
+        };
         let mut this = Self {
             switches: Switches::new(&problem, state.modes, options.maximum_events),
             kinks: Kinks::new(&problem),
@@ -220,6 +234,7 @@ impl<P: Problem> Integrator<P> {
             trial_dx: zero(),
             argument: zero(),
             slope: zero(),
+            newton,
         };
         // Not counted: a run without a break has this evaluation from its last step.
         let counted = this.statistics.derivatives;
@@ -233,6 +248,7 @@ impl<P: Problem> Integrator<P> {
                 value,
             });
         }
+        this.continue_slope(&state.slope);
         Ok(this)
     }
 
@@ -249,6 +265,10 @@ impl<P: Problem> Integrator<P> {
             ahead: self.ahead,
             passage: self.passage,
             controller: self.controller.clone(),
+            slope: match self.tableau.family {
+                Family::DiagonallyImplicit => self.derivative().to_vec(),
+                _ => Vec::new(),
+            },
             statistics: self.statistics.clone(),
         }
     }
@@ -410,7 +430,17 @@ impl<P: Problem> Integrator<P> {
         let counted = self.statistics.derivatives;
         self.evaluate_derivative();
         self.statistics.derivatives = counted;
+        self.continue_slope(&state.slope);
         Ok(())
+    }
+
+    /// Takes the slope with which the last step ended.
+    fn continue_slope(&mut self, slope: &[f64]) {
+        if self.tableau.family == Family::DiagonallyImplicit {
+            for (dx, slope) in self.dx.iter_mut().zip(slope) {
+                *dx = *slope;
+            }
+        }
     }
 
     /// Tells the integrator that the right-hand side has changed: it is evaluated anew, and the memory of the

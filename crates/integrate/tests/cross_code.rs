@@ -10,6 +10,14 @@ use integrate::{Integrator, Method, Options, Ordinary};
 
 type Matrix = NalgebraMat<f64>;
 
+/// A tolerance at which a method is about as exact as the others: that of order 2 makes many more steps.
+fn tolerance(method: Method, of_others: f64) -> f64 {
+    match method {
+        Method::TrBdf2 => 1e-3 * of_others,
+        _ => of_others,
+    }
+}
+
 /// Values of the independent code at `times`.
 fn reference<E>(problem: &OdeSolverProblem<E>, times: &[f64]) -> Vec<Vec<f64>>
 where
@@ -87,7 +95,7 @@ fn robertson_agrees_with_an_independent_code() {
     for method in Method::ALL {
         let options = Options {
             method,
-            relative_tolerance: 1e-9,
+            relative_tolerance: tolerance(method, 1e-9),
             ..Options::default()
         };
         let found = run(robertson(), options, &[1.0, 0.0, 0.0], &times);
@@ -299,7 +307,7 @@ fn a_bouncing_mass_with_loss_agrees_with_an_independent_code() {
         );
         let options = Options {
             method,
-            relative_tolerance: 1e-8,
+            relative_tolerance: tolerance(method, 1e-8),
             ..Options::default()
         };
         let found = run(mine, options, &[0.5, 0.0], &times);

@@ -6,6 +6,7 @@ use crate::error::Reason;
 use crate::explicit::DORMAND_PRINCE;
 use crate::problem::Problem;
 use crate::stages::{add, all_finite, combine, largest, leading_states, scale};
+use crate::tableau::Family;
 
 /// Steps shorter than this, in units of the fastest answer of the problem, are explicit. The method is stable down to -3.3 on the real
 /// axis and all but stable up to 2 on the imaginary one; bounds of answers are larger than the answers.
@@ -38,8 +39,11 @@ impl<P: Problem> Integrator<P> {
             Phase::Implicit(stage) => self.after_stage(stage),
             Phase::End => self.after_end(),
             Phase::Explicit(stage) => self.after_explicit_stage(stage),
+            Phase::Newton(point) => self.after_newton(point),
             Phase::Idle | Phase::Start => {
-                if self.options.explicit_steps && self.underway.step * self.stiffness <= EXPLICIT {
+                if self.tableau.family == Family::DiagonallyImplicit {
+                    self.begin_newton()
+                } else if self.options.explicit_steps && self.underway.step * self.stiffness <= EXPLICIT {
                     self.begin_explicit()
                 } else {
                     self.begin_implicit()
@@ -226,7 +230,7 @@ impl<P: Problem> Integrator<P> {
 
 /// The time of a stage; the last ones stand at the end itself.
 #[inline(always)]
-fn stage_time(alpha: f64, start: f64, step: f64, target: f64) -> f64 {
+pub(super) fn stage_time(alpha: f64, start: f64, step: f64, target: f64) -> f64 {
     if alpha == 1.0 {
         target
     } else {
@@ -236,7 +240,7 @@ fn stage_time(alpha: f64, start: f64, step: f64, target: f64) -> f64 {
 
 /// The first value that is not finite is to blame.
 #[cold]
-fn not_finite(values: &[f64]) -> Failure {
+pub(super) fn not_finite(values: &[f64]) -> Failure {
     Failure {
         reason: Reason::NotFinite,
         index: values.iter().position(|value| !value.is_finite()),

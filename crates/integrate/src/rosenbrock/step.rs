@@ -7,6 +7,7 @@ use crate::error::{Reason, StepError};
 use crate::kinks::{Ahead, Layer, Passage, WHOLE_LANDING};
 use crate::problem::Problem;
 use crate::stages::Dense;
+use crate::tableau::Family;
 
 /// The part of the planned step that is tried behind a kink.
 const BEHIND_KINK: f64 = 0.5;
@@ -155,6 +156,10 @@ impl<P: Problem> Integrator<P> {
                         self.statistics.rejected_singular += 1;
                         step *= 0.5;
                     }
+                    Reason::Unsolved => {
+                        self.statistics.rejected_unsolved += 1;
+                        step *= 0.25;
+                    }
                     _ => {
                         self.statistics.rejected_not_finite += 1;
                         step *= 0.25;
@@ -252,8 +257,22 @@ impl<P: Problem> Integrator<P> {
         self.statistics.derivatives += 1;
         self.linearized = false;
         self.switches.forget();
-        self.stiffness = self.problem.stiffness(self.time, &self.x[..n]);
-        self.look();
+        self.bound();
+        if self.foresees() {
+            self.look();
+        }
+    }
+
+    /// Whether kinks are foreseen, and errors held to what the place reached asks for.
+    fn foresees(&self) -> bool {
+        self.options.fixed_step.is_none() && self.tableau.family == Family::LinearlyImplicit
+    }
+
+    /// Asks for the problem's fastest answer at the place reached, if that may make steps explicit.
+    fn bound(&mut self) {
+        if self.options.explicit_steps && self.tableau.family == Family::LinearlyImplicit {
+            self.stiffness = self.problem.stiffness(self.time, &self.x[..self.dimension]);
+        }
     }
 
     /// Looks for kinks at the place reached, and lets errors count as they must there.
@@ -299,11 +318,11 @@ impl<P: Problem> Integrator<P> {
         self.linearized = false;
         self.last_method = self.trial_method;
         self.statistics.accept(step);
-        let explicit = self.last_method.gamma == 0.0;
+        let explicit = self.last_method.family == Family::Explicit;
         self.statistics.explicit_steps += u64::from(explicit);
         // All that is asked at the end is asked at once: what the problem has computed there serves several times.
-        self.stiffness = self.problem.stiffness(self.time, &self.x[..self.dimension]);
-        if self.options.fixed_step.is_none() {
+        self.bound();
+        if self.foresees() {
             self.look();
         }
         if !self.switches.modes.is_empty() {
@@ -345,7 +364,7 @@ impl<P: Problem> Integrator<P> {
             x1: &self.x,
             stages: &self.stages,
         };
-        if self.options.fixed_step.is_none() {
+        if self.foresees() {
             let length = self.proposed_step.min(self.segment_end - self.time);
             self.ahead = self.kinks.foresee(&mut self.problem, &dense, length, error);
             self.statistics.kinks_foreseen += u64::from(self.ahead.is_some());
@@ -374,7 +393,11 @@ impl<P: Problem> Integrator<P> {
     fn dominant(&self) -> (usize, f64) {
         let last = &self.trial_stages[(self.trial_method.stages() - 1) * self.stride..][..self.stride];
         let mut found = (0, 0.0);
-        for (i, (u, weight)) in last.iter().zip(&self.weights).enumerate() {
+        let weights = match self.trial_method.family {
+            Family::DiagonallyImplicit => &self.newton.controlled,
+            _ => &self.weights,
+        };
+        for (i, (u, weight)) in last.iter().zip(weights).enumerate() {
             let size = u.abs() * weight;
             if size > found.1 {
                 found = (i, size);

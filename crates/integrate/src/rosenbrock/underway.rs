@@ -2,6 +2,7 @@
 
 use super::Integrator;
 use super::attempt::EXPLICIT_END;
+use super::newton::Point;
 use crate::kinks::Ahead;
 use crate::problem::Problem;
 
@@ -46,6 +47,8 @@ pub(super) enum Phase {
     Explicit(usize),
     /// It waits for this stage of the linearly implicit method.
     Implicit(usize),
+    /// It waits for this point of a stage that Newton's method looks for.
+    Newton(Point),
     /// It waits for the derivative at the end.
     End,
 }

@@ -284,6 +284,10 @@ impl Problem for System {
         self.layout.len()
     }
 
+    fn displacements(&self) -> usize {
+        self.layout.speeds
+    }
+
     fn scales(&self) -> &[f64] {
         &self.scales
     }

@@ -31,8 +31,8 @@ struct Scene<'s> {
 }
 
 impl System {
-    /// The Jacobian and `∂f/∂t` at the state that [`System::place`] was called with, where the rates are `dx`.
-    pub(super) fn differentiate(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
+    /// The Jacobian at the state that [`System::place`] was called with, where the rates are `dx`.
+    pub(super) fn differentiate(&mut self, x: &[f64], dx: &[f64]) {
         let layout = self.layout;
         let [_, _, internal, _] = layout.split(x);
         self.meet();
@@ -110,9 +110,6 @@ impl System {
             if face.internal_count > 0 {
                 differentiate_internal(face, &scene, &mut self.jacobian);
             }
-        }
-        if self.moves {
-            self.differentiate_time(time, x, df_dt);
         }
     }
 }

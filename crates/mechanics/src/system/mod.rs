@@ -328,6 +328,10 @@ impl Problem for System {
         self.layout.len() - self.layout.quadratures
     }
 
+    fn displacements(&self) -> usize {
+        self.layout.speeds
+    }
+
     fn scales(&self) -> &[f64] {
         &self.scales
     }
@@ -363,7 +367,15 @@ impl Problem for System {
 
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         self.place(time, x);
-        self.differentiate(time, x, dx, df_dt);
+        self.differentiate(x, dx);
+        if self.moves {
+            self.differentiate_time(time, x, df_dt);
+        }
+    }
+
+    fn linearize_states(&mut self, time: f64, x: &[f64], dx: &[f64], _: &mut [f64]) {
+        self.place(time, x);
+        self.differentiate(x, dx);
     }
 
     fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {

@@ -292,6 +292,7 @@ pub(super) const METHODS: Names<Method> = &[
     ("rodas4p", Method::Rodas4P),
     ("rodas4p2", Method::Rodas4P2),
     ("rodas5p", Method::Rodas5P),
+    ("tr-bdf2", Method::TrBdf2),
 ];
 
 /// Names of the ramp profiles.

@@ -1,0 +1,304 @@
+//! One attempt of a diagonally implicit method: its stages are found by Newton's method with a search along its corrections.
+//!
+//! A stage is the zero of `F(z) = (base - z)/(hγ) + f(t, z)`; a correction is `d = (I/(hγ) - J)⁻¹ F(z)`. The matrix is that at the guess
+//! of the first stage, kept while the next correction, by the same matrix, is a fifth of the last one or smaller. Where a correction
+//! gets across a kink - slip that would reverse, a contact that would open -, the next one points back. Then the zero of their
+//! product is looked for between both ends (regula falsi, Illinois), and the matrix is formed there: without that search, Newton's
+//! method goes to and fro between both sides of a reversal, and steps must be as short as the layer of friction is thin.
+//!
+//! Natural corrections and monotonicity: P. Deuflhard, *Newton Methods for Nonlinear Problems*, Springer 2004, section 3.
+
+use super::Integrator;
+use super::attempt::{Advance, Failure, not_finite, stage_time};
+use super::underway::{Phase, Underway};
+use crate::error::Reason;
+use crate::problem::Problem;
+use crate::stages::{add, all_finite, combine, largest, scale};
+
+/// The last correction by a fresh matrix, relative to the tolerance. It is small beside the rest that it leaves.
+const LAST_CORRECTION: f64 = 0.03;
+/// The same where a problem tells layers, in widths of a layer.
+const LAST_IN_LAYER: f64 = 0.4;
+/// How much smaller corrections by an old matrix must be.
+const SURE: f64 = 0.01;
+/// The matrix is kept while corrections shrink by this factor.
+const CONTRACTION: f64 = 0.2;
+/// How far the next correction may point back, and where a search along it ends.
+const BACK: f64 = 0.1;
+/// Most matrices a stage, and most evaluations a search.
+const MOST_ROUNDS: u32 = 8;
+const MOST_IN_SEARCH: u32 = 12;
+
+/// For which point a stage waits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Point {
+    /// The guess.
+    Guess,
+    /// The point to which a correction leads.
+    Corrected,
+    /// A point on the way there.
+    Between,
+}
+
+/// A search along a correction: fractions of it, and what the next correction is along it there.
+#[derive(Clone, Copy, Debug, Default)]
+struct Search {
+    low: (f64, f64),
+    high: (f64, f64),
+    at: f64,
+    /// Which end was moved last: the value of one that stays twice is halved.
+    moved_low: Option<bool>,
+    count: u32,
+}
+
+impl Search {
+    fn next(&mut self) -> f64 {
+        let ((a, fa), (b, fb)) = (self.low, self.high);
+        self.at = (a * fb - b * fa) / (fb - fa);
+        self.count += 1;
+        self.at
+    }
+
+    fn note(&mut self, along: f64) {
+        let moves_low = along > 0.0;
+        if moves_low {
+            self.low = (self.at, along);
+            if self.moved_low == Some(true) {
+                self.high.1 *= 0.5;
+            }
+        } else {
+            self.high = (self.at, along);
+            if self.moved_low == Some(false) {
+                self.low.1 *= 0.5;
+            }
+        }
+        self.moved_low = Some(moves_low);
+    }
+}
+
+/// A stage under way, and what an implicit method remembers of the last step.
+#[derive(Debug, Default)]
+pub(super) struct Newton {
+    stage: usize,
+    rounds: u32,
+    /// The size of the correction; 1: so small that nothing is left to do.
+    size: f64,
+    search: Search,
+    base: Vec<f64>,
+    /// Where the correction starts.
+    from: Vec<f64>,
+    correction: Vec<f64>,
+    next: Vec<f64>,
+    /// Reciprocals of the last correction's admissible sizes.
+    weights: Vec<f64>,
+    /// Reciprocals of admissible errors.
+    pub controlled: Vec<f64>,
+}
+
+impl Newton {
+    /// For a problem; vectors have `stride` entries.
+    pub fn new<P: Problem>(problem: &P, tolerance: f64, stride: usize) -> Self {
+        let zero = || vec![0.0; stride];
+        let (mut weights, mut controlled) = (zero(), zero());
+        let scales = problem.scales();
+        for (weight, scale) in weights.iter_mut().zip(scales).take(problem.read_states()) {
+            *weight = 1.0 / (LAST_CORRECTION * tolerance * scale);
+        }
+        for (weight, bound) in weights.iter_mut().zip(problem.layer_bounds()) {
+            *weight = weight.max(1.0 / (LAST_IN_LAYER * bound));
+        }
+        for (weight, scale) in controlled.iter_mut().zip(scales).take(problem.displacements()) {
+            *weight = 1.0 / (tolerance * scale);
+        }
+        Self {
+            base: zero(),
+            from: zero(),
+            correction: zero(),
+            next: zero(),
+            weights,
+            controlled,
+            ..Self::default()
+        }
+    }
+
+    /// The next correction's part along this one, relative to it.
+    fn along(&self) -> f64 {
+        let (mut product, mut square) = (0.0, 0.0);
+        for ((d, next), weight) in self.correction.iter().zip(&self.next).zip(&self.weights) {
+            let d = d * weight;
+            product += d * (next * weight);
+            square += d * d;
+        }
+        product / square
+    }
+}
+
+impl<P: Problem> Integrator<P> {
+    /// Begins an attempt.
+    #[inline(never)]
+    pub(super) fn begin_newton(&mut self) -> Advance {
+        self.trial_method = self.tableau;
+        let first = &mut self.trial_stages[..self.stride];
+        scale(first, self.underway.step, &self.dx);
+        self.begin_newton_stage(1)
+    }
+
+    fn begin_newton_stage(&mut self, i: usize) -> Advance {
+        let (stride, tableau) = (self.stride, self.tableau);
+        let newton = &mut self.newton;
+        (newton.stage, newton.rounds) = (i, 0);
+        let done = &self.trial_stages[..i * stride];
+        combine(&mut newton.base, &self.x, 1.0, tableau.a[i], done, stride);
+        self.argument.copy_from_slice(&self.x);
+        // Straight on: from the last step, then through the stage before. Whatever bends would foresee kinks wrongly.
+        if i == 1 {
+            add(&mut self.argument, tableau.alpha[1], done);
+        } else {
+            let share = tableau.gamma / tableau.alpha[1];
+            add(&mut self.argument, share, &done[..stride]);
+            add(&mut self.argument, share, &done[stride..]);
+        }
+        self.want_newton(Point::Guess)
+    }
+
+    fn want_newton(&mut self, point: Point) -> Advance {
+        let Underway { step, target, .. } = self.underway;
+        let time = stage_time(self.tableau.alpha[self.newton.stage], self.time, step, target);
+        self.want(time, Phase::Newton(point));
+        Ok(None)
+    }
+
+    /// Goes on where the right-hand side is there.
+    #[inline(never)]
+    pub(super) fn after_newton(&mut self, point: Point) -> Advance {
+        self.statistics.derivatives += 1;
+        let finite = all_finite(&self.slope);
+        if point == Point::Guess {
+            return self.newton_round();
+        }
+        let size = if finite {
+            self.next_correction()
+        } else {
+            f64::INFINITY
+        };
+        let newton = &mut self.newton;
+        let along = if size.is_finite() { newton.along() } else { -1.0 };
+        if point == Point::Corrected {
+            if size <= SURE || (size < newton.size && size * size <= SURE * newton.size) {
+                add(&mut self.argument, 1.0, &newton.next);
+                return self.end_newton_stage();
+            }
+            if size < CONTRACTION * newton.size {
+                newton.from.copy_from_slice(&self.argument);
+                std::mem::swap(&mut newton.correction, &mut newton.next);
+                newton.size = size;
+                add(&mut self.argument, 1.0, &newton.correction);
+                return self.want_newton(Point::Corrected);
+            }
+            if along >= -BACK {
+                return self.newton_round();
+            }
+            newton.search = Search {
+                low: (0.0, 1.0),
+                high: (1.0, along),
+                ..Search::default()
+            };
+        } else if along.abs() < BACK || newton.search.count >= MOST_IN_SEARCH {
+            return self.newton_round();
+        } else {
+            newton.search.note(along);
+        }
+        let fraction = newton.search.next();
+        self.argument.copy_from_slice(&newton.from);
+        add(&mut self.argument, fraction, &newton.correction);
+        self.want_newton(Point::Between)
+    }
+
+    /// The next correction, at the argument by the matrix that is there; its size.
+    fn next_correction(&mut self) -> f64 {
+        let shift = 1.0 / (self.tableau.gamma * self.underway.step);
+        let newton = &mut self.newton;
+        newton.next.copy_from_slice(&self.slope);
+        add(&mut newton.next, shift, &newton.base);
+        add(&mut newton.next, -shift, &self.argument);
+        self.problem.solve(&mut newton.next[..self.dimension]);
+        self.statistics.solves += 1;
+        if all_finite(&newton.next) {
+            largest(&newton.next, &newton.weights)
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// A correction from the argument, by the matrix there.
+    fn newton_round(&mut self) -> Advance {
+        let n = self.dimension;
+        if !all_finite(&self.slope) {
+            return Err(not_finite(&self.slope[..n]));
+        }
+        self.newton.rounds += 1;
+        let rounds = self.newton.rounds;
+        if rounds > MOST_ROUNDS {
+            return Err(Failure {
+                reason: Reason::Unsolved,
+                index: None,
+            });
+        }
+        // A later stage begins with the matrix of the one before.
+        if rounds > 1 || self.newton.stage == 1 {
+            let (time, x, dx) = (self.underway.wanted, &self.argument[..n], &self.slope[..n]);
+            self.problem.linearize_states(time, x, dx, &mut self.df_dt[..n]);
+            self.statistics.jacobians += 1;
+            self.statistics.factorizations += 1;
+            let shift = 1.0 / (self.tableau.gamma * self.underway.step);
+            if let Err(singular) = self.problem.factor(shift) {
+                return Err(Failure {
+                    reason: Reason::Singular {
+                        block: singular.block,
+                    },
+                    index: None,
+                });
+            }
+        }
+        let size = self.next_correction();
+        let newton = &mut self.newton;
+        if size == f64::INFINITY {
+            return Err(not_finite(&newton.next[..n]));
+        }
+        if size <= 1.0 && (rounds > 1 || newton.stage == 1) {
+            add(&mut self.argument, 1.0, &newton.next);
+            return self.end_newton_stage();
+        }
+        newton.size = size;
+        newton.from.copy_from_slice(&self.argument);
+        std::mem::swap(&mut newton.correction, &mut newton.next);
+        add(&mut self.argument, 1.0, &newton.correction);
+        self.want_newton(Point::Corrected)
+    }
+
+    /// The stage is the argument.
+    fn end_newton_stage(&mut self) -> Advance {
+        let (stride, tableau) = (self.stride, self.tableau);
+        let i = self.newton.stage;
+        let stage = &mut self.trial_stages[i * stride..][..stride];
+        stage.fill(0.0);
+        add(stage, 1.0 / tableau.gamma, &self.argument);
+        add(stage, -1.0 / tableau.gamma, &self.newton.base);
+        if i + 2 < tableau.stages() {
+            return self.begin_newton_stage(i + 1);
+        }
+        self.trial_x.copy_from_slice(&self.argument);
+        if !all_finite(&self.trial_x) {
+            return Err(not_finite(&self.trial_x[..self.dimension]));
+        }
+        let last = &self.trial_stages[i * stride..][..stride];
+        scale(&mut self.trial_dx, 1.0 / self.underway.step, last);
+        let (done, error) = self.trial_stages.split_at_mut((i + 1) * stride);
+        let error = &mut error[..stride];
+        error.fill(0.0);
+        for (weight, stage) in tableau.a[i + 1].iter().zip(done.chunks_exact(stride)) {
+            add(error, *weight, stage);
+        }
+        Ok(Some(largest(error, &self.newton.controlled)))
+    }
+}
