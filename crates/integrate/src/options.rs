@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::SetupError;
-use crate::tableau::Method;
+use crate::tableau::{Family, Method};
 
 /// Settings of an integration.
 ///
@@ -63,6 +63,24 @@ impl Default for Options {
 }
 
 impl Options {
+    /// The defaults for a method. Steps of a diagonally implicit one grow slowly, so that its guesses of the next step are near enough:
+    /// on the yawed runs of the thesis it is a twelfth less work than with the other methods' control.
+    #[must_use]
+    pub fn of(method: Method) -> Self {
+        let options = Self {
+            method,
+            ..Self::default()
+        };
+        match method.tableau().family {
+            Family::DiagonallyImplicit => Self {
+                safety: 0.8,
+                maximum_factor: 2.0,
+                ..options
+            },
+            Family::LinearlyImplicit | Family::Explicit => options,
+        }
+    }
+
     /// Checks all values.
     ///
     /// # Errors

@@ -81,6 +81,14 @@ pub const SOLVERS: &[Solver] = &[
         options: "method Rodas4",
     },
     Solver {
+        name: "wedgelab TR-BDF2",
+        program: Program::Own,
+        method: "own_tr_bdf2",
+        ours: true,
+        span: 10.0,
+        options: "method TR-BDF2: the tolerance holds for displacements alone; steps of 0.01 s at most, the distance of the rows",
+    },
+    Solver {
         name: "CVODE BDF",
         program: Program::Cvode,
         method: "bdf",

@@ -11,6 +11,7 @@ fn look(name: &str) -> (Colour, Line) {
     match name {
         "wedgelab Rodas5P" => (Colour::Black, Line::Solid),
         "wedgelab Rodas4" => (Colour::Black, Line::Dashed),
+        "wedgelab TR-BDF2" => (Colour::Black, Line::Dotted),
         "CVODE BDF" => (Colour::Vermillion, Line::Solid),
         "diffsol BDF" => (Colour::Blue, Line::Solid),
         "diffsol TR-BDF2" => (Colour::Blue, Line::Dashed),

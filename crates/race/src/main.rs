@@ -51,6 +51,7 @@ fn solve(solver: &str, words: &[&str]) -> Result<(), String> {
     let (outcome, states) = match solver {
         "rodas5p" => own(Method::Rodas5P),
         "rodas4" => own(Method::Rodas4),
+        "own_tr_bdf2" => own(Method::TrBdf2),
         "bdf" => other(diffsol::Method::Bdf, false),
         "tr_bdf2" => other(diffsol::Method::TrBdf2, false),
         "esdirk34" => other(diffsol::Method::Esdirk34, false),

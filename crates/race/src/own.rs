@@ -1,7 +1,7 @@
 //! Our own integrator in the race, as users run it: all quadratures of the energy ledger, error control of all, contact
 //! modes located.
 
-use integrate::{Integrator, Method, Options};
+use integrate::{Family, Integrator, Method, Options};
 
 use crate::clock::{cpu_seconds, wall_seconds};
 use crate::equations::Equations;
@@ -30,9 +30,12 @@ pub fn run(
     let mut outcome = Outcome::default();
     let (cpu, wall) = (cpu_seconds(), wall_seconds());
     let options = Options {
-        method,
         relative_tolerance: tolerance,
-        ..Options::default()
+        maximum_step: match method.tableau().family {
+            Family::DiagonallyImplicit => problem.interval,
+            _ => f64::INFINITY,
+        },
+        ..Options::of(method)
     };
     let mut integrator = Integrator::new(problem.system.clone(), options, 0.0, &problem.start)
         .map_err(|error| error.to_string())?;

@@ -417,20 +417,15 @@ pub(crate) fn row_time(row: u64, count: u64, duration: f64, interval: f64) -> f6
 
 /// The integrator's settings of a case.
 pub(crate) fn options(case: &Case) -> Options {
-    let options = Options {
-        method: case.simulation.method,
+    let method = case.simulation.method;
+    Options {
         relative_tolerance: case.simulation.relative_tolerance,
         maximum_steps: MAXIMUM_STEPS,
-        ..Options::default()
-    };
-    match options.method.tableau().family {
-        // Each row is resolved, and steps grow slowly enough for their guesses: a twelfth less work on the yawed runs of the thesis.
-        Family::DiagonallyImplicit => Options {
-            maximum_step: case.simulation.output_interval,
-            maximum_factor: 2.0,
-            safety: 0.8,
-            ..options
+        // What damps the vibrations takes steps as long as the motion allows; its rows are to be resolved.
+        maximum_step: match method.tableau().family {
+            Family::DiagonallyImplicit => case.simulation.output_interval,
+            _ => f64::INFINITY,
         },
-        _ => options,
+        ..Options::of(method)
     }
 }
