@@ -415,17 +415,24 @@ pub(crate) fn row_time(row: u64, count: u64, duration: f64, interval: f64) -> f6
     }
 }
 
+/// Steps a cycle, at least, of a method that damps the vibrations.
+const STEPS_A_CYCLE: f64 = 200.0;
+
 /// The integrator's settings of a case.
 pub(crate) fn options(case: &Case) -> Options {
     let method = case.simulation.method;
+    let maximum_step = match method.tableau().family {
+        // Its steps are as long as the motion allows; rows and reversals are to be resolved. At 2 Hz steps of 0.01 s, fifty a cycle,
+        // err by 1.3 % in branch forces, two hundred by 0.2 %.
+        Family::DiagonallyImplicit => Cycle::of(&case.parameters)
+            .map_or(f64::INFINITY, |cycle| cycle.period() / STEPS_A_CYCLE)
+            .min(case.simulation.output_interval),
+        _ => f64::INFINITY,
+    };
     Options {
         relative_tolerance: case.simulation.relative_tolerance,
         maximum_steps: MAXIMUM_STEPS,
-        // What damps the vibrations takes steps as long as the motion allows; its rows are to be resolved.
-        maximum_step: match method.tableau().family {
-            Family::DiagonallyImplicit => case.simulation.output_interval,
-            _ => f64::INFINITY,
-        },
+        maximum_step,
         ..Options::of(method)
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use integrate::Family;
 use mechanics::friction::FrictionLaw;
 use mechanics::system::scales;
 use quantity::Kind;
@@ -70,8 +71,15 @@ fn warnings(run: &Run, ledger: &LedgerSummary) -> Vec<String> {
         .map(|name| if name == "residual" { 0.0 } else { size(name) });
     let most = most.fold(ledger.stored_at_start.value.abs(), f64::max);
     let closes = size("residual") <= DOUBTFUL_RESIDUAL * most;
-    // A residual that is not a number does not close either.
-    if !closes {
+    let method = run.case.simulation.method.tableau();
+    if method.family == Family::DiagonallyImplicit {
+        warnings.push(format!(
+            "{} damps the vibrations of contacts: read averages, not single values; the energy ledger lacks {:.1e} of the energies",
+            method.name,
+            size("residual") / most
+        ));
+    } else if !closes {
+        // A residual that is not a number does not close either.
         warnings.push(format!(
             "the energy ledger does not close: its residual is {:.1e} of the energies; lower simulation.relative_tolerance, \
              and look for values out of all proportion",

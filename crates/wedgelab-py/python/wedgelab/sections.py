@@ -349,6 +349,7 @@ class SimulationSection(Section):
     output_units: str | None = None
     """Units of the summary, of figures and of files: ``"us"`` or ``"si"``."""
     method: str | None = None
-    """Integration method: ``"rodas4"``, ``"rodas42"``, ``"rodas4p"``, ``"rodas4p2"``, ``"rodas5p"``."""
+    """Integration method: ``"rodas4"``, ``"rodas42"``, ``"rodas4p"``, ``"rodas4p2"``, ``"rodas5p"``; ``"tr-bdf2"`` damps
+    vibrations, for averages alone."""
 
     _words = frozenset({"relative_tolerance", "start", "output_units", "method"})
