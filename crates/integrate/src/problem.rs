@@ -77,8 +77,9 @@ pub trait Problem {
     /// `df_dt` comes filled with zeros: an autonomous problem need not touch it.
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]);
 
-    /// The same without `∂f/∂t`, for methods that do not need it. `unused` has the length of `dx`; what is written there is lost.
-    fn linearize_states(&mut self, time: f64, x: &[f64], dx: &[f64], unused: &mut [f64]) {
+    /// Evaluates and keeps a matrix that is near enough to `J` for Newton's method: small terms may be missing. `unused` has the
+    /// length of `dx`; what is written there is lost.
+    fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], unused: &mut [f64]) {
         unused.fill(0.0);
         self.linearize(time, x, dx, unused);
     }
@@ -166,8 +167,8 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         (**self).linearize(time, x, dx, df_dt);
     }
-    fn linearize_states(&mut self, time: f64, x: &[f64], dx: &[f64], unused: &mut [f64]) {
-        (**self).linearize_states(time, x, dx, unused);
+    fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], unused: &mut [f64]) {
+        (**self).linearize_for_newton(time, x, dx, unused);
     }
     fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
         (**self).stiffness(time, x)

@@ -182,7 +182,6 @@ impl<P: Problem> Integrator<P> {
             f64::INFINITY
         };
         let newton = &mut self.newton;
-        let along = if size.is_finite() { newton.along() } else { -1.0 };
         if point == Point::Corrected {
             if size <= SURE || (size < newton.size && size * size <= SURE * newton.size) {
                 add(&mut self.argument, 1.0, &newton.next);
@@ -195,17 +194,23 @@ impl<P: Problem> Integrator<P> {
                 add(&mut self.argument, 1.0, &newton.correction);
                 return self.want_newton(Point::Corrected);
             }
-            if along >= -BACK {
-                return self.newton_round();
-            }
+        }
+        let along = if size.is_finite() { newton.along() } else { -1.0 };
+        if point == Point::Corrected {
             newton.search = Search {
                 low: (0.0, 1.0),
                 high: (1.0, along),
                 ..Search::default()
             };
-        } else if along.abs() < BACK || newton.search.count >= MOST_IN_SEARCH {
+        }
+        let there = match point {
+            Point::Corrected => along >= -BACK,
+            _ => along.abs() < BACK || newton.search.count >= MOST_IN_SEARCH,
+        };
+        if there {
             return self.newton_round();
-        } else {
+        }
+        if point == Point::Between {
             newton.search.note(along);
         }
         let fraction = newton.search.next();
@@ -247,7 +252,8 @@ impl<P: Problem> Integrator<P> {
         // A later stage begins with the matrix of the one before.
         if rounds > 1 || self.newton.stage == 1 {
             let (time, x, dx) = (self.underway.wanted, &self.argument[..n], &self.slope[..n]);
-            self.problem.linearize_states(time, x, dx, &mut self.df_dt[..n]);
+            self.problem
+                .linearize_for_newton(time, x, dx, &mut self.df_dt[..n]);
             self.statistics.jacobians += 1;
             self.statistics.factorizations += 1;
             let shift = 1.0 / (self.tableau.gamma * self.underway.step);

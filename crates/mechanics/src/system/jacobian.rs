@@ -31,8 +31,8 @@ struct Scene<'s> {
 }
 
 impl System {
-    /// The Jacobian at the state that [`System::place`] was called with, where the rates are `dx`.
-    pub(super) fn differentiate(&mut self, x: &[f64], dx: &[f64]) {
+    /// The Jacobian (if `whole`; else without what inertia adds by the angles, some thousandth of what contacts add) at the state that [`System::place`] was called with, where the rates are `dx`.
+    pub(super) fn differentiate(&mut self, x: &[f64], dx: &[f64], whole: bool) {
         let layout = self.layout;
         let [_, _, internal, _] = layout.split(x);
         self.meet();
@@ -87,7 +87,7 @@ impl System {
                 coils: &self.coils,
             };
             let jacobian = &mut self.jacobian;
-            if scene.frames[free.body].fixed {
+            if whole && scene.frames[free.body].fixed {
                 match free.angles() {
                     0 => pass.inertia::<0>(&carried, jacobian),
                     1 => pass.inertia::<2>(&carried, jacobian),

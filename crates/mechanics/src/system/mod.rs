@@ -367,15 +367,15 @@ impl Problem for System {
 
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         self.place(time, x);
-        self.differentiate(x, dx);
+        self.differentiate(x, dx, true);
         if self.moves {
             self.differentiate_time(time, x, df_dt);
         }
     }
 
-    fn linearize_states(&mut self, time: f64, x: &[f64], dx: &[f64], _: &mut [f64]) {
+    fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], _: &mut [f64]) {
         self.place(time, x);
-        self.differentiate(x, dx);
+        self.differentiate(x, dx, false);
     }
 
     fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
