@@ -45,9 +45,11 @@ impl State {
         if self.version != STATE_VERSION {
             return Err(SetupError::Version { found: self.version });
         }
+        let slopes = if self.slope.is_empty() { 0 } else { dimension };
         let lengths = [
             ("states", dimension, self.x.len()),
             ("switches", switches, self.modes.len()),
+            ("slopes", slopes, self.slope.len()),
         ];
         for (what, expected, found) in lengths {
             if expected != found {
@@ -61,6 +63,9 @@ impl State {
         let damaged = |name, value| Err(SetupError::Damaged { name, value });
         if !self.segment_start.is_finite() || self.segment_start > self.time {
             return damaged("segment_start", self.segment_start);
+        }
+        if let Some(slope) = self.slope.iter().find(|slope| !slope.is_finite()) {
+            return damaged("slope", *slope);
         }
         if !(self.proposed_step > 0.0 && self.proposed_step.is_finite()) {
             return damaged("proposed_step", self.proposed_step);

@@ -3,7 +3,10 @@
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
-use integrate::{Integrator, Method, Options, Ordinary, Reason, Statistics};
+mod common;
+
+use common::run;
+use integrate::{Integrator, Method, Options, Ordinary, Reason, SetupError, State};
 
 fn options(tolerance: f64) -> Options {
     Options {
@@ -11,14 +14,6 @@ fn options(tolerance: f64) -> Options {
         relative_tolerance: tolerance,
         ..Options::default()
     }
-}
-
-fn run(problem: Ordinary<'_>, options: Options, start: &[f64], end: f64) -> (Vec<f64>, Statistics) {
-    let mut integrator = Integrator::new(problem, options, 0.0, start).unwrap();
-    while integrator.time() < end {
-        integrator.step_to(end).unwrap();
-    }
-    (integrator.x().to_vec(), integrator.statistics().clone())
 }
 
 /// Both stages integrate a linear slope exactly, and the estimate is the error of a quadratic one.
@@ -166,4 +161,25 @@ fn input_stages_without_solution_are_reported() {
         "{error}"
     );
     assert!(integrator.statistics().rejected_unsolved > 2);
+}
+
+/// A saved run has the slope with which its last step ended. One that cannot be is refused.
+#[test]
+fn input_a_damaged_slope_is_refused() {
+    let mut integrator = Integrator::new(carried(100.0), options(1e-4), 0.0, &[0.0, 1.0]).unwrap();
+    integrator.step_to(1.0).unwrap();
+    let saved = serde_json::to_value(integrator.state()).unwrap();
+    let resume = |slope: Vec<f64>| {
+        let mut damaged = saved.clone();
+        damaged["slope"] = slope.into();
+        let state: State = serde_json::from_value(damaged).unwrap();
+        Integrator::resume(carried(100.0), options(1e-4), state).map(|_| ())
+    };
+    let slopes = SetupError::Dimension {
+        what: "slopes",
+        expected: 2,
+        found: 1,
+    };
+    assert_eq!(resume(vec![1.0]), Err(slopes));
+    assert!(resume(integrator.derivative().to_vec()).is_ok());
 }

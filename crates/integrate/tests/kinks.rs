@@ -1,6 +1,9 @@
 //! analytic: kinks that are foreseen. Steps end behind them instead of being rejected across them; what comes out stays what it was.
 #![allow(missing_docs, clippy::unwrap_used)]
 
+mod common;
+
+use common::run;
 use integrate::{Family, Integrator, Method, Options, Ordinary, Statistics};
 
 const GRAVITY: f64 = 9.81;
@@ -51,14 +54,6 @@ fn options(method: Method, relative_tolerance: f64) -> Options {
         relative_tolerance,
         ..Options::default()
     }
-}
-
-fn run(problem: Ordinary<'_>, options: Options, start: &[f64], end: f64) -> (Vec<f64>, Statistics) {
-    let mut integrator = Integrator::new(problem, options, 0.0, start).unwrap();
-    while integrator.time() < end {
-        integrator.step_to(end).unwrap();
-    }
-    (integrator.x().to_vec(), integrator.statistics().clone())
 }
 
 #[test]

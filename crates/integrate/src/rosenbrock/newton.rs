@@ -15,7 +15,7 @@ use crate::error::Reason;
 use crate::problem::Problem;
 use crate::stages::{add, all_finite, combine, largest, scale};
 
-/// The last correction by a fresh matrix, relative to the tolerance. It is small beside the rest that it leaves.
+/// The last correction by a fresh matrix, relative to the tolerance. What it leaves is smaller still.
 const LAST_CORRECTION: f64 = 0.03;
 /// The same where a problem tells layers, in widths of a layer.
 const LAST_IN_LAYER: f64 = 0.4;
@@ -76,7 +76,7 @@ impl Search {
     }
 }
 
-/// A stage under way, and what an implicit method remembers of the last step.
+/// A stage under way.
 #[derive(Debug, Default)]
 pub(super) struct Newton {
     stage: usize,
@@ -154,9 +154,12 @@ impl<P: Problem> Integrator<P> {
         if i == 1 {
             add(&mut self.argument, tableau.alpha[1], done);
         } else {
-            let share = tableau.gamma / tableau.alpha[1];
-            add(&mut self.argument, share, &done[..stride]);
-            add(&mut self.argument, share, &done[stride..]);
+            let (before, last) = done.split_at((i - 1) * stride);
+            let share = tableau.alpha[i] / tableau.alpha[i - 1];
+            for (weight, stage) in tableau.a[i - 1].iter().zip(before.chunks_exact(stride)) {
+                add(&mut self.argument, share * weight, stage);
+            }
+            add(&mut self.argument, share * tableau.gamma, last);
         }
         self.want_newton(Point::Guess)
     }
