@@ -1,4 +1,4 @@
-//! Linearly implicit one-step integration of stiff, kinked ordinary differential equations. Knows no physics.
+//! Implicit one-step integration of stiff, kinked ordinary differential equations. Knows no physics.
 //!
 //! A [`Problem`] gives its right-hand side and brings its own structured linear algebra (for which [`BlockLu`] is at
 //! hand); an [`Integrator`] makes accepted steps with a stiffly accurate [`Method`], controls their

@@ -1,8 +1,8 @@
 //! Coefficients of methods.
 //!
-//! All methods to choose from are stiffly accurate and L-stable. The linearly implicit ones (Rosenbrock methods) stand in the transformed form of Hairer & Wanner,
-//! *Solving Ordinary Differential Equations II*, 2nd ed. (1996), section IV.7, which needs no product with the
-//! Jacobian matrix. One step of length `h` from `(t, x)` solves, stage by stage,
+//! All methods to choose from are stiffly accurate and L-stable. The linearly implicit ones (Rosenbrock methods) stand in
+//! the transformed form of Hairer & Wanner, *Solving Ordinary Differential Equations II*, 2nd ed. (1996), section IV.7,
+//! which needs no product with the Jacobian matrix. One step of length `h` from `(t, x)` solves, stage by stage,
 //!
 //! ```text
 //! (I/(hγ) - J) U_i = f(t + α_i h, x + Σ_j a_ij U_j) + (1/h) Σ_j c_ij U_j + h d_i ∂f/∂t

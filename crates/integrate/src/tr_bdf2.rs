@@ -33,7 +33,7 @@ pub static TR_BDF2: Tableau = Tableau {
         &[],
         &[GAMMA],
         &[W, W],
-        // The third divided difference of the rates.
+        // The second divided difference of the rates.
         &[ERROR / MIDDLE, -ERROR * BETWEEN, ERROR / (1.0 - MIDDLE)],
     ],
     c: &[],

@@ -123,31 +123,31 @@ fn analytic_a_sliding_mass_stops_and_sticks() {
     );
 }
 
+/// A slope that points back to zero from both sides.
+fn points_back(speed: f64) -> Ordinary<'static> {
+    let slope = move |x: f64| if x > 0.0 { -speed } else { speed };
+    Ordinary::new(
+        vec![1.0],
+        move |_, x, dx| dx[0] = slope(x[0]),
+        |_, _, j| j[0] = 0.0,
+    )
+}
+
 /// A slope that jumps has no solution where it points back from both sides. Within the tolerance the state rests there.
 #[test]
 fn limits_what_points_back_from_both_sides_rests() {
-    let problem = Ordinary::new(
-        vec![1.0],
-        |_, x, dx| dx[0] = if x[0] > 0.0 { -1.0 } else { 1.0 },
-        |_, _, j| j[0] = 0.0,
-    );
-    let (x, _) = run(problem, options(1e-3), &[0.5], 1.0);
+    let (x, _) = run(points_back(1.0), options(1e-3), &[0.5], 1.0);
     assert!(x[0].abs() < 1e-3, "{x:?}");
 }
 
 /// Where steps may not be as short as that takes, the message says so.
 #[test]
 fn input_stages_without_solution_are_reported() {
-    let problem = Ordinary::new(
-        vec![1.0],
-        |_, x, dx| dx[0] = if x[0] > 0.0 { -1e3 } else { 1e3 },
-        |_, _, j| j[0] = 0.0,
-    );
     let options = Options {
         minimum_step: 1e-6,
         ..options(1e-3)
     };
-    let mut integrator = Integrator::new(problem, options, 0.0, &[0.5]).unwrap();
+    let mut integrator = Integrator::new(points_back(1e3), options, 0.0, &[0.5]).unwrap();
     let error = loop {
         match integrator.step_to(1.0) {
             Ok(()) => assert!(integrator.time() < 1e-3, "there is no solution beyond 0.5 ms"),

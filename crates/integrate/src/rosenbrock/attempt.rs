@@ -65,17 +65,39 @@ impl<P: Problem> Integrator<P> {
             self.autonomous = self.df_dt.iter().all(|value| *value == 0.0);
         }
         let inverse = 1.0 / self.underway.step;
-        self.statistics.factorizations += 1;
-        if let Err(singular) = self.problem.factor(inverse / tableau.gamma) {
-            return Err(Failure {
-                reason: Reason::Singular {
-                    block: singular.block,
-                },
-                index: None,
-            });
-        }
+        self.factor(inverse / tableau.gamma)?;
         self.trial_stages[..stride].copy_from_slice(&self.dx);
         self.solve_stage(0)
+    }
+
+    /// Factors the matrix that is there.
+    #[inline(always)]
+    pub(super) fn factor(&mut self, shift: f64) -> Result<(), Failure> {
+        self.statistics.factorizations += 1;
+        self.problem.factor(shift).map_err(|singular| Failure {
+            reason: Reason::Singular {
+                block: singular.block,
+            },
+            index: None,
+        })
+    }
+
+    /// The last stage of the attempt: its error.
+    #[inline(always)]
+    pub(super) fn last_trial_stage(&self) -> &[f64] {
+        &self.trial_stages[(self.trial_method.stages() - 1) * self.stride..][..self.stride]
+    }
+
+    /// Writes the error of a method whose last row makes it of the stages.
+    #[inline(always)]
+    pub(super) fn write_error(&mut self) {
+        let (stride, last) = (self.stride, self.trial_method.stages() - 1);
+        let (done, error) = self.trial_stages.split_at_mut(last * stride);
+        let error = &mut error[..stride];
+        error.fill(0.0);
+        for (weight, stage) in self.trial_method.a[last].iter().zip(done.chunks_exact(stride)) {
+            add(error, *weight, stage);
+        }
     }
 
     #[inline(always)]
@@ -211,20 +233,13 @@ impl<P: Problem> Integrator<P> {
 
     /// The size of the error of an explicit step all of whose stages are there.
     fn explicit_error(&mut self) -> Result<f64, Failure> {
-        let stride = self.stride;
         for values in [&self.trial_x, &self.trial_dx] {
             if !all_finite(values) {
                 return Err(not_finite(&values[..self.dimension]));
             }
         }
-        let (done, rest) = self.trial_stages.split_at_mut((EXPLICIT_END + 1) * stride);
-        let error = &mut rest[..stride];
-        error.fill(0.0);
-        let weights = DORMAND_PRINCE.a[EXPLICIT_END + 1];
-        for (weight, stage) in weights.iter().zip(done.chunks_exact(stride)) {
-            add(error, *weight, stage);
-        }
-        Ok(CAUTION * largest(error, &self.weights))
+        self.write_error();
+        Ok(CAUTION * largest(self.last_trial_stage(), &self.weights))
     }
 }
 

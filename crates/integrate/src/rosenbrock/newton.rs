@@ -52,6 +52,15 @@ struct Search {
 }
 
 impl Search {
+    /// Between a correction's start and its end.
+    fn up_to(along: f64) -> Self {
+        Self {
+            low: (0.0, 1.0),
+            high: (1.0, along),
+            ..Self::default()
+        }
+    }
+
     fn next(&mut self) -> f64 {
         let ((a, fa), (b, fb)) = (self.low, self.high);
         self.at = (a * fb - b * fa) / (fb - fa);
@@ -59,7 +68,11 @@ impl Search {
         self.at
     }
 
-    fn note(&mut self, along: f64) {
+    /// Notes what was found; whether the search is over.
+    fn note(&mut self, along: f64) -> bool {
+        if along.abs() < BACK || self.count >= MOST_IN_SEARCH {
+            return true;
+        }
         let moves_low = along > 0.0;
         if moves_low {
             self.low = (self.at, along);
@@ -73,6 +86,7 @@ impl Search {
             }
         }
         self.moved_low = Some(moves_low);
+        false
     }
 }
 
@@ -175,11 +189,10 @@ impl<P: Problem> Integrator<P> {
     #[inline(never)]
     pub(super) fn after_newton(&mut self, point: Point) -> Advance {
         self.statistics.derivatives += 1;
-        let finite = all_finite(&self.slope);
         if point == Point::Guess {
             return self.newton_round();
         }
-        let size = if finite {
+        let size = if all_finite(&self.slope) {
             self.next_correction()
         } else {
             f64::INFINITY
@@ -191,30 +204,18 @@ impl<P: Problem> Integrator<P> {
                 return self.end_newton_stage();
             }
             if size < CONTRACTION * newton.size {
-                newton.from.copy_from_slice(&self.argument);
-                std::mem::swap(&mut newton.correction, &mut newton.next);
-                newton.size = size;
-                add(&mut self.argument, 1.0, &newton.correction);
-                return self.want_newton(Point::Corrected);
+                return self.correct(size);
             }
         }
         let along = if size.is_finite() { newton.along() } else { -1.0 };
-        if point == Point::Corrected {
-            newton.search = Search {
-                low: (0.0, 1.0),
-                high: (1.0, along),
-                ..Search::default()
-            };
-        }
-        let there = match point {
-            Point::Corrected => along >= -BACK,
-            _ => along.abs() < BACK || newton.search.count >= MOST_IN_SEARCH,
+        let there = if point == Point::Corrected {
+            newton.search = Search::up_to(along);
+            along >= -BACK
+        } else {
+            newton.search.note(along)
         };
         if there {
             return self.newton_round();
-        }
-        if point == Point::Between {
-            newton.search.note(along);
         }
         let fraction = newton.search.next();
         self.argument.copy_from_slice(&newton.from);
@@ -222,9 +223,14 @@ impl<P: Problem> Integrator<P> {
         self.want_newton(Point::Between)
     }
 
+    /// 1/(hγ).
+    fn newton_shift(&self) -> f64 {
+        1.0 / (self.tableau.gamma * self.underway.step)
+    }
+
     /// The next correction, at the argument by the matrix that is there; its size.
     fn next_correction(&mut self) -> f64 {
-        let shift = 1.0 / (self.tableau.gamma * self.underway.step);
+        let shift = self.newton_shift();
         let newton = &mut self.newton;
         newton.next.copy_from_slice(&self.slope);
         add(&mut newton.next, shift, &newton.base);
@@ -258,16 +264,7 @@ impl<P: Problem> Integrator<P> {
             self.problem
                 .linearize_for_newton(time, x, dx, &mut self.df_dt[..n]);
             self.statistics.jacobians += 1;
-            self.statistics.factorizations += 1;
-            let shift = 1.0 / (self.tableau.gamma * self.underway.step);
-            if let Err(singular) = self.problem.factor(shift) {
-                return Err(Failure {
-                    reason: Reason::Singular {
-                        block: singular.block,
-                    },
-                    index: None,
-                });
-            }
+            self.factor(self.newton_shift())?;
         }
         let size = self.next_correction();
         let newton = &mut self.newton;
@@ -278,6 +275,12 @@ impl<P: Problem> Integrator<P> {
             add(&mut self.argument, 1.0, &newton.next);
             return self.end_newton_stage();
         }
+        self.correct(size)
+    }
+
+    /// Goes where the next correction, of this size, leads.
+    fn correct(&mut self, size: f64) -> Advance {
+        let newton = &mut self.newton;
         newton.size = size;
         newton.from.copy_from_slice(&self.argument);
         std::mem::swap(&mut newton.correction, &mut newton.next);
@@ -302,12 +305,7 @@ impl<P: Problem> Integrator<P> {
         }
         let last = &self.trial_stages[i * stride..][..stride];
         scale(&mut self.trial_dx, 1.0 / self.underway.step, last);
-        let (done, error) = self.trial_stages.split_at_mut((i + 1) * stride);
-        let error = &mut error[..stride];
-        error.fill(0.0);
-        for (weight, stage) in tableau.a[i + 1].iter().zip(done.chunks_exact(stride)) {
-            add(error, *weight, stage);
-        }
-        Ok(Some(largest(error, &self.newton.controlled)))
+        self.write_error();
+        Ok(Some(largest(self.last_trial_stage(), &self.newton.controlled)))
     }
 }

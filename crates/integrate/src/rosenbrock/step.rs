@@ -391,7 +391,7 @@ impl<P: Problem> Integrator<P> {
 
     /// The state with the largest error in the last attempt, and the error.
     fn dominant(&self) -> (usize, f64) {
-        let last = &self.trial_stages[(self.trial_method.stages() - 1) * self.stride..][..self.stride];
+        let last = self.last_trial_stage();
         let mut found = (0, 0.0);
         let weights = match self.trial_method.family {
             Family::DiagonallyImplicit => &self.newton.controlled,

@@ -71,19 +71,18 @@ fn warnings(run: &Run, ledger: &LedgerSummary) -> Vec<String> {
         .map(|name| if name == "residual" { 0.0 } else { size(name) });
     let most = most.fold(ledger.stored_at_start.value.abs(), f64::max);
     let closes = size("residual") <= DOUBTFUL_RESIDUAL * most;
+    let share = size("residual") / most;
     let method = run.case.simulation.method.tableau();
     if method.family == Family::DiagonallyImplicit {
         warnings.push(format!(
-            "{} damps the vibrations of contacts: read averages, not single values; the energy ledger lacks {:.1e} of the energies",
-            method.name,
-            size("residual") / most
+            "{} damps the vibrations of contacts: read averages, not single values; the energy ledger lacks {share:.1e} of the energies",
+            method.name
         ));
     } else if !closes {
         // A residual that is not a number does not close either.
         warnings.push(format!(
-            "the energy ledger does not close: its residual is {:.1e} of the energies; lower simulation.relative_tolerance, \
-             and look for values out of all proportion",
-            size("residual") / most
+            "the energy ledger does not close: its residual is {share:.1e} of the energies; lower simulation.relative_tolerance, \
+             and look for values out of all proportion"
         ));
     }
     if run.integrator.statistics().events_unresolved > 0 {
