@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::options::Options;
+use crate::tableau::Family;
 
 /// Proportional-integral control: K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit
 /// Runge-Kutta methods*, ACM TOMS 20 (1994), in the form of Hairer & Wanner (1996), section IV.8.
@@ -17,8 +18,8 @@ pub(crate) struct Controller {
     root: f64,
     /// Rejections since the last accepted step.
     rejections: u32,
-    /// Whether that step was explicit: errors of another method say nothing of the trend.
-    explicit: bool,
+    /// How it was made: errors of another method say nothing of the trend.
+    family: Family,
 }
 
 impl Controller {
@@ -36,10 +37,10 @@ impl Controller {
         step: f64,
         root: f64,
         kinks: bool,
-        explicit: bool,
+        family: Family,
     ) -> (f64, bool) {
         let mut divisor = root / options.safety;
-        if self.step > 0.0 && self.explicit == explicit && !(kinks && self.rejections > 0) {
+        if self.step > 0.0 && self.family == family && !(kinks && self.rejections > 0) {
             divisor = divisor.max(root * root / (self.root * options.safety) * (self.step / step));
         }
         let wanted = 1.0 / divisor;
@@ -49,7 +50,7 @@ impl Controller {
         }
         self.rejections = 0;
         self.step = step;
-        self.explicit = explicit;
+        self.family = family;
         // the root of the smallest error that counts, 0.01, lies near 0.3 for all methods
         self.root = root.max(0.3);
         (factor, wanted < options.maximum_factor)

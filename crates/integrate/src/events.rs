@@ -7,6 +7,7 @@ use crate::problem::Problem;
 use crate::search::Search;
 use crate::stages::{Dense, leading_states};
 use crate::statistics::Statistics;
+use crate::tableau::Family;
 
 /// A switch changed its mode.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -105,7 +106,12 @@ impl Switches {
         let resolution = (4.0 * f64::EPSILON * dense.end.abs() / dense.step).max(1e-12);
         let mut from = 0.0;
         let mut end_known = true;
-        for to in [0.5, 1.0] {
+        // A step by collocation is two to four times as long as others.
+        let looks: &[f64] = match dense.tableau.family {
+            Family::Collocation => &[0.25, 0.5, 0.75, 1.0],
+            _ => &[0.5, 1.0],
+        };
+        for &to in looks {
             while from <= to {
                 if to == 1.0 && end_known {
                     self.margins.copy_from_slice(&self.at_end);

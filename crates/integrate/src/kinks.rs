@@ -11,10 +11,11 @@ use crate::lanes::LANES;
 use crate::problem::Problem;
 use crate::search::Search;
 use crate::stages::{Dense, leading_states};
+use crate::tableau::Family;
 
 /// How far the dense output is continued at most, in lengths of its step.
 const REACH: f64 = 6.0;
-/// A continued dense output is trusted while its error, that of the step times the fifth power of its reach, is below this.
+/// A continued dense output is trusted while its error, that of the step times a power of its reach, is below this.
 const TRUST: f64 = 100.0;
 /// How far behind a kink a step lands at most, and how closely it is located, in lengths of the last step; less where the
 /// continued dense output is more exact than the tolerance.
@@ -35,6 +36,11 @@ const CERTAIN: f64 = 0.01;
 const EDGE: f64 = 4.0;
 /// An error of a speed may have this part of the slowest slip.
 const SLACK: f64 = 0.05;
+/// A direction breaks away if it comes from below this size and grows by this much and by this factor.
+const HELD: f64 = 3.0;
+const GROWTH: (f64, f64) = (1.0, 1.5);
+/// The sizes between which the hold of a layer fades.
+const FADING: [f64; 2] = [2.0, 12.0];
 /// Behind a layer the direction is larger than this.
 const OUT: f64 = 3.0;
 /// It does reverse if all of it has become smaller than this when its part along the old direction comes to the edge.
@@ -160,6 +166,31 @@ impl Kinks {
         self.compare()
     }
 
+    /// Whether a direction that its layer held at the place that was looked at last breaks away on the way to another one.
+    ///
+    /// The Jacobian matrix of the start knows only the hold, which damps a direction as stiffly as a weld; the stages and the estimate of the error
+    /// of a linearly implicit step are damped with it.
+    pub fn breaks_away<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) -> bool {
+        if self.here.directions.is_empty() {
+            return false;
+        }
+        problem.kinks(time, x, &mut self.signs);
+        let pairs = self.here.directions.iter().zip(&self.signs.directions);
+        pairs.into_iter().any(|(from, to)| {
+            let (from, to) = (square(from).sqrt(), square(to).sqrt());
+            from < HELD && to > (from + GROWTH.0).max(GROWTH.1 * from)
+        })
+    }
+
+    /// Whether the hold of a layer fades at the place that was looked at last.
+    pub fn fade(&self) -> bool {
+        let [low, high] = FADING.map(|size| size * size);
+        self.here
+            .directions
+            .iter()
+            .any(|direction| (low..high).contains(&square(direction)))
+    }
+
     /// By how much bounds on errors in layers widen at the place that was looked at last: see [`Problem::layer_bounds`].
     pub fn slack(&self) -> f64 {
         (self.slowest * SLACK).max(1.0)
@@ -184,15 +215,15 @@ impl Kinks {
             return None;
         }
         let mut reach = (length / dense.step).min(REACH);
-        if error * fifth(1.0 + reach) > TRUST {
-            reach = libm::pow(TRUST / error, 0.2) - 1.0;
+        if error * spread(dense, 1.0 + reach) > TRUST {
+            reach = libm::pow(TRUST / error, 1.0 / spread_power(dense)) - 1.0;
         }
         let far = 1.0 + WHOLE_LANDING * (length / dense.step);
         loop {
             let Found { low, high, index } = self.locate(problem, dense, 1.0 + reach, far, error)?;
             let values = self.here.values.len();
             let Some(direction) = index.checked_sub(values) else {
-                let end = (high + overshoot(error, high)).max(1.0 + NEAR_KINK);
+                let end = (high + overshoot(error, spread(dense, high))).max(1.0 + NEAR_KINK);
                 return Some(Ahead::Kink(dense.start + end * dense.step));
             };
             let square = self.search.low()[values + self.here.directions.len() + direction];
@@ -256,7 +287,7 @@ impl Kinks {
         let mut last = f64::INFINITY;
         for _ in 0..ROUNDS {
             let (low, high) = self.search.ends();
-            let width = overshoot(error, high);
+            let width = overshoot(error, spread(dense, high));
             if high - low <= width {
                 break;
             }
@@ -328,14 +359,34 @@ fn project(signs: &KinkSigns, towards: &[[f64; 2]], functions: &mut [f64]) {
     }
 }
 
-/// How far behind a kink at a place on the continued dense output of a step with this error a step should land, in lengths of the step.
-fn overshoot(error: f64, theta: f64) -> f64 {
-    OVERSHOOT * (4.0 * error * fifth(theta)).clamp(LEAST_OVERSHOOT, 1.0)
+/// How far behind a kink a step should land where an error of the last step has grown by `spread`, in lengths of that step.
+fn overshoot(error: f64, spread: f64) -> f64 {
+    OVERSHOOT * (4.0 * error * spread).clamp(LEAST_OVERSHOOT, 1.0)
 }
 
 /// The square of the length of a plane vector.
 fn square([a, b]: &[f64; 2]) -> f64 {
     a * a + b * b
+}
+
+/// By how much the error of a continued dense output grows from the end of its step to a place beyond it.
+fn spread(dense: &Dense<'_>, theta: f64) -> f64 {
+    match dense.tableau.family {
+        Family::Collocation => {
+            let fourth = theta * theta * (theta * theta);
+            fourth * fourth * fourth
+        }
+        _ => fifth(theta),
+    }
+}
+
+/// The power in [`spread`]. A polynomial of degree 7 leaves what it follows faster than others: with the eighth power every other
+/// reversal that was foreseen there was none.
+fn spread_power(dense: &Dense<'_>) -> f64 {
+    match dense.tableau.family {
+        Family::Collocation => 12.0,
+        _ => 5.0,
+    }
 }
 
 fn fifth(x: f64) -> f64 {

@@ -21,6 +21,7 @@ mod options;
 mod ordinary;
 pub mod partitioned;
 mod problem;
+mod radau;
 mod rodas;
 mod rosenbrock;
 pub mod scalar;

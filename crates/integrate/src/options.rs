@@ -19,6 +19,9 @@ pub struct Options {
     pub method: Method,
     /// Whether steps may be explicit where the problem tells that nothing is stiff ([`crate::Problem::stiffness`]).
     pub explicit_steps: bool,
+    /// Whether steps may be by collocation where the way is smooth and the problem solves with complex shifts
+    /// ([`crate::Problem::complex_shifts`]).
+    pub collocation_steps: bool,
     /// Admissible local error of each state, relative to its scale.
     pub relative_tolerance: f64,
     /// First step; none: estimated.
@@ -48,6 +51,7 @@ impl Default for Options {
         Self {
             method: Method::default(),
             explicit_steps: true,
+            collocation_steps: true,
             relative_tolerance: 1e-6,
             initial_step: None,
             fixed_step: None,
@@ -77,7 +81,7 @@ impl Options {
                 maximum_factor: 2.0,
                 ..options
             },
-            Family::LinearlyImplicit | Family::Explicit => options,
+            Family::LinearlyImplicit | Family::Explicit | Family::Collocation => options,
         }
     }
 

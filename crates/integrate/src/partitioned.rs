@@ -18,6 +18,7 @@
 
 pub use crate::layout::{Layout, Structure};
 
+mod complex;
 mod single;
 
 use self::single::{Single, Source};
@@ -391,6 +392,42 @@ impl Partitioned {
             }
         }
         Ok(())
+    }
+
+    /// For how many complex shifts it keeps factors: three where there is one small body and no internal state, none elsewhere.
+    #[must_use]
+    pub fn complex_shifts(&self) -> usize {
+        if self.single.is_some() {
+            single::COMPLEX_SHIFTS
+        } else {
+            0
+        }
+    }
+
+    /// Factors `shift · I - J` for a complex shift (real and imaginary part), after [`Partitioned::factor`] with the same J.
+    ///
+    /// # Errors
+    /// The matrix is singular, or there is no such number.
+    pub fn factor_complex(&mut self, number: usize, shift: [f64; 2]) -> Result<(), Singular> {
+        let source = Source {
+            mass: &self.mass,
+            stiffness: &self.stiffness,
+            damping: &self.damping,
+            rows: &self.rows,
+            row_data: &self.row_data,
+        };
+        let single = self.single.as_mut();
+        match single.is_some_and(|single| single.factor_complex(number, shift, &source)) {
+            true => Ok(()),
+            false => Err(Singular { block: 0 }),
+        }
+    }
+
+    /// Solves `(shift · I - J) y = b` in place, real and imaginary part, by the factors with this number.
+    pub fn solve_complex(&mut self, number: usize, re: &mut [f64], im: &mut [f64]) {
+        if let Some(single) = &self.single {
+            single.solve_complex(number, re, im);
+        }
     }
 
     /// Solves `(shift · I - J) y = b` in place.

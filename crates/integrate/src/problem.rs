@@ -102,6 +102,26 @@ pub trait Problem {
     /// Solves `(shift·I - J) y = b` in place, with the matrix of the last successful [`Problem::factor`].
     fn solve(&mut self, b: &mut [f64]);
 
+    /// For how many complex shifts it keeps factors at once. Where there are three, long smooth steps are made by collocation.
+    fn complex_shifts(&self) -> usize {
+        0
+    }
+
+    /// Factors `shift·I - J` for a complex shift (real and imaginary part), and keeps the factors under a number below
+    /// [`Problem::complex_shifts`]. Comes after [`Problem::factor`] with the same J, whose factors are kept as well.
+    ///
+    /// # Errors
+    /// Where the matrix is singular, and by problems that do not do this.
+    fn factor_complex(&mut self, number: usize, shift: [f64; 2]) -> Result<(), Singular> {
+        let _ = (number, shift);
+        Err(Singular { block: 0 })
+    }
+
+    /// Solves `(shift·I - J) y = b` in place, real and imaginary part, with the factors kept under this number.
+    fn solve_complex(&mut self, number: usize, re: &mut [f64], im: &mut [f64]) {
+        let _ = (number, re, im);
+    }
+
     /// How many values and directions [`Problem::kinks`] writes.
     fn kink_counts(&self) -> (usize, usize) {
         (0, 0)
@@ -178,6 +198,15 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     }
     fn solve(&mut self, b: &mut [f64]) {
         (**self).solve(b);
+    }
+    fn complex_shifts(&self) -> usize {
+        (**self).complex_shifts()
+    }
+    fn factor_complex(&mut self, number: usize, shift: [f64; 2]) -> Result<(), Singular> {
+        (**self).factor_complex(number, shift)
+    }
+    fn solve_complex(&mut self, number: usize, re: &mut [f64], im: &mut [f64]) {
+        (**self).solve_complex(number, re, im);
     }
     fn kink_counts(&self) -> (usize, usize) {
         (**self).kink_counts()

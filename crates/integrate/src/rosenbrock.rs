@@ -7,16 +7,19 @@ use crate::kinks::{Ahead, Kinks, Passage};
 use crate::lanes::LANES;
 use crate::options::Options;
 use crate::problem::Problem;
+use crate::radau::PAIRS;
 use crate::stages::{Dense, leading_states};
 use crate::state::{STATE_VERSION, State};
 use crate::statistics::Statistics;
 use crate::tableau::{Family, MAXIMUM_STAGES, Tableau};
 
 mod attempt;
+mod collocation;
 mod newton;
 mod step;
 mod underway;
 
+use collocation::Collocation;
 use newton::Newton;
 use underway::Underway;
 pub use underway::{Call, Progress};
@@ -95,6 +98,11 @@ pub struct Integrator<P: Problem> {
     argument: Vec<f64>,
     slope: Vec<f64>,
     newton: Newton,
+    collocation: Collocation,
+    /// Whether steps may be by collocation at all.
+    collocates: bool,
+    /// How many linearly implicit steps in a row were smooth.
+    calm: u32,
 }
 
 impl<P: Problem> std::fmt::Debug for Integrator<P> {
@@ -124,6 +132,7 @@ impl<P: Problem> Integrator<P> {
             ahead: None,
             passage: None,
             controller: Controller::default(),
+            calm: 0,
             slope: Vec::new(),
             statistics: Statistics::default(),
         };
@@ -196,6 +205,10 @@ impl<P: Problem> Integrator<P> {
             Family::DiagonallyImplicit => Newton::new(&problem, options.relative_tolerance, stride),
             _ => Newton::default(),
         };
+        let collocates = options.collocation_steps
+            && options.fixed_step.is_none()
+            && tableau.family == Family::LinearlyImplicit
+            && problem.complex_shifts() >= PAIRS.len();
         let mut this = Self {
             switches: Switches::new(&problem, state.modes, options.maximum_events),
             kinks: Kinks::new(&problem),
@@ -235,6 +248,14 @@ impl<P: Problem> Integrator<P> {
             argument: zero(),
             slope: zero(),
             newton,
+            collocation: if collocates {
+                Collocation::new(stride)
+            } else {
+                Collocation::default()
+            },
+            collocates,
+            // A state saved with other options may come from a long step.
+            calm: if collocates { state.calm } else { 0 },
         };
         // Not counted: a run without a break has this evaluation from its last step.
         let counted = this.statistics.derivatives;
@@ -265,6 +286,7 @@ impl<P: Problem> Integrator<P> {
             ahead: self.ahead,
             passage: self.passage,
             controller: self.controller.clone(),
+            calm: self.calm,
             slope: match self.tableau.family {
                 Family::DiagonallyImplicit => self.derivative().to_vec(),
                 _ => Vec::new(),
@@ -396,6 +418,7 @@ impl<P: Problem> Integrator<P> {
         self.evaluate_derivative();
         self.ahead = None;
         self.passage = None;
+        self.end_calm();
     }
 
     /// Whether a saved state can belong to this problem.
@@ -426,6 +449,7 @@ impl<P: Problem> Integrator<P> {
         self.ahead = state.ahead;
         self.passage = state.passage;
         self.controller.clone_from(&state.controller);
+        self.calm = if self.collocates { state.calm } else { 0 };
         self.statistics.clone_from(&state.statistics);
         let counted = self.statistics.derivatives;
         self.evaluate_derivative();
@@ -449,6 +473,7 @@ impl<P: Problem> Integrator<P> {
         self.evaluate_derivative();
         self.ahead = None;
         self.passage = None;
+        self.end_calm();
         self.controller.restart();
     }
 }

@@ -8,7 +8,7 @@ use crate::kinks::{Ahead, Passage};
 use crate::statistics::Statistics;
 
 /// Version of [`State`].
-pub const STATE_VERSION: u32 = 5;
+pub const STATE_VERSION: u32 = 6;
 
 /// All that is needed to continue an integration with the same bits.
 ///
@@ -34,6 +34,8 @@ pub struct State {
     pub(crate) passage: Option<Passage>,
     /// Memory of the step-size control.
     pub(crate) controller: Controller,
+    /// How many linearly implicit steps in a row were smooth, which chooses the method of the next one.
+    pub(crate) calm: u32,
     /// The slope with which an implicit step ended, which is the first stage of the next one; empty: the derivative at the states is.
     pub(crate) slope: Vec<f64>,
     /// What was done so far.

@@ -10,6 +10,9 @@ pub struct Statistics {
     /// Those of them that were explicit.
     #[serde(default)]
     pub explicit_steps: u64,
+    /// Those of them that were by collocation.
+    #[serde(default)]
+    pub collocation_steps: u64,
     /// Steps rejected because of their error.
     pub rejected_error: u64,
     /// Steps rejected because a value was not finite.

@@ -189,3 +189,36 @@ fn a_saved_state_continues_with_the_same_bits_also_before_a_kink() {
     }
     assert!(resumed > 40 && whole.statistics().kinks_foreseen > 2);
 }
+
+/// The largest error of a single step, in tolerances: each is made again at a tolerance of 1e-12.
+fn worst_step(problem: fn() -> Ordinary<'static>, method: Method, tolerance: f64) -> (f64, u64) {
+    let mut integrator = Integrator::new(problem(), options(method, tolerance), 0.0, &[0.0, 0.0]).unwrap();
+    let mut worst = 0.0_f64;
+    while integrator.time() < 4.0 {
+        let (time, x) = (integrator.time(), integrator.x().to_vec());
+        integrator.step_to(4.0).unwrap();
+        let fine = Options {
+            initial_step: Some(1e-3 * (integrator.time() - time)),
+            ..options(Method::Rodas4, 1e-12)
+        };
+        let mut again = Integrator::new(rough(), fine, time, &x).unwrap();
+        while again.time() < integrator.time() {
+            again.step_to(integrator.time()).unwrap();
+        }
+        worst = worst.max((integrator.x()[0] - again.x()[0]).abs() / tolerance);
+    }
+    (worst, integrator.statistics().steps)
+}
+
+/// What sticks breaks away: the Jacobian matrix of the start knows the hold alone, and the estimate of the error is damped with it.
+#[test]
+fn issue_007_behaviour_a_step_that_breaks_away_is_as_exact_as_others() {
+    for (method, most) in [(Method::Rodas4, 30.0), (Method::Rodas5P, 3.0)] {
+        let (blind, blind_steps) = worst_step(rough, method, 1e-5);
+        let (told, told_steps) = worst_step(bounded, method, 1e-5);
+        println!("{method}: {blind:.1} in {blind_steps} steps, {told:.1} in {told_steps}");
+        assert!(blind > 100.0, "{method}: nothing to control here: {blind}");
+        assert!(told < most, "{method}: {told}");
+        assert!(told_steps < blind_steps, "{method}");
+    }
+}

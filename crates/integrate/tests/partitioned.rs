@@ -15,9 +15,12 @@ fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// Fills a structured matrix with numbers and solves; the largest difference from the solution of the whole matrix.
-fn difference(structure: &Structure, shift: f64) -> f64 {
-    let mut number = numbers(shift.to_bits() ^ structure.quadratures as u64);
+/// A structured matrix filled with numbers, the whole of `shift I - J` with the rows of the speeds multiplied with M, and M.
+fn filled(
+    structure: &Structure,
+    shift: f64,
+    mut number: impl FnMut() -> f64,
+) -> (Partitioned, Vec<Vec<f64>>, Vec<Vec<f64>>) {
     let mut partitioned = Partitioned::new(structure);
     let layout = partitioned.layout();
     let (n, q, u) = (layout.len(), 0, layout.speeds);
@@ -87,6 +90,18 @@ fn difference(structure: &Structure, shift: f64) -> f64 {
             whole[w + quadrature][s + 2 * group + k] -= *value;
         }
     }
+    (partitioned, whole, mass)
+}
+
+fn numbers_of(structure: &Structure, shift: f64) -> impl FnMut() -> f64 {
+    numbers(shift.to_bits() ^ structure.quadratures as u64)
+}
+
+/// Fills a structured matrix with numbers and solves; the largest difference from the solution of the whole matrix.
+fn difference(structure: &Structure, shift: f64) -> f64 {
+    let mut number = numbers_of(structure, shift);
+    let (mut partitioned, whole, mass) = filled(structure, shift, &mut number);
+    let (n, u) = (partitioned.layout().len(), partitioned.layout().speeds);
     let mut found: Vec<f64> = (0..n).map(|_| number()).collect();
     let mut exact = found.clone();
     for i in 0..u {
@@ -128,6 +143,58 @@ fn one_body_is_solved_as_the_whole_matrix() {
             }
         }
     }
+}
+
+/// With a complex shift a + ib the matrix is the real one with a, plus ib (I, M, I): what is left of the right side.
+#[test]
+fn one_body_is_solved_with_complex_shifts() {
+    for size in 1..=6 {
+        for quadratures in 0..=5 {
+            let structure = Structure {
+                bodies: vec![size],
+                quadratures,
+                quadrature_bodies: (0..quadratures).map(|k| (k, 0)).collect(),
+                ..Structure::default()
+            };
+            let (a, b) = (9.0, 14.0);
+            let mut number = numbers_of(&structure, a);
+            let (mut partitioned, whole, mass) = filled(&structure, a, &mut number);
+            assert_eq!(partitioned.complex_shifts(), 3);
+            let (n, u) = (partitioned.layout().len(), partitioned.layout().speeds);
+            let right: [Vec<f64>; 2] = [0, 1].map(|_| (0..n).map(|_| number()).collect());
+            let [mut re, mut im] = right.clone();
+            partitioned.factor(20.0).unwrap();
+            for k in [2, 0] {
+                // another one in between
+                partitioned
+                    .factor_complex(k, [a + f64::from(k as u8), b])
+                    .unwrap();
+            }
+            partitioned.solve_complex(0, &mut re, &mut im);
+            let times_mass = |x: &[f64], i: usize| -> f64 {
+                if (u..2 * u).contains(&i) {
+                    (0..u).map(|j| mass[i - u][j] * x[u + j]).sum()
+                } else {
+                    x[i]
+                }
+            };
+            for i in 0..n {
+                let row = |x: &[f64]| -> f64 { whole[i].iter().zip(x).map(|(w, x)| w * x).sum() };
+                let left_re = row(&re) - b * times_mass(&im, i) - times_mass(&right[0], i);
+                let left_im = row(&im) + b * times_mass(&re, i) - times_mass(&right[1], i);
+                assert!(
+                    left_re.abs() < 1e-13 && left_im.abs() < 1e-13,
+                    "{size} coordinates, {quadratures} quadratures, row {i}: {left_re} {left_im}"
+                );
+            }
+            assert!(partitioned.factor_complex(3, [a, b]).is_err());
+        }
+    }
+    let two = Partitioned::new(&Structure {
+        bodies: vec![4, 4],
+        ..Structure::default()
+    });
+    assert_eq!(two.complex_shifts(), 0);
 }
 
 #[test]

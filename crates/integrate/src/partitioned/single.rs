@@ -4,10 +4,13 @@
 use wide::f64x2;
 
 use super::Row;
+use super::complex::{ComplexFactor, Rows};
 use crate::dense_block::invert;
 
 /// The largest number of coordinates.
 const MOST: usize = 6;
+/// For how many complex shifts factors are kept.
+pub(super) const COMPLEX_SHIFTS: usize = 3;
 
 /// What a factorization reads, row by row.
 pub(super) struct Source<'a> {
@@ -34,6 +37,7 @@ pub(super) struct Single {
     square: Vec<f64>,
     /// The derivatives of the quadratures by positions and speeds.
     rows: Vec<[f64; 2]>,
+    complex: [ComplexFactor; COMPLEX_SHIFTS],
 }
 
 impl Single {
@@ -48,6 +52,7 @@ impl Single {
             inverse: zero(),
             square: vec![0.0; size * size],
             rows: vec![[0.0; 2]; 2 * size * quadratures.div_ceil(2)],
+            complex: std::array::from_fn(|_| ComplexFactor::new(size)),
         })
     }
 
@@ -99,6 +104,44 @@ impl Single {
             }
         }
         true
+    }
+
+    /// Factors with a complex shift, for which [`Single::factor`] must have prepared the matrices; false: the matrix is singular.
+    pub fn factor_complex(&mut self, number: usize, shift: [f64; 2], source: &Source<'_>) -> bool {
+        let Some(factor) = self.complex.get_mut(number) else {
+            return false;
+        };
+        match self.size {
+            1 => factor.factor::<1>(shift, source),
+            2 => factor.factor::<2>(shift, source),
+            3 => factor.factor::<3>(shift, source),
+            4 => factor.factor::<4>(shift, source),
+            5 => factor.factor::<5>(shift, source),
+            _ => factor.factor::<6>(shift, source),
+        }
+    }
+
+    /// Solves with a complex shift; where the number or the lengths do not fit nothing is done.
+    pub fn solve_complex(&self, number: usize, re: &mut [f64], im: &mut [f64]) {
+        let Some(factor) = self.complex.get(number) else {
+            return;
+        };
+        if re.len() != im.len() || re.len() < 2 * self.size {
+            return;
+        }
+        let rows = Rows {
+            mass: &self.mass,
+            stiffness: &self.stiffness,
+            quadratures: &self.rows,
+        };
+        match self.size {
+            1 => factor.solve::<1>(&rows, re, im),
+            2 => factor.solve::<2>(&rows, re, im),
+            3 => factor.solve::<3>(&rows, re, im),
+            4 => factor.solve::<4>(&rows, re, im),
+            5 => factor.solve::<5>(&rows, re, im),
+            _ => factor.solve::<6>(&rows, re, im),
+        }
     }
 
     /// Solves with the shift of the last factorization.
@@ -162,7 +205,7 @@ impl Single {
 
 /// A pair of rows times a vector.
 #[inline(always)]
-fn product<const N: usize>(rows: &[[f64; 2]; N], vector: &[f64x2; N]) -> f64x2 {
+pub(super) fn product<const N: usize>(rows: &[[f64; 2]; N], vector: &[f64x2; N]) -> f64x2 {
     let mut sum = f64x2::new(rows[0]) * vector[0];
     for j in 1..N {
         sum += f64x2::new(rows[j]) * vector[j];

@@ -133,6 +133,7 @@ impl<P: Problem> Integrator<P> {
             });
             return Err(self.give_up(failure.reason, tried, failure.index, f64::NAN));
         }
+        let shrink = self.end_calm_after_rejection();
         let failure = match outcome {
             Ok(error) => {
                 self.statistics.rejected_error += 1;
@@ -158,7 +159,8 @@ impl<P: Problem> Integrator<P> {
                     }
                     Reason::Unsolved => {
                         self.statistics.rejected_unsolved += 1;
-                        step *= 0.25;
+                        // What is no longer made by collocation shrinks for that.
+                        step *= if shrink < 1.0 { 1.0 } else { 0.25 };
                     }
                     _ => {
                         self.statistics.rejected_not_finite += 1;
@@ -168,6 +170,7 @@ impl<P: Problem> Integrator<P> {
                 failure
             }
         };
+        step *= shrink;
         let minimum = self
             .options
             .minimum_step
@@ -264,7 +267,7 @@ impl<P: Problem> Integrator<P> {
     }
 
     /// Whether kinks are foreseen, and errors held to what the place reached asks for.
-    fn foresees(&self) -> bool {
+    pub(super) fn foresees(&self) -> bool {
         self.options.fixed_step.is_none() && self.tableau.family == Family::LinearlyImplicit
     }
 
@@ -318,8 +321,9 @@ impl<P: Problem> Integrator<P> {
         self.linearized = false;
         self.last_method = self.trial_method;
         self.statistics.accept(step);
-        let explicit = self.last_method.family == Family::Explicit;
-        self.statistics.explicit_steps += u64::from(explicit);
+        let family = self.last_method.family;
+        self.statistics.explicit_steps += u64::from(family == Family::Explicit);
+        self.statistics.collocation_steps += u64::from(family == Family::Collocation);
         // All that is asked at the end is asked at once: what the problem has computed there serves several times.
         self.bound();
         if self.foresees() {
@@ -333,7 +337,7 @@ impl<P: Problem> Integrator<P> {
             let root = self.root(error);
             let (factor, genuine) =
                 self.controller
-                    .accept(&self.options, step, root, self.kinks.are_told(), explicit);
+                    .accept(&self.options, step, root, self.kinks.are_told(), family);
             let next = step * factor;
             // A step cut short by a limit says little about the step that was planned.
             self.proposed_step = if cut && !genuine { next.max(proposed) } else { next };
@@ -374,6 +378,7 @@ impl<P: Problem> Integrator<P> {
             self.switches
                 .detect(&mut self.problem, &dense, maximum, &mut self.statistics);
         }
+        self.choose_method(cut || landing.is_some());
         if let Some(Ahead::InLayer(layer)) = self.ahead {
             self.enter_layer(layer, self.proposed_step);
         }

@@ -394,6 +394,18 @@ impl Problem for System {
         self.jacobian.solve(b);
     }
 
+    fn complex_shifts(&self) -> usize {
+        self.jacobian.complex_shifts()
+    }
+
+    fn factor_complex(&mut self, number: usize, shift: [f64; 2]) -> Result<(), Singular> {
+        self.jacobian.factor_complex(number, shift)
+    }
+
+    fn solve_complex(&mut self, number: usize, re: &mut [f64], im: &mut [f64]) {
+        self.jacobian.solve_complex(number, re, im);
+    }
+
     fn kink_counts(&self) -> (usize, usize) {
         (self.point_count(), self.point_count())
     }

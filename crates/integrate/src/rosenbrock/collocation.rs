@@ -1,0 +1,265 @@
+//! Attempts by collocation: long steps where nothing but a vibration goes on.
+//!
+//! After a strike a wedge that is pressed on rings for a while, and nothing else happens: no contact opens, nothing reverses. A method of order
+//! 5 needs a step for every one or two radians of that; the polynomial of collocation at seven points goes four to eight radians in a step
+//! that costs not twice as much. The changes `Z_i` at the points solve `Z = h A f(x + Z)`. Along the eigenvectors of `A⁻¹` their corrections
+//! come apart,
+//!
+//! ```text
+//! (μ_k/h - J) Δw_k = Σ_j L_kj f(x + Z_j) - (μ_k/h) w_k,      Z_i = Σ_k V_ik w_k,
+//! ```
+//!
+//! one real and three complex systems of the size of J. The first guess takes f for linear, `f(x) + J Z + c h ∂f/∂t`, and needs no
+//! evaluation; where the way is smooth one round of evaluations is enough after it.
+
+use super::Integrator;
+use super::attempt::{Advance, Failure, not_finite, stage_time};
+use super::underway::{Phase, Underway};
+use crate::error::Reason;
+use crate::problem::Problem;
+use crate::radau::{ERROR, FROM_PARTS, NODES, PAIRS, POINTS, RADAU, REAL, TO_PARTS};
+use crate::stages::{all_finite, combine, largest};
+use crate::tableau::Family;
+
+/// So many steps of the linearly implicit method must have been smooth before.
+const SMOOTH: u32 = 4;
+/// By how much longer a step is tried than one of the linearly implicit method.
+const STRETCH: f64 = 2.2;
+/// Where a step took more rounds than these it is not smooth enough.
+const FEW_ROUNDS: u32 = 2;
+/// Most rounds.
+const MOST_ROUNDS: u32 = 3;
+/// What the rounds may leave, in units of the tolerance.
+const LEFT: f64 = 0.03;
+/// Corrections that do not shrink by this factor are given up.
+const CONTRACTION: f64 = 0.5;
+
+/// The rounds of an attempt.
+#[derive(Debug, Default)]
+pub(super) struct Collocation {
+    rounds: u32,
+    /// The size of the last correction, in units of the tolerance.
+    size: f64,
+    /// Slopes at the points.
+    slopes: Vec<f64>,
+    /// Parts of the changes along the eigenvectors; the same times -μ/h; their corrections.
+    parts: Vec<f64>,
+    pull: Vec<f64>,
+    correction: Vec<f64>,
+}
+
+impl Collocation {
+    pub fn new(stride: usize) -> Self {
+        let rows = || vec![0.0; POINTS * stride];
+        Self {
+            rounds: 0,
+            size: 0.0,
+            slopes: rows(),
+            parts: rows(),
+            pull: rows(),
+            correction: rows(),
+        }
+    }
+}
+
+impl<P: Problem> Integrator<P> {
+    /// Whether the next attempt is by collocation.
+    #[inline(always)]
+    pub(super) fn is_calm(&self) -> bool {
+        self.calm >= SMOOTH
+    }
+
+    /// Chooses the method of the step after one that was accepted. One that was cut short says little.
+    #[inline]
+    pub(super) fn choose_method(&mut self, cut: bool) {
+        let smooth = self.ahead.is_none() && self.passage.is_none() && !self.kinks.fade();
+        match self.last_method.family {
+            Family::LinearlyImplicit if smooth && !cut && self.collocates => {
+                self.calm += 1;
+                if self.is_calm() {
+                    self.proposed_step = (STRETCH * self.proposed_step).min(self.options.maximum_step);
+                }
+            }
+            Family::Collocation if smooth && self.collocation.rounds <= FEW_ROUNDS => {}
+            _ => self.end_calm(),
+        }
+    }
+
+    /// The next steps are not by collocation, and shorter.
+    pub(super) fn end_calm(&mut self) {
+        if self.is_calm() {
+            self.proposed_step /= STRETCH;
+        }
+        self.calm = 0;
+    }
+
+    /// By what the step after a rejected one shrinks because it is made by another method.
+    pub(super) fn end_calm_after_rejection(&mut self) -> f64 {
+        let shrink = if self.is_calm() { 1.0 / STRETCH } else { 1.0 };
+        self.calm = 0;
+        shrink
+    }
+
+    #[inline(never)]
+    pub(super) fn begin_collocation(&mut self) -> Advance {
+        let stride = self.stride;
+        self.trial_method = &RADAU;
+        self.linearize_here();
+        let step = self.underway.step;
+        self.factor(REAL / step)?;
+        for (index, [re, im]) in PAIRS.iter().enumerate() {
+            self.problem
+                .factor_complex(index, [re / step, im / step])
+                .map_err(|_| unsolved())?;
+        }
+        let rows = self.collocation.correction.chunks_exact_mut(stride);
+        for (row, weights) in rows.zip(&TO_PARTS) {
+            let all: f64 = weights.iter().sum();
+            let moment: f64 = weights.iter().zip(&NODES).map(|(w, c)| w * c).sum();
+            let slopes = self.dx.iter().zip(&self.df_dt);
+            for (target, (slope, change)) in row.iter_mut().zip(slopes) {
+                *target = all * slope + step * moment * change;
+            }
+        }
+        self.collocation.parts.fill(0.0);
+        self.trial_stages[..POINTS * stride].fill(0.0);
+        self.collocation.rounds = 0;
+        self.correct_parts();
+        self.want_point(0);
+        Ok(None)
+    }
+
+    /// Solves for the corrections of the parts, and adds them.
+    fn correct_parts(&mut self) {
+        let (n, stride) = (self.dimension, self.stride);
+        let inverse = 1.0 / self.underway.step;
+        let Collocation {
+            parts,
+            pull,
+            correction,
+            size,
+            ..
+        } = &mut self.collocation;
+        let (real, pairs) = correction.split_at_mut(stride);
+        self.problem.solve(&mut real[..n]);
+        for (index, pair) in pairs.chunks_exact_mut(2 * stride).enumerate() {
+            let (re, im) = pair.split_at_mut(stride);
+            self.problem.solve_complex(index, &mut re[..n], &mut im[..n]);
+        }
+        self.statistics.solves += 1 + PAIRS.len() as u64;
+        for (part, change) in parts.iter_mut().zip(correction.iter()) {
+            *part += change;
+        }
+        let (real, pairs) = parts.split_at(stride);
+        let (pull_real, pull_pairs) = pull.split_at_mut(stride);
+        for (pull, part) in pull_real.iter_mut().zip(real) {
+            *pull = -inverse * REAL * part;
+        }
+        let both = pairs
+            .chunks_exact(2 * stride)
+            .zip(pull_pairs.chunks_exact_mut(2 * stride));
+        for ([re, im], (part, pull)) in PAIRS.iter().zip(both) {
+            let (a, b) = part.split_at(stride);
+            let (pull_a, pull_b) = pull.split_at_mut(stride);
+            for i in 0..stride {
+                pull_a[i] = -inverse * (re * a[i] - im * b[i]);
+                pull_b[i] = -inverse * (re * b[i] + im * a[i]);
+            }
+        }
+        *size = 0.0;
+        for (stage, weights) in self.trial_stages.chunks_exact_mut(stride).zip(&FROM_PARTS) {
+            combine(&mut self.argument, stage, 1.0, weights, correction, stride);
+            for (change, new) in stage.iter_mut().zip(&mut self.argument) {
+                (*change, *new) = (*new, *new - *change);
+            }
+            *size = size.max(largest(&self.argument, &self.weights));
+        }
+    }
+
+    fn want_point(&mut self, point: usize) {
+        let Underway { step, target, .. } = self.underway;
+        let stage = &self.trial_stages[point * self.stride..][..self.stride];
+        for ((argument, x), change) in self.argument.iter_mut().zip(&self.x).zip(stage) {
+            *argument = x + change;
+        }
+        let time = stage_time(NODES[point], self.time, step, target);
+        self.want(time, Phase::Point(point));
+    }
+
+    #[inline(never)]
+    pub(super) fn after_point(&mut self, point: usize) -> Advance {
+        let stride = self.stride;
+        self.statistics.derivatives += 1;
+        self.collocation.slopes[point * stride..][..stride].copy_from_slice(&self.slope);
+        if point + 1 < POINTS {
+            self.want_point(point + 1);
+            return Ok(None);
+        }
+        if !all_finite(&self.collocation.slopes) {
+            return Err(unsolved());
+        }
+        let Collocation {
+            slopes,
+            pull,
+            correction,
+            ..
+        } = &mut self.collocation;
+        let rows = correction.chunks_exact_mut(stride).zip(pull.chunks_exact(stride));
+        for ((row, pull), weights) in rows.zip(&TO_PARTS) {
+            combine(row, pull, 1.0, weights, slopes, stride);
+        }
+        let before = self.collocation.size;
+        self.correct_parts();
+        self.collocation.rounds += 1;
+        let Collocation { rounds, size, .. } = self.collocation;
+        // The first correction is what f bends over the change itself; the bend of J, which the next one meets, is twice that.
+        let rate = if rounds == 1 { 2.0 } else { 1.0 } * size / before;
+        if !(size <= LEFT || rate < CONTRACTION) {
+            return Err(unsolved());
+        }
+        if size > LEFT && rate / (1.0 - rate) * size > LEFT {
+            if rounds == MOST_ROUNDS {
+                return Err(unsolved());
+            }
+            self.want_point(0);
+            return Ok(None);
+        }
+        self.end_of_points()
+    }
+
+    /// The points are found: the states at the end, and their error.
+    fn end_of_points(&mut self) -> Advance {
+        let (n, stride) = (self.dimension, self.stride);
+        let (points, error) = self.trial_stages.split_at_mut(POINTS * stride);
+        let error = &mut error[..stride];
+        combine(error, &self.dx, REAL / self.underway.step, &ERROR, points, stride);
+        self.problem.solve(&mut error[..n]);
+        self.statistics.solves += 1;
+        let last = &points[(POINTS - 1) * stride..];
+        for ((new, old), change) in self.trial_x.iter_mut().zip(&self.x).zip(last) {
+            *new = old + change;
+        }
+        let error = largest(error, &self.weights);
+        if !all_finite(&self.trial_x) {
+            return Err(not_finite(&self.trial_x[..n]));
+        }
+        if error > 1.0 && self.options.fixed_step.is_none() {
+            return Ok(Some(error));
+        }
+        // Between its points it may have missed a kink: then it ends on the other side.
+        let (problem, target, x) = (&mut self.problem, self.underway.target, &self.trial_x[..n]);
+        if self.kinks.cross(problem, target, x) || self.kinks.breaks_away(problem, target, x) {
+            return Err(unsolved());
+        }
+        self.underway.error = error;
+        self.want(self.underway.target, Phase::End);
+        Ok(None)
+    }
+}
+
+fn unsolved() -> Failure {
+    Failure {
+        reason: Reason::Unsolved,
+        index: None,
+    }
+}
