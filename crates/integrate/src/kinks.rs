@@ -157,26 +157,25 @@ impl Kinks {
         project(&self.here, &self.towards, &mut self.now);
     }
 
-    /// Whether a kink or the edge of a layer lies between the place that was looked at last and another one.
-    pub fn cross<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) -> bool {
-        if !self.are_told() {
-            return false;
+    /// Peers at the end of an attempt from the place that was looked at last. Before [`Kinks::cross`] and [`Kinks::break_away`].
+    pub fn peer<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
+        if self.are_told() {
+            problem.kinks(time, x, &mut self.signs);
         }
-        problem.kinks(time, x, &mut self.signs);
-        self.compare()
     }
 
-    /// Whether a direction that its layer held at the place that was looked at last breaks away on the way to another one.
+    /// Whether a kink or the edge of a layer lies between the place that was looked at last and the one peered at.
+    pub fn cross(&mut self) -> bool {
+        self.are_told() && self.compare()
+    }
+
+    /// Whether a direction that its layer held at the place that was looked at last breaks away on the way to the one peered at.
     ///
     /// The Jacobian matrix of the start knows only the hold, which damps a direction as stiffly as a weld; the stages and the estimate of the error
     /// of a linearly implicit step are damped with it.
-    pub fn breaks_away<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) -> bool {
-        if self.here.directions.is_empty() {
-            return false;
-        }
-        problem.kinks(time, x, &mut self.signs);
-        let pairs = self.here.directions.iter().zip(&self.signs.directions);
-        pairs.into_iter().any(|(from, to)| {
+    pub fn break_away(&self) -> bool {
+        let mut pairs = self.here.directions.iter().zip(&self.signs.directions);
+        pairs.any(|(from, to)| {
             let (from, to) = (square(from).sqrt(), square(to).sqrt());
             from < HELD && to > (from + GROWTH.0).max(GROWTH.1 * from)
         })

@@ -315,19 +315,9 @@ impl Partitioned {
     /// The matrix is singular.
     pub fn factor(&mut self, shift: f64) -> Result<(), Singular> {
         self.shift = shift;
-        if let Some(single) = &mut self.single {
-            let source = Source {
-                mass: &self.mass,
-                stiffness: &self.stiffness,
-                damping: &self.damping,
-                rows: &self.rows,
-                row_data: &self.row_data,
-            };
-            return if single.factor(shift, source) {
-                Ok(())
-            } else {
-                Err(Singular { block: 0 })
-            };
+        if let Some((single, source)) = self.single() {
+            let regular = single.factor(shift, source);
+            return regular.then_some(()).ok_or(Singular { block: 0 });
         }
         let inverse = 1.0 / shift;
         self.lu.clear();
@@ -409,6 +399,13 @@ impl Partitioned {
     /// # Errors
     /// The matrix is singular, or there is no such number.
     pub fn factor_complex(&mut self, number: usize, shift: [f64; 2]) -> Result<(), Singular> {
+        let single = self.single();
+        let regular = single.is_some_and(|(single, source)| single.factor_complex(number, shift, source));
+        regular.then_some(()).ok_or(Singular { block: 0 })
+    }
+
+    /// What stands in where there is one small body, and what it factors.
+    fn single(&mut self) -> Option<(&mut Single, Source<'_>)> {
         let source = Source {
             mass: &self.mass,
             stiffness: &self.stiffness,
@@ -416,11 +413,7 @@ impl Partitioned {
             rows: &self.rows,
             row_data: &self.row_data,
         };
-        let single = self.single.as_mut();
-        match single.is_some_and(|single| single.factor_complex(number, shift, &source)) {
-            true => Ok(()),
-            false => Err(Singular { block: 0 }),
-        }
+        self.single.as_mut().map(|single| (single, source))
     }
 
     /// Solves `(shift · I - J) y = b` in place, real and imaginary part, by the factors with this number.

@@ -92,6 +92,22 @@ pub(crate) const TO_PARTS: [[f64; POINTS]; POINTS] = [
     ],
 ];
 
+/// The parts of 1 and of the time in the step, with which a straight line of slopes begins.
+pub(crate) const PARTS_OF_A_LINE: [[f64; 2]; POINTS] = {
+    let mut parts = [[0.0; 2]; POINTS];
+    let mut row = 0;
+    while row < POINTS {
+        let mut point = 0;
+        while point < POINTS {
+            parts[row][0] += TO_PARTS[row][point];
+            parts[row][1] += TO_PARTS[row][point] * NODES[point];
+            point += 1;
+        }
+        row += 1;
+    }
+    parts
+};
+
 /// Back from the parts to the points.
 pub(crate) const FROM_PARTS: [[f64; POINTS]; POINTS] = [
     [
@@ -257,8 +273,7 @@ mod tests {
     /// The polynomial that is 1 at node `j` and 0 at the others.
     fn lagrange(nodes: &[f64], j: usize) -> Vec<f64> {
         let mut p = vec![1.0];
-        for (k, node) in nodes.iter().enumerate().filter(|(k, _)| *k != j) {
-            let _ = k;
+        for (_, node) in nodes.iter().enumerate().filter(|(k, _)| *k != j) {
             let scale = 1.0 / (nodes[j] - node);
             let mut next = vec![0.0; p.len() + 1];
             for (i, c) in p.iter().enumerate() {

@@ -1,9 +1,9 @@
-//! One body with a complex shift: as [`Single`](super::single::Single), whose matrices it uses.
+//! One body with a complex shift: as [`Single`], whose matrices it uses.
 
 use num_complex::Complex64;
 use wide::f64x2;
 
-use super::single::{Source, product};
+use super::single::{Single, Source, product};
 
 /// The inverse of W for one complex shift.
 #[derive(Clone, Debug)]
@@ -12,14 +12,6 @@ pub(super) struct ComplexFactor {
     reciprocal: Complex64,
     /// The inverse of W, row by row, real and imaginary part.
     inverse: Vec<[f64; 2]>,
-}
-
-/// The matrices that a solution is made of, in pairs of rows.
-pub(super) struct Rows<'a> {
-    pub mass: &'a [[f64; 2]],
-    pub stiffness: &'a [[f64; 2]],
-    /// Derivatives of the quadratures.
-    pub quadratures: &'a [[f64; 2]],
 }
 
 impl ComplexFactor {
@@ -32,7 +24,7 @@ impl ComplexFactor {
 
     /// Factors; false: the matrix is singular.
     #[inline(always)]
-    pub fn factor<const N: usize>(&mut self, [re, im]: [f64; 2], source: &Source<'_>) -> bool {
+    pub fn factor<const N: usize>(&mut self, [re, im]: [f64; 2], source: Source<'_>) -> bool {
         let shift = Complex64::new(re, im);
         self.reciprocal = shift.inv();
         let mut w = [[Complex64::ZERO; N]; N];
@@ -49,7 +41,7 @@ impl ComplexFactor {
 
     /// Solves for the real and the imaginary part of a right side.
     #[inline(always)]
-    pub fn solve<const N: usize>(&self, rows: &Rows<'_>, re: &mut [f64], im: &mut [f64]) {
+    pub fn solve<const N: usize>(&self, body: &Single, re: &mut [f64], im: &mut [f64]) {
         let numbers = |re: &[f64], im: &[f64], first: usize| -> [f64x2; N] {
             std::array::from_fn(|j| f64x2::new([re[first + j], im[first + j]]))
         };
@@ -58,7 +50,7 @@ impl ComplexFactor {
             f64x2::new([position.re, position.im])
         });
         let speeds = numbers(re, im, N);
-        let (mass, stiffness) = (rows.mass.as_chunks::<N>().0, rows.stiffness.as_chunks::<N>().0);
+        let (mass, stiffness) = (body.mass.as_chunks::<N>().0, body.stiffness.as_chunks::<N>().0);
         let right: [f64x2; N] = std::array::from_fn(|i| {
             let mut sum = f64x2::ZERO;
             for j in 0..N {
@@ -83,7 +75,7 @@ impl ComplexFactor {
             (re[i], im[i]) = (position.re, position.im);
             (re[N + i], im[N + i]) = (a, b);
         }
-        self.solve_quadratures::<N>(rows.quadratures, re, im);
+        self.solve_quadratures::<N>(&body.rows, re, im);
     }
 
     /// The quadratures, two at a time, when positions and speeds are there.

@@ -4,13 +4,31 @@
 use wide::f64x2;
 
 use super::Row;
-use super::complex::{ComplexFactor, Rows};
+use super::complex::ComplexFactor;
 use crate::dense_block::invert;
 
 /// The largest number of coordinates.
 const MOST: usize = 6;
 /// For how many complex shifts factors are kept.
 pub(super) const COMPLEX_SHIFTS: usize = 3;
+
+/// Calls a function with the number of coordinates as a constant `N`, so that its loops are unrolled.
+macro_rules! sized {
+    (@ $n:literal, $call:expr) => {{
+        const N: usize = $n;
+        $call
+    }};
+    ($size:expr, $call:expr) => {
+        match $size {
+            1 => sized!(@ 1, $call),
+            2 => sized!(@ 2, $call),
+            3 => sized!(@ 3, $call),
+            4 => sized!(@ 4, $call),
+            5 => sized!(@ 5, $call),
+            _ => sized!(@ 6, $call),
+        }
+    };
+}
 
 /// What a factorization reads, row by row.
 pub(super) struct Source<'a> {
@@ -29,14 +47,14 @@ pub(super) struct Single {
     size: usize,
     /// 1/σ.
     reciprocal: f64,
-    mass: Vec<[f64; 2]>,
-    stiffness: Vec<[f64; 2]>,
+    pub(super) mass: Vec<[f64; 2]>,
+    pub(super) stiffness: Vec<[f64; 2]>,
     /// The inverse of W.
     inverse: Vec<[f64; 2]>,
     /// W and its inverse, row by row.
     square: Vec<f64>,
     /// The derivatives of the quadratures by positions and speeds.
-    rows: Vec<[f64; 2]>,
+    pub(super) rows: Vec<[f64; 2]>,
     complex: [ComplexFactor; COMPLEX_SHIFTS],
 }
 
@@ -58,14 +76,7 @@ impl Single {
 
     /// Factors; false: the matrix is singular.
     pub fn factor(&mut self, shift: f64, source: Source<'_>) -> bool {
-        match self.size {
-            1 => self.factor_sized::<1>(shift, source),
-            2 => self.factor_sized::<2>(shift, source),
-            3 => self.factor_sized::<3>(shift, source),
-            4 => self.factor_sized::<4>(shift, source),
-            5 => self.factor_sized::<5>(shift, source),
-            _ => self.factor_sized::<6>(shift, source),
-        }
+        sized!(self.size, self.factor_sized::<N>(shift, source))
     }
 
     #[inline(always)]
@@ -107,18 +118,11 @@ impl Single {
     }
 
     /// Factors with a complex shift, for which [`Single::factor`] must have prepared the matrices; false: the matrix is singular.
-    pub fn factor_complex(&mut self, number: usize, shift: [f64; 2], source: &Source<'_>) -> bool {
+    pub fn factor_complex(&mut self, number: usize, shift: [f64; 2], source: Source<'_>) -> bool {
         let Some(factor) = self.complex.get_mut(number) else {
             return false;
         };
-        match self.size {
-            1 => factor.factor::<1>(shift, source),
-            2 => factor.factor::<2>(shift, source),
-            3 => factor.factor::<3>(shift, source),
-            4 => factor.factor::<4>(shift, source),
-            5 => factor.factor::<5>(shift, source),
-            _ => factor.factor::<6>(shift, source),
-        }
+        sized!(self.size, factor.factor::<N>(shift, source))
     }
 
     /// Solves with a complex shift; where the number or the lengths do not fit nothing is done.
@@ -129,32 +133,13 @@ impl Single {
         if re.len() != im.len() || re.len() < 2 * self.size {
             return;
         }
-        let rows = Rows {
-            mass: &self.mass,
-            stiffness: &self.stiffness,
-            quadratures: &self.rows,
-        };
-        match self.size {
-            1 => factor.solve::<1>(&rows, re, im),
-            2 => factor.solve::<2>(&rows, re, im),
-            3 => factor.solve::<3>(&rows, re, im),
-            4 => factor.solve::<4>(&rows, re, im),
-            5 => factor.solve::<5>(&rows, re, im),
-            _ => factor.solve::<6>(&rows, re, im),
-        }
+        sized!(self.size, factor.solve::<N>(self, re, im));
     }
 
     /// Solves with the shift of the last factorization.
     #[inline(always)]
     pub fn solve(&self, b: &mut [f64]) {
-        match self.size {
-            1 => self.solve_sized::<1, 1>(b),
-            2 => self.solve_sized::<2, 1>(b),
-            3 => self.solve_sized::<3, 2>(b),
-            4 => self.solve_sized::<4, 2>(b),
-            5 => self.solve_sized::<5, 3>(b),
-            _ => self.solve_sized::<6, 3>(b),
-        }
+        sized!(self.size, self.solve_sized::<N, { N.div_ceil(2) }>(b));
     }
 
     /// The same of `N` coordinates in `P` pairs.

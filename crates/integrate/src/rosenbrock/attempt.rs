@@ -174,8 +174,8 @@ impl<P: Problem> Integrator<P> {
         }
         let mut error = largest(last, &self.weights);
         if self.foresees() && error <= 1.0 && error * DAMPED > 1.0 {
-            let x = &self.trial_x[..n];
-            if self.kinks.breaks_away(&mut self.problem, self.underway.target, x) {
+            self.peer_at_end();
+            if self.kinks.break_away() {
                 error *= DAMPED;
             }
         }
@@ -241,13 +241,21 @@ impl<P: Problem> Integrator<P> {
         let error = self.explicit_error()?;
         // Across a kink the estimate of an explicit method's error can be small by chance, again and again until it is; that of a
         // linearly implicit one, whose Jacobian matrix is that of the wrong side, is large.
-        let Underway { target, landing, .. } = self.underway;
-        let x = &self.trial_x[..n];
-        if landing.is_some() || error > 1.0 || !self.kinks.cross(&mut self.problem, target, x) {
+        if self.underway.landing.is_some() || error > 1.0 {
+            return Ok(Some(error));
+        }
+        self.peer_at_end();
+        if !self.kinks.cross() {
             return Ok(Some(error));
         }
         self.stiffness = f64::INFINITY;
         self.begin_implicit()
+    }
+
+    /// Sees what tells kinks at the end of the attempt.
+    pub(super) fn peer_at_end(&mut self) {
+        let x = &self.trial_x[..self.dimension];
+        self.kinks.peer(&mut self.problem, self.underway.target, x);
     }
 
     /// The size of the error of an explicit step all of whose stages are there.
@@ -269,6 +277,15 @@ pub(super) fn stage_time(alpha: f64, start: f64, step: f64, target: f64) -> f64 
         target
     } else {
         start + alpha * step
+    }
+}
+
+/// The equations of the step cannot be solved: nobody is to blame.
+#[cold]
+pub(super) fn unsolved() -> Failure {
+    Failure {
+        reason: Reason::Unsolved,
+        index: None,
     }
 }
 

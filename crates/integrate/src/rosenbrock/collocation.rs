@@ -13,18 +13,17 @@
 //! evaluation; where the way is smooth one round of evaluations is enough after it.
 
 use super::Integrator;
-use super::attempt::{Advance, Failure, not_finite, stage_time};
+use super::attempt::{Advance, not_finite, stage_time, unsolved};
 use super::underway::{Phase, Underway};
-use crate::error::Reason;
 use crate::problem::Problem;
-use crate::radau::{ERROR, FROM_PARTS, NODES, PAIRS, POINTS, RADAU, REAL, TO_PARTS};
+use crate::radau::{ERROR, FROM_PARTS, NODES, PAIRS, PARTS_OF_A_LINE, POINTS, RADAU, REAL, TO_PARTS};
 use crate::stages::{all_finite, combine, largest};
 use crate::tableau::Family;
 
 /// So many steps of the linearly implicit method must have been smooth before.
 const SMOOTH: u32 = 4;
 /// By how much longer a step is tried than one of the linearly implicit method.
-const STRETCH: f64 = 2.2;
+pub(super) const STRETCH: f64 = 2.2;
 /// Where a step took more rounds than these it is not smooth enough.
 const FEW_ROUNDS: u32 = 2;
 /// Most rounds.
@@ -72,9 +71,12 @@ impl<P: Problem> Integrator<P> {
     /// Chooses the method of the step after one that was accepted. One that was cut short says little.
     #[inline]
     pub(super) fn choose_method(&mut self, cut: bool) {
+        if !self.collocates {
+            return;
+        }
         let smooth = self.ahead.is_none() && self.passage.is_none() && !self.kinks.fade();
         match self.last_method.family {
-            Family::LinearlyImplicit if smooth && !cut && self.collocates => {
+            Family::LinearlyImplicit if smooth && !cut => {
                 self.calm += 1;
                 if self.is_calm() {
                     self.proposed_step = (STRETCH * self.proposed_step).min(self.options.maximum_step);
@@ -87,17 +89,14 @@ impl<P: Problem> Integrator<P> {
 
     /// The next steps are not by collocation, and shorter.
     pub(super) fn end_calm(&mut self) {
-        if self.is_calm() {
+        if self.leave_calm() {
             self.proposed_step /= STRETCH;
         }
-        self.calm = 0;
     }
 
-    /// By what the step after a rejected one shrinks because it is made by another method.
-    pub(super) fn end_calm_after_rejection(&mut self) -> f64 {
-        let shrink = if self.is_calm() { 1.0 / STRETCH } else { 1.0 };
-        self.calm = 0;
-        shrink
+    /// The next steps are not by collocation; whether they would have been.
+    pub(super) fn leave_calm(&mut self) -> bool {
+        std::mem::take(&mut self.calm) >= SMOOTH
     }
 
     #[inline(never)]
@@ -113,9 +112,7 @@ impl<P: Problem> Integrator<P> {
                 .map_err(|_| unsolved())?;
         }
         let rows = self.collocation.correction.chunks_exact_mut(stride);
-        for (row, weights) in rows.zip(&TO_PARTS) {
-            let all: f64 = weights.iter().sum();
-            let moment: f64 = weights.iter().zip(&NODES).map(|(w, c)| w * c).sum();
+        for (row, [all, moment]) in rows.zip(&PARTS_OF_A_LINE) {
             let slopes = self.dx.iter().zip(&self.df_dt);
             for (target, (slope, change)) in row.iter_mut().zip(slopes) {
                 *target = all * slope + step * moment * change;
@@ -247,19 +244,12 @@ impl<P: Problem> Integrator<P> {
             return Ok(Some(error));
         }
         // Between its points it may have missed a kink: then it ends on the other side.
-        let (problem, target, x) = (&mut self.problem, self.underway.target, &self.trial_x[..n]);
-        if self.kinks.cross(problem, target, x) || self.kinks.breaks_away(problem, target, x) {
+        self.peer_at_end();
+        if self.kinks.cross() || self.kinks.break_away() {
             return Err(unsolved());
         }
         self.underway.error = error;
         self.want(self.underway.target, Phase::End);
         Ok(None)
-    }
-}
-
-fn unsolved() -> Failure {
-    Failure {
-        reason: Reason::Unsolved,
-        index: None,
     }
 }

@@ -9,9 +9,8 @@
 //! Natural corrections and monotonicity: P. Deuflhard, *Newton Methods for Nonlinear Problems*, Springer 2004, section 3.
 
 use super::Integrator;
-use super::attempt::{Advance, Failure, not_finite, stage_time};
+use super::attempt::{Advance, not_finite, stage_time, unsolved};
 use super::underway::{Phase, Underway};
-use crate::error::Reason;
 use crate::problem::Problem;
 use crate::stages::{add, all_finite, combine, largest, scale};
 
@@ -253,10 +252,7 @@ impl<P: Problem> Integrator<P> {
         self.newton.rounds += 1;
         let rounds = self.newton.rounds;
         if rounds > MOST_ROUNDS {
-            return Err(Failure {
-                reason: Reason::Unsolved,
-                index: None,
-            });
+            return Err(unsolved());
         }
         // A later stage begins with the matrix of the one before.
         if rounds > 1 || self.newton.stage == 1 {

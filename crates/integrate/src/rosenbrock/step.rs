@@ -2,6 +2,7 @@
 
 use super::Integrator;
 use super::attempt::Failure;
+use super::collocation::STRETCH;
 use super::underway::{Phase, Progress, Underway};
 use crate::error::{Reason, StepError};
 use crate::kinks::{Ahead, Layer, Passage, WHOLE_LANDING};
@@ -133,7 +134,7 @@ impl<P: Problem> Integrator<P> {
             });
             return Err(self.give_up(failure.reason, tried, failure.index, f64::NAN));
         }
-        let shrink = self.end_calm_after_rejection();
+        let calm = self.leave_calm();
         let failure = match outcome {
             Ok(error) => {
                 self.statistics.rejected_error += 1;
@@ -159,8 +160,7 @@ impl<P: Problem> Integrator<P> {
                     }
                     Reason::Unsolved => {
                         self.statistics.rejected_unsolved += 1;
-                        // What is no longer made by collocation shrinks for that.
-                        step *= if shrink < 1.0 { 1.0 } else { 0.25 };
+                        step *= if calm { 1.0 } else { 0.25 };
                     }
                     _ => {
                         self.statistics.rejected_not_finite += 1;
@@ -170,7 +170,10 @@ impl<P: Problem> Integrator<P> {
                 failure
             }
         };
-        step *= shrink;
+        if calm {
+            // It is no longer made by collocation.
+            step *= 1.0 / STRETCH;
+        }
         let minimum = self
             .options
             .minimum_step
