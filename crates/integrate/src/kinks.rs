@@ -43,8 +43,10 @@ const GROWTH: (f64, f64) = (1.0, 1.5);
 const FADING: [f64; 2] = [2.0, 12.0];
 /// Behind a layer the direction is larger than this.
 const OUT: f64 = 3.0;
-/// It does reverse if all of it has become smaller than this when its part along the old direction comes to the edge.
+/// It does reverse if what is across its old direction is smaller than this when its part along that comes to the edge.
 const NARROW: f64 = 5.0 * EDGE;
+/// A direction that changed by more than this in a step is still on its way through its layer.
+const MOVING: f64 = 0.5;
 
 /// What a problem tells of its kinks at a time and a state, see [`Problem::kinks`].
 #[derive(Clone, Debug, Default)]
@@ -72,6 +74,8 @@ pub(crate) enum Ahead {
 pub(crate) struct Layer {
     /// Length of the first step in it.
     pub length: f64,
+    /// The part of the direction along [`Layer::from`] where it begins.
+    size: f64,
     /// Number of the direction.
     direction: usize,
     /// Where it points before.
@@ -195,6 +199,17 @@ impl Kinks {
         (self.slowest * SLACK).max(1.0)
     }
 
+    /// Whether a layer that was foreseen here is here: what was continued too far foresees others.
+    pub fn has_come(&self, layer: &Layer) -> bool {
+        square(&self.here.directions[layer.direction]).sqrt() < NARROW.max(2.0 * layer.size)
+    }
+
+    /// Whether what reverses in a layer, or comes to stick in it, is still on its way.
+    pub fn moves(&self, layer: &Layer) -> bool {
+        let [here, before] = [&self.here, &self.before].map(|signs| signs.directions[layer.direction]);
+        square(&[here[0] - before[0], here[1] - before[1]]) > MOVING * MOVING
+    }
+
     /// Whether a layer lies behind: what reversed in it is large again, and points elsewhere.
     pub fn is_behind(&self, layer: &Layer) -> bool {
         let direction = &self.here.directions[layer.direction];
@@ -225,14 +240,19 @@ impl Kinks {
                 let end = (high + overshoot(error, spread(dense, high))).max(1.0 + NEAR_KINK);
                 return Some(Ahead::Kink(dense.start + end * dense.step));
             };
-            let square = self.search.low()[values + self.here.directions.len() + direction];
-            if square < NARROW * NARROW {
+            let number = values + self.here.directions.len() + direction;
+            let across = |at: &[f64]| {
+                let along = at[index] + EDGE;
+                at[number] - along * along
+            };
+            if across(self.search.low()).max(across(self.search.high())) < NARROW * NARROW {
                 // Along the line between the ends of the bracket.
                 let (at_low, at_high) = (self.search.low()[index], self.search.high()[index]);
                 let fall = (at_low - at_high) / (high - low);
                 let middle = (at_low + EDGE) / fall * dense.step;
                 let layer = |length| Layer {
                     length,
+                    size: at_low + EDGE,
                     direction,
                     from: self.towards[direction],
                 };

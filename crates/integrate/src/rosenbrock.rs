@@ -19,6 +19,7 @@ mod newton;
 mod step;
 mod underway;
 
+pub(crate) use collocation::Calm;
 use collocation::Collocation;
 use newton::Newton;
 use underway::Underway;
@@ -101,8 +102,9 @@ pub struct Integrator<P: Problem> {
     collocation: Collocation,
     /// Whether steps may be by collocation at all.
     collocates: bool,
-    /// How many linearly implicit steps in a row were smooth.
-    calm: u32,
+    calm: Calm,
+    /// How long the last explicit step was that its error bounded, in units of the fastest answer; zero: there was none.
+    reach: f64,
 }
 
 impl<P: Problem> std::fmt::Debug for Integrator<P> {
@@ -132,7 +134,8 @@ impl<P: Problem> Integrator<P> {
             ahead: None,
             passage: None,
             controller: Controller::default(),
-            calm: 0,
+            calm: Calm::default(),
+            reach: 0.0,
             slope: Vec::new(),
             statistics: Statistics::default(),
         };
@@ -255,7 +258,8 @@ impl<P: Problem> Integrator<P> {
             },
             collocates,
             // A state saved with other options may come from a long step.
-            calm: if collocates { state.calm } else { 0 },
+            calm: if collocates { state.calm } else { Calm::default() },
+            reach: state.reach,
         };
         // Not counted: a run without a break has this evaluation from its last step.
         let counted = this.statistics.derivatives;
@@ -287,6 +291,7 @@ impl<P: Problem> Integrator<P> {
             passage: self.passage,
             controller: self.controller.clone(),
             calm: self.calm,
+            reach: self.reach,
             slope: match self.tableau.family {
                 Family::DiagonallyImplicit => self.derivative().to_vec(),
                 _ => Vec::new(),
@@ -449,7 +454,10 @@ impl<P: Problem> Integrator<P> {
         self.ahead = state.ahead;
         self.passage = state.passage;
         self.controller.clone_from(&state.controller);
-        self.calm = if self.collocates { state.calm } else { 0 };
+        if self.collocates {
+            self.calm = state.calm;
+        }
+        self.reach = state.reach;
         self.statistics.clone_from(&state.statistics);
         let counted = self.statistics.derivatives;
         self.evaluate_derivative();

@@ -5,10 +5,11 @@ use serde::{Deserialize, Serialize};
 use crate::control::Controller;
 use crate::error::SetupError;
 use crate::kinks::{Ahead, Passage};
+use crate::rosenbrock::Calm;
 use crate::statistics::Statistics;
 
 /// Version of [`State`].
-pub const STATE_VERSION: u32 = 6;
+pub const STATE_VERSION: u32 = 7;
 
 /// All that is needed to continue an integration with the same bits.
 ///
@@ -34,8 +35,10 @@ pub struct State {
     pub(crate) passage: Option<Passage>,
     /// Memory of the step-size control.
     pub(crate) controller: Controller,
-    /// How many linearly implicit steps in a row were smooth, which chooses the method of the next one.
-    pub(crate) calm: u32,
+    /// How smooth the last steps were, which chooses the method of the next one.
+    pub(crate) calm: Calm,
+    /// How long the last explicit step was that its error bounded, in units of the fastest answer; zero: there was none.
+    pub(crate) reach: f64,
     /// The slope with which an implicit step ended, which is the first stage of the next one; empty: the derivative at the states is.
     pub(crate) slope: Vec<f64>,
     /// What was done so far.
@@ -68,6 +71,9 @@ impl State {
         }
         if let Some(slope) = self.slope.iter().find(|slope| !slope.is_finite()) {
             return damaged("slope", *slope);
+        }
+        if !(self.reach >= 0.0 && self.reach.is_finite()) {
+            return damaged("reach", self.reach);
         }
         if !(self.proposed_step > 0.0 && self.proposed_step.is_finite()) {
             return damaged("proposed_step", self.proposed_step);

@@ -178,12 +178,12 @@ fn a_saved_state_continues_with_the_same_bits_also_before_a_kink() {
     let options = options(Method::Rodas5P, 1e-3);
     let mut whole = Integrator::new(bounded(), options.clone(), 0.0, &[0.0, 0.0]).unwrap();
     let mut resumed = 0;
-    while whole.time() < 2.0 {
+    while whole.time() < 3.0 {
         let text = serde_json::to_string(&whole.state()).unwrap();
-        whole.step_to(2.0).unwrap();
+        whole.step_to(3.0).unwrap();
         let state = serde_json::from_str(&text).unwrap();
         let mut again = Integrator::resume(bounded(), options.clone(), state).unwrap();
-        again.step_to(2.0).unwrap();
+        again.step_to(3.0).unwrap();
         assert_eq!(again.state(), whole.state());
         resumed += 1;
     }
@@ -221,4 +221,43 @@ fn issue_007_behaviour_a_step_that_breaks_away_is_as_exact_as_others() {
         assert!(told < most, "{method}: {told}");
         assert!(told_steps < blind_steps, "{method}");
     }
+}
+
+/// Slip that reverses within a fraction of a microsecond: its layer is narrower than the search for it is exact.
+#[test]
+fn issue_007_behaviour_a_fast_reversal_is_foreseen() {
+    const LAYER: f64 = 1e-7;
+    let shaken = || {
+        Ordinary::new(
+            vec![1.0],
+            |t, x, dx| dx[0] = 3.0 * libm::sin(5.0 * t) - libm::tanh(x[0] / LAYER),
+            |_, x, j| {
+                let grip = libm::tanh(x[0] / LAYER);
+                j[0] = -(1.0 - grip * grip) / LAYER;
+            },
+        )
+        .time_derivative(|t, _, df_dt| df_dt[0] = 15.0 * libm::cos(5.0 * t))
+    };
+    let told = shaken().kinks(0, 1, |_, x, signs| signs.directions[0] = [x[0] / LAYER, 0.0]);
+    let (exact, _) = run(shaken(), options(Method::Rodas5P, 1e-11), &[0.0], 8.0);
+    let (x, statistics) = run(told, options(Method::Rodas5P, 1e-4), &[0.0], 8.0);
+    assert!((x[0] - exact[0]).abs() < 1e-3, "{x:?} {exact:?}");
+    // It reverses 12 times.
+    assert!(statistics.kinks_foreseen >= 12, "{statistics:?}");
+}
+
+/// A mass that strikes again and again, with explicit steps: behind each strike as long as those of the last one.
+#[test]
+fn issue_007_behaviour_strikes_cost_few_rejections() {
+    let struck = bounce()
+        .kinks(1, 0, |_, x, signs| signs.values[0] = x[0])
+        .stiffness(|_, x| if x[0] < 0.0 { OMEGA } else { 0.0 });
+    let (_, statistics) = run(struck, options(Method::Rodas5P, 1e-7), &[0.5, 0.0], 20.0);
+    // 31 strikes, nearly all by explicit steps; with steps behind them half as long as those before there were ten rejections each.
+    assert!(statistics.kinks_foreseen >= 62, "{statistics:?}");
+    assert!(
+        10 * statistics.explicit_steps > 9 * statistics.steps,
+        "{statistics:?}"
+    );
+    assert!(statistics.rejected() < 6 * 31, "{statistics:?}");
 }

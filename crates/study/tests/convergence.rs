@@ -17,7 +17,7 @@ fn case(name: &str, tolerance: f64, interval: f64, duration: f64) -> Case {
 }
 
 /// Branch means and energies against those at 1e-9. Local errors are of the tolerance; these are global, of a system
-/// with kinks, so no order is asked for: only that they fall, and are small where users are.
+/// with kinks, so no order is asked for: only that they fall from those at 1e-3, and are small where users are.
 #[test]
 fn yawed_cases_converge() {
     for name in [
@@ -25,7 +25,7 @@ fn yawed_cases_converge() {
         "cdrun_toe_-0.2_psi_0.012",
         "cdrun_toe_0_psi_0.012",
     ] {
-        let tolerances = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
+        let tolerances = [1e-3, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
         let cases = tolerances.map(|tolerance| case(name, tolerance, 0.01, 10.0));
         let results: Vec<[f64; 3]> = run_all(&cases, 2).iter().map(averages).collect();
         let reference = results[results.len() - 1];

@@ -47,7 +47,7 @@ impl<P: Problem> Integrator<P> {
             Phase::Idle | Phase::Start => {
                 if self.tableau.family == Family::DiagonallyImplicit {
                     self.begin_newton()
-                } else if self.options.explicit_steps && self.underway.step * self.stiffness <= EXPLICIT {
+                } else if self.is_explicit(self.underway.step) {
                     self.begin_explicit()
                 } else if self.is_calm() {
                     self.begin_collocation()
@@ -67,6 +67,12 @@ impl<P: Problem> Integrator<P> {
         self.factor(inverse / tableau.gamma)?;
         self.trial_stages[..stride].copy_from_slice(&self.dx);
         self.solve_stage(0)
+    }
+
+    /// Whether a step of this length from the place reached is explicit.
+    #[inline(always)]
+    pub(super) fn is_explicit(&self, step: f64) -> bool {
+        self.options.explicit_steps && step * self.stiffness <= EXPLICIT
     }
 
     /// Has the Jacobian matrix at the place reached.

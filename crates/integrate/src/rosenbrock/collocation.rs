@@ -12,16 +12,22 @@
 //! one real and three complex systems of the size of J. The first guess takes f for linear, `f(x) + J Z + c h ∂f/∂t`, and needs no
 //! evaluation; where the way is smooth one round of evaluations is enough after it.
 
+use serde::{Deserialize, Serialize};
+
 use super::Integrator;
-use super::attempt::{Advance, not_finite, stage_time, unsolved};
+use super::attempt::{Advance, Failure, not_finite, stage_time, unsolved};
 use super::underway::{Phase, Underway};
 use crate::problem::Problem;
 use crate::radau::{ERROR, FROM_PARTS, NODES, PAIRS, PARTS_OF_A_LINE, POINTS, RADAU, REAL, TO_PARTS};
 use crate::stages::{all_finite, combine, largest};
 use crate::tableau::Family;
 
-/// So many steps of the linearly implicit method must have been smooth before.
-const SMOOTH: u32 = 4;
+/// So many steps of the linearly implicit method must have been smooth before; more where long steps were given up before, up to the
+/// second number.
+const SMOOTH: [u32; 2] = [4, 64];
+/// An attempt of the linearly implicit method whose error is below this, though too large, is still a smooth one: while something rings,
+/// errors rise and fall with it.
+const MILD: f64 = 3.0;
 /// By how much longer a step is tried than one of the linearly implicit method.
 pub(super) const STRETCH: f64 = 2.2;
 /// Where a step took more rounds than these it is not smooth enough.
@@ -32,6 +38,24 @@ const MOST_ROUNDS: u32 = 3;
 const LEFT: f64 = 0.03;
 /// Corrections that do not shrink by this factor are given up.
 const CONTRACTION: f64 = 0.5;
+
+/// When steps are by collocation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Calm {
+    /// How many linearly implicit steps in a row were smooth.
+    smooth: u32,
+    /// How many must be.
+    needed: u32,
+}
+
+impl Default for Calm {
+    fn default() -> Self {
+        Self {
+            smooth: 0,
+            needed: SMOOTH[0],
+        }
+    }
+}
 
 /// The rounds of an attempt.
 #[derive(Debug, Default)]
@@ -65,7 +89,7 @@ impl<P: Problem> Integrator<P> {
     /// Whether the next attempt is by collocation.
     #[inline(always)]
     pub(super) fn is_calm(&self) -> bool {
-        self.calm >= SMOOTH
+        self.calm.smooth >= self.calm.needed
     }
 
     /// Chooses the method of the step after one that was accepted. One that was cut short says little.
@@ -77,12 +101,14 @@ impl<P: Problem> Integrator<P> {
         let smooth = self.ahead.is_none() && self.passage.is_none() && !self.kinks.fade();
         match self.last_method.family {
             Family::LinearlyImplicit if smooth && !cut => {
-                self.calm += 1;
+                self.calm.smooth += 1;
                 if self.is_calm() {
                     self.proposed_step = (STRETCH * self.proposed_step).min(self.options.maximum_step);
                 }
             }
-            Family::Collocation if smooth && self.collocation.rounds <= FEW_ROUNDS => {}
+            Family::Collocation if smooth && self.collocation.rounds <= FEW_ROUNDS => {
+                self.calm.needed = (self.calm.needed / 2).max(SMOOTH[0]);
+            }
             _ => self.end_calm(),
         }
     }
@@ -96,7 +122,21 @@ impl<P: Problem> Integrator<P> {
 
     /// The next steps are not by collocation; whether they would have been.
     pub(super) fn leave_calm(&mut self) -> bool {
-        std::mem::take(&mut self.calm) >= SMOOTH
+        let calm = self.is_calm();
+        self.calm.smooth = 0;
+        if calm {
+            self.calm.needed = (2 * self.calm.needed).min(SMOOTH[1]);
+        }
+        calm
+    }
+
+    /// The same after an attempt with this outcome, which was rejected.
+    pub(super) fn lose_calm(&mut self, outcome: &Result<f64, Failure>) -> bool {
+        let mild = matches!(outcome, Ok(error) if *error < MILD);
+        if mild && !self.is_calm() && self.underway.landing.is_none() && self.passage.is_none() {
+            return false;
+        }
+        self.leave_calm()
     }
 
     #[inline(never)]

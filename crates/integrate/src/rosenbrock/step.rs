@@ -13,6 +13,18 @@ use crate::tableau::Family;
 /// The part of the planned step that is tried behind a kink.
 const BEHIND_KINK: f64 = 0.5;
 
+/// The part of the way to a kink that is tried after a step to it got across.
+const SHORT_OF_KINK: f64 = 0.8;
+
+/// A step that is shorter than this part of the planned one was cut short; by rounding alone others are shorter too.
+const CUT: f64 = 1.0 - 1e-6;
+
+/// The fastest answer behind a kink is faster than before it by this factor where something has struck there.
+const STRUCK: f64 = 1.5;
+
+/// Errors above this bounded a step.
+const BOUNDED: f64 = 0.1;
+
 /// A layer in which nothing reverses (slip that comes to stick, say) is behind where errors are smaller than this.
 const SETTLED: f64 = 0.001;
 
@@ -51,8 +63,9 @@ impl<P: Problem> Integrator<P> {
             && time < target
         {
             let distance = time - self.time;
-            if distance > WHOLE_LANDING * step {
-                // The arguments of a step's stages are less exact than its end: they would get across.
+            if distance > WHOLE_LANDING * step && !self.is_explicit(step) {
+                // The arguments of a step's stages are less exact than its end: they would get across. (Those of an explicit method are
+                // exact enough.)
                 (step, target) = self.fit(0.5 * distance, end);
             } else {
                 (step, target, landing) = (distance, time, Some(ahead));
@@ -65,7 +78,7 @@ impl<P: Problem> Integrator<P> {
             step,
             target,
             landing,
-            cut: step < proposed,
+            cut: step < CUT * proposed,
             ..Underway::NONE
         };
         self.check_number()
@@ -134,14 +147,14 @@ impl<P: Problem> Integrator<P> {
             });
             return Err(self.give_up(failure.reason, tried, failure.index, f64::NAN));
         }
-        let calm = self.leave_calm();
+        let calm = self.lose_calm(&outcome);
         let failure = match outcome {
             Ok(error) => {
                 self.statistics.rejected_error += 1;
                 scaled_error = error;
                 step *= if landing.is_some() {
-                    // It got across. Half of the way is on this side, and from there the kink is seen more exactly.
-                    0.5
+                    // It got across. Most of the way is on this side, and from there the kink is seen more exactly.
+                    SHORT_OF_KINK
                 } else {
                     let root = self.root(error);
                     self.controller.reject(&self.options, root)
@@ -293,6 +306,16 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
+    /// Plans the step behind a kink; the error of the step across it says nothing. Before it the fastest answer was `answer`.
+    fn leave_kink(&mut self, planned: f64, answer: f64) {
+        self.proposed_step = self.proposed_step.max(BEHIND_KINK * planned);
+        if self.reach > 0.0 && self.stiffness > STRUCK * answer {
+            // A step as long as those of the last strike.
+            self.proposed_step = self.proposed_step.min(self.reach / self.stiffness);
+        }
+        self.controller.restart();
+    }
+
     /// Begins the way through a layer, behind which steps may be as long as `planned`.
     fn enter_layer(&mut self, layer: Layer, planned: f64) {
         self.passage = Some(Passage { layer, planned });
@@ -328,7 +351,11 @@ impl<P: Problem> Integrator<P> {
         self.statistics.explicit_steps += u64::from(family == Family::Explicit);
         self.statistics.collocation_steps += u64::from(family == Family::Collocation);
         // All that is asked at the end is asked at once: what the problem has computed there serves several times.
+        let answer = self.stiffness;
         self.bound();
+        if family == Family::Explicit && !cut && landing.is_none() && error > BOUNDED {
+            self.reach = step * answer;
+        }
         if self.foresees() {
             self.look();
         }
@@ -345,17 +372,17 @@ impl<P: Problem> Integrator<P> {
             // A step cut short by a limit says little about the step that was planned.
             self.proposed_step = if cut && !genuine { next.max(proposed) } else { next };
             match landing {
-                // Behind a kink the error of the step across it says nothing.
-                Some(Ahead::Kink(_)) => {
-                    self.proposed_step = self.proposed_step.max(BEHIND_KINK * proposed);
-                    self.controller.restart();
+                Some(Ahead::Layer(_, layer)) if self.kinks.has_come(&layer) => {
+                    self.enter_layer(layer, proposed)
                 }
-                Some(Ahead::Layer(_, layer)) => self.enter_layer(layer, proposed),
+                Some(Ahead::Kink(_) | Ahead::Layer(..)) => self.leave_kink(proposed, answer),
                 _ => {}
             }
             self.proposed_step = self.proposed_step.min(self.options.maximum_step).min(f64::MAX);
             if let Some(Passage { layer, planned }) = self.passage
-                && (error < SETTLED || self.proposed_step >= planned || self.kinks.is_behind(&layer))
+                && ((error < SETTLED && !self.kinks.moves(&layer))
+                    || self.proposed_step >= planned
+                    || self.kinks.is_behind(&layer))
             {
                 self.passage = None;
                 self.proposed_step = self.proposed_step.max(BEHIND_KINK * planned);
