@@ -101,7 +101,7 @@ impl<P: Problem> Integrator<P> {
         let smooth = self.ahead.is_none() && self.passage.is_none() && !self.kinks.fade();
         match self.last_method.family {
             Family::LinearlyImplicit if smooth && !cut => {
-                self.calm.smooth += 1;
+                self.calm.smooth = self.calm.smooth.saturating_add(1);
                 if self.is_calm() {
                     self.proposed_step = (STRETCH * self.proposed_step).min(self.options.maximum_step);
                 }
@@ -125,12 +125,12 @@ impl<P: Problem> Integrator<P> {
         let calm = self.is_calm();
         self.calm.smooth = 0;
         if calm {
-            self.calm.needed = (2 * self.calm.needed).min(SMOOTH[1]);
+            self.calm.needed = self.calm.needed.saturating_mul(2).min(SMOOTH[1]);
         }
         calm
     }
 
-    /// The same after an attempt with this outcome, which was rejected.
+    /// The same after an attempt with this outcome, which was rejected; a mild one ends nothing.
     pub(super) fn lose_calm(&mut self, outcome: &Result<f64, Failure>) -> bool {
         let mild = matches!(outcome, Ok(error) if *error < MILD);
         if mild && !self.is_calm() && self.underway.landing.is_none() && self.passage.is_none() {
