@@ -194,6 +194,13 @@ impl Kinks {
             .any(|direction| (low..high).contains(&square(direction)))
     }
 
+    /// Whether a layer held a direction, if only by its tail, at the place that was looked at last or at the one before; true where the problem
+    /// tells of no directions.
+    pub fn hold(&self) -> bool {
+        let mut all = self.here.directions.iter().chain(&self.before.directions);
+        self.here.directions.is_empty() || all.any(|direction| square(direction) < FADING[1] * FADING[1])
+    }
+
     /// By how much bounds on errors in layers widen at the place that was looked at last: see [`Problem::layer_bounds`].
     pub fn slack(&self) -> f64 {
         (self.slowest * SLACK).max(1.0)

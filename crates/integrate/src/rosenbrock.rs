@@ -8,17 +8,19 @@ use crate::lanes::LANES;
 use crate::options::Options;
 use crate::problem::Problem;
 use crate::radau::PAIRS;
-use crate::stages::{Dense, leading_states};
+use crate::stages::leading_states;
 use crate::state::{STATE_VERSION, State};
 use crate::statistics::Statistics;
 use crate::tableau::{Family, MAXIMUM_STAGES, Tableau};
 
 mod attempt;
+mod between;
 mod collocation;
 mod newton;
 mod step;
 mod underway;
 
+use between::Between;
 pub(crate) use collocation::Calm;
 use collocation::Collocation;
 use newton::Newton;
@@ -99,6 +101,7 @@ pub struct Integrator<P: Problem> {
     argument: Vec<f64>,
     slope: Vec<f64>,
     newton: Newton,
+    between: Between,
     collocation: Collocation,
     /// Whether steps may be by collocation at all.
     collocates: bool,
@@ -251,6 +254,7 @@ impl<P: Problem> Integrator<P> {
             argument: zero(),
             slope: zero(),
             newton,
+            between: Between::new(stride),
             collocation: if collocates {
                 Collocation::new(stride)
             } else {
@@ -381,40 +385,6 @@ impl<P: Problem> Integrator<P> {
     #[must_use]
     pub fn modes_before_step(&self) -> &[u8] {
         &self.switches.before
-    }
-
-    /// States at a time inside the last step, to the order of the method's dense output.
-    ///
-    /// # Panics
-    /// If `out` does not have the length of the problem.
-    pub fn interpolate(&self, time: f64, out: &mut [f64]) {
-        assert_eq!(out.len(), self.dimension, "length of the interpolated states");
-        self.interpolate_range(time, 0, out);
-    }
-
-    /// States `first ..` as many as `out` takes, at a time inside the last step.
-    ///
-    /// # Panics
-    /// If there are not as many states.
-    pub fn interpolate_range(&self, time: f64, first: usize, out: &mut [f64]) {
-        assert!(
-            first + out.len() <= self.dimension,
-            "range of the interpolated states"
-        );
-        let dense = self.dense();
-        dense.evaluate_range(dense.fraction(time), first, out);
-    }
-
-    fn dense(&self) -> Dense<'_> {
-        Dense {
-            tableau: self.last_method,
-            start: self.previous_time,
-            step: self.time - self.previous_time,
-            end: self.time,
-            x0: &self.previous_x,
-            x1: &self.x,
-            stages: &self.stages,
-        }
     }
 
     /// Tells the integrator that the right-hand side has changed, but not by a jump: it is evaluated anew, the memory of the step-size

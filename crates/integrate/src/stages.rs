@@ -212,6 +212,28 @@ impl Dense<'_> {
         }
     }
 
+    /// The slopes of all states at a fraction of the step.
+    pub fn slope(&self, theta: f64, out: &mut [f64]) {
+        let mut weights = [0.0; MAXIMUM_STAGES];
+        // of θ (1 - θ) θᵏ
+        let (mut power, mut order) = (1.0, 1.0);
+        for row in self.tableau.dense {
+            let change = power * (order - (order + 1.0) * theta);
+            for (weight, h) in weights.iter_mut().zip(*row) {
+                *weight += change * h;
+            }
+            power *= theta;
+            order += 1.0;
+        }
+        let inverse = 1.0 / self.step;
+        for ((out, x0), x1) in out.iter_mut().zip(self.x0).zip(self.x1) {
+            *out = inverse * (x1 - x0);
+        }
+        for (weight, stage) in weights.iter().zip(self.stages.chunks_exact(self.x0.len())) {
+            add(out, inverse * weight, stage);
+        }
+    }
+
     /// By how much each stage counts at a fraction of the step.
     #[inline]
     fn weights(&self, theta: f64) -> [f64; MAXIMUM_STAGES] {

@@ -9,7 +9,7 @@ use crate::rosenbrock::Calm;
 use crate::statistics::Statistics;
 
 /// Version of [`State`].
-pub const STATE_VERSION: u32 = 7;
+pub const STATE_VERSION: u32 = 8;
 
 /// All that is needed to continue an integration with the same bits.
 ///

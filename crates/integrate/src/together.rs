@@ -183,9 +183,9 @@ impl<T: Together> Team<T> {
 
     /// The run in a place.
     #[must_use]
-    pub fn run(&self, place: usize) -> Option<&Integrator<T::Problem>> {
-        let member = self.members.get(place)?.as_ref()?;
-        Some(&member.integrator)
+    pub fn run(&mut self, place: usize) -> Option<&mut Integrator<T::Problem>> {
+        let member = self.members.get_mut(place)?.as_mut()?;
+        Some(&mut member.integrator)
     }
 
     /// Takes a run out.

@@ -65,25 +65,32 @@ fn fixed(method: Method, step: f64) -> Options {
     }
 }
 
-/// Largest error at t = 1, and of the dense output in between.
-fn errors(problem: Ordinary<'static>, exact: fn(f64) -> [f64; 2], method: Method, steps: u32) -> (f64, f64) {
+/// Largest error at t = 1, and of the dense output in between, plain and settled.
+fn errors(
+    problem: Ordinary<'static>,
+    exact: fn(f64) -> [f64; 2],
+    method: Method,
+    steps: u32,
+) -> (f64, f64, f64) {
     let mut integrator =
         Integrator::new(problem, fixed(method, 1.0 / f64::from(steps)), 0.0, &exact(0.0)).unwrap();
     let worst = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-    let (mut dense, mut x) = (0.0_f64, [0.0; 2]);
+    let (mut dense, mut settled, mut x) = (0.0_f64, 0.0_f64, [0.0; 2]);
     while integrator.time() < 1.0 {
         integrator.step_to(1.0).unwrap();
         for theta in [0.2, 0.35, 0.5, 0.65, 0.8] {
             let time = integrator.previous_time() + theta * (integrator.time() - integrator.previous_time());
-            integrator.interpolate(time, &mut x);
+            integrator.interpolate_range(time, 0, &mut x);
             dense = dense.max(worst(&x, &exact(time)));
             let mut second = [0.0];
             integrator.interpolate_range(time, 1, &mut second);
             assert_eq!(second[0], x[1]);
+            integrator.interpolate(time, &mut x);
+            settled = settled.max(worst(&x, &exact(time)));
         }
     }
     assert_eq!(integrator.statistics().steps, u64::from(steps));
-    (worst(integrator.x(), &exact(1.0)), dense)
+    (worst(integrator.x(), &exact(1.0)), dense, settled)
 }
 
 fn slope(coarse: f64, fine: f64) -> f64 {
@@ -107,9 +114,10 @@ fn every_method_has_its_order() {
             let found = steps.map(|steps| errors(problem(), exact, method, steps));
             let observed = slope(found[1].0, found[2].0);
             let observed_dense = slope(found[1].1, found[2].1);
+            let observed_settled = slope(found[1].2, found[2].2);
             println!(
-                "{method} {name}: order {observed:.2}, dense {observed_dense:.2}, error {:.1e}",
-                found[2].0
+                "{method} {name}: order {observed:.2}, dense {observed_dense:.2}, settled {observed_settled:.2}, error {:.1e}, {:.1e}, {:.1e}",
+                found[2].0, found[2].1, found[2].2
             );
             assert!(
                 (observed - order).abs() < 0.3,
@@ -119,6 +127,11 @@ fn every_method_has_its_order() {
             assert!(
                 observed_dense > dense_order - 0.3,
                 "{method} {name}: order of dense output {observed_dense}"
+            );
+            // Nothing is stiff here: settling does no good, and no harm.
+            assert!(
+                observed_settled > dense_order - 0.3 && found[2].2 < 3.0 * found[2].1,
+                "{method} {name}: order of settled dense output {observed_settled}"
             );
         }
     }

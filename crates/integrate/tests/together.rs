@@ -36,7 +36,7 @@ impl Plan {
     fn note(
         &self,
         trace: &mut Trace,
-        run: &Integrator<Ordinary<'_>>,
+        run: &mut Integrator<Ordinary<'_>>,
         outcome: Result<(), StepError>,
     ) -> bool {
         let failed = outcome.is_err();
@@ -66,7 +66,7 @@ impl Plan {
         let mut trace = Trace::default();
         loop {
             let outcome = run.step_to(self.limit(&run));
-            if self.note(&mut trace, &run, outcome) {
+            if self.note(&mut trace, &mut run, outcome) {
                 return trace;
             }
         }
@@ -322,7 +322,7 @@ fn limits_a_team_asks_for_all_at_once() {
 
 #[test]
 fn limits_more_places_than_a_team_has_are_not_used() {
-    let team = Team::new(OneByOne::<Ordinary<'_>>::new(100));
+    let mut team = Team::new(OneByOne::<Ordinary<'_>>::new(100));
     assert!(team.run(7).is_none() && team.run(8).is_none());
     assert_eq!(team.free_place(), Some(0));
     let mut nobody = Team::new(OneByOne::<Ordinary<'_>>::new(0));

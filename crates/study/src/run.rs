@@ -327,7 +327,7 @@ impl Run {
             if *time > self.integrator.time() {
                 return;
             }
-            self.integrator.interpolate(*time, &mut self.buffer);
+            self.integrator.interpolate_range(*time, 0, &mut self.buffer);
             let losses = friction_losses(&self.wedge.system, &self.buffer);
             self.counts.probes.push(losses);
         }
@@ -347,7 +347,7 @@ impl Run {
         if first {
             self.modes.copy_from_slice(self.integrator.modes());
         }
-        let mut events = self.integrator.events().iter().peekable();
+        let mut seen_events = 0;
         while self.next_row < count {
             let time = row_time(
                 self.next_row,
@@ -358,8 +358,10 @@ impl Run {
             if time > self.integrator.time() {
                 break;
             }
-            while let Some(event) = events.next_if(|event| event.time <= time && !first) {
+            let events = self.integrator.events().iter().skip(seen_events);
+            for event in events.take_while(|event| event.time <= time && !first) {
                 self.modes[event.index] = event.to;
+                seen_events += 1;
             }
             if first {
                 self.buffer.copy_from_slice(self.integrator.x());

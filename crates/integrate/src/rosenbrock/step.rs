@@ -48,6 +48,7 @@ impl<P: Problem> Integrator<P> {
     #[inline]
     pub fn begin_step(&mut self, limit: f64) -> Result<(), StepError> {
         self.underway.phase = Phase::Idle;
+        self.between.close();
         if limit.is_nan() || limit <= self.time {
             return Err(self.error(Reason::Limit { limit }, 0.0, None, 0.0));
         }
@@ -270,6 +271,7 @@ impl<P: Problem> Integrator<P> {
 
     pub(super) fn evaluate_derivative(&mut self) {
         self.underway.phase = Phase::Idle;
+        self.between.close();
         let n = self.dimension;
         self.problem
             .derivative(self.time, &self.x[..n], &mut self.dx[..n]);
@@ -348,6 +350,7 @@ impl<P: Problem> Integrator<P> {
         self.last_method = self.trial_method;
         self.statistics.accept(step);
         let family = self.last_method.family;
+        self.between.open(family);
         self.statistics.explicit_steps += u64::from(family == Family::Explicit);
         self.statistics.collocation_steps += u64::from(family == Family::Collocation);
         // All that is asked at the end is asked at once: what the problem has computed there serves several times.

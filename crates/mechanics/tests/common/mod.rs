@@ -129,13 +129,13 @@ pub fn integrate(
     options: Options,
     x: &[f64],
     end: f64,
-    mut each: impl FnMut(&Integrator<System>),
+    mut each: impl FnMut(&mut Integrator<System>),
 ) -> Integrator<System> {
     system.segment(0.0);
     let mut integrator = Integrator::new(system, options, 0.0, x).unwrap();
     while integrator.time() < end {
         integrator.step_to(end).unwrap();
-        each(&integrator);
+        each(&mut integrator);
     }
     integrator
 }

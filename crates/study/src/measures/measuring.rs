@@ -75,7 +75,7 @@ impl Begun {
             if let Err(error) = integrator.step_to(measuring.end()) {
                 return Err(Unmeasured::Stopped(error.to_string()));
             }
-            measuring.after_step(&integrator);
+            measuring.after_step(&mut integrator);
         }
         Ok(measuring.finish(&integrator))
     }
@@ -166,7 +166,7 @@ impl Measuring {
     }
 
     /// Measures an accepted step.
-    pub fn after_step(&mut self, integrator: &Integrator<System>) {
+    pub fn after_step(&mut self, integrator: &mut Integrator<System>) {
         let time = integrator.time();
         self.events += integrator.events().len() as u64;
         self.clock.step(integrator.events(), time);
@@ -193,7 +193,7 @@ impl Measuring {
             if *time > integrator.time() {
                 return;
             }
-            integrator.interpolate(*time, &mut self.buffer);
+            integrator.interpolate_range(*time, 0, &mut self.buffer);
             let losses = friction_losses(&self.wedge.system, &self.buffer);
             self.probes.push(losses);
         }

@@ -182,7 +182,7 @@ impl Works {
             return;
         }
         for (time, powers) in [from, 0.5 * (from + to), to].into_iter().zip(&mut self.powers) {
-            integrator.interpolate(time, buffer);
+            integrator.interpolate_range(time, 0, buffer);
             let seen = system.observe(time, buffer);
             for (place, power) in self.wedges.iter().zip(powers) {
                 let own = &seen.connections[*place];
