@@ -14,7 +14,7 @@ const EXPLICIT: f64 = 3.0;
 
 /// By how much errors of explicit steps count more. Their estimate is near the error itself, which adds up in the energy ledger; that of the
 /// linearly implicit methods is ten to twenty times as large.
-const CAUTION: f64 = 16.0;
+const CAUTION: f64 = 8.0;
 
 /// By how much errors of linearly implicit steps count more in which something breaks away. They are up to 400 times what is estimated.
 const DAMPED: f64 = 10.0;
