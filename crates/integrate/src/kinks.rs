@@ -26,6 +26,8 @@ const LEAST_OVERSHOOT: f64 = 1e-6;
 const NEAR_KINK: f64 = 1e-4;
 /// The same before a layer.
 const NEAR_LAYER: f64 = 0.05;
+/// By how much faster than in the last step, an explicit one, what tells kinks may go in the next.
+const HASTE: f64 = 4.0;
 /// Rounds of the search.
 const ROUNDS: usize = 15;
 /// The part of the planned step that a step to a kink may have in one go: where it lies farther away, it is enough to know about where.
@@ -145,6 +147,21 @@ impl Kinks {
         }
         std::mem::swap(&mut self.here, &mut self.before);
         problem.kinks(time, x, &mut self.here);
+        self.point();
+    }
+
+    /// The same, where the place was peered at last.
+    pub fn look_again(&mut self) {
+        if !self.are_told() {
+            return;
+        }
+        std::mem::swap(&mut self.here, &mut self.before);
+        std::mem::swap(&mut self.here, &mut self.signs);
+        self.point();
+    }
+
+    /// Notes which way the directions point.
+    fn point(&mut self) {
         let mut least = f64::INFINITY;
         for (towards, direction) in self.towards.iter_mut().zip(&self.here.directions) {
             let square = square(direction);
@@ -239,6 +256,9 @@ impl Kinks {
         if error * spread(dense, 1.0 + reach) > TRUST {
             reach = libm::pow(TRUST / error, 1.0 / spread_power(dense)) - 1.0;
         }
+        if dense.tableau.family == Family::Explicit && self.are_far(reach) {
+            return None;
+        }
         let far = 1.0 + WHOLE_LANDING * (length / dense.step);
         loop {
             let Found { low, high, index } = self.locate(problem, dense, 1.0 + reach, far, error)?;
@@ -274,6 +294,21 @@ impl Kinks {
             // It only turns.
             self.towards[direction] = [0.0; 2];
         }
+    }
+
+    /// Whether no function can come to zero within a part of the last step, which is short beside everything that answers, if none goes on more
+    /// than a few times as fast as in it.
+    fn are_far(&self, reach: f64) -> bool {
+        let most = HASTE * reach;
+        let mut values = self.here.values.iter().zip(&self.before.values);
+        let directions = self.here.directions.iter().zip(&self.before.directions);
+        // What is not a number is not far.
+        values.all(|(now, before)| now.abs() > most * (now - before).abs())
+            && directions.zip(&self.towards).all(|((now, before), towards)| {
+                let change = towards[0] * (now[0] - before[0]) + towards[1] * (now[1] - before[1]);
+                let along = towards[0] * now[0] + towards[1] * now[1] - EDGE;
+                *towards == [0.0; 2] || along > most * change.abs()
+            })
     }
 
     /// The functions at a place on the continued dense output, to the search; whether one of them has changed its sign.

@@ -280,7 +280,7 @@ impl<P: Problem> Integrator<P> {
         self.switches.forget();
         self.bound();
         if self.foresees() {
-            self.look();
+            self.look(false);
         }
     }
 
@@ -298,9 +298,13 @@ impl<P: Problem> Integrator<P> {
 
     /// Looks for kinks at the place reached, and lets errors count as they must there.
     #[inline]
-    fn look(&mut self) {
-        self.kinks
-            .look(&mut self.problem, self.time, &self.x[..self.dimension]);
+    fn look(&mut self, again: bool) {
+        if again {
+            self.kinks.look_again();
+        } else {
+            let x = &self.x[..self.dimension];
+            self.kinks.look(&mut self.problem, self.time, x);
+        }
         let share = 1.0 / self.kinks.slack();
         let bounds = self.plain_weights.iter().zip(&self.layer_weights);
         for (weight, (plain, layer)) in self.weights.iter_mut().zip(bounds) {
@@ -360,7 +364,8 @@ impl<P: Problem> Integrator<P> {
             self.reach = step * answer;
         }
         if self.foresees() {
-            self.look();
+            // An explicit step that was not to end at a kink was peered at.
+            self.look(family == Family::Explicit && landing.is_none());
         }
         if !self.switches.modes.is_empty() {
             self.switches
