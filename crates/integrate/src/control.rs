@@ -79,7 +79,7 @@ impl Controller {
 ///
 /// What bounds them grows faster than their order says: where friction sticks, with the eighth to fifteenth power of the step, and a step
 /// that follows what the order says is rejected every third time. Growth is the root of what was wanted up to twice the step, and less by as
-/// much beyond; the smoothing of G. Söderlind, *Digital filters in adaptive time-stepping*, ACM TOMS 29 (2003), where it counts.
+/// much beyond: half of the gain. Why a low gain smooths: G. Söderlind, *Digital filters in adaptive time-stepping*, ACM TOMS 29 (2003) 1.
 #[inline]
 fn grown(wanted: f64, family: Family) -> f64 {
     let unhurried = matches!(family, Family::LinearlyImplicit | Family::Collocation);
