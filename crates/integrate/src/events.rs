@@ -106,7 +106,7 @@ impl Switches {
         let resolution = (4.0 * f64::EPSILON * dense.end.abs() / dense.step).max(1e-12);
         let mut from = 0.0;
         let mut end_known = true;
-        // A step by collocation is two to four times as long as others, an explicit one half a radian of the fastest answer.
+        // A step by collocation is two to four times as long as others; an explicit one spans a radian or so of the fastest answer at most.
         let looks: &[f64] = match dense.tableau.family {
             Family::Collocation => &[0.25, 0.5, 0.75, 1.0],
             Family::Explicit => &[1.0],
