@@ -214,17 +214,14 @@ impl Dense<'_> {
 
     /// The slopes of all states at a fraction of the step.
     pub fn slope(&self, theta: f64, out: &mut [f64]) {
-        let mut weights = [0.0; MAXIMUM_STAGES];
         // of θ (1 - θ) θᵏ
         let (mut power, mut order) = (1.0, 1.0);
-        for row in self.tableau.dense {
+        let weights = self.sum_rows(|| {
             let change = power * (order - (order + 1.0) * theta);
-            for (weight, h) in weights.iter_mut().zip(*row) {
-                *weight += change * h;
-            }
             power *= theta;
             order += 1.0;
-        }
+            change
+        });
         let inverse = 1.0 / self.step;
         for ((out, x0), x1) in out.iter_mut().zip(self.x0).zip(self.x1) {
             *out = inverse * (x1 - x0);
@@ -237,18 +234,28 @@ impl Dense<'_> {
     /// By how much each stage counts at a fraction of the step.
     #[inline]
     fn weights(&self, theta: f64) -> [f64; MAXIMUM_STAGES] {
-        let mut weights = [0.0; MAXIMUM_STAGES];
         let mut power = theta * (1.0 - theta);
+        self.sum_rows(|| {
+            let now = power;
+            power *= theta;
+            now
+        })
+    }
+
+    /// The sum of the rows of the dense output, each times what `factor` says next.
+    #[inline(always)]
+    fn sum_rows(&self, mut factor: impl FnMut() -> f64) -> [f64; MAXIMUM_STAGES] {
+        let mut weights = [0.0; MAXIMUM_STAGES];
         for row in self.tableau.dense {
+            let factor = factor();
             match <&[f64; MAXIMUM_STAGES]>::try_from(*row) {
-                Ok(row) => add(&mut weights, power, row),
+                Ok(row) => add(&mut weights, factor, row),
                 Err(_) => {
                     for (weight, h) in weights.iter_mut().zip(*row) {
-                        *weight += power * h;
+                        *weight += factor * h;
                     }
                 }
             }
-            power *= theta;
         }
         weights
     }

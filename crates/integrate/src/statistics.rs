@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What an integration has done so far.
+/// What an integration has done so far for its steps. What states between their ends cost ([`crate::Integrator::interpolate`]) is not counted:
+/// it depends on how many are asked for.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Accepted steps.
