@@ -5,6 +5,10 @@ use serde::{Deserialize, Serialize};
 use crate::options::Options;
 use crate::tableau::Family;
 
+/// By how much more than usual the first step after a restart may be followed by a longer one, if it was explicit: its length was a guess,
+/// and nothing stiff is near that its error would not tell of. (CVODE lets its first step grow ten thousandfold.)
+const FIRST_GROWTH: f64 = 10.0;
+
 /// Proportional-integral control: K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit
 /// Runge-Kutta methods*, ACM TOMS 20 (1994), in the form of Hairer & Wanner (1996), section IV.8.
 ///
@@ -44,7 +48,12 @@ impl Controller {
             divisor = divisor.max(root * root / (self.root * options.safety) * (self.step / step));
         }
         let wanted = grown(1.0 / divisor, family);
-        let mut factor = wanted.max(options.minimum_factor).min(options.maximum_factor);
+        let most = if self.step == 0.0 && family == Family::Explicit {
+            FIRST_GROWTH * options.maximum_factor
+        } else {
+            options.maximum_factor
+        };
+        let mut factor = wanted.max(options.minimum_factor).min(most);
         if self.rejections > 0 {
             factor = factor.min(1.0);
         }
@@ -53,7 +62,7 @@ impl Controller {
         self.family = family;
         // the root of the smallest error that counts, 0.01, lies near 0.3 for all methods
         self.root = root.max(0.3);
-        (factor, wanted < options.maximum_factor)
+        (factor, wanted < most)
     }
 
     /// After a step whose error was too large: the factor for the next attempt.

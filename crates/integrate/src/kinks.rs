@@ -13,8 +13,10 @@ use crate::search::Search;
 use crate::stages::{Dense, leading_states};
 use crate::tableau::Family;
 
-/// How far the dense output is continued at most, in lengths of its step.
+/// How far the dense output is continued at most, in lengths of its step: of an explicit step, the first behind a kink may be much too
+/// short, farther.
 const REACH: f64 = 6.0;
+const EXPLICIT_REACH: f64 = 60.0;
 /// A continued dense output is trusted while its error, that of the step times a power of its reach, is below this.
 const TRUST: f64 = 100.0;
 /// How far behind a kink a step lands at most, and how closely it is located, in lengths of the last step; less where the
@@ -252,11 +254,13 @@ impl Kinks {
         if !self.are_told() || dense.step <= 0.0 {
             return None;
         }
-        let mut reach = (length / dense.step).min(REACH);
+        let explicit = dense.tableau.family == Family::Explicit;
+        let most = if explicit { EXPLICIT_REACH } else { REACH };
+        let mut reach = (length / dense.step).min(most);
         if error * spread(dense, 1.0 + reach) > TRUST {
             reach = libm::pow(TRUST / error, 1.0 / spread_power(dense)) - 1.0;
         }
-        if dense.tableau.family == Family::Explicit && self.are_far(reach) {
+        if explicit && self.are_far(reach) {
             return None;
         }
         let far = 1.0 + WHOLE_LANDING * (length / dense.step);

@@ -40,7 +40,7 @@ pub struct Options {
     pub safety: f64,
     /// Smallest factor by which a step changes because of its error.
     pub minimum_factor: f64,
-    /// Largest factor by which a step grows.
+    /// Largest factor by which a step grows; ten times that after the first step behind a restart or a kink, where that was explicit.
     pub maximum_factor: f64,
     /// Largest number of changes of modes within one step.
     pub maximum_events: usize,

@@ -19,8 +19,12 @@ const SHORT_OF_KINK: f64 = 0.8;
 /// A step that is shorter than this part of the planned one was cut short; by rounding alone others are shorter too.
 const CUT: f64 = 1.0 - 1e-6;
 
-/// The fastest answer behind a kink is faster than before it by this factor where something has struck there.
+/// The fastest answer behind a kink is faster than before it by this factor where something has struck there, and slower by it where
+/// something has come off.
 const STRUCK: f64 = 1.5;
+
+/// The part of the longest explicit step that is tried where something has come off: it may strike again soon.
+const CAME_OFF: f64 = 0.1;
 
 /// Errors above this bounded a step.
 const BOUNDED: f64 = 0.1;
@@ -315,9 +319,14 @@ impl<P: Problem> Integrator<P> {
     /// Plans the step behind a kink; the error of the step across it says nothing. Before it the fastest answer was `answer`.
     fn leave_kink(&mut self, planned: f64, answer: f64) {
         self.proposed_step = self.proposed_step.max(BEHIND_KINK * planned);
-        if self.reach > 0.0 && self.stiffness > STRUCK * answer {
-            // A step as long as those of the last strike.
-            self.proposed_step = self.proposed_step.min(self.reach / self.stiffness);
+        if self.reach > 0.0 {
+            // In units of the fastest answer steps are about as long as before.
+            let usual = self.reach / self.stiffness;
+            if self.stiffness > STRUCK * answer {
+                self.proposed_step = self.proposed_step.min(usual);
+            } else if STRUCK * self.stiffness < answer {
+                self.proposed_step = self.proposed_step.max(CAME_OFF * usual);
+            }
         }
         self.controller.restart();
     }
