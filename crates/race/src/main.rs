@@ -144,7 +144,12 @@ fn all(words: &[&str]) -> Result<(), String> {
         write(&format!("{name}.svg"), figure.to_svg().as_bytes())?;
         write(&format!("{name}.png"), &figure.to_png()?)?;
     }
-    println!("\n{}\n{}", tables::CAVEATS, tables::ratios(&standings));
+    println!(
+        "\n{}{}\n{}",
+        tables::CAVEATS,
+        tables::compiled_for(),
+        tables::ratios(&standings)
+    );
     println!("{}", folder.join("race.md").display());
     Ok(())
 }

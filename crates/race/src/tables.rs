@@ -31,6 +31,16 @@ Read this first.
   matrix by differences of its own.
 ";
 
+/// What this program, with everything in it that is Rust, was compiled for.
+#[must_use]
+pub fn compiled_for() -> &'static str {
+    if cfg!(target_feature = "avx2") {
+        "- What is Rust - our integrator, diffsol, the right-hand side and the Jacobian matrix - is compiled for processors with AVX2.\n"
+    } else {
+        "- What is Rust - our integrator, diffsol, the right-hand side and the Jacobian matrix - is compiled for every processor of its kind.\n"
+    }
+}
+
 /// A time in words.
 fn seconds(value: f64) -> String {
     if value < 1.0 {
@@ -240,7 +250,7 @@ pub fn standing(one: &Standing) -> String {
 /// The whole text.
 #[must_use]
 pub fn everything(standings: &[Standing]) -> String {
-    let mut text = format!("# The race\n\n{CAVEATS}\n## Options\n\n{}", options());
+    let mut text = format!("# The race\n\n{CAVEATS}{}\n## Options\n\n{}", compiled_for(), options());
     text.push_str(
         "\n## How many times longer the others take at equal error\n\nThe least ratio over all errors that both reach, with that error, \
          and the greatest; each solver at its best tolerance.\n\n",

@@ -81,6 +81,12 @@ impl Points {
         }
     }
 
+    /// Whether the law, where it was differentiated, has anything but zeros at any of them: not where all are open.
+    #[inline(always)]
+    pub fn are_active(&self) -> bool {
+        self.slopes.iter().any(|slopes| slopes.active)
+    }
+
     /// Gap and slip of every point.
     #[inline(always)]
     pub fn motions(&self, mut each: impl FnMut(usize, f64, [f64; 2])) {

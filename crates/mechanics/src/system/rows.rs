@@ -141,6 +141,7 @@ impl<E> Mounted<E> {
             } else {
                 (&response.velocity, &response.angle_rate)
             };
+            let mut powers = [[0.0; 6]; 3];
             for (j, &k) in free.free.iter().enumerate() {
                 let change = if k < 3 {
                     combined(along, sight.rotation.column(k))
@@ -151,13 +152,15 @@ impl<E> Mounted<E> {
                 let [force, moments] = &mut columns[j];
                 *force += own;
                 *moments += change[1];
-                let powers = [change[0].at(3), change[1].at(3), own.at(3)];
-                for (row, power) in self.rows[0].iter().zip(powers) {
-                    if let Some(row) = row {
-                        let (by_position, by_speed) = jacobian.row_mut(*row);
-                        let row = if rates == 0 { by_position } else { by_speed };
-                        row[j] = power;
-                    }
+                powers[0][j] = change[0].at(3);
+                powers[1][j] = change[1].at(3);
+                powers[2][j] = own.at(3);
+            }
+            for (row, powers) in self.rows[0].iter().zip(&powers) {
+                if let Some(row) = row {
+                    let (by_position, by_speed) = jacobian.row_mut(*row);
+                    let row = if rates == 0 { by_position } else { by_speed };
+                    row.copy_from_slice(&powers[..free.free.len()]);
                 }
             }
         }

@@ -48,6 +48,9 @@ impl System {
             let rates = &mut d_internal[face.first_internal..][..face.internal_count];
             let (free, frame) = (self.free_number[face.body], &self.frames[face.on]);
             if let (true, Some(free)) = (face.plain, free) {
+                if !face.points.are_active() {
+                    continue;
+                }
                 face.in_time(
                     &self.free[free],
                     frame,
