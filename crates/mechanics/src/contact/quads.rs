@@ -54,6 +54,8 @@ pub(super) struct Slopes {
 pub(crate) struct Points {
     pub(super) quads: Vec<Quad>,
     met: Vec<Meeting<Lanes>>,
+    /// Whether all were open where forces were asked for last.
+    open: bool,
     pub(super) slopes: Vec<Slopes>,
 }
 
@@ -68,9 +70,24 @@ impl Points {
         };
         Self {
             met: vec![nowhere; quads.len()],
+            open: false,
             slopes: vec![Slopes::NONE; quads.len()],
             quads,
         }
+    }
+
+    /// Whether all are open, as they were where forces were asked for last: so much can be seen without how they move. (Where they were not it
+    /// is not looked at.)
+    #[inline(always)]
+    fn stay_open(&self, sight: &Sight<f64>, body: &Kinematics<f64>) -> bool {
+        if !self.open {
+            return false;
+        }
+        let (distance, normal) = View::wall(sight, body);
+        self.quads.iter().all(|quad| {
+            let gap: Lanes = normal.dot::<Lanes, Lanes>(quad.position) + distance;
+            gap.below(Lanes::zero()).and(quad.present).none()
+        })
     }
 
     /// Sees where the points are and how they move.
@@ -163,6 +180,16 @@ impl<P: Number<Plain = P>> View<P> {
         }
     }
 
+    /// Distance and normal alone, as [`View::of`] sees them.
+    #[inline(always)]
+    fn wall(sight: &Sight<P>, body: &Kinematics<P>) -> (P, Vector<P>) {
+        let normal = Vector(sight.rotation.0[0]);
+        (
+            sight.position.0[0] + normal.dot::<P, P>(body.position),
+            body.turn.rotation.apply_transposed(normal),
+        )
+    }
+
     #[inline(always)]
     pub fn new(relative: &Relative<P>) -> Self {
         let Matrix([n, t1, t2]) = relative.rotation;
@@ -216,6 +243,22 @@ fn closed(quad: &Quad, at: &Meeting<Lanes>) -> LaneMask {
 }
 
 impl ContactFace<Plane> {
+    /// What all points do to their body, seen from a mount that does not turn; nothing where all are open and have no internal states.
+    /// `rates` receives the rates of the internal states.
+    #[inline(always)]
+    pub(crate) fn effect_from(
+        &self,
+        points: &mut Points,
+        (sight, body): (&Sight<f64>, &Kinematics<f64>),
+        deflections: &[f64],
+        rates: &mut [f64],
+    ) -> Option<Effect> {
+        if deflections.is_empty() && points.stay_open(sight, body) {
+            return None;
+        }
+        Some(self.effect(points, &View::of(sight, body), deflections, rates))
+    }
+
     /// What all points do to their body; `rates` receives the rates of the internal states.
     #[inline(always)]
     pub(crate) fn effect(
@@ -228,11 +271,13 @@ impl ContactFace<Plane> {
         points.meet(view);
         let grip = self.grip();
         let mut sums = [Lanes::zero(); 8];
+        points.open = true;
         for (number, (quad, at)) in points.quads.iter().zip(&points.met).enumerate() {
             let closed = closed(quad, at);
             if closed.none() && deflections.is_empty() {
                 continue;
             }
+            points.open = false;
             let first = LANES * number;
             let touch = grip.touch(&quad.grade, closed, at, quad.deflection(deflections, first));
             for (sum, term) in sums.iter_mut().zip(view.push(quad.position, &touch)) {

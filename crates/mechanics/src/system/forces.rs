@@ -34,14 +34,14 @@ pub(super) trait Element: Sized {
         rates: &mut [f64],
     ) -> Effect;
 
-    /// The same seen from a mount that does not turn.
+    /// The same seen from a mount that does not turn; none if it is nothing.
     fn act_from(
         &self,
         points: &mut Points,
         seen: (&Sight<f64>, &Kinematics<f64>),
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Effect;
+    ) -> Option<Effect>;
 
     /// How that changes with the motion of a body with `R` free angles, seen from a mount that does not turn, and how the rates of internal
     /// states do, as many as `rates` takes; with the force (mount axes) and the moment (body axes).
@@ -79,11 +79,11 @@ impl Element for ContactFace<Plane> {
     fn act_from(
         &self,
         points: &mut Points,
-        (sight, body): (&Sight<f64>, &Kinematics<f64>),
+        seen: (&Sight<f64>, &Kinematics<f64>),
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Effect {
-        self.effect(points, &View::of(sight, body), internal, rates)
+    ) -> Option<Effect> {
+        self.effect_from(points, seen, internal, rates)
     }
 
     #[inline(always)]
@@ -127,8 +127,8 @@ impl Element for Coil {
         (sight, body): (&Sight<f64>, &Kinematics<f64>),
         _: &[f64],
         _: &mut [f64],
-    ) -> Effect {
-        self.effect(sight, body)
+    ) -> Option<Effect> {
+        Some(self.effect(sight, body))
     }
 
     #[inline(always)]
@@ -232,6 +232,8 @@ impl System {
         let [d_positions, d_speeds, d_internal, d_quadratures] = layout.split_mut(dx);
         d_positions.copy_from_slice(speeds);
         d_quadratures.fill(0.0);
+        // An open face need not be met.
+        let mut met = true;
         for free in &self.free {
             let kinematics = &self.kinematics[free.body];
             let (mut force, mut moment) = (Vector::zero(), Vector::zero());
@@ -241,7 +243,7 @@ impl System {
                     let internal = &internal[face.first_internal..][..face.internal_count];
                     let rates = &mut d_internal[face.first_internal..][..face.internal_count];
                     let load = (&mut force, &mut moment);
-                    push(face, kinematics, (internal, rates), load, d_quadratures);
+                    met &= push(face, kinematics, (internal, rates), load, d_quadratures);
                 }
             }
             for &coil in &free.coils {
@@ -253,7 +255,7 @@ impl System {
             }
             (self.force[free.body], self.moment[free.body]) = (force, moment);
         }
-        self.met = true;
+        self.met = met;
         if !self.plain {
             for face in self.faces.iter_mut().filter(|face| !face.plain) {
                 let internal = &internal[face.first_internal..][..face.internal_count];
@@ -283,7 +285,7 @@ impl System {
     }
 }
 
-/// Adds what a plain element does to its body to force and moment.
+/// Adds what a plain element does to its body to force and moment; whether it does anything.
 #[inline(always)]
 fn push<E: Element>(
     mounted: &mut Mounted<E>,
@@ -291,13 +293,18 @@ fn push<E: Element>(
     (internal, rates): (&[f64], &mut [f64]),
     (force, moment): (&mut Vector<f64>, &mut Vector<f64>),
     powers: &mut [f64],
-) {
+) -> bool {
     let sight = &mounted.sight;
-    let effect = mounted
+    let seen = (sight, kinematics);
+    let Some(effect) = mounted
         .element
-        .act_from(&mut mounted.points, (sight, kinematics), internal, rates);
+        .act_from(&mut mounted.points, seen, internal, rates)
+    else {
+        return false;
+    };
     let channels = (&mounted.channels, mounted.driven);
     add_effect(&effect, sight, channels, (force, moment), powers);
+    true
 }
 
 /// Adds what a plain element does to force and moment on its body and to the powers of its channels; a neighbour that is driven does work.
