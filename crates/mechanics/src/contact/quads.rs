@@ -76,18 +76,18 @@ impl Points {
         }
     }
 
-    /// Whether all are open, as they were where forces were asked for last: so much can be seen without how they move. (Where they were not it
-    /// is not looked at.)
+    /// Sees where the points are if all are still open, as they were where forces were asked for last; whether they are, else nothing is
+    /// known. How open points move makes no difference, unless they have internal states.
     #[inline(always)]
-    fn stay_open(&self, sight: &Sight<f64>, body: &Kinematics<f64>) -> bool {
+    pub fn meet_open(&mut self, sight: &Sight<f64>, body: &Kinematics<f64>) -> bool {
         if !self.open {
             return false;
         }
         let (distance, normal) = View::wall(sight, body);
-        self.quads.iter().all(|quad| {
-            let gap: Lanes = normal.dot::<Lanes, Lanes>(quad.position) + distance;
-            gap.below(Lanes::zero()).and(quad.present).none()
-        })
+        for (quad, met) in self.quads.iter().zip(&mut self.met) {
+            met.gap = normal.dot::<Lanes, Lanes>(quad.position) + distance;
+        }
+        self.met.iter().all(is_open)
     }
 
     /// Sees where the points are and how they move.
@@ -237,6 +237,12 @@ impl<P: Number<Plain = P>> View<P> {
     }
 }
 
+/// Whether four points are open, each of them, and not just touching. (Missing ones are copies of the first.)
+#[inline(always)]
+fn is_open(at: &Meeting<Lanes>) -> bool {
+    Lanes::zero().below(at.gap).all()
+}
+
 #[inline(always)]
 fn closed(quad: &Quad, at: &Meeting<Lanes>) -> LaneMask {
     at.gap.below(Lanes::zero()).and(quad.present)
@@ -253,7 +259,7 @@ impl ContactFace<Plane> {
         deflections: &[f64],
         rates: &mut [f64],
     ) -> Option<Effect> {
-        if deflections.is_empty() && points.stay_open(sight, body) {
+        if deflections.is_empty() && points.meet_open(sight, body) {
             return None;
         }
         Some(self.effect(points, &View::of(sight, body), deflections, rates))
@@ -301,17 +307,17 @@ impl ContactFace<Plane> {
         }
     }
 
-    /// Gap and friction load of every point.
+    /// Gap and friction load of every point; of no meaning is the load of open ones.
     #[inline(always)]
     pub(crate) fn signs(&self, points: &Points, deflections: &[f64], mut each: impl FnMut(usize, f64, f64)) {
         for (number, (quad, at)) in points.quads.iter().zip(&points.met).enumerate() {
             let first = LANES * number;
-            let load = self.grip().load(
-                &quad.grade,
-                closed(quad, at),
-                at,
-                quad.deflection(deflections, first),
-            );
+            let load = if is_open(at) {
+                Lanes::zero()
+            } else {
+                let deflection = quad.deflection(deflections, first);
+                self.grip().load(&quad.grade, closed(quad, at), at, deflection)
+            };
             let (gap, load) = (at.gap.to_array(), load.to_array());
             for i in 0..quad.count {
                 each(first + i, gap[i], load[i]);

@@ -232,8 +232,6 @@ impl System {
         let [d_positions, d_speeds, d_internal, d_quadratures] = layout.split_mut(dx);
         d_positions.copy_from_slice(speeds);
         d_quadratures.fill(0.0);
-        // An open face need not be met.
-        let mut met = true;
         for free in &self.free {
             let kinematics = &self.kinematics[free.body];
             let (mut force, mut moment) = (Vector::zero(), Vector::zero());
@@ -243,7 +241,7 @@ impl System {
                     let internal = &internal[face.first_internal..][..face.internal_count];
                     let rates = &mut d_internal[face.first_internal..][..face.internal_count];
                     let load = (&mut force, &mut moment);
-                    met &= push(face, kinematics, (internal, rates), load, d_quadratures);
+                    push(face, kinematics, (internal, rates), load, d_quadratures);
                 }
             }
             for &coil in &free.coils {
@@ -255,7 +253,7 @@ impl System {
             }
             (self.force[free.body], self.moment[free.body]) = (force, moment);
         }
-        self.met = met;
+        self.met = true;
         if !self.plain {
             for face in self.faces.iter_mut().filter(|face| !face.plain) {
                 let internal = &internal[face.first_internal..][..face.internal_count];
@@ -285,7 +283,7 @@ impl System {
     }
 }
 
-/// Adds what a plain element does to its body to force and moment; whether it does anything.
+/// Adds what a plain element does to its body to force and moment.
 #[inline(always)]
 fn push<E: Element>(
     mounted: &mut Mounted<E>,
@@ -293,18 +291,14 @@ fn push<E: Element>(
     (internal, rates): (&[f64], &mut [f64]),
     (force, moment): (&mut Vector<f64>, &mut Vector<f64>),
     powers: &mut [f64],
-) -> bool {
+) {
     let sight = &mounted.sight;
     let seen = (sight, kinematics);
-    let Some(effect) = mounted
-        .element
-        .act_from(&mut mounted.points, seen, internal, rates)
-    else {
-        return false;
-    };
-    let channels = (&mounted.channels, mounted.driven);
-    add_effect(&effect, sight, channels, (force, moment), powers);
-    true
+    let element = &mounted.element;
+    if let Some(effect) = element.act_from(&mut mounted.points, seen, internal, rates) {
+        let channels = (&mounted.channels, mounted.driven);
+        add_effect(&effect, sight, channels, (force, moment), powers);
+    }
 }
 
 /// Adds what a plain element does to force and moment on its body and to the powers of its channels; a neighbour that is driven does work.
