@@ -250,7 +250,11 @@ pub fn standing(one: &Standing) -> String {
 /// The whole text.
 #[must_use]
 pub fn everything(standings: &[Standing]) -> String {
-    let mut text = format!("# The race\n\n{CAVEATS}{}\n## Options\n\n{}", compiled_for(), options());
+    let mut text = format!(
+        "# The race\n\n{CAVEATS}{}\n## Options\n\n{}",
+        compiled_for(),
+        options()
+    );
     text.push_str(
         "\n## How many times longer the others take at equal error\n\nThe least ratio over all errors that both reach, with that error, \
          and the greatest; each solver at its best tolerance.\n\n",
