@@ -5,7 +5,7 @@ mod common;
 
 use common::{INCH, LBF_PER_IN, Random, TOE, YAW, bristle, free, with_law};
 use integrate::lanes::Runs;
-use integrate::{Call, Problem, Together};
+use integrate::{Call, KinkSigns, Problem, Together};
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::motion::Motion;
@@ -178,4 +178,97 @@ fn only_wedges_of_one_shape_sit_side_by_side() {
     ] {
         assert!(!abreast.admits(&alone) && Abreast::of(&alone).is_none());
     }
+}
+
+/// All that an integrator may ask for at a place, one question after the other.
+fn ask(system: &mut System, question: usize, time: f64, x: &[f64], modes: &[u8]) -> Vec<f64> {
+    let n = x.len();
+    let (values, directions) = system.kink_counts();
+    let mut dx = vec![0.0; n];
+    match question {
+        0 => {
+            system.derivative(time, x, &mut dx);
+            dx
+        }
+        1 => {
+            let mut signs = KinkSigns {
+                values: vec![0.0; values],
+                directions: vec![[0.0; 2]; directions],
+            };
+            system.kinks(time, x, &mut signs);
+            let turned = signs.directions.iter().flatten();
+            signs.values.iter().chain(turned).copied().collect()
+        }
+        2 => {
+            let mut margins = vec![0.0; modes.len()];
+            system.margins(time, x, modes, &mut margins);
+            margins
+        }
+        3 => {
+            let next = |(i, mode): (usize, &u8)| f64::from(system.next_mode(time, x, i, *mode));
+            modes.iter().enumerate().map(next).collect()
+        }
+        4 => vec![system.stiffness(time, x)],
+        _ => {
+            system.derivative(time, x, &mut dx);
+            let mut df_dt = vec![0.0; n];
+            system.linearize(time, x, &dx, &mut df_dt);
+            let mut solved: Vec<f64> = (0..n).map(|i| 1.0 + i as f64).collect();
+            if system.factor(1e4).is_ok() {
+                system.solve(&mut solved);
+            }
+            solved.extend(df_dt);
+            solved
+        }
+    }
+}
+
+#[test]
+fn what_was_asked_before_changes_nothing() {
+    // Open faces are passed over where they were open before: all answers are those of a system that was never asked.
+    let mut numbers = Random(11);
+    let mut open = 0;
+    for (damping, law) in [
+        (Damping::Variable, None),
+        (Damping::Constant, None),
+        (Damping::Variable, Some(bristle())),
+    ] {
+        let mut parameters = thesis::parameters(damping, TOE, YAW);
+        if let Some(law) = law {
+            parameters = with_law(parameters, law);
+        }
+        let untouched = system(&parameters);
+        let mut asked = untouched.clone();
+        let speeds = asked.layout().speeds;
+        let mut modes = vec![0u8; asked.switch_count()];
+        let mut x = asked.initial_state();
+        for _ in 0..3000 {
+            // Now and then the same place is asked again.
+            if numbers.unit() < 0.7 {
+                x = asked.initial_state();
+                for (i, value) in x.iter_mut().enumerate() {
+                    let size = if i < speeds { 3e-4 } else { 0.05 };
+                    *value += numbers.between(-size, size) * numbers.unit();
+                }
+            }
+            for mode in &mut modes {
+                *mode = numbers.between(0.0, 3.0) as u8;
+            }
+            let (question, time) = (numbers.between(0.0, 6.0) as usize, 0.25);
+            let found = ask(&mut asked, question, time, &x, &modes);
+            let expected = ask(&mut untouched.clone(), question, time, &x, &modes);
+            assert_eq!(found.len(), expected.len());
+            for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                assert!(
+                    found == expected || found.is_nan() && expected.is_nan(),
+                    "question {question}, answer {i} at {x:?}: {found:e} instead of {expected:e}"
+                );
+            }
+            if question == 1 {
+                let faces = found[..modes.len()].chunks(4);
+                open += faces.filter(|gaps| gaps.iter().all(|gap| *gap > 0.0)).count();
+            }
+        }
+    }
+    assert!(open > 100, "{open} open faces only");
 }
