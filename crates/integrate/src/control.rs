@@ -100,3 +100,42 @@ fn grown(wanted: f64, family: Family) -> f64 {
         wanted * std::f64::consts::FRAC_1_SQRT_2
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The factors after two steps with hardly an error, the second as long as the first lets it be.
+    fn factors(family: Family) -> [f64; 2] {
+        let (options, mut controller) = (Options::default(), Controller::default());
+        let (first, _) = controller.accept(&options, 1.0, 1e-3, true, family);
+        let (second, _) = controller.accept(&options, first, 1e-3, true, family);
+        [first, second]
+    }
+
+    #[test]
+    fn only_the_first_explicit_step_may_be_followed_by_a_much_longer_one() {
+        let most = Options::default().maximum_factor;
+        assert_eq!(factors(Family::Explicit), [FIRST_GROWTH * most, most]);
+        for family in [
+            Family::LinearlyImplicit,
+            Family::Collocation,
+            Family::DiagonallyImplicit,
+        ] {
+            assert_eq!(factors(family), [most; 2]);
+        }
+    }
+
+    #[test]
+    fn implicit_steps_grow_by_the_root_of_what_they_may() {
+        // 0.9 of an error's root of 0.5: 1.8 times as long.
+        let after = |family| {
+            Controller::default()
+                .accept(&Options::default(), 1.0, 0.5, false, family)
+                .0
+        };
+        assert!((after(Family::Explicit) - 1.8).abs() < 1e-12);
+        assert!((after(Family::LinearlyImplicit) - 1.8_f64.sqrt()).abs() < 1e-12);
+        assert!((after(Family::Collocation) - 1.8_f64.sqrt()).abs() < 1e-12);
+    }
+}
