@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::options::Options;
 use crate::tableau::Family;
 
-/// By how much more than usual the first step after a restart may be followed by a longer one, if it was explicit: its length was a guess,
-/// and nothing stiff is near that its error would not tell of. (CVODE lets its first step grow ten thousandfold.)
+/// By this factor steps may grow more than usual behind the first one after a restart, if that was explicit: its length was a guess, and nothing
+/// stiff is near that its error would not tell of. (CVODE lets its first step grow ten thousandfold.)
 const FIRST_GROWTH: f64 = 10.0;
 
 /// Proportional-integral control: K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit

@@ -13,9 +13,9 @@ use crate::search::Search;
 use crate::stages::{Dense, leading_states};
 use crate::tableau::Family;
 
-/// How far the dense output is continued at most, in lengths of its step: of an explicit step, the first behind a kink may be much too
-/// short, farther.
+/// How far the dense output is continued at most, in lengths of its step.
 const REACH: f64 = 6.0;
+/// The same of an explicit step: the first one behind a kink may be much shorter than the next.
 const EXPLICIT_REACH: f64 = 60.0;
 /// A continued dense output is trusted while its error, that of the step times a power of its reach, is below this.
 const TRUST: f64 = 100.0;

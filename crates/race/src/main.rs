@@ -144,12 +144,7 @@ fn all(words: &[&str]) -> Result<(), String> {
         write(&format!("{name}.svg"), figure.to_svg().as_bytes())?;
         write(&format!("{name}.png"), &figure.to_png()?)?;
     }
-    println!(
-        "\n{}{}\n{}",
-        tables::CAVEATS,
-        tables::compiled_for(),
-        tables::ratios(&standings)
-    );
+    println!("\n{}\n{}", tables::caveats(), tables::ratios(&standings));
     println!("{}", folder.join("race.md").display());
     Ok(())
 }

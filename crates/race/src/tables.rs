@@ -7,7 +7,7 @@ use crate::runner::REFERENCE;
 use crate::standings::{Judgement, Standing};
 
 /// What must be read first.
-pub const CAVEATS: &str = "\
+const CAVEATS: &str = "\
 Read this first.
 
 - Times are CPU times of the integration alone, the least of up to five repetitions, on a machine that may do other things: trust ratios
@@ -31,14 +31,17 @@ Read this first.
   matrix by differences of its own.
 ";
 
-/// What this program, with everything in it that is Rust, was compiled for.
+/// What to read first, with what this program and everything in it that is Rust was compiled for.
 #[must_use]
-pub fn compiled_for() -> &'static str {
-    if cfg!(target_feature = "avx2") {
-        "- What is Rust - our integrator, diffsol, the right-hand side and the Jacobian matrix - is compiled for processors with AVX2.\n"
+pub fn caveats() -> String {
+    let processors = if cfg!(target_feature = "avx2") {
+        "processors with AVX2"
     } else {
-        "- What is Rust - our integrator, diffsol, the right-hand side and the Jacobian matrix - is compiled for every processor of its kind.\n"
-    }
+        "every processor of its kind"
+    };
+    format!(
+        "{CAVEATS}- What is Rust - our integrator, diffsol, the right-hand side and the Jacobian matrix - is compiled for {processors}.\n"
+    )
 }
 
 /// A time in words.
@@ -250,11 +253,7 @@ pub fn standing(one: &Standing) -> String {
 /// The whole text.
 #[must_use]
 pub fn everything(standings: &[Standing]) -> String {
-    let mut text = format!(
-        "# The race\n\n{CAVEATS}{}\n## Options\n\n{}",
-        compiled_for(),
-        options()
-    );
+    let mut text = format!("# The race\n\n{}\n## Options\n\n{}", caveats(), options());
     text.push_str(
         "\n## How many times longer the others take at equal error\n\nThe least ratio over all errors that both reach, with that error, \
          and the greatest; each solver at its best tolerance.\n\n",

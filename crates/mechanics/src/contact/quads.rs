@@ -54,7 +54,7 @@ pub(super) struct Slopes {
 pub(crate) struct Points {
     pub(super) quads: Vec<Quad>,
     met: Vec<Meeting<Lanes>>,
-    /// Whether all were open where forces were asked for last.
+    /// Whether all were open where forces were asked for last; never where there are internal states.
     open: bool,
     pub(super) slopes: Vec<Slopes>,
 }
@@ -77,7 +77,7 @@ impl Points {
     }
 
     /// Sees where the points are if all are still open, as they were where forces were asked for last; whether they are, else nothing is
-    /// known. How open points move makes no difference, unless they have internal states.
+    /// known. How open points without internal states move makes no difference. Only for a mount that does not turn.
     #[inline(always)]
     pub fn meet_open(&mut self, sight: &Sight<f64>, body: &Kinematics<f64>) -> bool {
         if !self.open {
@@ -249,22 +249,6 @@ fn closed(quad: &Quad, at: &Meeting<Lanes>) -> LaneMask {
 }
 
 impl ContactFace<Plane> {
-    /// What all points do to their body, seen from a mount that does not turn; nothing where all are open and have no internal states.
-    /// `rates` receives the rates of the internal states.
-    #[inline(always)]
-    pub(crate) fn effect_from(
-        &self,
-        points: &mut Points,
-        (sight, body): (&Sight<f64>, &Kinematics<f64>),
-        deflections: &[f64],
-        rates: &mut [f64],
-    ) -> Option<Effect> {
-        if deflections.is_empty() && points.meet_open(sight, body) {
-            return None;
-        }
-        Some(self.effect(points, &View::of(sight, body), deflections, rates))
-    }
-
     /// What all points do to their body; `rates` receives the rates of the internal states.
     #[inline(always)]
     pub(crate) fn effect(

@@ -79,11 +79,14 @@ impl Element for ContactFace<Plane> {
     fn act_from(
         &self,
         points: &mut Points,
-        seen: (&Sight<f64>, &Kinematics<f64>),
+        (sight, body): (&Sight<f64>, &Kinematics<f64>),
         internal: &[f64],
         rates: &mut [f64],
     ) -> Option<Effect> {
-        self.effect_from(points, seen, internal, rates)
+        if points.meet_open(sight, body) {
+            return None;
+        }
+        Some(self.effect(points, &View::of(sight, body), internal, rates))
     }
 
     #[inline(always)]

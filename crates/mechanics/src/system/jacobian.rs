@@ -16,7 +16,7 @@ use super::{FrameState, FreeBody, Mounted, System};
 use crate::body::{Body, Kinematics};
 use crate::contact::ContactFace;
 use crate::frame::FrameMotion;
-use crate::link::{Relative, Response, Sight};
+use crate::link::{Relative, Sight};
 use crate::surface::Plane;
 use crate::vector::{Matrix, Vector};
 
@@ -63,16 +63,11 @@ impl System {
             let mut columns: Columns = [[[Lanes::ZERO; 2]; 6]; 2];
             for &face in &free.faces {
                 let face = &mut self.faces[face];
-                if !face.plain {
-                    continue;
+                if face.plain && face.points.are_active() {
+                    carried += respond(face, kinematics, &turning, free);
+                    face.add_rows(free, &mut columns, &mut self.jacobian);
+                    face.add_rates(free, &mut self.jacobian);
                 }
-                if !face.points.are_active() {
-                    (face.response, face.force) = (Response::NONE, Vector::zero());
-                    continue;
-                }
-                carried += respond(face, kinematics, &turning, free);
-                face.add_rows(free, &mut columns, &mut self.jacobian);
-                face.add_rates(free, &mut self.jacobian);
             }
             for &coil in &free.coils {
                 let coil = &mut self.coils[coil];

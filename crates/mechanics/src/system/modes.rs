@@ -109,7 +109,7 @@ impl System {
         self.met = true;
         for face in &mut self.faces {
             let kinematics = &self.kinematics[face.body];
-            if face.plain && face.internal_count == 0 && face.points.meet_open(&face.sight, kinematics) {
+            if face.plain && face.points.meet_open(&face.sight, kinematics) {
                 continue;
             }
             let view = if face.plain {

@@ -48,6 +48,7 @@ impl System {
             let rates = &mut d_internal[face.first_internal..][..face.internal_count];
             let (free, frame) = (self.free_number[face.body], &self.frames[face.on]);
             if let (true, Some(free)) = (face.plain, free) {
+                // The response of a face that was passed over is an older one.
                 if !face.points.are_active() {
                     continue;
                 }
