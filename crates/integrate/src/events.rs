@@ -1,5 +1,7 @@
 //! Recording and timing the changes of discrete switches.
 
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
 use crate::lanes::LANES;
@@ -22,43 +24,69 @@ pub struct Event {
     pub to: u8,
 }
 
+/// Switches whose margins are found together, apart from all others.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SwitchGroup {
+    /// Their numbers.
+    pub switches: Range<usize>,
+    /// The leading states that their margins and modes depend on.
+    pub states: Vec<Range<usize>>,
+}
+
 /// The switches of a problem.
 #[derive(Clone, Debug)]
 pub(crate) struct Switches {
     pub modes: Vec<u8>,
     pub before: Vec<u8>,
     pub events: Vec<Event>,
+    groups: Vec<Group>,
     /// Margins with the present modes: at the place that was evaluated last, at the beginning of what is searched, at the end of the step.
     margins: Vec<f64>,
     at_start: Vec<f64>,
     at_end: Vec<f64>,
-    /// Whether `at_start` holds them.
-    start_known: bool,
     search: Search,
     /// Switches that are not looked at any more in this step: `next_mode` declined.
     muted: Vec<bool>,
     /// Switches that have changed at the present instant.
     changed: Vec<bool>,
-    /// States at a fraction of the step; only the leading ones, padded, are brought up to date.
+    /// States at a fraction of the step; only those that were asked for are brought up to date.
     x: Vec<f64>,
     dimension: usize,
     leading: usize,
 }
+
+/// A group of switches.
+#[derive(Clone, Debug)]
+struct Group {
+    switches: Range<usize>,
+    /// The states that they depend on, in ranges that begin and end at multiples of [`LANES`].
+    states: Vec<Range<usize>>,
+    /// From which fraction of the step on changes are searched.
+    from: f64,
+    /// Whether `at_start` holds the margins there, and `at_end` those at the end of the step.
+    start_known: bool,
+    end_known: bool,
+}
+
+/// More changes in a step than there may be.
+struct TooMany;
 
 impl Switches {
     pub fn new<P: Problem>(problem: &P, modes: Vec<u8>, capacity: usize) -> Self {
         let (dimension, leading) = (problem.dimension(), leading_states(problem));
         let count = modes.len();
         let capacity = if count == 0 { 0 } else { capacity };
+        let groups: Vec<Group> = problem.switch_groups().into_iter().map(Group::new).collect();
+        let largest = groups.iter().map(|group| group.switches.len()).max();
         Self {
             before: modes.clone(),
             modes,
             events: Vec::with_capacity(capacity),
+            groups,
             margins: vec![0.0; count],
             at_start: vec![0.0; count],
             at_end: vec![0.0; count],
-            start_known: false,
-            search: Search::new(count),
+            search: Search::new(largest.unwrap_or(0)),
             muted: vec![false; count],
             changed: vec![false; count],
             x: vec![0.0; dimension.next_multiple_of(LANES)],
@@ -69,27 +97,15 @@ impl Switches {
 
     /// Tells that the margins at the place reached may have changed: those known of it are not used any more.
     pub fn forget(&mut self) {
-        self.start_known = false;
+        for group in &mut self.groups {
+            group.start_known = false;
+        }
     }
 
     /// Evaluates the margins at the end of a step. Before [`Switches::detect`], and apart from it: right after other functions were
     /// evaluated there it may cost the problem little.
     pub fn look<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
         problem.margins(time, x, &self.modes, &mut self.at_end);
-    }
-
-    /// Brings the states to a fraction of the step.
-    #[inline]
-    fn place(&mut self, dense: &Dense<'_>, theta: f64) {
-        dense.evaluate(theta, &mut self.x[..self.leading]);
-    }
-
-    /// Evaluates the margins at a fraction of the step.
-    #[inline]
-    fn evaluate<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>, theta: f64) {
-        self.place(dense, theta);
-        let x = &self.x[..self.dimension];
-        problem.margins(dense.time(theta), x, &self.modes, &mut self.margins);
     }
 
     /// Finds all changes of modes in a step, at whose end [`Switches::look`] was called.
@@ -103,90 +119,170 @@ impl Switches {
         self.events.clear();
         self.before.copy_from_slice(&self.modes);
         self.muted.fill(false);
-        let resolution = (4.0 * f64::EPSILON * dense.end.abs() / dense.step).max(1e-12);
-        let mut from = 0.0;
-        let mut end_known = true;
-        // A step by collocation is two to four times as long as others; an explicit one spans a radian or so of the fastest answer at most.
-        let looks: &[f64] = match dense.tableau.family {
-            Family::Collocation => &[0.25, 0.5, 0.75, 1.0],
-            Family::Explicit => &[1.0],
-            Family::LinearlyImplicit | Family::DiagonallyImplicit => &[0.5, 1.0],
-        };
-        for &to in looks {
-            while from <= to {
-                if to == 1.0 && end_known {
-                    self.margins.copy_from_slice(&self.at_end);
-                } else {
-                    self.evaluate(problem, dense, to);
-                }
-                if !leaving(&self.margins, &self.muted) {
-                    // The search for a change in the second half begins at the start all the same: there may be several.
-                    if to == 1.0 {
-                        std::mem::swap(&mut self.margins, &mut self.at_start);
-                        self.start_known = true;
-                    }
-                    break;
-                }
-                let theta = self.locate(problem, dense, from, to, resolution);
-                self.start_known = false;
-                if self.events.len() >= maximum {
-                    statistics.events_unresolved += 1;
-                    return;
-                }
-                let known = self.events.len();
-                self.change(problem, dense, theta, maximum, statistics);
-                end_known &= self.events.len() == known;
-                // A change that leads straight to the next one is told apart by the resolution.
-                from = theta + resolution;
-            }
+        for group in &mut self.groups {
+            (group.from, group.end_known) = (0.0, true);
         }
+        if self.follow(problem, dense, maximum).is_err() {
+            statistics.events_unresolved += 1;
+            self.forget();
+        }
+        statistics.events += self.events.len() as u64;
+        // groups one after the other, each in the order of time
+        self.events
+            .sort_unstable_by(|a, b| a.time.total_cmp(&b.time).then(a.index.cmp(&b.index)));
     }
 
-    /// The first instant in `from ..= to` at which a switch must leave, given that one must at `to`, by the margins there; those at this
-    /// instant.
+    /// Finds the changes of all groups.
+    fn follow<P: Problem>(
+        &mut self,
+        problem: &mut P,
+        dense: &Dense<'_>,
+        maximum: usize,
+    ) -> Result<(), TooMany> {
+        // A step by collocation is two to four times as long as others; an explicit one spans a radian or so of the fastest answer at most.
+        let looks: &[f64] = match dense.tableau.family {
+            Family::Collocation => &[0.25, 0.5, 0.75],
+            Family::Explicit => &[],
+            Family::LinearlyImplicit | Family::DiagonallyImplicit => &[0.5],
+        };
+        for &to in looks {
+            dense.evaluate(to, &mut self.x[..self.leading]);
+            let x = &self.x[..self.dimension];
+            problem.margins(dense.time(to), x, &self.modes, &mut self.margins);
+            for number in 0..self.groups.len() {
+                self.resolve(problem, dense, number, to, maximum)?;
+            }
+        }
+        for number in 0..self.groups.len() {
+            let Group {
+                ref switches,
+                end_known,
+                ..
+            } = self.groups[number];
+            if end_known {
+                let switches = switches.clone();
+                self.margins[switches.clone()].copy_from_slice(&self.at_end[switches]);
+            } else {
+                self.evaluate(problem, dense, number, 1.0);
+            }
+            let group = if self.resolve(problem, dense, number, 1.0, maximum)? {
+                let switches = self.groups[number].switches.clone();
+                self.at_start[switches.clone()].copy_from_slice(&self.margins[switches]);
+                true
+            } else {
+                false
+            };
+            self.groups[number].start_known = group;
+        }
+        Ok(())
+    }
+
+    /// Brings the states that a group depends on to a fraction of the step.
+    #[inline]
+    fn place(&mut self, dense: &Dense<'_>, number: usize, theta: f64) {
+        dense.evaluate_parts(theta, &self.groups[number].states, &mut self.x);
+    }
+
+    /// Evaluates the margins of a group at a fraction of the step.
+    #[inline]
+    fn evaluate<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>, number: usize, theta: f64) {
+        self.place(dense, number, theta);
+        let x = &self.x[..self.dimension];
+        problem.group_margins(number, dense.time(theta), x, &self.modes, &mut self.margins);
+    }
+
+    /// Whether a switch of a group must leave its mode by the margins evaluated last.
+    #[inline]
+    fn leaving(&self, number: usize) -> bool {
+        let switches = self.groups[number].switches.clone();
+        leaving(&self.margins[switches.clone()], &self.muted[switches])
+    }
+
+    /// Finds the changes of a group up to a fraction of the step, where `margins` hold its margins; whether they do so still.
+    fn resolve<P: Problem>(
+        &mut self,
+        problem: &mut P,
+        dense: &Dense<'_>,
+        number: usize,
+        to: f64,
+        maximum: usize,
+    ) -> Result<bool, TooMany> {
+        let resolution = (4.0 * f64::EPSILON * dense.end.abs() / dense.step).max(1e-12);
+        while self.groups[number].from <= to {
+            if !self.leaving(number) {
+                // The search for a change behind this place begins where this one began all the same: there may be several.
+                return Ok(true);
+            }
+            let theta = self.locate(problem, dense, number, to, resolution);
+            self.groups[number].start_known = false;
+            let known = self.events.len();
+            self.change(problem, dense, number, theta, maximum)?;
+            let group = &mut self.groups[number];
+            group.end_known &= self.events.len() == known;
+            // A change that leads straight to the next one is told apart by the resolution.
+            group.from = theta + resolution;
+            if group.from <= to {
+                self.evaluate(problem, dense, number, to);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The first instant up to `to` at which a switch of a group must leave, given that one must at `to`, by the margins there; those at
+    /// this instant.
     fn locate<P: Problem>(
         &mut self,
         problem: &mut P,
         dense: &Dense<'_>,
-        from: f64,
+        number: usize,
         to: f64,
         resolution: f64,
     ) -> f64 {
+        let Group {
+            ref switches,
+            from,
+            start_known,
+            ..
+        } = self.groups[number];
+        let switches = switches.clone();
+        let count = switches.len();
         self.search.clear();
-        self.search.next().copy_from_slice(&self.margins);
+        self.search.next()[..count].copy_from_slice(&self.margins[switches.clone()]);
         self.search.put_high(to);
-        if !self.start_known {
-            self.evaluate(problem, dense, from);
-            self.at_start.copy_from_slice(&self.margins);
+        if !start_known {
+            self.evaluate(problem, dense, number, from);
+            self.at_start[switches.clone()].copy_from_slice(&self.margins[switches.clone()]);
         }
-        if leaving(&self.at_start, &self.muted) {
-            self.margins.copy_from_slice(&self.at_start);
+        let at_start = &self.at_start[switches.clone()];
+        if leaving(at_start, &self.muted[switches.clone()]) {
+            self.margins[switches].copy_from_slice(at_start);
             return from;
         }
-        self.search.next().copy_from_slice(&self.at_start);
+        self.search.next()[..count].copy_from_slice(at_start);
         self.search.put_low(from);
         loop {
             let (low, high) = self.search.ends();
             if high - low <= resolution {
                 break;
             }
-            let theta = self.search.place(self.first_zero(), resolution);
-            self.evaluate(problem, dense, theta);
-            self.search.next().copy_from_slice(&self.margins);
-            if leaving(&self.margins, &self.muted) {
+            let theta = self.search.place(self.first_zero(number), resolution);
+            self.evaluate(problem, dense, number, theta);
+            self.search.next()[..count].copy_from_slice(&self.margins[switches.clone()]);
+            if self.leaving(number) {
                 self.search.put_high(theta);
             } else {
                 self.search.put_low(theta);
             }
         }
-        self.margins.copy_from_slice(self.search.high());
+        self.margins[switches].copy_from_slice(&self.search.high()[..count]);
         self.search.ends().1
     }
 
-    /// Where the first switch is expected to have to leave.
-    fn first_zero(&self) -> f64 {
+    /// Where the first switch of a group is expected to have to leave.
+    fn first_zero(&self, number: usize) -> f64 {
+        let muted = &self.muted[self.groups[number].switches.clone()];
         let mut first = f64::INFINITY;
-        for (index, (margin, muted)) in self.search.high().iter().zip(&self.muted).enumerate() {
+        for (index, (margin, muted)) in self.search.high().iter().zip(muted).enumerate() {
             if *margin <= 0.0 && !muted {
                 first = first.min(self.search.zero(index));
             }
@@ -194,26 +290,29 @@ impl Switches {
         first
     }
 
-    /// Changes the modes of all switches that must leave at an instant, each once, by the margins there.
+    /// Changes the modes of all switches of a group that must leave at an instant, each once, by the margins there.
     fn change<P: Problem>(
         &mut self,
         problem: &mut P,
         dense: &Dense<'_>,
+        number: usize,
         theta: f64,
         maximum: usize,
-        statistics: &mut Statistics,
-    ) {
-        self.changed.fill(false);
-        self.place(dense, theta);
+    ) -> Result<(), TooMany> {
+        let switches = self.groups[number].switches.clone();
+        self.changed[switches.clone()].fill(false);
+        self.place(dense, number, theta);
         let time = dense.time(theta);
-        while let Some(index) =
-            (0..self.modes.len()).find(|&i| self.margins[i] <= 0.0 && !self.muted[i] && !self.changed[i])
+        while let Some(index) = switches
+            .clone()
+            .find(|&i| self.margins[i] <= 0.0 && !self.muted[i] && !self.changed[i])
         {
             if self.events.len() >= maximum {
-                return;
+                return Err(TooMany);
             }
+            let x = &self.x[..self.dimension];
             let from = self.modes[index];
-            let to = problem.next_mode(time, &self.x[..self.dimension], index, from);
+            let to = problem.next_mode(time, x, index, from);
             if to == from {
                 self.muted[index] = true;
                 continue;
@@ -226,9 +325,30 @@ impl Switches {
                 from,
                 to,
             });
-            statistics.events += 1;
             // the margins of other switches may depend on this mode
-            problem.margins(time, &self.x[..self.dimension], &self.modes, &mut self.margins);
+            problem.group_margins(number, time, x, &self.modes, &mut self.margins);
+        }
+        Ok(())
+    }
+}
+
+impl Group {
+    fn new(group: SwitchGroup) -> Self {
+        let mut states: Vec<Range<usize>> = Vec::with_capacity(group.states.len());
+        for range in group.states {
+            let start = range.start / LANES * LANES;
+            let end = range.end.next_multiple_of(LANES);
+            match states.last_mut() {
+                Some(last) if last.start <= start && start <= last.end => last.end = last.end.max(end),
+                _ => states.push(start..end),
+            }
+        }
+        Self {
+            switches: group.switches,
+            states,
+            from: 0.0,
+            start_known: false,
+            end_known: false,
         }
     }
 }

@@ -35,7 +35,7 @@ mod tr_bdf2;
 
 pub use block_lu::BlockLu;
 pub use error::{Reason, SetupError, StepError};
-pub use events::Event;
+pub use events::{Event, SwitchGroup};
 pub use kinks::KinkSigns;
 pub use options::Options;
 pub use ordinary::Ordinary;

@@ -1,5 +1,6 @@
 //! What an integrator needs to know about a problem.
 
+use crate::events::SwitchGroup;
 use crate::kinks::KinkSigns;
 
 /// The matrix of a linear system is singular.
@@ -149,7 +150,25 @@ pub trait Problem {
         let _ = (time, x, modes, margins);
     }
 
-    /// The mode to which switch `index` goes from `mode` at `(time, x)`, where its margin has come to zero or below.
+    /// How switches that have nothing to do with each other fall into groups: all switches in their order, each in one group. Changes are
+    /// then searched in one group after the other, which for many groups costs much less. Without this all are one group.
+    fn switch_groups(&self) -> Vec<SwitchGroup> {
+        let all = SwitchGroup {
+            switches: 0..self.switch_count(),
+            states: vec![0..self.read_states()],
+        };
+        vec![all]
+    }
+
+    /// Writes the margins of the switches of one group, the same as [`Problem::margins`] does; of `x` only the states of this group are
+    /// what they should be, and of the modes only those of this group count.
+    fn group_margins(&mut self, group: usize, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+        let _ = group;
+        self.margins(time, x, modes, margins);
+    }
+
+    /// The mode to which switch `index` goes from `mode` at `(time, x)`, where its margin has come to zero or below;
+    /// of `x` only the states of its group are what they should be.
     ///
     /// Returning `mode` means that there is no event; the switch is then not asked again within this step.
     fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
@@ -222,6 +241,12 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     }
     fn margins(&mut self, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
         (**self).margins(time, x, modes, margins);
+    }
+    fn switch_groups(&self) -> Vec<SwitchGroup> {
+        (**self).switch_groups()
+    }
+    fn group_margins(&mut self, group: usize, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+        (**self).group_margins(group, time, x, modes, margins);
     }
     fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
         (**self).next_mode(time, x, index, mode)

@@ -1,5 +1,7 @@
 //! Linear combinations of stages, and dense output.
 
+use std::ops::Range;
+
 use wide::f64x4;
 
 // Vectors are padded with zeros to a multiple of this length.
@@ -167,31 +169,39 @@ impl Dense<'_> {
     /// As many leading states as `out` takes, a multiple of [`LANES`], at a fraction of the step.
     #[inline]
     pub fn evaluate(&self, theta: f64, out: &mut [f64]) {
-        let (x0, x1) = (&self.x0[..out.len()], &self.x1[..out.len()]);
+        let all = 0..out.len();
+        self.evaluate_parts(theta, std::slice::from_ref(&all), out);
+    }
+
+    /// These ranges of states, which begin and end at multiples of [`LANES`], at a fraction of the step.
+    #[inline]
+    pub fn evaluate_parts(&self, theta: f64, parts: &[Range<usize>], out: &mut [f64]) {
         if theta == 1.0 {
-            for (out, x1) in out
-                .as_chunks_mut::<LANES>()
-                .0
-                .iter_mut()
-                .zip(x1.as_chunks::<LANES>().0)
-            {
-                *out = *x1;
+            for part in parts {
+                let (out, _) = out[part.clone()].as_chunks_mut::<LANES>();
+                let (x1, _) = self.x1[part.clone()].as_chunks::<LANES>();
+                out.copy_from_slice(x1);
             }
             return;
         }
         let weights = self.weights(theta);
         let weights = &weights[..self.tableau.stages()];
-        combine(out, x0, 1.0, weights, self.stages, self.x0.len());
         let theta = f64x4::splat(theta);
-        for ((out, x0), x1) in out
-            .as_chunks_mut::<LANES>()
-            .0
-            .iter_mut()
-            .zip(x0.as_chunks::<LANES>().0)
-            .zip(x1.as_chunks::<LANES>().0)
-        {
-            let change = f64x4::new(*x1) - f64x4::new(*x0);
-            *out = (f64x4::new(*out) + theta * change).to_array();
+        for part in parts {
+            let out = &mut out[part.clone()];
+            let (x0, x1) = (&self.x0[part.clone()], &self.x1[part.clone()]);
+            let stages = &self.stages[part.start..];
+            combine(out, x0, 1.0, weights, stages, self.x0.len());
+            for ((out, x0), x1) in out
+                .as_chunks_mut::<LANES>()
+                .0
+                .iter_mut()
+                .zip(x0.as_chunks::<LANES>().0)
+                .zip(x1.as_chunks::<LANES>().0)
+            {
+                let change = f64x4::new(*x1) - f64x4::new(*x0);
+                *out = (f64x4::new(*out) + theta * change).to_array();
+            }
         }
     }
 

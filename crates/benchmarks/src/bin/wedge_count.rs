@@ -1,5 +1,6 @@
 //! `wedge_count [MOST]`: how the cost of a step grows with the number of wedges in one system, uncoupled and in a chain.
-//! `wedge_count uncoupled|chained COUNT STEPS`: these steps of one system alone, contact modes not recorded, to count instructions.
+//! `wedge_count uncoupled|chained COUNT STEPS [recorded]`: these steps of one system alone, contact modes recorded or not, to count
+//! instructions.
 //!
 //! CPU times. A step is one of Rodas5P of a fixed length (10 µs) of the first 4 ms, the least of several runs: with and without
 //! the recording of contact modes. Pieces: right-hand side, Jacobian matrix, factorization, solution, in the state that the last step
@@ -10,7 +11,7 @@ use std::process::ExitCode;
 
 use benchmarks::cpu_seconds;
 use benchmarks::wedges::{Arrangement, wedges};
-use integrate::{Integrator, Options, Problem, Singular};
+use integrate::{Integrator, Options, Problem, Singular, SwitchGroup};
 use mechanics::system::System;
 
 const COUNTS: [usize; 8] = [1, 2, 5, 10, 20, 50, 100, 200];
@@ -21,32 +22,69 @@ const STEPS: u32 = 400;
 /// Runs: as many as give this many wedges in all, and three.
 const WEDGES: usize = 200;
 
-const USAGE: &str = "usage: wedge_count [MOST], or wedge_count uncoupled|chained COUNT STEPS";
+const USAGE: &str = "usage: wedge_count [MOST], or wedge_count uncoupled|chained COUNT STEPS [recorded]";
 
-/// A system whose contact modes nobody records.
-struct Unrecorded(System);
+/// A system that does not say how fast it answers, so that all steps are implicit.
+struct Implicit {
+    system: System,
+    /// Whether its contact modes are recorded.
+    recorded: bool,
+}
 
-impl Problem for Unrecorded {
+impl Problem for Implicit {
     fn dimension(&self) -> usize {
-        self.0.dimension()
+        self.system.dimension()
+    }
+    fn read_states(&self) -> usize {
+        self.system.read_states()
     }
     fn scales(&self) -> &[f64] {
-        self.0.scales()
+        self.system.scales()
     }
     fn segment(&mut self, start: f64) -> f64 {
-        self.0.segment(start)
+        self.system.segment(start)
     }
     fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]) {
-        self.0.derivative(time, x, dx);
+        self.system.derivative(time, x, dx);
     }
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
-        self.0.linearize(time, x, dx, df_dt);
+        self.system.linearize(time, x, dx, df_dt);
     }
     fn factor(&mut self, shift: f64) -> Result<(), Singular> {
-        self.0.factor(shift)
+        self.system.factor(shift)
     }
     fn solve(&mut self, b: &mut [f64]) {
-        self.0.solve(b);
+        self.system.solve(b);
+    }
+    fn switch_count(&self) -> usize {
+        if self.recorded {
+            self.system.switch_count()
+        } else {
+            0
+        }
+    }
+    fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
+        if self.recorded {
+            self.system.initial_modes(time, x, modes);
+        }
+    }
+    fn margins(&mut self, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+        if self.recorded {
+            self.system.margins(time, x, modes, margins);
+        }
+    }
+    fn switch_groups(&self) -> Vec<SwitchGroup> {
+        if self.recorded {
+            self.system.switch_groups()
+        } else {
+            Vec::new()
+        }
+    }
+    fn group_margins(&mut self, group: usize, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+        self.system.group_margins(group, time, x, modes, margins);
+    }
+    fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
+        self.system.next_mode(time, x, index, mode)
     }
 }
 
@@ -56,7 +94,8 @@ fn main() -> ExitCode {
     let done = match words.as_slice() {
         [] => table(usize::MAX),
         [most] => most.parse().map_err(|_| USAGE.to_owned()).and_then(table),
-        [arrangement, count, number] => one(arrangement, count, number),
+        [arrangement, count, number] => one(arrangement, count, number, false),
+        [arrangement, count, number, "recorded"] => one(arrangement, count, number, true),
         _ => Err(USAGE.to_owned()),
     };
     match done {
@@ -69,7 +108,7 @@ fn main() -> ExitCode {
 }
 
 /// Steps of one system alone.
-fn one(arrangement: &str, count: &str, number: &str) -> Result<(), String> {
+fn one(arrangement: &str, count: &str, number: &str, recorded: bool) -> Result<(), String> {
     let arrangement = match arrangement {
         "uncoupled" => Arrangement::Uncoupled,
         "chained" => Arrangement::Chained,
@@ -80,7 +119,7 @@ fn one(arrangement: &str, count: &str, number: &str) -> Result<(), String> {
     };
     let system = wedges(count, arrangement)?;
     // Without the clock, which stops Valgrind.
-    advance(&mut begin(Unrecorded(system.clone()), &system)?, number)
+    advance(&mut begin(&system, recorded)?, number)
 }
 
 /// The costs of all systems up to this number of wedges.
@@ -116,9 +155,9 @@ fn measure(count: usize, arrangement: Arrangement) -> Result<String, String> {
     let (mut events, mut end) = (0, Vec::new());
     for _ in 0..(WEDGES / count).max(3) {
         let mut cost;
-        (cost, _, _) = steps(Unrecorded(system.clone()), &system)?;
+        (cost, _, _) = steps(&system, false)?;
         bare = bare.min(cost);
-        (cost, events, end) = steps(system.clone(), &system)?;
+        (cost, events, end) = steps(&system, true)?;
         recorded = recorded.min(cost);
     }
     let [rates, jacobian, factor, solve] = pieces(system, &end);
@@ -131,23 +170,27 @@ fn measure(count: usize, arrangement: Arrangement) -> Result<String, String> {
 }
 
 /// The mean cost of a step, µs, the number of events, and the state at the end.
-fn steps<P: Problem>(problem: P, system: &System) -> Result<(f64, u64, Vec<f64>), String> {
-    let mut integrator = begin(problem, system)?;
+fn steps(system: &System, recorded: bool) -> Result<(f64, u64, Vec<f64>), String> {
+    let mut integrator = begin(system, recorded)?;
     let begun = cpu_seconds();
     advance(&mut integrator, STEPS)?;
     let cost = 1e6 * (cpu_seconds() - begun) / f64::from(STEPS);
     Ok((cost, integrator.statistics().events, integrator.x().to_vec()))
 }
 
-fn begin<P: Problem>(problem: P, system: &System) -> Result<Integrator<P>, String> {
+fn begin(system: &System, recorded: bool) -> Result<Integrator<Implicit>, String> {
     let options = Options {
         fixed_step: Some(STEP),
         ..Options::default()
     };
+    let problem = Implicit {
+        system: system.clone(),
+        recorded,
+    };
     Integrator::new(problem, options, 0.0, &system.initial_state()).map_err(|error| error.to_string())
 }
 
-fn advance<P: Problem>(integrator: &mut Integrator<P>, number: u32) -> Result<(), String> {
+fn advance(integrator: &mut Integrator<Implicit>, number: u32) -> Result<(), String> {
     for _ in 0..number {
         integrator
             .step_to(f64::INFINITY)

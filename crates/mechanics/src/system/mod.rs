@@ -19,7 +19,7 @@ mod stiffness;
 mod time;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
-use integrate::{KinkSigns, Problem, Singular};
+use integrate::{KinkSigns, Problem, Singular, SwitchGroup};
 
 use crate::body::{Body, Kinematics, Rigid};
 use crate::coil::Coil;
@@ -120,6 +120,8 @@ pub struct System {
     gravity: Vector<f64>,
     faces: Vec<Mounted<ContactFace<Plane>>>,
     coils: Vec<Mounted<Coil>>,
+    /// The number of each face's first point among all points.
+    first_points: Vec<usize>,
     channels: Vec<Channel>,
     layout: Layout,
     scales: Vec<f64>,
@@ -252,22 +254,12 @@ impl System {
         self.met = false;
         self.frames_at = time;
         if self.moves && again {
-            for (body, state) in self.bodies.iter().zip(&mut self.frames) {
-                if state.fixed {
-                    continue;
-                }
-                if state.keeps_orientation {
-                    state.translate(&body.frame, time, self.reference);
-                } else {
-                    state.motion = body.frame.evaluate(time, self.reference);
-                }
+            for number in 0..self.frames.len() {
+                self.place_frame(number, time);
             }
         }
         for number in 0..self.free.len() {
-            let free = &self.free[number];
-            let (coordinates, speeds) = self.coordinates(free, x);
-            let body = free.body;
-            self.kinematics[body] = Kinematics::new(coordinates, speeds, self.bodies[body].rolls());
+            self.place_free(number, x);
         }
         for mounted in &mut self.faces {
             sight(mounted, &self.frames, &self.kinematics, again);
@@ -275,6 +267,43 @@ impl System {
         for mounted in &mut self.coils {
             sight(mounted, &self.frames, &self.kinematics, again);
         }
+    }
+
+    /// Brings what one face sees to `time` and state `x`, and nothing else.
+    #[inline]
+    fn place_face(&mut self, number: usize, time: f64, x: &[f64]) {
+        // the next one to place everything does so anew
+        self.frames_at = f64::NAN;
+        for body in [self.faces[number].body, self.faces[number].on] {
+            self.place_frame(body, time);
+            if let Some(free) = self.free_number[body] {
+                self.place_free(free, x);
+            }
+        }
+        sight(&mut self.faces[number], &self.frames, &self.kinematics, true);
+    }
+
+    /// Brings a body's reference frame to `time`.
+    #[inline(always)]
+    fn place_frame(&mut self, number: usize, time: f64) {
+        let (body, state) = (&self.bodies[number], &mut self.frames[number]);
+        if state.fixed {
+            return;
+        }
+        if state.keeps_orientation {
+            state.translate(&body.frame, time, self.reference);
+        } else {
+            state.motion = body.frame.evaluate(time, self.reference);
+        }
+    }
+
+    /// Brings the kinematics of a free body to state `x`.
+    #[inline(always)]
+    fn place_free(&mut self, number: usize, x: &[f64]) {
+        let free = &self.free[number];
+        let (coordinates, speeds) = self.coordinates(free, x);
+        let body = free.body;
+        self.kinematics[body] = Kinematics::new(coordinates, speeds, self.bodies[body].rolls());
     }
 }
 
@@ -429,9 +458,16 @@ impl Problem for System {
         self.mode_margins(x, modes, margins);
     }
 
+    fn switch_groups(&self) -> Vec<SwitchGroup> {
+        self.point_groups()
+    }
+
+    fn group_margins(&mut self, group: usize, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+        self.face_margins(group, time, x, modes, margins);
+    }
+
     fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
-        self.place(time, x);
-        self.follow_mode(x, index, mode)
+        self.follow_mode(time, x, index, mode)
     }
 }
 

@@ -297,6 +297,10 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     for coil in &mut mounted_coils {
         coil.mobilities = vec![mobility(&bodies[coil.body], coil.element.end)];
     }
+    let points = mounted_faces.iter().map(|face| face.element.points.len());
+    let first_points = points
+        .scan(0, |next, count| Some(std::mem::replace(next, *next + count)))
+        .collect();
     Ok(System {
         accelerations: vec![[0.0; 6]; bodies.len()],
         force: vec![Vector::zero(); bodies.len()],
@@ -306,6 +310,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         gravity: Vector(gravity),
         faces: mounted_faces,
         coils: mounted_coils,
+        first_points,
         channels: parts.channels,
         layout,
         scales: error_scales,

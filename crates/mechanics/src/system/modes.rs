@@ -6,7 +6,9 @@
 //! - it starts to slip where the load of its friction law rises to [`SLIP_LOAD`], and sticks again where it falls to
 //!   [`STICK_LOAD`]. The load is |v|/v0 with tanh and |T|/(μN) with the bristle.
 
-use integrate::KinkSigns;
+use std::ops::Range;
+
+use integrate::{KinkSigns, SwitchGroup};
 
 use super::System;
 use crate::contact::View;
@@ -107,51 +109,68 @@ impl System {
             return;
         }
         self.met = true;
-        for face in &mut self.faces {
-            let kinematics = &self.kinematics[face.body];
-            if face.plain && face.points.meet_open(&face.sight, kinematics) {
-                continue;
-            }
-            let view = if face.plain {
-                View::of(&face.sight, kinematics)
-            } else {
-                View::new(&face.sight.relative(kinematics))
-            };
-            face.points.meet(&view);
+        for number in 0..self.faces.len() {
+            self.meet_face(number);
         }
     }
 
-    /// Gap and load of every point, in the order of faces and points, where [`System::meet`] was called.
+    /// The same of one face.
+    #[inline(always)]
+    fn meet_face(&mut self, number: usize) {
+        let face = &mut self.faces[number];
+        let kinematics = &self.kinematics[face.body];
+        if face.plain && face.points.meet_open(&face.sight, kinematics) {
+            return;
+        }
+        let view = if face.plain {
+            View::of(&face.sight, kinematics)
+        } else {
+            View::new(&face.sight.relative(kinematics))
+        };
+        face.points.meet(&view);
+    }
+
+    /// Gap and load of every point of a face, by their numbers among all points, once it has seen its points.
+    #[inline(always)]
+    fn face_signs(&self, number: usize, x: &[f64], mut each: impl FnMut(usize, Signs)) {
+        let [_, _, internal, _] = self.layout.split(x);
+        let face = &self.faces[number];
+        let deflections = &internal[face.first_internal..][..face.internal_count];
+        let law = usize::from(matches!(face.element.law, FrictionLaw::Bristle { .. }));
+        let first = self.first_points[number];
+        face.element.signs(&face.points, deflections, |i, gap, load| {
+            each(first + i, Signs { gap, load, law });
+        });
+    }
+
+    /// Gap and load of every point, where [`System::meet`] was called.
     #[inline(always)]
     fn signs(&self, x: &[f64], mut each: impl FnMut(usize, Signs)) {
-        let [_, _, internal, _] = self.layout.split(x);
-        let mut index = 0;
-        for face in &self.faces {
-            let deflections = &internal[face.first_internal..][..face.internal_count];
-            let law = usize::from(matches!(face.element.law, FrictionLaw::Bristle { .. }));
-            face.element.signs(&face.points, deflections, |i, gap, load| {
-                each(index + i, Signs { gap, load, law });
-            });
-            index += face.element.points.len();
+        for number in 0..self.faces.len() {
+            self.face_signs(number, x, &mut each);
         }
+    }
+
+    /// The points of a face among all points.
+    fn points_of(&self, face: usize) -> Range<usize> {
+        let first = self.first_points[face];
+        first..first + self.faces[face].element.points.len()
     }
 
     /// What foretells kinks: the gap of every point (m), and the slip of closed points over the reference speed of their law
     /// (open points and bristles: not a number).
     pub(super) fn kink_signs(&mut self, signs: &mut KinkSigns) {
         self.meet();
-        let mut index = 0;
-        for face in &self.faces {
+        for (face, first) in self.faces.iter().zip(&self.first_points) {
             let scale = match face.element.law {
                 FrictionLaw::Tanh { reference_speed } => 1.0 / reference_speed,
                 FrictionLaw::Bristle { .. } => f64::NAN,
             };
             face.points.motions(|i, gap, slip| {
-                signs.values[index + i] = gap;
+                signs.values[first + i] = gap;
                 let closed = if gap < 0.0 { scale } else { f64::NAN };
-                signs.directions[index + i] = slip.map(|part| part * closed);
+                signs.directions[first + i] = slip.map(|part| part * closed);
             });
-            index += face.element.points.len();
         }
     }
 
@@ -173,15 +192,54 @@ impl System {
         });
     }
 
-    pub(super) fn follow_mode(&mut self, x: &[f64], index: usize, mode: u8) -> u8 {
-        self.meet();
+    /// Margins of the points of one face, which depend on nothing but the bodies it touches.
+    pub(super) fn face_margins(
+        &mut self,
+        number: usize,
+        time: f64,
+        x: &[f64],
+        modes: &[u8],
+        margins: &mut [f64],
+    ) {
+        self.place_face(number, time, x);
+        self.meet_face(number);
+        self.face_signs(number, x, |i, signs| {
+            margins[i] = signs.margin(Mode::from_number(modes[i]));
+        });
+    }
+
+    pub(super) fn follow_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
+        let number = self.first_points.partition_point(|first| *first <= index) - 1;
+        self.place_face(number, time, x);
+        self.meet_face(number);
         let mut next = mode;
-        self.signs(x, |i, signs| {
+        self.face_signs(number, x, |i, signs| {
             if i == index {
                 next = signs.next(Mode::from_number(mode)) as u8;
             }
         });
         next
+    }
+
+    /// The points of each face, with the states that they depend on.
+    pub(super) fn point_groups(&self) -> Vec<SwitchGroup> {
+        let group = |number: usize| {
+            let face = &self.faces[number];
+            let mut states = Vec::new();
+            for body in face.touches(&self.free_number) {
+                let free = &self.free[body];
+                for part in [free.offset, self.layout.speeds + free.offset] {
+                    states.push(part..part + free.free.len());
+                }
+            }
+            let first = 2 * self.layout.speeds + face.first_internal;
+            states.push(first..first + face.internal_count);
+            SwitchGroup {
+                switches: self.points_of(number),
+                states,
+            }
+        };
+        (0..self.faces.len()).map(group).collect()
     }
 }
 
@@ -192,10 +250,8 @@ impl System {
     pub fn creep_speeds(&mut self, time: f64, x: &[f64], speeds: &mut [f64]) {
         self.place(time, x);
         let [_, _, internal, _] = self.layout.split(x);
-        let mut index = 0;
-        for face in &self.faces {
-            let count = face.element.points.len();
-            let target = &mut speeds[index..index + count];
+        for (number, face) in self.faces.iter().enumerate() {
+            let target = &mut speeds[self.points_of(number)];
             target.fill(0.0);
             let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
             let deflections = &internal[face.first_internal..][..face.internal_count];
@@ -207,7 +263,6 @@ impl System {
                     0.0
                 };
             });
-            index += count;
         }
     }
 }
