@@ -7,6 +7,7 @@ pub mod driven;
 pub mod outputs;
 pub mod parameters;
 pub mod quasi_static;
+pub mod resultants;
 pub mod thesis;
 
 mod assemble;

@@ -12,6 +12,7 @@ use quantity::Kind;
 
 use crate::assemble::{BOLSTER, COLUMN, SIDE_FRAME, SLOPE, WEDGE};
 use crate::parameters::{Damping, Parameters};
+use crate::resultants::Resultants;
 
 /// The names of the corners of a face, in the order of its contact points; left is +y.
 pub const CORNERS: [&str; 4] = ["lower_right", "lower_left", "upper_right", "upper_left"];
@@ -25,23 +26,6 @@ struct Scene<'s> {
     start_energy: f64,
     derived: Resultants,
     ledger: Ledger,
-}
-
-/// Resultants of the contact forces and of the coil at one instant, fixed axes, SI.
-#[derive(Clone, Copy, Debug)]
-pub struct Resultants {
-    /// Normal forces of the column along x, N: the column `longitudinal_wedge_force`.
-    pub longitudinal: f64,
-    /// Column friction as it acts on the side frame, positive up, N: `vertical_wedge_force`.
-    pub vertical: f64,
-    /// The same less the spring force of a coil on the side frame, N: `vertical_force_on_side_frame`.
-    pub vertical_on_side_frame: f64,
-    /// Moments of the contact forces of each face on the wedge, about its centre of gravity, N·m.
-    pub moments: [Vector<f64>; 2],
-    /// Net force and moment on the side frame, about the centre of its column, N and N·m.
-    pub on_side_frame: (Vector<f64>, Vector<f64>),
-    /// Net force and moment on the bolster, about the centre of its pocket, N and N·m.
-    pub on_bolster: (Vector<f64>, Vector<f64>),
 }
 
 /// The energy ledger at one instant, J.
@@ -144,7 +128,7 @@ impl Outputs {
             seen,
             modes,
             start_energy,
-            derived: Self::resultants(self.damping, system, seen),
+            derived: Resultants::seen(self.damping, system, seen),
             ledger: Self::ledger(system, seen, start_energy),
         };
         out.extend(self.values.iter().map(|value| value(&scene)));
@@ -176,60 +160,6 @@ impl Outputs {
             - ledger.contact_damping_loss
             - ledger.coil_damping_loss;
         ledger
-    }
-
-    /// The resultants at one instant, for those who need no table.
-    #[must_use]
-    pub fn resultants(damping: Damping, system: &System, seen: &Observation) -> Resultants {
-        let wedge = &seen.bodies[WEDGE];
-        let cg = wedge.center_of_gravity;
-        let mut forces = [Vector::zero(); 2];
-        let mut moments = [Vector::zero(); 2];
-        let mut vertical = 0.0;
-        for (index, face) in seen.faces.iter().enumerate() {
-            for ((place, normal), friction) in face
-                .places
-                .iter()
-                .zip(&face.normal_forces)
-                .zip(&face.friction_forces)
-            {
-                let force: Vector<f64> = *normal + *friction;
-                let arm: Vector<f64> = *place - cg;
-                forces[index] += force;
-                moments[index] += arm.cross(force);
-                if index == COLUMN {
-                    vertical -= friction.0[2];
-                }
-            }
-        }
-        let coil = &seen.coils[0];
-        let on_frame = match damping {
-            Damping::Variable => coil.spring_force.0[2],
-            Damping::Constant => 0.0,
-        };
-        let reference = [seen.faces[COLUMN].origin, seen.faces[SLOPE].origin];
-        let zero = (Vector::zero(), Vector::zero());
-        let seat = match damping {
-            Damping::Variable => 0,
-            Damping::Constant => 1,
-        };
-        let mut reactions = [zero; 2];
-        for (index, reaction) in reactions.iter_mut().enumerate() {
-            *reaction = system.reaction_about(forces[index], moments[index], cg, reference[index]);
-            if index == seat {
-                let (force, moment) =
-                    system.reaction_about(coil.force, coil.moment, wedge.origin, reference[index]);
-                *reaction = (reaction.0 + force, reaction.1 + moment);
-            }
-        }
-        Resultants {
-            longitudinal: seen.faces[COLUMN].normal_forces.iter().map(|f| f.0[0]).sum(),
-            vertical,
-            vertical_on_side_frame: vertical - on_frame,
-            moments,
-            on_side_frame: reactions[0],
-            on_bolster: reactions[1],
-        }
     }
 
     fn add(

@@ -1,7 +1,5 @@
 //! Derived quantities: everything that a state says, for outputs.
 
-use integrate::Problem;
-
 use super::System;
 use crate::coil::CoilForce;
 use crate::contact::PointContact;
@@ -113,31 +111,15 @@ impl System {
     /// Everything that the state `x` at `time` says.
     #[must_use]
     pub fn observe(&mut self, time: f64, x: &[f64]) -> Observation {
-        let mut dx = vec![0.0; x.len()];
-        self.derivative(time, x, &mut dx);
-        let mut energies = Energies::default();
+        self.place(time, x);
         let mut bodies = Vec::with_capacity(self.bodies.len());
-        for (number, body) in self.bodies.iter().enumerate() {
-            let (frame, kinematics) = (&self.frames[number].motion, &self.kinematics[number]);
-            let (coordinates, speeds) = match self.free_number[number] {
-                Some(free) => self.coordinates(&self.free[free], x),
-                None => (body.initial, [0.0; 6]),
-            };
-            let cg = kinematics.place(frame, Vector(body.center_of_gravity));
-            let (velocity, omega) = kinematics.absolute(frame, Vector::zero());
-            bodies.push(BodyPlace {
-                coordinates,
-                speeds,
-                origin: kinematics.place(frame, Vector::zero()),
-                travel: kinematics.place(frame, Vector::zero()) - Vector(body.frame.origin),
-                rotation: kinematics.orientation(frame),
-                velocity: frame.rotation.apply(velocity),
-                angular_velocity: frame.rotation.apply(omega),
-                center_of_gravity: cg,
-            });
+        self.body_places(x, &mut bodies);
+        let mut energies = Energies::default();
+        for (number, (body, place)) in self.bodies.iter().zip(&bodies).enumerate() {
             if self.free_number[number].is_some() {
+                let (frame, kinematics) = (&self.frames[number].motion, &self.kinematics[number]);
                 energies.kinetic += kinematics.kinetic_energy(body, frame);
-                energies.gravity -= body.mass * self.gravity.dot::<f64, f64>(cg);
+                energies.gravity -= body.mass * self.gravity.dot::<f64, f64>(place.center_of_gravity);
             }
         }
         let [_, _, internal, quadratures] = self.layout.split(x);
@@ -170,6 +152,30 @@ impl System {
             coils,
             energies,
             quadratures: quadratures.to_vec(),
+        }
+    }
+
+    /// Where all bodies are, once they are placed at state `x`.
+    pub(super) fn body_places(&self, x: &[f64], out: &mut Vec<BodyPlace>) {
+        out.clear();
+        for (number, body) in self.bodies.iter().enumerate() {
+            let (frame, kinematics) = (&self.frames[number].motion, &self.kinematics[number]);
+            let (coordinates, speeds) = match self.free_number[number] {
+                Some(free) => self.coordinates(&self.free[free], x),
+                None => (body.initial, [0.0; 6]),
+            };
+            let origin = kinematics.place(frame, Vector::zero());
+            let (velocity, omega) = kinematics.absolute(frame, Vector::zero());
+            out.push(BodyPlace {
+                coordinates,
+                speeds,
+                origin,
+                travel: origin - Vector(body.frame.origin),
+                rotation: kinematics.orientation(frame),
+                velocity: frame.rotation.apply(velocity),
+                angular_velocity: frame.rotation.apply(omega),
+                center_of_gravity: kinematics.place(frame, Vector(body.center_of_gravity)),
+            });
         }
     }
 

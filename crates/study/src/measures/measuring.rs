@@ -4,8 +4,9 @@ use std::cell::RefCell;
 
 use integrate::Integrator;
 use mechanics::quasi_static::Direction;
-use mechanics::system::System;
+use mechanics::system::{Loads, System};
 use wedge::outputs::{FACES, Outputs};
+use wedge::resultants::Resultants;
 use wedge::{BOLSTER, Wedge};
 
 use super::clock::ContactClock;
@@ -110,6 +111,7 @@ pub(crate) struct Measuring {
     next_row: u64,
     rows: u64,
     buffer: Vec<f64>,
+    loads: Loads,
     /// Sums and counts of the branches: down, up.
     sums: [[f64; 4]; 2],
     counts: [u64; 2],
@@ -145,6 +147,7 @@ impl Measuring {
             next_row: 0,
             rows: row_count(duration, interval),
             buffer: start,
+            loads: Loads::default(),
             sums: [[0.0; 4]; 2],
             counts: [0; 2],
             peaks: [0.0; 6],
@@ -200,12 +203,10 @@ impl Measuring {
     }
 
     fn observe_row(&mut self, time: f64) {
-        let seen = self.wedge.system.observe(time, &self.buffer);
-        let found = Outputs::resultants(self.wedge.parameters.damping, &self.wedge.system, &seen);
-        let (displacement, speed) = (
-            seen.bodies[BOLSTER].travel.0[2],
-            seen.bodies[BOLSTER].velocity.0[2],
-        );
+        self.wedge.system.loads(time, &self.buffer, &mut self.loads);
+        let found = Resultants::of(self.wedge.parameters.damping, &self.wedge.system, &self.loads);
+        let bolster = &self.loads.bodies[BOLSTER];
+        let (displacement, speed) = (bolster.travel.0[2], bolster.velocity.0[2]);
         let moments = found.moments.iter().flat_map(|moment| moment.0);
         let moments = moments.take(if time >= self.peaks_from { 6 } else { 0 });
         for (peak, moment) in self.peaks.iter_mut().zip(moments) {

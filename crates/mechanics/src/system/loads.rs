@@ -1,0 +1,146 @@
+//! What the elements do to the bodies that they carry, along fixed axes: the forces of the right-hand side, where these are all that is
+//! wanted of many states.
+//!
+//! [`System::observe`] says the same of every point, and all energies, at four times the cost. Nothing is allocated after the first use of
+//! [`Loads`].
+
+use super::forces::Element;
+use super::observe::{BodyPlace, CoilState, FaceState};
+use super::{Mounted, System};
+use crate::link::{Effect, Relative};
+use crate::vector::Vector;
+
+/// What a face does to the body that it carries (SI, fixed axes).
+#[derive(Clone, Copy, Debug)]
+pub struct FaceLoad {
+    /// Normal force.
+    pub normal: Vector<f64>,
+    /// Friction force.
+    pub friction: Vector<f64>,
+    /// Moment of both about the body's centre of gravity.
+    pub moment: Vector<f64>,
+    /// Position of the face's origin.
+    pub origin: Vector<f64>,
+}
+
+/// What a coil does to the body that it carries (SI, fixed axes).
+#[derive(Clone, Copy, Debug)]
+pub struct CoilLoad {
+    /// The spring's part of the force.
+    pub spring: Vector<f64>,
+    /// The force.
+    pub force: Vector<f64>,
+    /// The moment about the body's origin.
+    pub moment: Vector<f64>,
+}
+
+/// Where all bodies are, and what acts on those that elements carry.
+#[derive(Clone, Debug, Default)]
+pub struct Loads {
+    /// All bodies.
+    pub bodies: Vec<BodyPlace>,
+    /// All faces.
+    pub faces: Vec<FaceLoad>,
+    /// All coils.
+    pub coils: Vec<CoilLoad>,
+    /// Rates of the internal states of a face, which nobody wants.
+    rates: Vec<f64>,
+}
+
+impl FaceState {
+    /// The same as [`System::loads`] says, by sums over the points; `center` is the centre of gravity of the carried body.
+    #[must_use]
+    pub fn load(&self, center: Vector<f64>) -> FaceLoad {
+        let mut load = FaceLoad {
+            normal: Vector::zero(),
+            friction: Vector::zero(),
+            moment: Vector::zero(),
+            origin: self.origin,
+        };
+        let forces = self.normal_forces.iter().zip(&self.friction_forces);
+        for (place, (normal, friction)) in self.places.iter().zip(forces) {
+            let (force, arm): (Vector<f64>, Vector<f64>) = (*normal + *friction, *place - center);
+            load.normal += *normal;
+            load.friction += *friction;
+            load.moment += arm.cross(force);
+        }
+        load
+    }
+}
+
+impl CoilState {
+    /// The same as [`System::loads`] says.
+    #[must_use]
+    pub fn load(&self) -> CoilLoad {
+        CoilLoad {
+            spring: self.spring_force,
+            force: self.force,
+            moment: self.moment,
+        }
+    }
+}
+
+impl System {
+    /// What all elements do to the bodies that they carry at `time` and state `x`.
+    pub fn loads(&mut self, time: f64, x: &[f64], out: &mut Loads) {
+        self.place(time, x);
+        self.body_places(x, &mut out.bodies);
+        let [_, _, internal, _] = self.layout.split(x);
+        out.faces.clear();
+        for number in 0..self.faces.len() {
+            let mounted = &mut self.faces[number];
+            let kinematics = &self.kinematics[mounted.body];
+            let internal = &internal[mounted.first_internal..][..mounted.internal_count];
+            out.rates.clear();
+            out.rates.resize(mounted.internal_count, 0.0);
+            let effect = if mounted.plain {
+                let seen = (&mounted.sight, kinematics);
+                mounted
+                    .element
+                    .act_from(&mut mounted.points, seen, internal, &mut out.rates)
+                    .unwrap_or(Effect {
+                        force: Vector::zero(),
+                        moment: Vector::zero(),
+                        powers: [0.0; 2],
+                    })
+            } else {
+                let relative: Relative<f64> = mounted.sight.relative(kinematics);
+                mounted
+                    .element
+                    .act(&mut mounted.points, &relative, internal, &mut out.rates)
+            };
+            let mounted = &self.faces[number];
+            let [normal, first, second] = effect.force.0;
+            let normal = self.along_fixed_axes(mounted, Vector([normal, 0.0, 0.0]));
+            let friction = self.along_fixed_axes(mounted, Vector([0.0, first, second]));
+            let body = &out.bodies[mounted.body];
+            let lever: Vector<f64> = body.center_of_gravity - body.origin;
+            let moment: Vector<f64> = body.rotation.apply(effect.moment);
+            let (frame, seat) = (&self.frames[mounted.on].motion, &self.kinematics[mounted.on]);
+            out.faces.push(FaceLoad {
+                normal,
+                friction,
+                moment: moment - lever.cross::<f64, f64>(normal + friction),
+                origin: seat.place(frame, mounted.mount.origin),
+            });
+        }
+        self.met = true;
+        out.coils.clear();
+        for mounted in &self.coils {
+            let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
+            let coil = mounted.element.evaluate(&relative);
+            out.coils.push(CoilLoad {
+                spring: self.along_fixed_axes(mounted, coil.spring_force),
+                force: self.along_fixed_axes(mounted, coil.force),
+                moment: self.along_fixed_axes(mounted, coil.moment),
+            });
+        }
+    }
+
+    /// A vector from the axes of an element's mount to fixed axes.
+    #[inline(always)]
+    fn along_fixed_axes<E>(&self, mounted: &Mounted<E>, vector: Vector<f64>) -> Vector<f64> {
+        let own: Vector<f64> = mounted.sight.rotation.apply_transposed(vector);
+        self.frames[mounted.body].motion.rotation.apply(own)
+    }
+}
