@@ -127,9 +127,9 @@ impl Switches {
             self.forget();
         }
         statistics.events += self.events.len() as u64;
-        // groups one after the other, each in the order of time
-        self.events
-            .sort_unstable_by(|a, b| a.time.total_cmp(&b.time).then(a.index.cmp(&b.index)));
+        if self.groups.len() > 1 {
+            in_order(&mut self.events);
+        }
     }
 
     /// Finds the changes of all groups.
@@ -165,14 +165,12 @@ impl Switches {
             } else {
                 self.evaluate(problem, dense, number, 1.0);
             }
-            let group = if self.resolve(problem, dense, number, 1.0, maximum)? {
+            let known = self.resolve(problem, dense, number, 1.0, maximum)?;
+            if known {
                 let switches = self.groups[number].switches.clone();
                 self.at_start[switches.clone()].copy_from_slice(&self.margins[switches]);
-                true
-            } else {
-                false
-            };
-            self.groups[number].start_known = group;
+            }
+            self.groups[number].start_known = known;
         }
         Ok(())
     }
@@ -349,6 +347,17 @@ impl Group {
             from: 0.0,
             start_known: false,
             end_known: false,
+        }
+    }
+}
+
+/// Brings the changes of all groups into the order of time; those of the same instant stay as they are. (Few are out of order.)
+fn in_order(events: &mut [Event]) {
+    for end in 1..events.len() {
+        let mut at = end;
+        while at > 0 && events[at - 1].time > events[at].time {
+            events.swap(at - 1, at);
+            at -= 1;
         }
     }
 }

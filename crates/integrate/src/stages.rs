@@ -185,23 +185,8 @@ impl Dense<'_> {
             return;
         }
         let weights = self.weights(theta);
-        let weights = &weights[..self.tableau.stages()];
-        let theta = f64x4::splat(theta);
         for part in parts {
-            let out = &mut out[part.clone()];
-            let (x0, x1) = (&self.x0[part.clone()], &self.x1[part.clone()]);
-            let stages = &self.stages[part.start..];
-            combine(out, x0, 1.0, weights, stages, self.x0.len());
-            for ((out, x0), x1) in out
-                .as_chunks_mut::<LANES>()
-                .0
-                .iter_mut()
-                .zip(x0.as_chunks::<LANES>().0)
-                .zip(x1.as_chunks::<LANES>().0)
-            {
-                let change = f64x4::new(*x1) - f64x4::new(*x0);
-                *out = (f64x4::new(*out) + theta * change).to_array();
-            }
+            self.add_up(theta, &weights, part.start, &mut out[part.clone()]);
         }
     }
 
@@ -211,14 +196,35 @@ impl Dense<'_> {
             out.copy_from_slice(&self.x1[first..][..out.len()]);
             return;
         }
+        let (groups, rest) = out.split_at_mut(out.len() / LANES * LANES);
         let weights = self.weights(theta);
-        for (k, out) in (first..).zip(out) {
+        self.add_up(theta, &weights, first, groups);
+        for (k, out) in (first + groups.len()..).zip(rest) {
             let column = self.stages[k..].iter().step_by(self.x0.len());
             let mut terms = column.zip(&weights).map(|(stage, weight)| stage * weight);
             let sum = terms
                 .next()
                 .map_or(0.0, |first| terms.fold(first, |sum, term| sum + term));
             *out = self.x0[k] + sum + theta * (self.x1[k] - self.x0[k]);
+        }
+    }
+
+    /// States `first ..`, as many as `out` takes, a multiple of [`LANES`], by the weights of the stages there.
+    #[inline(always)]
+    fn add_up(&self, theta: f64, weights: &[f64; MAXIMUM_STAGES], first: usize, out: &mut [f64]) {
+        let weights = &weights[..self.tableau.stages()];
+        let (x0, x1) = (&self.x0[first..], &self.x1[first..]);
+        combine(out, x0, 1.0, weights, &self.stages[first..], self.x0.len());
+        let theta = f64x4::splat(theta);
+        for ((out, x0), x1) in out
+            .as_chunks_mut::<LANES>()
+            .0
+            .iter_mut()
+            .zip(x0.as_chunks::<LANES>().0)
+            .zip(x1.as_chunks::<LANES>().0)
+        {
+            let change = f64x4::new(*x1) - f64x4::new(*x0);
+            *out = (f64x4::new(*out) + theta * change).to_array();
         }
     }
 

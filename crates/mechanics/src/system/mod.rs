@@ -67,6 +67,9 @@ pub mod scales {
     /// by tanh, speeds are held to its reference speed instead (of a point 0.1 m from the axis, if they are angular) while a point sticks
     /// or is about to; while all of them slide, to a twentieth of the slowest slip. With more a wedge slides to and fro by the integrator's own
     /// errors, each of them admissible: steps follow the reversals, and the run is slower and wrong.
+    ///
+    /// Not held to it are coordinates along which no gap changes, those of a mass that can only slide along its plane, say: there an error
+    /// does not press on a stiff contact. (Speeds are held to the reference speed there too.)
     pub const WIDEST_TOLERANCE: f64 = 1e-5;
 }
 

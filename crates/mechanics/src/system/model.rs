@@ -279,7 +279,11 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             };
         }
     }
-    let (error_bounds, layer_bounds) = error_bounds(&error_scales, layout, &mounted_faces);
+    let presses: Vec<bool> = free
+        .iter()
+        .flat_map(|free| presses(free, &mounted_faces, &frames))
+        .collect();
+    let (error_bounds, layer_bounds) = error_bounds(&error_scales, layout, &mounted_faces, &presses);
     let moves = frames.iter().any(|frame| !frame.fixed);
     let plain = mounted_faces.iter().all(|m| m.plain) && mounted_coils.iter().all(|m| m.plain);
     let bounded = plain
@@ -357,11 +361,36 @@ fn frame_state(frame: &Frame) -> FrameState {
     }
 }
 
+/// A normal whose part along a coordinate is smaller than this is perpendicular to it: by rounding alone it has one.
+const ALONG: f64 = 1e-12;
+
+/// Of each coordinate of a free body, whether gaps change with it: not along faces that it cannot turn on.
+fn presses<'f>(
+    free: &'f FreeBody,
+    faces: &'f [Mounted<ContactFace<Plane>>],
+    frames: &'f [FrameState],
+) -> impl Iterator<Item = bool> + 'f {
+    let turns = free.free.len() > free.translations;
+    let may = move |coordinate: usize, face: &Mounted<ContactFace<Plane>>| {
+        let straight = !face.on_free
+            && [face.body, face.on].iter().all(|&end| {
+                let frame = &frames[end];
+                frame.fixed || frame.keeps_orientation
+            });
+        turns || !straight || face.sight.rotation.0[0][coordinate].abs() > ALONG
+    };
+    let own = free.faces.iter().map(|&face| &faces[face]);
+    free.free
+        .iter()
+        .map(move |&coordinate| own.clone().any(|face| may(coordinate, face)))
+}
+
 /// The widest admissible errors of positions and speeds, and those of speeds where a point sticks: see [`scales::WIDEST_TOLERANCE`].
 fn error_bounds(
     error_scales: &[f64],
     layout: Layout,
     faces: &[Mounted<ContactFace<Plane>>],
+    presses: &[bool],
 ) -> (Vec<f64>, Vec<f64>) {
     let mut reference = f64::INFINITY;
     let mut tanh_alone = !faces.is_empty();
@@ -377,14 +406,21 @@ fn error_bounds(
         scales::WIDEST_TOLERANCE
     };
     let in_layers = scales::WIDEST_TOLERANCE.min(reference / scales::VELOCITY);
-    let bounds = |of_positions: f64, of_speeds: f64| {
-        let [q, u, ..] = layout.split(error_scales);
-        let positions = q.iter().map(|scale| scale * of_positions);
-        positions.chain(u.iter().map(|scale| scale * of_speeds)).collect()
+    let [q, u, ..] = layout.split(error_scales);
+    let where_pressed = |scales: &[f64], bound: f64| -> Vec<f64> {
+        let bounds = scales.iter().zip(presses);
+        bounds
+            .map(|(scale, presses)| if *presses { scale * bound } else { f64::INFINITY })
+            .collect()
     };
+    let in_layers = u.iter().map(|scale| scale * in_layers);
     (
-        bounds(scales::WIDEST_TOLERANCE, of_speeds),
-        bounds(f64::INFINITY, in_layers),
+        [
+            where_pressed(q, scales::WIDEST_TOLERANCE),
+            where_pressed(u, of_speeds),
+        ]
+        .concat(),
+        q.iter().map(|_| f64::INFINITY).chain(in_layers).collect(),
     )
 }
 

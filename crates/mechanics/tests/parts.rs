@@ -1,0 +1,247 @@
+//! What is asked of a part of a system, or for a part of the answer, is what the whole says.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+use common::{ALL, Random, UP, body, coil, face, ground, model};
+use integrate::Problem;
+use mechanics::body::Body;
+use mechanics::frame::Frame;
+use mechanics::friction::FrictionLaw;
+use mechanics::link::Mount;
+use mechanics::motion::Motion;
+use mechanics::system::{Loads, Model, System};
+use mechanics::vector::Vector;
+
+const TANH: FrictionLaw = FrictionLaw::Tanh {
+    reference_speed: 0.01,
+};
+const BRISTLE: FrictionLaw = FrictionLaw::Bristle {
+    stiffness: 1e4,
+    damping: 20.0,
+};
+
+const CORNERS: [[f64; 3]; 5] = [
+    [0.1, 0.1, 0.0],
+    [0.1, -0.1, 0.0],
+    [-0.1, 0.1, 0.0],
+    [-0.1, -0.1, 0.0],
+    [0.0, 0.0, 0.0],
+];
+
+/// Two free bodies one upon the other on a base that moves, and turns if it is to.
+fn tower(turns: bool, law: FrictionLaw) -> Model {
+    let sine = |amplitude, angular_frequency| Motion::Sine {
+        amplitude,
+        angular_frequency,
+        phase: 0.4,
+    };
+    let mut frame = Frame::fixed([0.1, 0.0, -0.1], [0.2, -0.1, 0.3]);
+    frame.motions[0] = sine(0.01, 11.0);
+    frame.motions[2] = sine(0.002, 7.0);
+    if turns {
+        frame.motions[4] = sine(0.01, 5.0);
+    }
+    let lower = body("lower", 5.0, [0.03, 0.05, 0.07], [0.01, 0.0, 0.1], ALL, [0.0; 6]);
+    let upper = body(
+        "upper",
+        2.0,
+        [0.03, 0.04, 0.02],
+        [0.0, -0.02, 0.1],
+        ALL,
+        [0.0, 0.0, 0.2, 0.0, 0.0, 0.0],
+    );
+    let mut model = model(
+        vec![lower, upper, Body::prescribed("base", frame)],
+        [0.0, 0.0, -9.81],
+    );
+    for (carried, on, height, damping) in [(0, 2, 0.1, 100.0), (1, 0, 0.2, 0.0), (1, 2, 0.15, 0.0)] {
+        let one = face("face", &CORNERS, 1e5, damping, 0.3, law);
+        model
+            .faces
+            .push((carried, on, Mount::new([0.0, 0.0, height], UP), one));
+        let mut spring = coil([0.0, 0.05, 0.1], [0.0, 0.05, 0.1], 600.0, 0.5);
+        (spring.damping, spring.rotational_damping) = (3.0, 0.05);
+        model.coils.push((
+            carried,
+            on,
+            Mount::new([0.0, 0.1, -0.4], [0.2, 0.1, -0.1]),
+            spring,
+        ));
+    }
+    model
+}
+
+/// A body on a base that moves without turning: all that is known of such an element is used.
+fn plain(law: FrictionLaw) -> Model {
+    let mut model = tower(false, law);
+    model.bodies[1].free = [false; 6];
+    model.bodies[0].frame.orientation = [0.1, 0.2, -0.1];
+    model.faces.retain(|(carried, on, ..)| (*carried, *on) == (0, 2));
+    model.coils.retain(|(carried, on, ..)| (*carried, *on) == (0, 2));
+    model
+}
+
+fn models() -> Vec<System> {
+    [TANH, BRISTLE]
+        .into_iter()
+        .flat_map(|law| [tower(false, law), tower(true, law), plain(law)])
+        .map(|model| System::new(model).unwrap())
+        .collect()
+}
+
+/// A state near the start: some points closed, some open.
+fn state(system: &System, random: &mut Random) -> Vec<f64> {
+    let mut x = system.initial_state();
+    let layout = system.layout();
+    for i in 0..layout.speeds {
+        x[i] += random.between(-0.05, 0.05);
+        x[layout.speeds + i] = random.between(-0.05, 0.05);
+    }
+    for value in &mut x[2 * layout.speeds..2 * layout.speeds + layout.internals] {
+        *value = random.between(-1e-3, 1e-3);
+    }
+    x
+}
+
+#[test]
+fn limits_margins_of_a_face_depend_on_the_states_of_its_group_alone() {
+    let mut random = Random(5);
+    let mut closed = [0, 0];
+    for mut system in models() {
+        let groups = system.switch_groups();
+        let count = system.switch_count();
+        assert!(
+            groups
+                .iter()
+                .flat_map(|group| group.switches.clone())
+                .eq(0..count)
+        );
+        for _ in 0..60 {
+            let (x, time) = (state(&system, &mut random), random.between(0.0, 1.0));
+            let modes: Vec<u8> = (0..count).map(|_| random.between(0.0, 3.0) as u8).collect();
+            let mut expected = vec![0.0; count];
+            system.clone().margins(time, &x, &modes, &mut expected);
+            for (number, group) in groups.iter().enumerate() {
+                // What it does not depend on is not even a number.
+                let mut own = vec![f64::NAN; x.len()];
+                for part in &group.states {
+                    own[part.clone()].copy_from_slice(&x[part.clone()]);
+                }
+                let mut found = vec![7.0; count];
+                system.group_margins(number, time, &own, &modes, &mut found);
+                for i in 0..count {
+                    let expected = if group.switches.contains(&i) {
+                        expected[i]
+                    } else {
+                        7.0
+                    };
+                    assert_eq!(
+                        found[i].to_bits(),
+                        expected.to_bits(),
+                        "switch {i} of group {number}"
+                    );
+                }
+                for i in group.switches.clone() {
+                    let next = system.next_mode(time, &own, i, modes[i]);
+                    assert_eq!(next, system.clone().next_mode(time, &x, i, modes[i]));
+                }
+            }
+            // What follows does not see what was asked before.
+            let mut again = vec![0.0; count];
+            system.margins(time, &x, &modes, &mut again);
+            assert!(
+                again
+                    .iter()
+                    .zip(&expected)
+                    .all(|(a, b)| a.to_bits() == b.to_bits())
+            );
+            let open = vec![0; count];
+            system.margins(time, &x, &open, &mut again);
+            for gap in again {
+                closed[usize::from(gap < 0.0)] += 1;
+            }
+        }
+    }
+    assert!(
+        closed.iter().all(|count| *count > 300),
+        "{closed:?} points open and closed"
+    );
+}
+
+#[test]
+fn limits_loads_are_the_sums_over_the_points() {
+    let mut random = Random(6);
+    let mut loads = Loads::default();
+    let mut pressed = 0;
+    for mut system in models() {
+        for _ in 0..60 {
+            let (x, time) = (state(&system, &mut random), random.between(0.0, 1.0));
+            let seen = system.clone().observe(time, &x);
+            system.loads(time, &x, &mut loads);
+            assert_eq!(
+                (loads.faces.len(), loads.coils.len()),
+                (seen.faces.len(), seen.coils.len())
+            );
+            let close = |a: Vector<f64>, b: Vector<f64>, size: f64| {
+                let apart = (a - b).0.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+                assert!(apart <= 1e-11 * size, "{a:?} instead of {b:?}");
+            };
+            for (number, face) in loads.faces.iter().enumerate() {
+                let body = &seen.bodies[system.faces()[number].body];
+                let expected = seen.faces[number].load(body.center_of_gravity);
+                let size = 1.0 + expected.normal.dot::<f64, f64>(expected.normal).sqrt();
+                close(face.normal, expected.normal, size);
+                close(face.friction, expected.friction, size);
+                close(face.moment, expected.moment, size);
+                close(face.origin, expected.origin, 1.0);
+                pressed += u32::from(size > 2.0);
+            }
+            for (coil, seen) in loads.coils.iter().zip(&seen.coils) {
+                let (expected, size) = (seen.load(), 1e3);
+                close(coil.spring, expected.spring, size);
+                close(coil.force, expected.force, size);
+                close(coil.moment, expected.moment, size);
+            }
+            for (body, seen) in loads.bodies.iter().zip(&seen.bodies) {
+                close(body.travel, seen.travel, 1.0);
+                close(body.velocity, seen.velocity, 1.0);
+            }
+        }
+    }
+    assert!(pressed > 300, "{pressed} faces under load");
+}
+
+#[test]
+fn input_what_presses_on_a_contact_is_held_to_a_bound() {
+    let bounds = |free: [bool; 6], orientation: [f64; 3], law: FrictionLaw| {
+        let mut one = body("one", 1.0, [1.0; 3], [0.0; 3], free, [0.0; 6]);
+        one.frame = Frame::fixed([0.0; 3], orientation);
+        let mut model = model(vec![one, ground()], [0.0; 3]);
+        let floor = face("floor", &CORNERS, 1e5, 0.0, 0.3, law);
+        model.faces.push((0, 1, Mount::new([0.0; 3], UP), floor));
+        let system = System::new(model).unwrap();
+        let held: Vec<bool> = system
+            .error_bounds()
+            .iter()
+            .map(|bound| bound.is_finite())
+            .collect();
+        let in_layers = system.layer_bounds().iter().map(|bound| bound.is_finite());
+        (held, in_layers.collect::<Vec<bool>>())
+    };
+    let (along, up) = (
+        [true, false, false, false, false, false],
+        [true, false, true, false, false, false],
+    );
+    let turning = [true, false, false, false, true, false];
+    // Along the floor alone: positions are not held, speeds to the reference speed of tanh.
+    assert_eq!(bounds(along, [0.0; 3], TANH), (vec![false; 2], vec![false, true]));
+    assert_eq!(bounds(along, [0.0; 3], BRISTLE).0, [false; 2]);
+    // Up and down as well: the height is; with bristles its speed, too.
+    assert_eq!(bounds(up, [0.0; 3], TANH).0, [false, true, false, false]);
+    assert_eq!(bounds(up, [0.0; 3], BRISTLE).0, [false, true, false, true]);
+    // Where the body's axes stand across, or turn, all are.
+    assert_eq!(bounds(up, [0.0, 0.3, 0.0], TANH).0, [true, true, false, false]);
+    assert_eq!(bounds(turning, [0.0; 3], TANH).0, [true, true, false, false]);
+    assert_eq!(bounds(turning, [0.0; 3], BRISTLE).0, [true; 4]);
+}
