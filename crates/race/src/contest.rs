@@ -69,7 +69,7 @@ pub const SOLVERS: &[Solver] = &[
         method: "rodas5p",
         ours: true,
         span: 10.0,
-        options: "defaults (all quadratures of the energy ledger, contact modes located, kinks foreseen; positions and speeds held to 1e-5 of their \
+        options: "defaults (all quadratures of the energy ledger, contact modes located, kinks foreseen; a wedge's positions and speeds held to 1e-5 of their \
                   scales where a wider tolerance is asked for)",
     },
     Solver {

@@ -17,7 +17,7 @@ Read this first.
 - All solvers but one (the last of these points) get the same compiled right-hand side and the same analytic Jacobian matrix; SciPy and
   Octave call them from their languages, which is where most of their time goes. Others integrate positions, speeds, bristles and one energy; ours integrates all
   energies of the ledger and locates changes of contact besides. Its Rosenbrock methods alone are told where contacts open and close and where slip
-  reverses, and end their steps there, and they hold speeds to the reference speed of friction (0.001 in/s, where a point sticks) and positions to 1e-6 m where a wider tolerance
+  reverses, and end their steps there, and they hold speeds to the reference speed of friction (0.001 in/s, where a point sticks) and the wedge's positions to 1e-6 m where a wider tolerance
   is asked for: from 1e-3 to 1e-5 they do more than the others are asked to. Its TR-BDF2 does neither; the tolerance holds for its
   displacements alone.
 - The compiled solvers run at 3e-4, 3e-5, ... 3e-8 besides the decades of tolerance.
