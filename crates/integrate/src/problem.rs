@@ -155,7 +155,7 @@ pub trait Problem {
     fn switch_groups(&self) -> Vec<SwitchGroup> {
         let all = SwitchGroup {
             switches: 0..self.switch_count(),
-            states: vec![0..self.read_states()],
+            states: std::iter::once(0..self.read_states()).collect(),
         };
         vec![all]
     }
