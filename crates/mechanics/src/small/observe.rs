@@ -3,7 +3,7 @@
 use integrate::Problem;
 
 use super::forces::{SpatialLaw, deflection_at};
-use super::law::wedge::WedgeState;
+use super::law::wedge::{WedgeLaw, WedgeState};
 use super::{Grip, Spatial, System};
 use crate::system::Mode;
 
@@ -125,6 +125,31 @@ impl System {
         }
     }
 
+    /// The power of each wedge's friction on its column at `time` and state `x`, W, with the number of its connection: what
+    /// [`System::observe`] says of it, without all the rest.
+    pub fn column_powers(&mut self, time: f64, x: &[f64], mut each: impl FnMut(usize, f64)) {
+        self.place(time, x);
+        let [_, _, internal, _] = self.layout.split(x);
+        for wedge in &self.wedges {
+            let (inside, rates) = self.inside(wedge, internal);
+            each(wedge.site.connection, -inside.column_friction * rates[0]);
+        }
+    }
+
+    /// What a wedge does inside, and the rates of its strokes.
+    fn inside(&self, wedge: &Spatial<WedgeLaw>, internal: &[f64]) -> (WedgeState, [f64; 3]) {
+        let site = &wedge.site;
+        let (strokes, rates) = (site.strokes(&self.positions), site.strokes(&self.rates));
+        let deflection = deflection_at(wedge.internal, internal);
+        let mut inside = WedgeState::default();
+        wedge
+            .law
+            .evaluate_with(strokes, rates, deflection, self.grips.wedges, |seen| {
+                inside = seen;
+            });
+        (inside, rates)
+    }
+
     /// All connections; adds their energies.
     fn connections(&self, internal: &[f64], energies: &mut Energies) -> Vec<ConnectionState> {
         let connections = self.model.connections.iter();
@@ -182,17 +207,8 @@ impl System {
         for wedge in &self.wedges {
             let state = &mut all[wedge.site.connection];
             self.fill(wedge, self.grips.wedges, internal, state);
-            let (strokes, rates) = (
-                wedge.site.strokes(&self.positions),
-                wedge.site.strokes(&self.rates),
-            );
+            let (inside, _) = self.inside(wedge, internal);
             let deflection = deflection_at(wedge.internal, internal);
-            let mut inside = WedgeState::default();
-            wedge
-                .law
-                .evaluate_with(strokes, rates, deflection, self.grips.wedges, |seen| {
-                    inside = seen
-                });
             let coil = wedge.law.energy(inside.coil_stroke);
             let held = wedge.law.accumulator.energy(deflection);
             state.wedge = Some(inside);

@@ -3,12 +3,12 @@
 use std::f64::consts::PI;
 
 use mechanics::quasi_static::{Direction, QuasiStaticWedge};
-use mechanics::small::{Accumulator, Branch, Column, Curve, Law, Options, SlopeDirection};
+use mechanics::small::{Accumulator, Branch, Column, Curve, Law, Options, SlopeDirection, System};
 use mechanics::system::Mode;
 
 use crate::analytic::{close, plain};
 use crate::common::Random;
-use crate::half_truck::{INCH, LBF, LBF_PER_INCH, straight, wedge};
+use crate::half_truck::{self, INCH, LBF, LBF_PER_INCH, straight, wedge};
 use crate::models::{against_ground, at, at_deflection, wedge_at};
 
 /// N/F_s for μ = 0.4: the numbers of a hand calculation.
@@ -329,4 +329,38 @@ fn the_branch_by_velocity() {
         close(state.column_normal / LBF, expected, 0.05);
         close(state.column_friction / LBF, 1000.0 - 1e3 * v / INCH, 1e-6);
     }
+}
+
+/// What runs sum up step by step is what an observation says.
+#[test]
+fn column_powers_are_those_observed() {
+    let mut random = Random(12);
+    let (mut given, mut taken) = (0, 0);
+    for (constant, spatial) in [(true, true), (false, true), (true, false), (false, false)] {
+        let mut system = System::new(half_truck::model(constant, spatial)).unwrap();
+        let layout = system.layout();
+        for _ in 0..40 {
+            let mut x = system.initial_state();
+            for i in 0..layout.speeds {
+                x[i] = random.between(-0.02, 0.01);
+                x[layout.speeds + i] = random.between(-0.2, 0.2);
+            }
+            for value in &mut x[2 * layout.speeds..][..layout.internals] {
+                *value = random.between(-1e-3, 1e-3);
+            }
+            let time = random.between(0.0, 2.0);
+            let seen = system.clone().observe(time, &x);
+            let expected = seen.connections.iter().enumerate().filter_map(|(number, own)| {
+                let wedge = own.wedge?;
+                Some((number, -wedge.column_friction * own.velocities[0]))
+            });
+            let mut found = Vec::new();
+            system.column_powers(time, &x, |connection, power| found.push((connection, power)));
+            found.sort_by_key(|(connection, _)| *connection);
+            assert!(found.iter().copied().eq(expected), "{found:?}");
+            given += found.iter().filter(|(_, power)| *power > 0.0).count();
+            taken += found.iter().filter(|(_, power)| *power < 0.0).count();
+        }
+    }
+    assert!(given > 30 && taken > 30, "{given} and {taken} powers");
 }

@@ -183,11 +183,12 @@ impl Works {
         }
         for (time, powers) in [from, 0.5 * (from + to), to].into_iter().zip(&mut self.powers) {
             integrator.interpolate_range(time, 0, buffer);
-            let seen = system.observe(time, buffer);
-            for (place, power) in self.wedges.iter().zip(powers) {
-                let own = &seen.connections[*place];
-                *power = -own.wedge.map_or(0.0, |wedge| wedge.column_friction) * own.velocities[0];
-            }
+            let wedges = &self.wedges;
+            system.column_powers(time, buffer, |connection, power| {
+                if let Some(index) = wedges.iter().position(|own| *own == connection) {
+                    powers[index] = power;
+                }
+            });
         }
         let [a, b, c] = &self.powers;
         for (index, work) in self.works.iter_mut().enumerate() {
