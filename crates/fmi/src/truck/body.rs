@@ -217,6 +217,10 @@ impl Problem for Loaded {
         self.system.dimension()
     }
 
+    fn read_states(&self) -> usize {
+        self.system.read_states()
+    }
+
     fn scales(&self) -> &[f64] {
         self.system.scales()
     }

@@ -284,6 +284,10 @@ impl Problem for System {
         self.layout.len()
     }
 
+    fn read_states(&self) -> usize {
+        self.layout.len() - self.layout.quadratures
+    }
+
     fn displacements(&self) -> usize {
         self.layout.speeds
     }
