@@ -13,6 +13,7 @@ mod loads;
 mod model;
 mod modes;
 mod observe;
+mod place;
 mod placer;
 mod rows;
 mod sense;
@@ -25,9 +26,9 @@ use integrate::{KinkSigns, Problem, Singular, SwitchGroup};
 use crate::body::{Body, Kinematics, Rigid};
 use crate::coil::Coil;
 use crate::contact::ContactFace;
-use crate::frame::{Frame, FrameMotion};
+use crate::frame::FrameMotion;
 use crate::friction::FrictionLaw;
-use crate::link::{Mount, Sight};
+use crate::link::Mount;
 use crate::surface::Plane;
 use crate::vector::Vector;
 
@@ -244,112 +245,6 @@ impl System {
             (coordinates[*k], speeds[*k]) = (*q, *u);
         }
         (coordinates, speeds)
-    }
-
-    /// Brings frames, sights and the kinematics of all free bodies to `time` and state `x`.
-    #[inline]
-    fn place(&mut self, time: f64, x: &[f64]) {
-        let again = time != self.frames_at;
-        let own = &x[..2 * self.layout.speeds];
-        let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
-        if !again && own.iter().zip(&self.placed).all(same) {
-            return;
-        }
-        self.placed.copy_from_slice(own);
-        self.met = false;
-        self.frames_at = time;
-        if self.moves && again {
-            for number in 0..self.frames.len() {
-                self.place_frame(number, time);
-            }
-        }
-        for number in 0..self.free.len() {
-            self.place_free(number, x);
-        }
-        for mounted in &mut self.faces {
-            sight(mounted, &self.frames, &self.kinematics, again);
-        }
-        for mounted in &mut self.coils {
-            sight(mounted, &self.frames, &self.kinematics, again);
-        }
-    }
-
-    /// Brings what one face sees to `time` and state `x`, and nothing else.
-    #[inline]
-    fn place_face(&mut self, number: usize, time: f64, x: &[f64]) {
-        // the next one to place everything does so anew
-        self.frames_at = f64::NAN;
-        for body in [self.faces[number].body, self.faces[number].on] {
-            self.place_frame(body, time);
-            if let Some(free) = self.free_number[body] {
-                self.place_free(free, x);
-            }
-        }
-        sight(&mut self.faces[number], &self.frames, &self.kinematics, true);
-    }
-
-    /// Brings a body's reference frame to `time`.
-    #[inline(always)]
-    fn place_frame(&mut self, number: usize, time: f64) {
-        let (body, state) = (&self.bodies[number], &mut self.frames[number]);
-        if state.fixed {
-            return;
-        }
-        if state.keeps_orientation {
-            state.translate(&body.frame, time, self.reference);
-        } else {
-            state.motion = body.frame.evaluate(time, self.reference);
-        }
-    }
-
-    /// Brings the kinematics of a free body to state `x`.
-    #[inline(always)]
-    fn place_free(&mut self, number: usize, x: &[f64]) {
-        let free = &self.free[number];
-        let (coordinates, speeds) = self.coordinates(free, x);
-        let body = free.body;
-        self.kinematics[body] = Kinematics::new(coordinates, speeds, self.bodies[body].rolls());
-    }
-}
-
-impl FrameState {
-    /// Brings a frame that only translates to `time`.
-    #[inline(always)]
-    fn translate(&mut self, frame: &Frame, time: f64, reference: f64) {
-        let (mut position, mut velocity, mut acceleration) = (self.rest, Vector::zero(), Vector::zero());
-        for way in &mut self.moves {
-            way.jet = frame.motions[way.coordinate].evaluate(time, reference);
-            let [value, rate, second] = way.jet;
-            position += way.axis.scale(value);
-            velocity += way.axis.scale(rate);
-            acceleration += way.axis.scale(second);
-        }
-        self.motion.position = position;
-        self.motion.velocity = velocity;
-        self.motion.acceleration = acceleration;
-    }
-
-    /// Value, rate and second derivative of each translation that moves.
-    #[inline(always)]
-    fn jets(&self) -> impl Iterator<Item = [f64; 3]> {
-        self.moves.iter().map(|way| way.jet)
-    }
-}
-
-/// Brings an element's sight up to date, where it can have changed.
-#[inline(always)]
-fn sight<E>(mounted: &mut Mounted<E>, frames: &[FrameState], kinematics: &[Kinematics<f64>], again: bool) {
-    if mounted.on_free || (again && mounted.moves) {
-        let (a, b) = (&frames[mounted.body], &frames[mounted.on]);
-        match &mounted.translation {
-            Some(translation) => {
-                translation.update(&mut mounted.sight, b.jets());
-            }
-            None => {
-                let seat = &kinematics[mounted.on];
-                mounted.sight = Sight::new(&a.motion, &b.motion, seat, &mounted.mount);
-            }
-        }
     }
 }
 
