@@ -154,20 +154,14 @@ impl Switches {
             }
         }
         for number in 0..self.groups.len() {
-            let Group {
-                ref switches,
-                end_known,
-                ..
-            } = self.groups[number];
-            if end_known {
-                let switches = switches.clone();
-                self.margins[switches.clone()].copy_from_slice(&self.at_end[switches]);
+            let switches = self.groups[number].switches.clone();
+            if self.groups[number].end_known {
+                self.margins[switches.clone()].copy_from_slice(&self.at_end[switches.clone()]);
             } else {
                 self.evaluate(problem, dense, number, 1.0);
             }
             let known = self.resolve(problem, dense, number, 1.0, maximum)?;
             if known {
-                let switches = self.groups[number].switches.clone();
                 self.at_start[switches.clone()].copy_from_slice(&self.margins[switches]);
             }
             self.groups[number].start_known = known;
@@ -236,18 +230,13 @@ impl Switches {
         to: f64,
         resolution: f64,
     ) -> f64 {
-        let Group {
-            ref switches,
-            from,
-            start_known,
-            ..
-        } = self.groups[number];
-        let switches = switches.clone();
+        let group = &self.groups[number];
+        let (switches, from) = (group.switches.clone(), group.from);
         let count = switches.len();
         self.search.clear();
         self.search.next()[..count].copy_from_slice(&self.margins[switches.clone()]);
         self.search.put_high(to);
-        if !start_known {
+        if !group.start_known {
             self.evaluate(problem, dense, number, from);
             self.at_start[switches.clone()].copy_from_slice(&self.margins[switches.clone()]);
         }

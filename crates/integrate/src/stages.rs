@@ -178,9 +178,7 @@ impl Dense<'_> {
     pub fn evaluate_parts(&self, theta: f64, parts: &[Range<usize>], out: &mut [f64]) {
         if theta == 1.0 {
             for part in parts {
-                let (out, _) = out[part.clone()].as_chunks_mut::<LANES>();
-                let (x1, _) = self.x1[part.clone()].as_chunks::<LANES>();
-                out.copy_from_slice(x1);
+                out[part.clone()].copy_from_slice(&self.x1[part.clone()]);
             }
             return;
         }

@@ -345,7 +345,7 @@ fn action_and_reaction_at_random_states() {
                     own = add(own, cross(add(place.0, from.map(|v| -v)), f));
                 }
                 let (reaction, reaction_moment) =
-                    system.reaction_about(Vector(force), Vector(own), Vector(from), Vector(about));
+                    System::reaction_about(Vector(force), Vector(own), Vector(from), Vector(about));
                 let size = 1.0 + norm(&force);
                 for k in 0..3 {
                     assert!((reaction.0[k] + force[k]).abs() < 1e-12 * size);

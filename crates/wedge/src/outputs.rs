@@ -128,7 +128,7 @@ impl Outputs {
             seen,
             modes,
             start_energy,
-            derived: Resultants::seen(self.damping, system, seen),
+            derived: Resultants::seen(self.damping, seen),
             ledger: Self::ledger(system, seen, start_energy),
         };
         out.extend(self.values.iter().map(|value| value(&scene)));

@@ -26,26 +26,20 @@ pub struct Resultants {
 impl Resultants {
     /// The resultants of what [`System::loads`] says.
     #[must_use]
-    pub fn of(damping: Damping, system: &System, loads: &Loads) -> Self {
+    pub fn of(damping: Damping, loads: &Loads) -> Self {
         let faces = [COLUMN, SLOPE].map(|face| loads.faces[face]);
-        Self::new(damping, system, &loads.bodies[WEDGE], faces, &loads.coils[0])
+        Self::new(damping, &loads.bodies[WEDGE], faces, &loads.coils[0])
     }
 
     /// The resultants of what [`System::observe`] says.
     #[must_use]
-    pub fn seen(damping: Damping, system: &System, seen: &Observation) -> Self {
+    pub fn seen(damping: Damping, seen: &Observation) -> Self {
         let wedge = &seen.bodies[WEDGE];
         let faces = [COLUMN, SLOPE].map(|face| seen.faces[face].load(wedge.center_of_gravity));
-        Self::new(damping, system, wedge, faces, &seen.coils[0].load())
+        Self::new(damping, wedge, faces, &seen.coils[0].load())
     }
 
-    fn new(
-        damping: Damping,
-        system: &System,
-        wedge: &BodyPlace,
-        faces: [FaceLoad; 2],
-        coil: &CoilLoad,
-    ) -> Self {
+    fn new(damping: Damping, wedge: &BodyPlace, faces: [FaceLoad; 2], coil: &CoilLoad) -> Self {
         let vertical = -faces[COLUMN].friction.0[2];
         // The neighbour that the coil stands on.
         let (on_frame, seat) = match damping {
@@ -54,7 +48,7 @@ impl Resultants {
         };
         let [on_side_frame, on_bolster] = [COLUMN, SLOPE].map(|index| {
             let face = &faces[index];
-            let about = |force, moment, from| system.reaction_about(force, moment, from, face.origin);
+            let about = |force, moment, from| System::reaction_about(force, moment, from, face.origin);
             let (force, moment) = about(face.normal + face.friction, face.moment, wedge.center_of_gravity);
             if index != seat {
                 return (force, moment);

@@ -372,11 +372,8 @@ fn presses<'f>(
 ) -> impl Iterator<Item = bool> + 'f {
     let turns = free.free.len() > free.translations;
     let may = move |coordinate: usize, face: &Mounted<ContactFace<Plane>>| {
-        let straight = !face.on_free
-            && [face.body, face.on].iter().all(|&end| {
-                let frame = &frames[end];
-                frame.fixed || frame.keeps_orientation
-            });
+        let ends = [face.body, face.on];
+        let straight = !face.on_free && ends.iter().all(|&end| frames[end].keeps_orientation);
         turns || !straight || face.sight.rotation.0[0][coordinate].abs() > ALONG
     };
     let own = free.faces.iter().map(|&face| &faces[face]);

@@ -236,7 +236,6 @@ impl System {
     /// The reaction of an element on the body that it stands on: force and moment about `point` (fixed frame).
     #[must_use]
     pub fn reaction_about(
-        &self,
         force: Vector<f64>,
         moment: Vector<f64>,
         from: Vector<f64>,

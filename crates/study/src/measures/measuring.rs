@@ -204,7 +204,7 @@ impl Measuring {
 
     fn observe_row(&mut self, time: f64) {
         self.wedge.system.loads(time, &self.buffer, &mut self.loads);
-        let found = Resultants::of(self.wedge.parameters.damping, &self.wedge.system, &self.loads);
+        let found = Resultants::of(self.wedge.parameters.damping, &self.loads);
         let bolster = &self.loads.bodies[BOLSTER];
         let (displacement, speed) = (bolster.travel.0[2], bolster.velocity.0[2]);
         let moments = found.moments.iter().flat_map(|moment| moment.0);
