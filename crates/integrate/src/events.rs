@@ -76,7 +76,10 @@ impl Switches {
         let (dimension, leading) = (problem.dimension(), leading_states(problem));
         let count = modes.len();
         let capacity = if count == 0 { 0 } else { capacity };
-        let groups: Vec<Group> = problem.switch_groups().into_iter().map(Group::new).collect();
+        let groups: Vec<Group> = match count {
+            0 => Vec::new(),
+            _ => problem.switch_groups().into_iter().map(Group::new).collect(),
+        };
         let largest = groups.iter().map(|group| group.switches.len()).max();
         Self {
             before: modes.clone(),
@@ -152,6 +155,13 @@ impl Switches {
             for number in 0..self.groups.len() {
                 self.resolve(problem, dense, number, to, maximum)?;
             }
+        }
+        if self.groups.iter().all(|group| group.end_known) && !leaving(&self.at_end, &self.muted) {
+            std::mem::swap(&mut self.at_start, &mut self.at_end);
+            for group in &mut self.groups {
+                group.start_known = true;
+            }
+            return Ok(());
         }
         for number in 0..self.groups.len() {
             let switches = self.groups[number].switches.clone();

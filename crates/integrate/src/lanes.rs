@@ -12,7 +12,7 @@ use wide::{f64x2, f64x4};
 
 pub use dual::LaneDual;
 
-use crate::scalar::{Blend, Mask, Number, SERIES, series};
+use crate::scalar::{Blend, EIGHTH_TURN, Mask, Number, SERIES, series, small_sin_cos};
 
 /// How many numbers stand side by side in [`Lanes`].
 pub const LANES: usize = 4;
@@ -26,9 +26,6 @@ pub type Runs = Pair;
 
 /// From `x = √s = 20` on, tanh is 1 to the last bit.
 const SATURATED: f64 = 400.0;
-
-/// Up to this size sine and cosine come from their polynomials: `π/4`, less what the highest word of a number leaves out.
-const EIGHTH_TURN: f64 = 0.785_397_5;
 
 /// A kind of lanes.
 macro_rules! lanes {
@@ -199,29 +196,14 @@ macro_rules! lanes {
             fn tanh_ratio(self) -> Self {
                 self.tanh_ratio_with::<false>().0
             }
-            /// The bits that `libm` gives: by its polynomials (those of FreeBSD's `k_sin.c` and `k_cos.c`, error below one unit in the
-            /// last place) where all are small, by itself elsewhere.
+            /// The bits that `libm` gives: by its polynomials where all are small, by itself elsewhere.
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 let x = self;
                 if !Self(x.0.abs()).at_most(Self::from(EIGHTH_TURN)).all() {
                     return x.large_angles();
                 }
-                let z = x * x;
-                let w = z * z;
-                let r = 8.333_333_333_322_49e-3
-                    + z * (-1.984_126_982_985_795e-4 + z * 2.755_731_370_707_006_8e-6)
-                    + z * w * (-2.505_076_025_340_686_3e-8 + z * 1.589_690_995_211_55e-10);
-                let sine = x + z * x * (-1.666_666_666_666_663_2e-1 + z * r);
-                let r = z
-                    * (4.166_666_666_666_66e-2
-                        + z * (-1.388_888_888_887_411e-3 + z * 2.480_158_728_947_673e-5))
-                    + w * w
-                        * (-2.755_731_435_139_066_3e-7
-                            + z * (2.087_572_321_298_175e-9 + z * -1.135_964_755_778_819_5e-11));
-                let half = z * 0.5;
-                let w = 1.0 - half;
-                (sine, w + (((1.0 - w) - half) + z * r))
+                small_sin_cos(x)
             }
         }
     };
@@ -336,6 +318,7 @@ mod tests {
             for x in [x, -x] {
                 let (s, c) = Lanes::new([x, 0.1, -0.3, 0.7]).sin_cos();
                 let (sine, cosine) = libm::sincos(x);
+                assert_eq!(Number::sin_cos(x), (sine, cosine), "{x}");
                 assert_eq!((s.at(0), c.at(0)), (sine, cosine), "{x}");
                 let (s2, c2) = Pair::new([0.2, x]).sin_cos();
                 assert_eq!((s2.at(1), c2.at(1)), (sine, cosine), "{x}");

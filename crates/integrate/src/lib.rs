@@ -12,6 +12,7 @@ mod block_lu;
 mod control;
 mod dense_block;
 mod error;
+mod esdirk3;
 mod events;
 mod explicit;
 mod kinks;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::SetupError;
+use crate::problem::Problem;
 use crate::tableau::{Family, Method};
 
 /// Settings of an integration.
@@ -22,6 +23,8 @@ pub struct Options {
     /// Whether steps may be by collocation where the way is smooth and the problem solves with complex shifts
     /// ([`crate::Problem::complex_shifts`]).
     pub collocation_steps: bool,
+    /// Whether changes of the problem's switches are recorded and timed ([`crate::Problem::switch_count`]). Steps and states are the same without.
+    pub record_switches: bool,
     /// Admissible local error of each state, relative to its scale.
     pub relative_tolerance: f64,
     /// First step; none: estimated.
@@ -52,6 +55,7 @@ impl Default for Options {
             method: Method::default(),
             explicit_steps: true,
             collocation_steps: true,
+            record_switches: true,
             relative_tolerance: 1e-6,
             initial_step: None,
             fixed_step: None,
@@ -82,6 +86,15 @@ impl Options {
                 ..options
             },
             Family::LinearlyImplicit | Family::Explicit | Family::Collocation => options,
+        }
+    }
+
+    /// How many switches of a problem are recorded.
+    pub(crate) fn switches_of<P: Problem>(&self, problem: &P) -> usize {
+        if self.record_switches {
+            problem.switch_count()
+        } else {
+            0
         }
     }
 

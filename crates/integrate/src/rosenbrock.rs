@@ -131,7 +131,7 @@ impl<P: Problem> Integrator<P> {
             version: STATE_VERSION,
             time,
             x: x.to_vec(),
-            modes: vec![0; problem.switch_count()],
+            modes: vec![0; options.switches_of(&problem)],
             segment_start: time,
             proposed_step: 1.0,
             ahead: None,
@@ -144,8 +144,10 @@ impl<P: Problem> Integrator<P> {
         };
         let mut this = Self::resume(problem, options, state)?;
         this.statistics.derivatives = 1;
-        this.problem.initial_modes(time, x, &mut this.switches.modes);
-        this.switches.before.copy_from_slice(&this.switches.modes);
+        if !this.switches.modes.is_empty() {
+            this.problem.initial_modes(time, x, &mut this.switches.modes);
+            this.switches.before.copy_from_slice(&this.switches.modes);
+        }
         this.proposed_step = match (this.options.fixed_step, this.options.initial_step) {
             (Some(step), _) | (None, Some(step)) => step,
             (None, None) => this.estimate_step(),
@@ -161,7 +163,7 @@ impl<P: Problem> Integrator<P> {
         options.check()?;
         let n = problem.dimension();
         let stride = n.next_multiple_of(LANES);
-        check_state(&state, n, problem.switch_count())?;
+        check_state(&state, n, options.switches_of(&problem))?;
         let scales = problem.scales();
         if scales.len() != n {
             return Err(SetupError::Dimension {

@@ -158,6 +158,32 @@ pub(crate) fn series<S: Number>(s: S) -> (S, S) {
     )
 }
 
+/// Up to this size sine and cosine come from their polynomials: `π/4`, less what the highest word of a number leaves out.
+pub(crate) const EIGHTH_TURN: f64 = 0.785_397_5;
+
+/// Sine and cosine of at most [`EIGHTH_TURN`], with the bits that `libm` gives: by its polynomials (those of FreeBSD's `k_sin.c` and
+/// `k_cos.c`, error below one unit in the last place).
+#[inline(always)]
+pub(crate) fn small_sin_cos<S>(x: S) -> (S, S)
+where
+    S: Number,
+    f64: Add<S, Output = S> + Sub<S, Output = S>,
+{
+    let z = x * x;
+    let w = z * z;
+    let r = 8.333_333_333_322_49e-3
+        + z * (z * 2.755_731_370_707_006_8e-6 + -1.984_126_982_985_795e-4)
+        + z * w * (z * 1.589_690_995_211_55e-10 + -2.505_076_025_340_686_3e-8);
+    let sine = x + z * x * (z * r + -1.666_666_666_666_663_2e-1);
+    let r = z * (z * (z * 2.480_158_728_947_673e-5 + -1.388_888_888_887_411e-3) + 4.166_666_666_666_66e-2)
+        + w * w
+            * (z * (z * -1.135_964_755_778_819_5e-11 + 2.087_572_321_298_175e-9)
+                + -2.755_731_435_139_066_3e-7);
+    let half = z * 0.5;
+    let w = 1.0 - half;
+    (sine, w + (((1.0 - w) - half) + z * r))
+}
+
 /// Value and slope by `s` of `tanh(√s)/√s`.
 #[inline(always)]
 fn tanh_ratio(s: f64) -> (f64, f64) {
@@ -218,9 +244,14 @@ impl Number for f64 {
             tanh(x) / x
         }
     }
+    /// The bits that `libm` gives, without its call where the angle is small.
     #[inline(always)]
     fn sin_cos(self) -> (f64, f64) {
-        libm::sincos(self)
+        if self.abs() <= EIGHTH_TURN {
+            small_sin_cos(self)
+        } else {
+            libm::sincos(self)
+        }
     }
 }
 

@@ -8,12 +8,18 @@ mod common;
 use common::run;
 use integrate::{Integrator, Method, Options, Ordinary, Reason, SetupError, State};
 
-fn options(tolerance: f64) -> Options {
+const DAMPING: [Method; 2] = [Method::TrBdf2, Method::Esdirk3];
+
+fn options_of(method: Method, tolerance: f64) -> Options {
     Options {
-        method: Method::TrBdf2,
+        method,
         relative_tolerance: tolerance,
         ..Options::default()
     }
+}
+
+fn options(tolerance: f64) -> Options {
+    options_of(Method::TrBdf2, tolerance)
 }
 
 /// Both stages integrate a linear slope exactly, and the estimate is the error of a quadratic one.
@@ -54,6 +60,60 @@ fn convergence_coefficients_fulfil_their_conditions() {
     }
 }
 
+/// The conditions of order 3 of ESDIRK3, of order 2 of its stages, and of its embedded solution, whose error of a cubic is what is estimated;
+/// its dense output goes through its stages.
+#[test]
+fn convergence_coefficients_of_order_3_fulfil_their_conditions() {
+    let tableau = Method::Esdirk3.tableau();
+    let (alpha, count) = (tableau.alpha, 5);
+    let near = |found: f64, exact: f64, what: &str| {
+        assert!((found - exact).abs() < 1e-14, "{what}: {found}, {exact}")
+    };
+    // Rows with their diagonals.
+    let rows: Vec<Vec<f64>> = (0..count)
+        .map(|i| {
+            let diagonal = if i == 0 { 0.0 } else { tableau.gamma };
+            let mut row = [tableau.a[i], &[diagonal]].concat();
+            row.resize(count, 0.0);
+            row
+        })
+        .collect();
+    let sum = |weights: &[f64], values: &dyn Fn(usize) -> f64| -> f64 {
+        weights
+            .iter()
+            .enumerate()
+            .map(|(j, weight)| weight * values(j))
+            .sum()
+    };
+    for (i, row) in rows.iter().enumerate().skip(1) {
+        near(sum(row, &|_| 1.0), alpha[i], "a stage of order 1");
+        near(
+            sum(row, &|j| alpha[j]),
+            alpha[i] * alpha[i] / 2.0,
+            "a stage of order 2",
+        );
+    }
+    let last = &rows[count - 1];
+    let tall = |j: usize| sum(&rows[j], &|k| alpha[k]);
+    near(sum(last, &|j| alpha[j] * alpha[j]), 1.0 / 3.0, "order 3");
+    near(sum(last, &tall), 1.0 / 6.0, "order 3 of what is solved twice");
+    let estimate = tableau.a[count];
+    near(sum(estimate, &|_| 1.0), 0.0, "the estimate of a line");
+    near(sum(estimate, &|j| alpha[j]), 0.0, "the estimate of a parabola");
+    assert!(sum(estimate, &|j| alpha[j] * alpha[j]).abs() > 1e-3);
+    for i in [1, 2] {
+        let theta = alpha[i];
+        for j in 0..count {
+            let bend = tableau.dense[0][j] + theta * tableau.dense[1][j];
+            near(
+                theta * last[j] + theta * (1.0 - theta) * bend,
+                rows[i][j],
+                "dense output",
+            );
+        }
+    }
+}
+
 /// A mass on a stiff spring whose support moves as sin t: x'' = -ω² (x - sin t).
 fn carried(omega: f64) -> Ordinary<'static> {
     Ordinary::new(
@@ -67,60 +127,81 @@ fn carried(omega: f64) -> Ordinary<'static> {
     .time_derivative(move |t, _, f| f[1] = omega * omega * libm::cos(t))
 }
 
-/// What a stiff spring holds follows its support with order 2, its speed as well, though that is the derivative of what is held.
+/// What a stiff spring holds follows its support, its speed with the order of the stages, though that is the derivative of what is held.
 #[test]
 fn convergence_the_speed_of_what_is_held_keeps_its_order() {
-    let errors = [64, 128].map(|steps| {
-        let options = Options {
-            fixed_step: Some(1.0 / f64::from(steps)),
-            ..options(1e-6)
-        };
-        let (x, _) = run(carried(1e6), options, &[0.0, 1.0], 1.0);
-        [(x[0] - libm::sin(1.0)).abs(), (x[1] - libm::cos(1.0)).abs()]
-    });
-    let order = libm::log2(errors[0][1] / errors[1][1]);
-    println!("errors {errors:?}, order of the speed {order:.2}");
-    assert!(errors[1][0] < 1e-9, "{errors:?}");
-    assert!((order - 2.0).abs() < 0.1, "{order}");
+    for method in DAMPING {
+        let errors = [64, 128].map(|steps| {
+            let options = Options {
+                fixed_step: Some(1.0 / f64::from(steps)),
+                ..options_of(method, 1e-6)
+            };
+            let (x, _) = run(carried(1e6), options, &[0.0, 1.0], 1.0);
+            [(x[0] - libm::sin(1.0)).abs(), (x[1] - libm::cos(1.0)).abs()]
+        });
+        let order = libm::log2(errors[0][1] / errors[1][1]);
+        println!("{method}: errors {errors:?}, order of the speed {order:.2}");
+        assert!(errors[1][0] < 1e-9, "{method}: {errors:?}");
+        assert!((order - 2.0).abs() < 0.1, "{method}: {order}");
+    }
 }
 
 /// A vibration of 160 Hz under the tolerance is gone after a second of long steps; the slow motion is there.
 #[test]
 fn limits_a_fast_vibration_is_damped_and_the_motion_is_kept() {
-    let (x, statistics) = run(carried(1000.0).displacements(1), options(1e-4), &[5e-5, 1.0], 1.0);
-    let exact = libm::sin(1.0) / (1.0 - 1e-6);
-    println!("{statistics:?}");
-    assert!((x[0] - exact).abs() < 1e-6, "{x:?}");
-    assert!((x[1] - libm::cos(1.0)).abs() < 1e-3, "{x:?}");
-    // It would take 160 periods of some twenty steps each to follow it.
-    assert!(statistics.steps < 200, "{statistics:?}");
+    for method in DAMPING {
+        let options = Options {
+            maximum_step: 0.1,
+            ..options_of(method, 1e-4)
+        };
+        let (x, statistics) = run(carried(1000.0).displacements(1), options, &[5e-5, 1.0], 1.0);
+        let exact = libm::sin(1.0) / (1.0 - 1e-6);
+        println!("{method}: {statistics:?}");
+        assert!((x[0] - exact).abs() < 1e-6, "{method}: {x:?}");
+        assert!((x[1] - libm::cos(1.0)).abs() < 1e-3, "{method}: {x:?}");
+        // It would take 160 periods of some twenty steps each to follow it.
+        assert!(statistics.steps < 200, "{method}: {statistics:?}");
+    }
 }
 
 /// A mass of 1 kg slides at 1 m/s under friction of 10 N, a force of 5 N pulls it on: it stops after 0.1 m and creeps.
 #[test]
 fn analytic_a_sliding_mass_stops_and_sticks() {
     const REFERENCE: f64 = 1e-5;
-    let problem = Ordinary::new(
-        vec![1.0, 1.0],
-        |_, x, dx| {
-            dx[0] = x[1];
-            dx[1] = 5.0 - 10.0 * libm::tanh(x[1] / REFERENCE);
-        },
-        |_, x, j| {
-            let cosh = libm::cosh(x[1] / REFERENCE);
-            j.copy_from_slice(&[0.0, 1.0, 0.0, -10.0 / (REFERENCE * cosh * cosh)]);
-        },
-    );
-    let (x, statistics) = run(problem, options(1e-6), &[0.0, 1.0], 1.0);
-    let creeps = REFERENCE * libm::atanh(0.5);
-    assert!((x[0] - (0.1 + 0.8 * creeps)).abs() < 1e-5, "{x:?}");
-    assert!((x[1] / creeps - 1.0).abs() < 1e-6, "{x:?}, {creeps}");
-    println!("{statistics:?}");
-    let attempts = statistics.steps + statistics.rejected();
-    assert!(
-        attempts < 80 && statistics.rejected_unsolved == 0,
-        "{statistics:?}"
-    );
+    for method in DAMPING {
+        let problem = Ordinary::new(
+            vec![1.0, 1.0],
+            |_, x, dx| {
+                dx[0] = x[1];
+                dx[1] = 5.0 - 10.0 * libm::tanh(x[1] / REFERENCE);
+            },
+            |_, x, j| {
+                let cosh = libm::cosh(x[1] / REFERENCE);
+                j.copy_from_slice(&[0.0, 1.0, 0.0, -10.0 / (REFERENCE * cosh * cosh)]);
+            },
+        );
+        let (x, statistics) = run(problem, options_of(method, 1e-6), &[0.0, 1.0], 1.0);
+        let creeps = REFERENCE * libm::atanh(0.5);
+        assert!((x[0] - (0.1 + 0.8 * creeps)).abs() < 1e-5, "{method}: {x:?}");
+        assert!((x[1] / creeps - 1.0).abs() < 1e-6, "{method}: {x:?}, {creeps}");
+        println!("{method}: {statistics:?}");
+        let attempts = statistics.steps + statistics.rejected();
+        assert!(
+            attempts < 80 && statistics.rejected_unsolved == 0,
+            "{method}: {statistics:?}"
+        );
+    }
+}
+
+/// Where a force bends, as friction that reverses does at a row of output, only the ends of steps are in balance: rows limit steps.
+#[test]
+fn limits_rows_end_the_steps_of_methods_that_damp() {
+    for method in Method::ALL {
+        let integrator = Integrator::new(carried(100.0), options_of(method, 1e-4), 0.0, &[0.0, 1.0]).unwrap();
+        let limit = integrator.limit_before(0.5, 2.0);
+        assert_eq!(limit, if DAMPING.contains(&method) { 0.5 } else { 2.0 });
+        assert_eq!(integrator.limit_before(3.0, 2.0), 2.0);
+    }
 }
 
 /// A slope that points back to zero from both sides.

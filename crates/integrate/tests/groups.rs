@@ -175,3 +175,28 @@ fn limits_the_cost_of_a_change_does_not_depend_on_the_number_of_groups() {
         "{together} and {many_looks} looks at all"
     );
 }
+
+#[test]
+fn nothing_but_events_is_missing_where_switches_are_not_recorded() {
+    let run = |record_switches: bool| {
+        let options = Options {
+            record_switches,
+            relative_tolerance: 1e-8,
+            ..Options::default()
+        };
+        let mut integrator = Integrator::new(Waves::new(5, true), options, 0.0, &[0.0; 5]).unwrap();
+        while integrator.time() < 10.0 {
+            integrator.step_to(10.0).unwrap();
+            assert_eq!(integrator.modes().len(), if record_switches { 5 } else { 0 });
+            assert!(record_switches || integrator.events().is_empty());
+        }
+        (integrator.x().to_vec(), integrator.state())
+    };
+    let ((x, recorded), (same, bare)) = (run(true), run(false));
+    assert_eq!(x, same);
+    assert_eq!(recorded.statistics.steps, bare.statistics.steps);
+    assert_eq!(bare.statistics.events, 0);
+    assert!(recorded.statistics.events > 10);
+    // A state without modes does not continue a run that records them.
+    assert!(Integrator::resume(Waves::new(5, true), Options::default(), bare).is_err());
+}

@@ -249,3 +249,70 @@ fn input_what_presses_on_a_contact_is_held_to_a_bound() {
     assert_eq!(bounds(turning, [0.0; 3], TANH).0, [true, true, false, false]);
     assert_eq!(bounds(turning, [0.0; 3], BRISTLE).0, [true; 4]);
 }
+
+#[test]
+fn limits_a_mode_is_left_where_its_margin_is_used_up() {
+    let mut random = Random(11);
+    let mut left = [[0; 2]; 3];
+    for mut system in models() {
+        let count = system.switch_count();
+        for _ in 0..200 {
+            let (x, time) = (state(&system, &mut random), random.between(0.0, 1.0));
+            // All of one mode, and mixed.
+            let one = random.between(0.0, 3.0) as u8;
+            let mixed = random.between(0.0, 1.0) < 0.5;
+            let modes: Vec<u8> = (0..count)
+                .map(|_| {
+                    if mixed {
+                        random.between(0.0, 3.0) as u8
+                    } else {
+                        one
+                    }
+                })
+                .collect();
+            let mut margins = vec![f64::NAN; count];
+            system.margins(time, &x, &modes, &mut margins);
+            for (i, (&margin, &mode)) in margins.iter().zip(&modes).enumerate() {
+                let next = system.next_mode(time, &x, i, mode);
+                assert_eq!(margin <= 0.0, next != mode, "switch {i}: {margin} in mode {mode}");
+                left[usize::from(mode)][usize::from(next != mode)] += 1;
+            }
+        }
+    }
+    assert!(left.iter().flatten().all(|count| *count > 100), "{left:?}");
+}
+
+#[test]
+fn limits_a_face_is_placed_anew_when_a_motion_changes() {
+    let mut random = Random(3);
+    let system = System::new(tower(true, TANH)).unwrap();
+    let (x, time) = (state(&system, &mut random), 0.3);
+    let modes = vec![2; system.switch_count()];
+    let group = 2; // upper body on the base
+    let margins = |system: &mut System| {
+        let mut margins = vec![0.0; modes.len()];
+        system.group_margins(group, time, &x, &modes, &mut margins);
+        margins
+    };
+    let mut motions = system.bodies()[2].frame.motions.clone();
+    motions[0] = Motion::Constant(0.3);
+    motions[4] = Motion::Sine {
+        amplitude: 0.05,
+        angular_frequency: 20.0,
+        phase: 0.0,
+    };
+    let mut asked_before = system.clone();
+    let before = margins(&mut asked_before);
+    assert_eq!(margins(&mut asked_before), before);
+    asked_before.drive(2, motions.clone()).unwrap();
+    let mut fresh = system.clone();
+    fresh.drive(2, motions).unwrap();
+    let expected = margins(&mut fresh);
+    assert_ne!(before, expected);
+    assert_eq!(margins(&mut asked_before), expected);
+    // Nor does it keep what it saw when all else has moved on.
+    let mut margins_elsewhere = vec![0.0; modes.len()];
+    let elsewhere = state(&system, &mut random);
+    asked_before.margins(time, &elsewhere, &modes, &mut margins_elsewhere);
+    assert_eq!(margins(&mut asked_before), expected);
+}

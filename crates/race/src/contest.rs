@@ -56,6 +56,9 @@ pub struct Solver {
     pub options: &'static str,
 }
 
+/// Our default method with contact modes recorded, which no other solver does.
+pub const RECORDED: &str = "wedgelab Rodas5P, modes recorded";
+
 /// Octave's ode15s with the right-hand side in Octave's own language.
 pub const IN_OCTAVE: &str = "Octave ode15s with equations in Octave";
 
@@ -69,8 +72,8 @@ pub const SOLVERS: &[Solver] = &[
         method: "rodas5p",
         ours: true,
         span: 10.0,
-        options: "defaults (all quadratures of the energy ledger, contact modes located, kinks foreseen; a wedge's positions and speeds held to 1e-5 of their \
-                  scales where a wider tolerance is asked for)",
+        options: "defaults (all quadratures of the energy ledger, kinks foreseen; a wedge's positions and speeds held to 1e-5 of their \
+                  scales where a wider tolerance is asked for), but contact modes not recorded",
     },
     Solver {
         name: "wedgelab Rodas4",
@@ -78,7 +81,7 @@ pub const SOLVERS: &[Solver] = &[
         method: "rodas4",
         ours: true,
         span: 10.0,
-        options: "method Rodas4",
+        options: "the same, method Rodas4",
     },
     Solver {
         name: "wedgelab TR-BDF2",
@@ -86,7 +89,23 @@ pub const SOLVERS: &[Solver] = &[
         method: "own_tr_bdf2",
         ours: true,
         span: 10.0,
-        options: "method TR-BDF2: the tolerance holds for displacements alone; steps of 0.01 s at most, the distance of the rows",
+        options: "the same, method TR-BDF2: the tolerance holds for displacements alone; steps of 0.01 s at most, the distance of the rows",
+    },
+    Solver {
+        name: "wedgelab ESDIRK3",
+        program: Program::Own,
+        method: "own_esdirk3",
+        ours: true,
+        span: 10.0,
+        options: "the same, method ESDIRK3",
+    },
+    Solver {
+        name: RECORDED,
+        program: Program::Own,
+        method: "rodas5p_recorded",
+        ours: true,
+        span: 10.0,
+        options: "defaults, as in users' runs: contact modes recorded, their changes located",
     },
     Solver {
         name: "CVODE BDF",

@@ -2,7 +2,7 @@
 
 use report::drawing::{Colour, Curve, Figure, Line, Panel};
 
-use crate::contest::{IN_OCTAVE, SOLVERS};
+use crate::contest::{IN_OCTAVE, RECORDED, SOLVERS};
 use crate::problem::is_yawed;
 use crate::standings::Standing;
 
@@ -12,6 +12,7 @@ fn look(name: &str) -> (Colour, Line) {
         "wedgelab Rodas5P" => (Colour::Black, Line::Solid),
         "wedgelab Rodas4" => (Colour::Black, Line::Dashed),
         "wedgelab TR-BDF2" => (Colour::Black, Line::Dotted),
+        "wedgelab ESDIRK3" => (Colour::Black, Line::DashDot),
         "CVODE BDF" => (Colour::Vermillion, Line::Solid),
         "diffsol BDF" => (Colour::Blue, Line::Solid),
         "diffsol TR-BDF2" => (Colour::Blue, Line::Dashed),
@@ -26,7 +27,9 @@ fn look(name: &str) -> (Colour, Line) {
 }
 
 fn panel(one: &Standing) -> Panel {
-    let curves = SOLVERS.iter().filter_map(|solver| {
+    // With modes recorded it would run beside its own curve.
+    let drawn = SOLVERS.iter().filter(|solver| solver.name != RECORDED);
+    let curves = drawn.filter_map(|solver| {
         // In the order of the tolerances.
         let points: Vec<(f64, f64)> = one
             .runs

@@ -46,12 +46,14 @@ fn solve(solver: &str, words: &[&str]) -> Result<(), String> {
         [rows, ..] => number(rows)? as usize,
         [] => usize::MAX,
     };
-    let own = |method| repeated(|| own::run(case, method, tolerance, limit, rows));
+    let own = |method, recorded| repeated(|| own::run(case, method, recorded, tolerance, limit, rows));
     let other = |method, fresh| repeated(|| diffsol::run(case, method, fresh, tolerance, limit, rows));
     let (outcome, states) = match solver {
-        "rodas5p" => own(Method::Rodas5P),
-        "rodas4" => own(Method::Rodas4),
-        "own_tr_bdf2" => own(Method::TrBdf2),
+        "rodas5p" => own(Method::Rodas5P, false),
+        "rodas5p_recorded" => own(Method::Rodas5P, true),
+        "rodas4" => own(Method::Rodas4, false),
+        "own_tr_bdf2" => own(Method::TrBdf2, false),
+        "own_esdirk3" => own(Method::Esdirk3, false),
         "bdf" => other(diffsol::Method::Bdf, false),
         "tr_bdf2" => other(diffsol::Method::TrBdf2, false),
         "esdirk34" => other(diffsol::Method::Esdirk34, false),

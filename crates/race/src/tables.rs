@@ -16,7 +16,7 @@ Read this first.
   better.
 - All solvers but one (the last of these points) get the same compiled right-hand side and the same analytic Jacobian matrix; SciPy and
   Octave call them from their languages, which is where most of their time goes. Others integrate positions, speeds, bristles and one energy; ours integrates all
-  energies of the ledger and locates changes of contact besides. Its Rosenbrock methods alone are told where contacts open and close and where slip
+  energies of the ledger besides. No solver records when contacts change, but ours where its name says so, as in users' runs. Its Rosenbrock methods alone are told where contacts open and close and where slip
   reverses, and end their steps there, and they hold speeds to the reference speed of friction (0.001 in/s, where a point sticks) and the wedge's positions to 1e-6 m where a wider tolerance
   is asked for: from 1e-3 to 1e-5 they do more than the others are asked to. Its TR-BDF2 does neither; the tolerance holds for its
   displacements alone.

@@ -17,8 +17,8 @@ fn diffsol_agrees_on_a_yawed_case() {
         assert_eq!(outcome.rows, rows);
         judge.quantities(&states, rows).unwrap()
     };
-    let ours = quantities(own::run(name, Method::Rodas5P, 1e-9, 60.0, rows).unwrap());
-    let coarse = quantities(own::run(name, Method::TrBdf2, 1e-4, 60.0, rows).unwrap());
+    let ours = quantities(own::run(name, Method::Rodas5P, false, 1e-9, 60.0, rows).unwrap());
+    let coarse = quantities(own::run(name, Method::TrBdf2, false, 1e-4, 60.0, rows).unwrap());
     for method in [diffsol::Method::Bdf, diffsol::Method::Esdirk34] {
         let mut other =
             |tolerance| quantities(diffsol::run(name, method, false, tolerance, 60.0, rows).unwrap());
@@ -41,7 +41,7 @@ fn diffsol_agrees_on_a_yawed_case() {
 #[test]
 fn the_mass_stops_where_it_must() {
     let name = "stick_bristle";
-    let (_, ours) = own::run(name, Method::Rodas5P, 1e-6, 60.0, usize::MAX).unwrap();
+    let (_, ours) = own::run(name, Method::Rodas5P, false, 1e-6, 60.0, usize::MAX).unwrap();
     let (_, other) = diffsol::run(name, diffsol::Method::Bdf, false, 1e-6, 60.0, usize::MAX).unwrap();
     for states in [ours, other] {
         let last = &states[states.len() - 5..];

@@ -42,7 +42,7 @@ fn cross_code_cvode_agrees_on_a_yawed_case() {
     let mut judge = Judge::new(CASE).unwrap();
     let theirs = judge.quantities(&states, rows).unwrap();
     let mut error = |tolerance: f64| {
-        let (_, states) = own::run(CASE, Method::Rodas5P, tolerance, 60.0, rows).unwrap();
+        let (_, states) = own::run(CASE, Method::Rodas5P, false, tolerance, 60.0, rows).unwrap();
         judge.quantities(&states, rows).unwrap().error(&theirs)
     };
     let (fine, coarse) = (error(1e-8), error(1e-4));

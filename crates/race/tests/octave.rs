@@ -83,7 +83,7 @@ impl Seen {
 fn states_of(name: &str, equations: &Equations) -> Vec<(f64, Vec<f64>)> {
     let n = equations.dimension();
     let problem = Problem::named(name).unwrap();
-    let (_, states) = own::run(name, Method::Rodas5P, 1e-5, 60.0, 251).unwrap();
+    let (_, states) = own::run(name, Method::Rodas5P, false, 1e-5, 60.0, 251).unwrap();
     let mut list = vec![(0.0, equations.start().to_vec())];
     for (number, row) in [5, 40, 100, 160, 220, 250].into_iter().enumerate() {
         let z = &states[row * n..(row + 1) * n];
@@ -185,7 +185,7 @@ fn cross_code_ode15s_with_equations_in_octave_runs_as_ours_does() {
     let mut judge = Judge::new(name).unwrap();
     let theirs = judge.quantities(&read_states(&file).unwrap(), rows).unwrap();
     let mut error = |tolerance: f64| {
-        let (_, states) = own::run(name, Method::Rodas5P, tolerance, 60.0, rows).unwrap();
+        let (_, states) = own::run(name, Method::Rodas5P, false, tolerance, 60.0, rows).unwrap();
         judge.quantities(&states, rows).unwrap().error(&theirs)
     };
     let (fine, coarse) = (error(1e-8), error(1e-3));

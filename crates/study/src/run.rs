@@ -208,8 +208,11 @@ impl Run {
     /// # Errors
     /// The integrator cannot go on; what was computed is kept.
     pub fn advance(&mut self) -> Result<(), RunError> {
-        let end = self.case.simulation.duration;
-        if let Err(error) = self.integrator.step_to(end) {
+        let simulation = &self.case.simulation;
+        let (end, interval) = (simulation.duration, simulation.output_interval);
+        let row = row_time(self.next_row, row_count(end, interval), end, interval);
+        let limit = self.integrator.limit_before(row, end);
+        if let Err(error) = self.integrator.step_to(limit) {
             let contacts = self.contact_words();
             return Err(RunError::Step { error, contacts });
         }

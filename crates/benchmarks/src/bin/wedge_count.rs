@@ -11,7 +11,7 @@ use std::process::ExitCode;
 
 use benchmarks::cpu_seconds;
 use benchmarks::wedges::{Arrangement, wedges};
-use integrate::{Integrator, Options, Problem, Singular, SwitchGroup};
+use integrate::{Integrator, Options, Problem};
 use mechanics::system::System;
 
 const COUNTS: [usize; 8] = [1, 2, 5, 10, 20, 50, 100, 200];
@@ -23,70 +23,6 @@ const STEPS: u32 = 400;
 const WEDGES: usize = 200;
 
 const USAGE: &str = "usage: wedge_count [MOST], or wedge_count uncoupled|chained COUNT STEPS [recorded]";
-
-/// A system that does not say how fast it answers, so that all steps are implicit.
-struct Implicit {
-    system: System,
-    /// Whether its contact modes are recorded.
-    recorded: bool,
-}
-
-impl Problem for Implicit {
-    fn dimension(&self) -> usize {
-        self.system.dimension()
-    }
-    fn read_states(&self) -> usize {
-        self.system.read_states()
-    }
-    fn scales(&self) -> &[f64] {
-        self.system.scales()
-    }
-    fn segment(&mut self, start: f64) -> f64 {
-        self.system.segment(start)
-    }
-    fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]) {
-        self.system.derivative(time, x, dx);
-    }
-    fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
-        self.system.linearize(time, x, dx, df_dt);
-    }
-    fn factor(&mut self, shift: f64) -> Result<(), Singular> {
-        self.system.factor(shift)
-    }
-    fn solve(&mut self, b: &mut [f64]) {
-        self.system.solve(b);
-    }
-    fn switch_count(&self) -> usize {
-        if self.recorded {
-            self.system.switch_count()
-        } else {
-            0
-        }
-    }
-    fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
-        if self.recorded {
-            self.system.initial_modes(time, x, modes);
-        }
-    }
-    fn margins(&mut self, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
-        if self.recorded {
-            self.system.margins(time, x, modes, margins);
-        }
-    }
-    fn switch_groups(&self) -> Vec<SwitchGroup> {
-        if self.recorded {
-            self.system.switch_groups()
-        } else {
-            Vec::new()
-        }
-    }
-    fn group_margins(&mut self, group: usize, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
-        self.system.group_margins(group, time, x, modes, margins);
-    }
-    fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
-        self.system.next_mode(time, x, index, mode)
-    }
-}
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -178,19 +114,17 @@ fn steps(system: &System, recorded: bool) -> Result<(f64, u64, Vec<f64>), String
     Ok((cost, integrator.statistics().events, integrator.x().to_vec()))
 }
 
-fn begin(system: &System, recorded: bool) -> Result<Integrator<Implicit>, String> {
+fn begin(system: &System, recorded: bool) -> Result<Integrator<System>, String> {
     let options = Options {
         fixed_step: Some(STEP),
+        explicit_steps: false,
+        record_switches: recorded,
         ..Options::default()
     };
-    let problem = Implicit {
-        system: system.clone(),
-        recorded,
-    };
-    Integrator::new(problem, options, 0.0, &system.initial_state()).map_err(|error| error.to_string())
+    Integrator::new(system.clone(), options, 0.0, &system.initial_state()).map_err(|error| error.to_string())
 }
 
-fn advance(integrator: &mut Integrator<Implicit>, number: u32) -> Result<(), String> {
+fn advance(integrator: &mut Integrator<System>, number: u32) -> Result<(), String> {
     for _ in 0..number {
         integrator
             .step_to(f64::INFINITY)

@@ -86,6 +86,17 @@ impl Between {
 }
 
 impl<P: Problem> Integrator<P> {
+    /// The limit of the next step on the way to `end`, if states are wanted at `row`: that time, where only the ends of steps are exact. A method
+    /// whose tolerance holds for displacements alone has speeds in balance with friction at its stages, but not between them, and
+    /// nothing is settled in its steps.
+    #[must_use]
+    pub fn limit_before(&self, row: f64, end: f64) -> f64 {
+        match self.tableau.family {
+            Family::DiagonallyImplicit => row.min(end),
+            Family::LinearlyImplicit | Family::Explicit | Family::Collocation => end,
+        }
+    }
+
     /// States at a time inside the last step, to the order of the method's dense output; where they are held by something stiff as it holds them at that
     /// time. Best asked for before the next step begins: from then on it is [`Integrator::interpolate_range`].
     ///

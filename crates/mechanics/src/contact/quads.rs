@@ -9,7 +9,7 @@
 //!
 //! so that gap, gap rate and slip of all points are linear in their places. The laws are those of [`ContactFace`].
 
-use std::ops::{Add, Mul};
+use std::ops::{Add, Mul, Range};
 
 use integrate::lanes::{LANES, LaneDual, LaneMask, Lanes};
 use integrate::scalar::{Mask, Number};
@@ -291,9 +291,14 @@ impl ContactFace<Plane> {
         }
     }
 
-    /// Gap and friction load of every point; of no meaning is the load of open ones.
+    /// Gap and friction load of these points, four at a time; of no meaning is the load of open ones.
     #[inline(always)]
-    pub(crate) fn signs(&self, points: &Points, deflections: &[f64], mut each: impl FnMut(usize, f64, f64)) {
+    pub(crate) fn signs(
+        &self,
+        points: &Points,
+        deflections: &[f64],
+        mut each: impl FnMut(Range<usize>, Lanes, Lanes),
+    ) {
         for (number, (quad, at)) in points.quads.iter().zip(&points.met).enumerate() {
             let first = LANES * number;
             let load = if is_open(at) {
@@ -302,10 +307,7 @@ impl ContactFace<Plane> {
                 let deflection = quad.deflection(deflections, first);
                 self.grip().load(&quad.grade, closed(quad, at), at, deflection)
             };
-            let (gap, load) = (at.gap.to_array(), load.to_array());
-            for i in 0..quad.count {
-                each(first + i, gap[i], load[i]);
-            }
+            each(first..first + quad.count, at.gap, load);
         }
     }
 

@@ -9,7 +9,7 @@ use integrate::lanes::{LANES, Runs};
 use integrate::scalar::{Mask, Number};
 use integrate::{Call, Together};
 
-use super::forces::{accelerate, add_effect};
+use super::forces::{WORK, accelerate, add_effect};
 use super::{Mounted, System};
 use crate::body::{Kinematics, Rigid};
 use crate::coil::{Coil, CoilLaw, Seating, taut};
@@ -422,7 +422,7 @@ impl Abreast {
         let (d_speeds, rest) = rest.split_at_mut(speeds);
         let powers = &mut rest[states - 2 * speeds - quadratures..];
         d_positions.copy_from_slice(&self.x[speeds..]);
-        powers.fill(Runs::zero());
+        let mut work = Runs::zero();
         for body in &self.bodies {
             let (mut coordinates, mut rates) = (body.initial, [Runs::zero(); 6]);
             for (j, &k) in body.free.iter().enumerate() {
@@ -433,6 +433,7 @@ impl Abreast {
             let (mut force, mut moment) = (Vector::zero(), Vector::zero());
             let mut add = |effect: &Effect<Runs>, at: &SightRuns| {
                 let channels = (&at.place.channels, at.place.driven);
+                let powers = (&mut *powers, &mut work);
                 add_effect(effect, &at.sight, channels, (&mut force, &mut moment), powers);
             };
             for face in body.faces.iter().map(|face| &self.faces[*face]) {
@@ -448,6 +449,7 @@ impl Abreast {
                 *target = accelerations[k];
             }
         }
+        powers[WORK] = work;
     }
 }
 

@@ -53,7 +53,7 @@ impl System {
             });
         }
         moved.frame.motions = motions;
-        self.frames_at = f64::NAN;
+        self.forget_places();
         Ok(())
     }
 

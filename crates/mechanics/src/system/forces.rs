@@ -63,6 +63,9 @@ pub(super) trait Element: Sized {
     ) -> Action<Dual<N>>;
 }
 
+/// The quadrature of the work of all prescribed motions: the first one.
+pub(super) const WORK: usize = 0;
+
 impl Element for ContactFace<Plane> {
     #[inline(always)]
     fn act(
@@ -233,8 +236,8 @@ impl System {
         let layout = self.layout;
         let [_, speeds, internal, _] = layout.split(x);
         let [d_positions, d_speeds, d_internal, d_quadratures] = layout.split_mut(dx);
-        d_positions.copy_from_slice(speeds);
-        d_quadratures.fill(0.0);
+        // Powers are written, not added to what was zero, and rates copied body by body: calls of the system's functions for a few numbers take longer.
+        let mut work = 0.0;
         for free in &self.free {
             let kinematics = &self.kinematics[free.body];
             let (mut force, mut moment) = (Vector::zero(), Vector::zero());
@@ -244,14 +247,20 @@ impl System {
                     let internal = &internal[face.first_internal..][..face.internal_count];
                     let rates = &mut d_internal[face.first_internal..][..face.internal_count];
                     let load = (&mut force, &mut moment);
-                    push(face, kinematics, (internal, rates), load, d_quadratures);
+                    push(
+                        face,
+                        kinematics,
+                        (internal, rates),
+                        load,
+                        (d_quadratures, &mut work),
+                    );
                 }
             }
             for &coil in &free.coils {
                 let coil = &mut self.coils[coil];
                 if coil.plain {
                     let load = (&mut force, &mut moment);
-                    push(coil, kinematics, (&[], &mut []), load, d_quadratures);
+                    push(coil, kinematics, (&[], &mut []), load, (d_quadratures, &mut work));
                 }
             }
             (self.force[free.body], self.moment[free.body]) = (force, moment);
@@ -262,13 +271,16 @@ impl System {
                 let internal = &internal[face.first_internal..][..face.internal_count];
                 let rates = &mut d_internal[face.first_internal..][..face.internal_count];
                 let loads = (&mut self.force[..], &mut self.moment[..]);
-                apply(face, &self.kinematics, internal, rates, loads, d_quadratures);
+                let powers = (&mut *d_quadratures, &mut work);
+                apply(face, &self.kinematics, internal, rates, loads, powers);
             }
             for coil in self.coils.iter_mut().filter(|coil| !coil.plain) {
                 let loads = (&mut self.force[..], &mut self.moment[..]);
-                apply(coil, &self.kinematics, &[], &mut [], loads, d_quadratures);
+                let powers = (&mut *d_quadratures, &mut work);
+                apply(coil, &self.kinematics, &[], &mut [], loads, powers);
             }
         }
+        d_quadratures[WORK] = work;
         for free in &self.free {
             let frame = &self.frames[free.body];
             let accelerations = accelerate(
@@ -278,9 +290,12 @@ impl System {
                 self.gravity,
                 (self.force[free.body], self.moment[free.body]),
             );
-            let target = &mut d_speeds[free.offset..free.offset + free.free.len()];
-            for (target, &k) in target.iter_mut().zip(&free.free) {
-                *target = accelerations[k];
+            let own = free.offset..free.offset + free.free.len();
+            let rates = d_positions[own.clone()]
+                .iter_mut()
+                .zip(&mut d_speeds[own.clone()]);
+            for ((rate, target), (speed, &k)) in rates.zip(speeds[own].iter().zip(&free.free)) {
+                (*rate, *target) = (*speed, accelerations[k]);
             }
         }
     }
@@ -292,36 +307,46 @@ fn push<E: Element>(
     mounted: &mut Mounted<E>,
     kinematics: &Kinematics<f64>,
     (internal, rates): (&[f64], &mut [f64]),
-    (force, moment): (&mut Vector<f64>, &mut Vector<f64>),
-    powers: &mut [f64],
+    loads: (&mut Vector<f64>, &mut Vector<f64>),
+    (powers, work): (&mut [f64], &mut f64),
 ) {
     let sight = &mounted.sight;
     let seen = (sight, kinematics);
-    let element = &mounted.element;
-    if let Some(effect) = element.act_from(&mut mounted.points, seen, internal, rates) {
-        let channels = (&mounted.channels, mounted.driven);
-        add_effect(&effect, sight, channels, (force, moment), powers);
+    let channels = &mounted.channels;
+    match mounted
+        .element
+        .act_from(&mut mounted.points, seen, internal, rates)
+    {
+        Some(effect) => add_effect(&effect, sight, (channels, mounted.driven), loads, (powers, work)),
+        None => write_powers(channels, [0.0; 2], powers),
     }
 }
 
-/// Adds what a plain element does to force and moment on its body and to the powers of its channels; a neighbour that is driven does work.
+/// Adds what a plain element does to force and moment on its body, and writes the powers of its channels; a neighbour that is driven does
+/// work.
 #[inline(always)]
 pub(super) fn add_effect<P: Number<Plain = P>>(
     effect: &Effect<P>,
     sight: &Sight<P>,
     (channels, driven): (&[Option<usize>; 2], bool),
     (force, moment): (&mut Vector<P>, &mut Vector<P>),
-    powers: &mut [P],
+    (powers, work): (&mut [P], &mut P),
 ) {
     *force += sight.rotation.apply_transposed::<P, P>(effect.force);
     *moment += effect.moment;
-    for (channel, power) in channels.iter().zip(effect.powers) {
-        if let Some(channel) = channel {
-            powers[*channel] += power;
-        }
-    }
+    write_powers(channels, effect.powers, powers);
     if driven {
-        powers[0] += sight.mount_velocity.dot::<P, P>(effect.force);
+        *work += sight.mount_velocity.dot::<P, P>(effect.force);
+    }
+}
+
+/// The powers of the channels of one element, which are its own.
+#[inline(always)]
+fn write_powers<P: Copy>(channels: &[Option<usize>; 2], own: [P; 2], powers: &mut [P]) {
+    for (channel, power) in channels.iter().zip(own) {
+        if let Some(channel) = channel {
+            powers[*channel] = power;
+        }
     }
 }
 
@@ -347,7 +372,7 @@ fn apply<E: Element>(
     internal: &[f64],
     internal_rates: &mut [f64],
     (forces, moments): (&mut [Vector<f64>], &mut [Vector<f64>]),
-    powers: &mut [f64],
+    (powers, work): (&mut [f64], &mut f64),
 ) {
     let relative: Relative<f64> = mounted.sight.relative(&kinematics[mounted.body]);
     let effect = mounted
@@ -356,11 +381,7 @@ fn apply<E: Element>(
     let sight = &mounted.sight;
     forces[mounted.body] += sight.rotation.apply_transposed(effect.force);
     moments[mounted.body] += effect.moment;
-    for (channel, power) in mounted.channels.iter().zip(effect.powers) {
-        if let Some(channel) = channel {
-            powers[*channel] += power;
-        }
-    }
+    write_powers(&mounted.channels, effect.powers, powers);
     let action = Action {
         force: effect.force,
         moment: relative.rotation.apply(effect.moment),
@@ -372,6 +393,6 @@ fn apply<E: Element>(
         moments[mounted.on] += moment;
     }
     if mounted.driven {
-        powers[0] += action.drive_power(&relative, sight);
+        *work += action.drive_power(&relative, sight);
     }
 }

@@ -156,6 +156,8 @@ pub struct System {
     bounded: bool,
     /// Positions and speeds for which all this was evaluated.
     placed: Vec<f64>,
+    /// The face that alone was brought to them, and to this time, where `frames_at` is not a number.
+    face_placed: (usize, f64),
     /// Whether the faces have seen their points there.
     met: bool,
 }
@@ -217,7 +219,7 @@ impl System {
     pub fn segment_like(&mut self, other: &Self) {
         if self.reference != other.reference {
             self.reference = other.reference;
-            self.frames_at = f64::NAN;
+            self.forget_places();
         }
     }
 
@@ -285,7 +287,7 @@ impl Problem for System {
         } else {
             start + 1.0
         };
-        self.frames_at = f64::NAN;
+        self.forget_places();
         end
     }
 

@@ -331,6 +331,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         plain,
         bounded,
         placed: vec![f64::NAN; 2 * layout.speeds],
+        face_placed: (0, f64::NAN),
         met: false,
     })
 }

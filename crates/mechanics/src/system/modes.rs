@@ -8,6 +8,8 @@
 
 use std::ops::Range;
 
+use integrate::lanes::{LANES, LaneMask, Lanes};
+use integrate::scalar::{Blend, Number};
 use integrate::{KinkSigns, SwitchGroup};
 
 use super::System;
@@ -67,20 +69,6 @@ struct Signs {
 }
 
 impl Signs {
-    /// Positive while the mode lasts.
-    fn margin(self, mode: Mode) -> f64 {
-        let stays_closed = (OPENING_GAP - self.gap) / OPENING_GAP;
-        // A closed point in the band of hysteresis carries no force: its friction says nothing.
-        let load = if self.gap < 0.0 { self.load } else { f64::NAN };
-        let friction = match mode {
-            Mode::Open => return self.gap - CLOSING_GAP,
-            Mode::Stick => SLIP_LOAD[self.law] - load,
-            Mode::Slip => load - STICK_LOAD[self.law],
-        };
-        // `min` passes over NaN.
-        friction.min(stays_closed)
-    }
-
     /// The mode that follows one that must be left.
     fn next(self, mode: Mode) -> Mode {
         match mode {
@@ -99,6 +87,22 @@ impl Signs {
             Mode::Slip
         }
     }
+}
+
+/// Positive where the mode of a point lasts, for up to four points: see [`Signs::next`].
+#[inline(always)]
+fn margins_of(modes: &[u8], gap: Lanes, load: Lanes, law: usize) -> Lanes {
+    let all = |mode: Mode| LaneMask::new(std::array::from_fn(|i| modes.get(i) == Some(&(mode as u8))));
+    let stays_open = gap - CLOSING_GAP;
+    if modes.iter().all(|mode| *mode == Mode::Open as u8) {
+        return stays_open;
+    }
+    let stays_closed = (OPENING_GAP - gap) / OPENING_GAP;
+    let friction = Lanes::blend(all(Mode::Stick), SLIP_LOAD[law] - load, load - STICK_LOAD[law]);
+    // A closed point in the band of hysteresis carries no force: its friction says nothing. Nor does what is not a number.
+    let bears = gap.below(Lanes::zero()).and(friction.below(stays_closed));
+    let stays = Lanes::blend(bears, friction, stays_closed);
+    Lanes::blend(all(Mode::Open), stays_open, stays)
 }
 
 impl System {
@@ -130,16 +134,41 @@ impl System {
         face.points.meet(&view);
     }
 
-    /// Gap and load of every point of a face, by their numbers among all points, once it has seen its points.
+    /// Gap and load of the points of a face, up to four at a time by their numbers among all points, and the law's place in
+    /// [`SLIP_LOAD`]; once it has seen its points.
     #[inline(always)]
-    fn face_signs(&self, number: usize, x: &[f64], mut each: impl FnMut(usize, Signs)) {
+    fn face_quads(&self, number: usize, x: &[f64], mut each: impl FnMut(Range<usize>, Lanes, Lanes, usize)) {
         let [_, _, internal, _] = self.layout.split(x);
         let face = &self.faces[number];
         let deflections = &internal[face.first_internal..][..face.internal_count];
         let law = usize::from(matches!(face.element.law, FrictionLaw::Bristle { .. }));
         let first = self.first_points[number];
-        face.element.signs(&face.points, deflections, |i, gap, load| {
-            each(first + i, Signs { gap, load, law });
+        face.element.signs(&face.points, deflections, |own, gap, load| {
+            each(first + own.start..first + own.end, gap, load, law);
+        });
+    }
+
+    /// The same of every point by itself.
+    #[inline(always)]
+    fn face_signs(&self, number: usize, x: &[f64], mut each: impl FnMut(usize, Signs)) {
+        self.face_quads(number, x, |points, gap, load, law| {
+            for (i, point) in points.enumerate() {
+                let (gap, load) = (gap.at(i), load.at(i));
+                each(point, Signs { gap, load, law });
+            }
+        });
+    }
+
+    /// The margins of the points of a face, once it has seen its points.
+    #[inline(always)]
+    fn margins_of_face(&self, number: usize, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+        self.face_quads(number, x, |points, gap, load, law| {
+            let values = margins_of(&modes[points.clone()], gap, load, law).to_array();
+            let margins = &mut margins[points];
+            match margins.as_mut_array::<LANES>() {
+                Some(all) => *all = values,
+                None => margins.copy_from_slice(&values[..margins.len()]),
+            }
         });
     }
 
@@ -187,9 +216,9 @@ impl System {
 
     pub(super) fn mode_margins(&mut self, x: &[f64], modes: &[u8], margins: &mut [f64]) {
         self.meet();
-        self.signs(x, |i, signs| {
-            margins[i] = signs.margin(Mode::from_number(modes[i]))
-        });
+        for number in 0..self.faces.len() {
+            self.margins_of_face(number, x, modes, margins);
+        }
     }
 
     /// Margins of the points of one face, which depend on nothing but the bodies it touches.
@@ -201,17 +230,17 @@ impl System {
         modes: &[u8],
         margins: &mut [f64],
     ) {
-        self.place_face(number, time, x);
-        self.meet_face(number);
-        self.face_signs(number, x, |i, signs| {
-            margins[i] = signs.margin(Mode::from_number(modes[i]));
-        });
+        if self.place_face(number, time, x) {
+            self.meet_face(number);
+        }
+        self.margins_of_face(number, x, modes, margins);
     }
 
     pub(super) fn follow_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
         let number = self.first_points.partition_point(|first| *first <= index) - 1;
-        self.place_face(number, time, x);
-        self.meet_face(number);
+        if self.place_face(number, time, x) {
+            self.meet_face(number);
+        }
         let mut next = mode;
         self.face_signs(number, x, |i, signs| {
             if i == index {

@@ -12,12 +12,10 @@ impl System {
     #[inline]
     pub(super) fn place(&mut self, time: f64, x: &[f64]) {
         let again = time != self.frames_at;
-        let own = &x[..2 * self.layout.speeds];
-        let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
-        if !again && own.iter().zip(&self.placed).all(same) {
+        let changed = renew(&mut self.placed, x);
+        if !again && !changed {
             return;
         }
-        self.placed.copy_from_slice(own);
         self.met = false;
         self.frames_at = time;
         if self.moves && again {
@@ -36,18 +34,38 @@ impl System {
         }
     }
 
-    /// Brings what one face sees to `time` and state `x`, and nothing else.
+    /// Brings what one face sees to `time` and state `x`, and nothing else; whether it saw something else before.
     #[inline]
-    pub(super) fn place_face(&mut self, number: usize, time: f64, x: &[f64]) {
+    pub(super) fn place_face(&mut self, number: usize, time: f64, x: &[f64]) -> bool {
+        let ends = [self.faces[number].body, self.faces[number].on];
         // the next one to place everything does so anew
+        let all_placed = !self.frames_at.is_nan();
         self.frames_at = f64::NAN;
-        for body in [self.faces[number].body, self.faces[number].on] {
+        let mut changed = all_placed || self.face_placed != (number, time);
+        self.face_placed = (number, time);
+        for free in ends.into_iter().filter_map(|body| self.free_number[body]) {
+            let (free, speeds) = (&self.free[free], self.layout.speeds);
+            for first in [free.offset, speeds + free.offset] {
+                let own = &mut self.placed[first..][..free.free.len()];
+                changed |= renew(own, &x[first..]);
+            }
+        }
+        if !changed {
+            return false;
+        }
+        for body in ends {
             self.place_frame(body, time);
             if let Some(free) = self.free_number[body] {
                 self.place_free(free, x);
             }
         }
         sight(&mut self.faces[number], &self.frames, &self.kinematics, true);
+        true
+    }
+
+    /// Everything is placed anew when it is asked for next: a motion has changed.
+    pub(super) fn forget_places(&mut self) {
+        (self.frames_at, self.face_placed.1) = (f64::NAN, f64::NAN);
     }
 
     /// Brings a body's reference frame to `time`.
@@ -72,6 +90,17 @@ impl System {
         let body = free.body;
         self.kinematics[body] = Kinematics::new(coordinates, speeds, self.bodies[body].rolls());
     }
+}
+
+/// Writes the first of `new` over all that is `kept`; whether a bit changed. (In one loop: a call of the system's copy takes longer.)
+#[inline(always)]
+fn renew(kept: &mut [f64], new: &[f64]) -> bool {
+    let mut changes = 0;
+    for (kept, new) in kept.iter_mut().zip(new) {
+        changes |= kept.to_bits() ^ new.to_bits();
+        *kept = *new;
+    }
+    changes != 0
 }
 
 impl FrameState {

@@ -293,6 +293,7 @@ pub(super) const METHODS: Names<Method> = &[
     ("rodas4p2", Method::Rodas4P2),
     ("rodas5p", Method::Rodas5P),
     ("tr-bdf2", Method::TrBdf2),
+    ("esdirk3", Method::Esdirk3),
 ];
 
 /// Names of the ramp profiles.

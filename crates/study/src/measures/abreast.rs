@@ -118,9 +118,9 @@ impl<K: Copy> Group<K> {
             measuring,
             integrator,
         } = begun;
-        let end = measuring.end();
+        let limit = measuring.limit(&integrator);
         self.members[place] = Some((key, measuring));
-        careful(|| self.team.put(place, integrator, end)).is_some()
+        careful(|| self.team.put(place, integrator, limit)).is_some()
     }
 
     /// Makes steps until a run is over; false as for [`Group::put`].
@@ -152,7 +152,8 @@ impl<K: Copy> Group<K> {
             if integrator.time() >= measuring.end() {
                 return Some((place, Ok(measuring.finish(integrator))));
             }
-            self.team.begin(place, measuring.end());
+            let limit = measuring.limit(integrator);
+            self.team.begin(place, limit);
         }
     }
 

@@ -73,7 +73,7 @@ impl Begun {
             mut integrator,
         } = self;
         while integrator.time() < measuring.end() {
-            if let Err(error) = integrator.step_to(measuring.end()) {
+            if let Err(error) = integrator.step_to(measuring.limit(&integrator)) {
                 return Err(Unmeasured::Stopped(error.to_string()));
             }
             measuring.after_step(&mut integrator);
@@ -166,6 +166,12 @@ impl Measuring {
     /// When the run ends, s.
     pub fn end(&self) -> f64 {
         self.duration
+    }
+
+    /// Where the next step is to end at the latest, s.
+    pub fn limit(&self, integrator: &Integrator<System>) -> f64 {
+        let row = row_time(self.next_row, self.rows, self.duration, self.interval);
+        integrator.limit_before(row, self.duration)
     }
 
     /// Measures an accepted step.
