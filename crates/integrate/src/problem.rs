@@ -29,7 +29,7 @@ pub trait Problem {
 
     /// How many leading states are displacements: the rate of each is another state, or smooth like one.
     ///
-    /// A method that damps fast vibrations instead of following them ([`crate::Method::TrBdf2`]) holds the tolerance in these alone.
+    /// A method that damps fast vibrations instead of following them ([`crate::Method::TrBdf2`], [`crate::Method::Esdirk3`]) holds the tolerance in these alone.
     fn displacements(&self) -> usize {
         self.read_states()
     }
