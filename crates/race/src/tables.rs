@@ -104,8 +104,14 @@ pub fn ratios(standings: &[Standing]) -> String {
     let _ = writeln!(text, "|---|---|{}---|---|", "---|".repeat(columns.len()));
     for one in rows {
         let mut cells = vec![one.case.clone(), power(one.floor)];
+        let (ours, took_part) = (one.ours(), one.solvers());
         for (_, names) in &columns {
-            cells.push(cell(&one.ratios(names, &one.ours())));
+            let both = !ours.is_empty() && names.iter().any(|name| took_part.contains(name));
+            cells.push(if both {
+                cell(&one.ratios(names, &ours))
+            } else {
+                "-".to_owned()
+            });
         }
         for name in ["Octave ode15s", IN_OCTAVE] {
             // The longest span first: mostly the only one.
@@ -269,4 +275,45 @@ pub fn everything(standings: &[Standing]) -> String {
         let _ = write!(text, "\n## {}, {} s\n\n{}", one.case, one.span, standing(one));
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::outcome::Outcome;
+    use crate::runner::Entry;
+
+    fn run(solver: &str, error: f64, cpu: f64) -> Judgement {
+        Judgement {
+            entry: Entry {
+                case: "a case".to_owned(),
+                solver: solver.to_owned(),
+                tolerance: "1e-6".to_owned(),
+                rows: 11,
+                outcome: Outcome {
+                    cpu,
+                    ..Outcome::default()
+                },
+            },
+            error: Some(error),
+        }
+    }
+
+    #[test]
+    fn who_did_not_run_is_not_called_inexact() {
+        let standing = Standing {
+            case: "a case".to_owned(),
+            span: 10.0,
+            judged: "position".to_owned(),
+            floor: 1e-3,
+            runs: vec![
+                run("wedgelab Rodas5P", 2e-3, 0.1),
+                run("CVODE BDF", 2e-3, 0.5),
+                run("SciPy LSODA", 0.5, 0.5),
+            ],
+        };
+        let text = ratios(&[standing]);
+        let expected = "| a case | 1e-3 | 5.0 (at 3e-2) to 5.0 | - | never as exact | - | - |";
+        assert!(text.lines().any(|line| line == expected), "{text}");
+    }
 }
