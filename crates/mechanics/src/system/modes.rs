@@ -295,3 +295,39 @@ impl System {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each lane by the words of the module: what has changed least before the mode ends.
+    #[test]
+    fn limits_margins_of_four_points_are_those_of_each() {
+        let modes = [Mode::Open, Mode::Stick, Mode::Slip, Mode::Stick].map(|mode| mode as u8);
+        let half = 0.5 * OPENING_GAP;
+        for law in 0..2 {
+            for gaps in [
+                [half; 4],
+                [-1e-6, -1e-6, -1e-6, 2.0 * OPENING_GAP],
+                [1e-6, half, half, 0.0],
+            ] {
+                for load in [0.0, 0.5, 1.0, 1.5, 3.0, f64::NAN] {
+                    let found = margins_of(&modes, Lanes::new(gaps), Lanes::from(load), law).to_array();
+                    for ((mode, gap), found) in modes.iter().zip(gaps).zip(found) {
+                        let opens = (OPENING_GAP - gap) / OPENING_GAP;
+                        // In the band of hysteresis nothing is pressed: no friction.
+                        let expected = match Mode::from_number(*mode) {
+                            Mode::Open => gap - CLOSING_GAP,
+                            _ if gap >= 0.0 || load.is_nan() => opens,
+                            Mode::Stick => opens.min(SLIP_LOAD[law] - load),
+                            Mode::Slip => opens.min(load - STICK_LOAD[law]),
+                        };
+                        assert_eq!(found, expected, "mode {mode}, gap {gap}, load {load}");
+                    }
+                }
+            }
+        }
+        let alone = margins_of(&[0], Lanes::from(0.3), Lanes::from(9.0), 0);
+        assert_eq!(alone.at(0), 0.3);
+    }
+}
