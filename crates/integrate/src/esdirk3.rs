@@ -29,38 +29,22 @@ const EMBEDDED: [f64; 4] = [
     49_563.0 / 233_080.0,
 ];
 
-/// How the stages at `9/20` and [`THIRD`] lie off the line between the ends of the step, over `ϑ (1 - ϑ)` there.
-const OFF: [[f64; 5]; 2] = {
-    let second = 2.0 * GAMMA;
-    let by = 1.0 / (second * (1.0 - second));
-    let own = GAMMA - second * B[0];
-    let third = 1.0 / (THIRD * (1.0 - THIRD));
-    let first = A3 - THIRD * B[0];
-    [
-        [
-            own * by,
-            own * by,
-            -second * B[1] * by,
-            -second * B[2] * by,
-            -second * GAMMA * by,
-        ],
-        [
-            first * third,
-            first * third,
-            (GAMMA - THIRD * B[1]) * third,
-            -THIRD * B[2] * third,
-            -THIRD * GAMMA * third,
-        ],
-    ]
-};
-
-/// The polynomial of degree 3 through both ends and these stages.
+/// The polynomial of degree 3 through both ends and the stages at `9/20` and [`THIRD`].
 const DENSE: [[f64; 6]; 2] = {
+    let end = [B[0], B[0], B[1], B[2], GAMMA];
+    let stages = [
+        (2.0 * GAMMA, [GAMMA, GAMMA, 0.0, 0.0, 0.0]),
+        (THIRD, [A3, A3, GAMMA, 0.0, 0.0]),
+    ];
     let mut rows = [[0.0; 6]; 2];
     let mut j = 0;
-    while j < 5 {
-        let rise = (OFF[1][j] - OFF[0][j]) / (THIRD - 2.0 * GAMMA);
-        (rows[0][j], rows[1][j]) = (OFF[0][j] - 2.0 * GAMMA * rise, rise);
+    while j < end.len() {
+        // How they lie off the line between the ends, over `ϑ (1 - ϑ)` there.
+        let [(second, a), (third, b)] = stages;
+        let first = (a[j] - second * end[j]) * (1.0 / (second * (1.0 - second)));
+        let last = (b[j] - third * end[j]) * (1.0 / (third * (1.0 - third)));
+        let rise = (last - first) / (third - second);
+        (rows[0][j], rows[1][j]) = (first - second * rise, rise);
         j += 1;
     }
     rows

@@ -156,6 +156,7 @@ impl Switches {
                 self.resolve(problem, dense, number, to, maximum)?;
             }
         }
+        // As in most steps: nothing changes, in no group.
         if self.groups.iter().all(|group| group.end_known) && !leaving(&self.at_end, &self.muted) {
             std::mem::swap(&mut self.at_start, &mut self.at_end);
             for group in &mut self.groups {

@@ -14,6 +14,7 @@ pub mod measures;
 pub mod metrics;
 pub mod records;
 pub mod result;
+mod rows;
 pub mod run;
 pub mod summary;
 pub mod truck;

@@ -13,6 +13,7 @@ use wedge::{BuildError, Wedge};
 use crate::case::Case;
 use crate::metrics::Cycle;
 use crate::result::{ContactEvent, RunResult};
+use crate::rows::Rows;
 use crate::summary::Stopped;
 
 mod summarize;
@@ -87,6 +88,7 @@ pub struct Counts {
 /// A run under way.
 pub struct Run {
     case: Case,
+    rows: Rows,
     wedge: Wedge,
     outputs: Outputs,
     integrator: Integrator<System>,
@@ -160,6 +162,7 @@ impl Run {
             modes: integrator.modes().to_vec(),
             speeds: vec![0.0; points],
             case: case.clone(),
+            rows: Rows::of(&case.simulation),
             wedge,
             outputs,
             integrator,
@@ -208,10 +211,7 @@ impl Run {
     /// # Errors
     /// The integrator cannot go on; what was computed is kept.
     pub fn advance(&mut self) -> Result<(), RunError> {
-        let simulation = &self.case.simulation;
-        let (end, interval) = (simulation.duration, simulation.output_interval);
-        let row = row_time(self.next_row, row_count(end, interval), end, interval);
-        let limit = self.integrator.limit_before(row, end);
+        let limit = self.rows.limit(self.next_row, &self.integrator);
         if let Err(error) = self.integrator.step_to(limit) {
             let contacts = self.contact_words();
             return Err(RunError::Step { error, contacts });
@@ -338,26 +338,18 @@ impl Run {
 
     /// Writes the rows whose time has been reached, with the contact modes of that time.
     fn emit_rows(&mut self, first: bool) {
-        let simulation = &self.case.simulation;
-        // Most steps reach no row: neither the next multiple of the interval nor the end, where the last one is.
-        if self.next_row as f64 * simulation.output_interval > self.integrator.time()
-            && self.integrator.time() < simulation.duration
-        {
+        let rows = self.rows;
+        // Most steps reach no row.
+        if rows.time(self.next_row) > self.integrator.time() {
             return;
         }
-        let count = row_count(simulation.duration, simulation.output_interval);
         self.modes.copy_from_slice(self.integrator.modes_before_step());
         if first {
             self.modes.copy_from_slice(self.integrator.modes());
         }
         let mut seen_events = 0;
-        while self.next_row < count {
-            let time = row_time(
-                self.next_row,
-                count,
-                simulation.duration,
-                simulation.output_interval,
-            );
+        while self.next_row < rows.count {
+            let time = rows.time(self.next_row);
             if time > self.integrator.time() {
                 break;
             }
@@ -402,22 +394,6 @@ pub(crate) fn friction_losses(system: &System, x: &[f64]) -> [f64; 2] {
 /// Face and corner of a contact point.
 fn place(point: usize) -> (&'static str, &'static str) {
     (FACES[point / CORNERS.len()], CORNERS[point % CORNERS.len()])
-}
-
-/// Number of rows: multiples of the interval, and the end.
-pub(crate) fn row_count(duration: f64, interval: f64) -> u64 {
-    let whole = (duration / interval * (1.0 + 1e-12)).floor();
-    let rest = duration - whole * interval > 1e-9 * interval;
-    whole as u64 + 1 + u64::from(rest)
-}
-
-/// The time of a row; the last one is the end.
-pub(crate) fn row_time(row: u64, count: u64, duration: f64, interval: f64) -> f64 {
-    if row + 1 == count {
-        duration
-    } else {
-        (row as f64 * interval).min(duration)
-    }
 }
 
 /// Steps a cycle, at least, of a method that damps the vibrations.

@@ -14,7 +14,8 @@ use super::{Measures, place};
 use crate::case::{Case, Simulation};
 use crate::closed_form;
 use crate::metrics::{Cycle, first_harmonic};
-use crate::run::{MAXIMUM_STEPS, RunError, friction_losses, options, row_count, row_time};
+use crate::rows::Rows;
+use crate::run::{MAXIMUM_STEPS, RunError, friction_losses, options};
 
 /// Why a run has no measures.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,9 +98,7 @@ thread_local! {
 
 /// What is measured of a run on its way. The steps are made by whoever has its integrator.
 pub(crate) struct Measuring {
-    /// The end of the run and the time between rows, s.
-    duration: f64,
-    interval: f64,
+    rows: Rows,
     wedge: Wedge,
     cycle: Option<Cycle>,
     /// The averaging window and its number of cycles.
@@ -109,7 +108,6 @@ pub(crate) struct Measuring {
     /// Friction losses at the ends of the window, by face, J.
     probes: Vec<[f64; 2]>,
     next_row: u64,
-    rows: u64,
     buffer: Vec<f64>,
     loads: Loads,
     /// Sums and counts of the branches: down, up.
@@ -125,9 +123,9 @@ pub(crate) struct Measuring {
 impl Measuring {
     fn new(simulation: &Simulation, mut wedge: Wedge, integrator: &Integrator<System>) -> Self {
         let cycle = Cycle::of(&wedge.parameters);
-        let (duration, interval) = (simulation.duration, simulation.output_interval);
-        let window = cycle.and_then(|cycle| cycle.window(duration));
-        let averaged = window.map_or((0.0, duration), |(start, end, _)| (start, end));
+        let rows = Rows::of(simulation);
+        let window = cycle.and_then(|cycle| cycle.window(rows.end));
+        let averaged = window.map_or((0.0, rows.end), |(start, end, _)| (start, end));
         let mut series = SERIES.with(|kept| kept.borrow_mut().pop()).unwrap_or_default();
         for values in [
             &mut series.times,
@@ -145,7 +143,7 @@ impl Measuring {
             start_energy,
             probes: Vec::with_capacity(2),
             next_row: 0,
-            rows: row_count(duration, interval),
+            rows,
             buffer: start,
             loads: Loads::default(),
             sums: [[0.0; 4]; 2],
@@ -154,8 +152,6 @@ impl Measuring {
             peaks_from: averaged.0,
             events: 0,
             series,
-            duration,
-            interval,
             wedge,
         };
         this.observe_row(0.0);
@@ -165,13 +161,12 @@ impl Measuring {
 
     /// When the run ends, s.
     pub fn end(&self) -> f64 {
-        self.duration
+        self.rows.end
     }
 
     /// Where the next step is to end at the latest, s.
     pub fn limit(&self, integrator: &Integrator<System>) -> f64 {
-        let row = row_time(self.next_row, self.rows, self.duration, self.interval);
-        integrator.limit_before(row, self.duration)
+        self.rows.limit(self.next_row, integrator)
     }
 
     /// Measures an accepted step.
@@ -181,8 +176,8 @@ impl Measuring {
         self.clock.step(integrator.events(), time);
         self.probe(integrator);
         self.wedge.system.segment_like(integrator.problem());
-        while self.next_row < self.rows {
-            let row = row_time(self.next_row, self.rows, self.duration, self.interval);
+        while self.next_row < self.rows.count {
+            let row = self.rows.time(self.next_row);
             if row > time {
                 break;
             }

@@ -1,0 +1,41 @@
+//! When rows of output are written.
+
+use integrate::{Integrator, Problem};
+
+use crate::case::Simulation;
+
+/// The rows of a run: at multiples of the output interval, and at the end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rows {
+    /// How many there are.
+    pub count: u64,
+    /// The end of the run, s.
+    pub end: f64,
+    /// The time between two of them, s.
+    interval: f64,
+}
+
+impl Rows {
+    /// Those of a simulation.
+    pub fn of(simulation: &Simulation) -> Self {
+        let (end, interval) = (simulation.duration, simulation.output_interval);
+        let whole = (end / interval * (1.0 + 1e-12)).floor();
+        let rest = end - whole * interval > 1e-9 * interval;
+        let count = whole as u64 + 1 + u64::from(rest);
+        Self { count, end, interval }
+    }
+
+    /// The time of a row, s; the last one is the end.
+    pub fn time(&self, row: u64) -> f64 {
+        if row + 1 == self.count {
+            self.end
+        } else {
+            (row as f64 * self.interval).min(self.end)
+        }
+    }
+
+    /// Where an integrator's next step is to end at the latest, s, if this row is the next one.
+    pub fn limit<P: Problem>(&self, next: u64, integrator: &Integrator<P>) -> f64 {
+        integrator.limit_before(self.time(next), self.end)
+    }
+}
