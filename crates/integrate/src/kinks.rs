@@ -62,6 +62,17 @@ pub struct KinkSigns {
     pub directions: Vec<[f64; 2]>,
 }
 
+impl KinkSigns {
+    /// Room for what a problem tells.
+    pub(crate) fn of<P: Problem>(problem: &P) -> Self {
+        let (values, directions) = problem.kink_counts();
+        Self {
+            values: vec![0.0; values],
+            directions: vec![[0.0; 2]; directions],
+        }
+    }
+}
+
 /// What lies ahead.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Ahead {
@@ -117,10 +128,7 @@ pub(crate) struct Kinks {
 impl Kinks {
     pub fn new<P: Problem>(problem: &P) -> Self {
         let (values, directions) = problem.kink_counts();
-        let signs = KinkSigns {
-            values: vec![0.0; values],
-            directions: vec![[0.0; 2]; directions],
-        };
+        let signs = KinkSigns::of(problem);
         let functions = values + 2 * directions;
         Self {
             here: signs.clone(),

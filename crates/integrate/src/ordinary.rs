@@ -56,6 +56,7 @@ pub struct Ordinary<'a> {
     stiffness: Option<Stiffness<'a>>,
     /// How many values and directions, and what writes them.
     kinks: Option<((usize, usize), Kinks<'a>)>,
+    pieces: bool,
     /// Ends of segments, ascending.
     breaks: Vec<f64>,
     displacements: usize,
@@ -89,6 +90,7 @@ impl<'a> Ordinary<'a> {
             layer_bounds: Vec::new(),
             stiffness: None,
             kinks: None,
+            pieces: false,
             breaks: Vec::new(),
             matrix,
         }
@@ -118,6 +120,13 @@ impl<'a> Ordinary<'a> {
         function: impl FnMut(f64, &[f64], &mut KinkSigns) + Send + 'a,
     ) -> Self {
         self.kinks = Some(((values, directions), Box::new(function)));
+        self
+    }
+
+    /// The kinks told are all there are, see [`Problem::tells_pieces`].
+    #[must_use]
+    pub fn in_pieces(mut self) -> Self {
+        self.pieces = true;
         self
     }
 
@@ -224,6 +233,10 @@ impl Problem for Ordinary<'_> {
         if let Some((_, function)) = &mut self.kinks {
             function(time, x, signs);
         }
+    }
+
+    fn tells_pieces(&self) -> bool {
+        self.pieces
     }
 
     fn switch_count(&self) -> usize {

@@ -133,6 +133,12 @@ pub trait Problem {
         let _ = (time, x, signs);
     }
 
+    /// Whether [`Problem::kinks`] tells all kinks there are, so that between them derivatives change little: Newton's method then keeps
+    /// a matrix as long as it is on one piece.
+    fn tells_pieces(&self) -> bool {
+        false
+    }
+
     /// Number of discrete switches (contact open, sticking, slipping, ...): modes with hysteresis that are recorded
     /// and timed. They do not change `f`.
     fn switch_count(&self) -> usize {
@@ -232,6 +238,9 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     }
     fn kinks(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
         (**self).kinks(time, x, signs);
+    }
+    fn tells_pieces(&self) -> bool {
+        (**self).tells_pieces()
     }
     fn switch_count(&self) -> usize {
         (**self).switch_count()

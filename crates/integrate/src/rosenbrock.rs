@@ -16,13 +16,16 @@ use crate::tableau::{Family, MAXIMUM_STAGES, Tableau};
 mod attempt;
 mod between;
 mod collocation;
+mod kept;
 mod newton;
+mod reversal;
 mod step;
 mod underway;
 
 use between::Between;
 pub(crate) use collocation::Calm;
 use collocation::Collocation;
+pub(crate) use kept::Place;
 use newton::Newton;
 use underway::Underway;
 pub use underway::{Call, Progress};
@@ -140,6 +143,7 @@ impl<P: Problem> Integrator<P> {
             calm: Calm::default(),
             reach: 0.0,
             slope: Vec::new(),
+            matrix: None,
             statistics: Statistics::default(),
         };
         let mut this = Self::resume(problem, options, state)?;
@@ -279,7 +283,7 @@ impl<P: Problem> Integrator<P> {
                 value,
             });
         }
-        this.continue_slope(&state.slope);
+        this.continue_stages(&state.slope, state.matrix.as_ref());
         Ok(this)
     }
 
@@ -302,6 +306,7 @@ impl<P: Problem> Integrator<P> {
                 Family::DiagonallyImplicit => self.derivative().to_vec(),
                 _ => Vec::new(),
             },
+            matrix: self.place_of_matrix(),
             statistics: self.statistics.clone(),
         }
     }
@@ -434,16 +439,17 @@ impl<P: Problem> Integrator<P> {
         let counted = self.statistics.derivatives;
         self.evaluate_derivative();
         self.statistics.derivatives = counted;
-        self.continue_slope(&state.slope);
+        self.continue_stages(&state.slope, state.matrix.as_ref());
         Ok(())
     }
 
-    /// Takes the slope with which the last step ended.
-    fn continue_slope(&mut self, slope: &[f64]) {
+    /// Takes the slope with which the last step ended, and the matrix that it left.
+    fn continue_stages(&mut self, slope: &[f64], matrix: Option<&Place>) {
         if self.tableau.family == Family::DiagonallyImplicit {
             for (dx, slope) in self.dx.iter_mut().zip(slope) {
                 *dx = *slope;
             }
+            self.form_matrix_again(matrix);
         }
     }
 

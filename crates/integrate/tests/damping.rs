@@ -193,6 +193,86 @@ fn analytic_a_sliding_mass_stops_and_sticks() {
     }
 }
 
+/// The slip over its reference speed of [`dragged`].
+const DRAGGED_SPEED: f64 = 1e-5;
+
+/// A mass of 1 kg under friction of 10 N on a spring of 2000 N/m whose end moves as 0.02 sin 5t: it sticks, slips and rings at 7 Hz.
+fn dragged(told: bool) -> Ordinary<'static> {
+    let problem = Ordinary::new(
+        vec![1.0, 1.0],
+        |t, x, dx| {
+            dx[0] = x[1];
+            dx[1] = 2000.0 * (0.02 * libm::sin(5.0 * t) - x[0]) - 10.0 * libm::tanh(x[1] / DRAGGED_SPEED);
+        },
+        |_, x, j| {
+            let cosh = libm::cosh(x[1] / DRAGGED_SPEED);
+            j.copy_from_slice(&[0.0, 1.0, -2000.0, -10.0 / (DRAGGED_SPEED * cosh * cosh)]);
+        },
+    )
+    .displacements(1);
+    if told {
+        problem
+            .kinks(0, 1, |_, x, signs| {
+                signs.directions[0] = [x[1] / DRAGGED_SPEED, 0.0]
+            })
+            .in_pieces()
+    } else {
+        problem
+    }
+}
+
+/// Told of pieces, Newton's method keeps its matrix on them and looks for reversals where they are: the same motion for fewer matrices.
+#[test]
+fn convergence_a_matrix_kept_on_its_piece_changes_nothing_but_its_cost() {
+    let reference = Options {
+        relative_tolerance: 1e-10,
+        ..Options::default()
+    };
+    let (exact, _) = run(dragged(false), reference, &[0.0, 0.0], 4.0);
+    for method in DAMPING {
+        let options = Options {
+            maximum_step: 0.01,
+            ..options_of(method, 1e-7)
+        };
+        let [alone, told] = [false, true].map(|told| run(dragged(told), options.clone(), &[0.0, 0.0], 4.0));
+        println!("{method}: {:?}\n{:?}", alone.1, told.1);
+        for (x, _) in [&alone, &told] {
+            assert!((x[0] - exact[0]).abs() < 2e-5, "{method}: {x:?}, {exact:?}");
+            assert!((x[1] - exact[1]).abs() < 1e-3, "{method}: {x:?}, {exact:?}");
+        }
+        assert!(4 * told.1.jacobians < 3 * alone.1.jacobians, "{method}");
+        // where a matrix costs as much as two right-hand sides
+        let [one, other] = [&told.1, &alone.1].map(|s| s.derivatives + 2 * s.jacobians);
+        assert!(one < other, "{method}: {one}, {other}");
+    }
+}
+
+/// A run that was saved has the matrix that was kept.
+#[test]
+fn reproducible_a_saved_run_goes_on_with_the_matrix_it_kept() {
+    for method in DAMPING {
+        let options = options_of(method, 1e-6);
+        let mut whole = Integrator::new(dragged(true), options.clone(), 0.0, &[0.0, 0.0]).unwrap();
+        let mut parts = Integrator::new(dragged(true), options.clone(), 0.0, &[0.0, 0.0]).unwrap();
+        let mut kept = 0;
+        while whole.time() < 2.0 {
+            whole.step_to(2.0).unwrap();
+            let jacobians = parts.statistics().jacobians;
+            let text = serde_json::to_string(&parts.state()).unwrap();
+            let state: State = serde_json::from_str(&text).unwrap();
+            if whole.statistics().steps.is_multiple_of(2) {
+                parts = Integrator::resume(dragged(true), options.clone(), state).unwrap();
+            } else {
+                parts.restore(&state).unwrap();
+            }
+            parts.step_to(2.0).unwrap();
+            kept += u32::from(parts.statistics().jacobians == jacobians);
+            assert_eq!(whole.state(), parts.state(), "{method}");
+        }
+        assert!(kept > 50, "{method}: {kept}");
+    }
+}
+
 /// Where a force bends, as friction that reverses does at a row of output, only the ends of steps are in balance: rows limit steps.
 #[test]
 fn limits_rows_end_the_steps_of_methods_that_damp() {
@@ -244,9 +324,9 @@ fn input_stages_without_solution_are_reported() {
     assert!(integrator.statistics().rejected_unsolved > 2);
 }
 
-/// A saved run has the slope with which its last step ended. One that cannot be is refused.
+/// A saved run has the slope with which its last step ended, and the place of its matrix. Those that cannot be are refused.
 #[test]
-fn input_a_damaged_slope_is_refused() {
+fn input_a_damaged_slope_or_matrix_is_refused() {
     let mut integrator = Integrator::new(carried(100.0), options(1e-4), 0.0, &[0.0, 1.0]).unwrap();
     integrator.step_to(1.0).unwrap();
     let saved = serde_json::to_value(integrator.state()).unwrap();
@@ -262,5 +342,29 @@ fn input_a_damaged_slope_is_refused() {
         found: 1,
     };
     assert_eq!(resume(vec![1.0]), Err(slopes));
+    let resume_with = |matrix: serde_json::Value| {
+        let mut damaged = saved.clone();
+        damaged["matrix"] = matrix;
+        let state: State = serde_json::from_value(damaged).unwrap();
+        Integrator::resume(carried(100.0), options(1e-4), state).map(|_| ())
+    };
+    let places = SetupError::Dimension {
+        what: "states of the matrix",
+        expected: 2,
+        found: 1,
+    };
+    assert_eq!(
+        resume_with(serde_json::json!({ "time": 0.1, "x": [1.0], "shift": 0.0 })),
+        Err(places)
+    );
+    let early = SetupError::Damaged {
+        name: "matrix",
+        value: -1.0,
+    };
+    assert_eq!(
+        resume_with(serde_json::json!({ "time": -1.0, "x": [1.0, 1.0], "shift": 0.0 })),
+        Err(early)
+    );
+    assert_eq!(resume_with(serde_json::Value::Null), Ok(()));
     assert!(resume(integrator.derivative().to_vec()).is_ok());
 }

@@ -1,16 +1,20 @@
 //! One attempt of a diagonally implicit method: its stages are found by Newton's method with a search along its corrections.
 //!
-//! A stage is the zero of `F(z) = (base - z)/(hγ) + f(t, z)`; a correction is `d = (I/(hγ) - J)⁻¹ F(z)`. The matrix is that at the guess
-//! of the first stage, kept while the next correction, by the same matrix, is a fifth of the last one or smaller. Where a correction
+//! A stage is the zero of `F(z) = (base - z)/(hγ) + f(t, z)`; a correction is `d = (I/(hγ) - J)⁻¹ F(z)`. The matrix is the one that is there
+//! where the problem tells that it fits ([`super::kept`]), else that at the guess (of the first stage, where nothing is told), kept while the next
+//! correction, by the same matrix, is a fifth of the last one or smaller. Where a correction
 //! gets across a kink - slip that would reverse, a contact that would open -, the next one points back. Then the zero of their
-//! product is looked for between both ends (regula falsi, Illinois), and the matrix is formed there: without that search, Newton's
+//! product is looked for between both ends (where slip reverses, [`super::reversal`]; regula falsi, Illinois), and the matrix is formed there: without that search, Newton's
 //! method goes to and fro between both sides of a reversal, and steps must be as short as the layer of friction is thin.
 //!
 //! Natural corrections and monotonicity: P. Deuflhard, *Newton Methods for Nonlinear Problems*, Springer 2004, section 3.
 
 use super::Integrator;
-use super::attempt::{Advance, not_finite, stage_time, unsolved};
+use super::attempt::{Advance, Failure, not_finite, stage_time, unsolved};
+use super::kept::{Fit, Kept};
+use super::reversal::Reversal;
 use super::underway::{Phase, Underway};
+use crate::kinks::KinkSigns;
 use crate::problem::Problem;
 use crate::stages::{add, all_finite, combine, largest, scale};
 
@@ -18,15 +22,18 @@ use crate::stages::{add, all_finite, combine, largest, scale};
 const LAST_CORRECTION: f64 = 0.03;
 /// The same where a problem tells layers, in widths of a layer.
 const LAST_IN_LAYER: f64 = 0.4;
-/// How much smaller corrections by an old matrix must be.
+/// How much smaller what a correction by an old matrix leaves must be, as far as the last two tell;
 const SURE: f64 = 0.01;
+/// and where the matrix does not fit.
+const VERY_SURE: f64 = 0.001;
 /// The matrix is kept while corrections shrink by this factor.
 const CONTRACTION: f64 = 0.2;
 /// How far the next correction may point back, and where a search along it ends.
 const BACK: f64 = 0.1;
-/// Most matrices a stage, and most evaluations a search.
+/// Most matrices a stage, and most evaluations a search, the first of them where a reversal seems to lie.
 const MOST_ROUNDS: u32 = 8;
 const MOST_IN_SEARCH: u32 = 12;
+const MOST_AIMED: u32 = 4;
 
 /// For which point a stage waits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +55,8 @@ struct Search {
     /// Which end was moved last: the value of one that stays twice is halved.
     moved_low: Option<bool>,
     count: u32,
+    /// What it is that the correction gets across.
+    reversal: Option<Reversal>,
 }
 
 impl Search {
@@ -56,14 +65,22 @@ impl Search {
         Self {
             low: (0.0, 1.0),
             high: (1.0, along),
+            at: 1.0,
             ..Self::default()
         }
     }
 
-    fn next(&mut self) -> f64 {
+    /// The next fraction, after `along` was found at the last one.
+    fn next(&mut self, along: f64) -> f64 {
         let ((a, fa), (b, fb)) = (self.low, self.high);
-        self.at = (a * fb - b * fa) / (fb - fa);
+        let aimed = match &self.reversal {
+            Some(reversal) if self.count < MOST_AIMED => reversal.rest(self.at, along),
+            _ => None,
+        };
         self.count += 1;
+        self.at = aimed
+            .filter(|at| (a..b).contains(at) && *at > a)
+            .unwrap_or((a * fb - b * fa) / (fb - fa));
         self.at
     }
 
@@ -97,6 +114,11 @@ pub(super) struct Newton {
     /// The size of the correction; 1: so small that nothing is left to do.
     size: f64,
     search: Search,
+    pub kept: Kept,
+    /// What is known of the matrix at the guess; nothing: it was formed in this stage.
+    fit: Option<Fit>,
+    /// What tells kinks at both ends of a correction.
+    ends: [KinkSigns; 2],
     base: Vec<f64>,
     /// Where the correction starts.
     from: Vec<f64>,
@@ -124,6 +146,8 @@ impl Newton {
             *weight = 1.0 / (tolerance * scale);
         }
         Self {
+            kept: Kept::new(problem, stride),
+            ends: [KinkSigns::of(problem), KinkSigns::of(problem)],
             base: zero(),
             from: zero(),
             correction: zero(),
@@ -196,16 +220,21 @@ impl<P: Problem> Integrator<P> {
         } else {
             f64::INFINITY
         };
-        let newton = &mut self.newton;
+        let newton = &self.newton;
         if point == Point::Corrected {
-            if size <= SURE || (size < newton.size && size * size <= SURE * newton.size) {
-                add(&mut self.argument, 1.0, &newton.next);
+            let leaves =
+                |part: f64| size <= part || (size < newton.size && size * size <= part * newton.size);
+            let doubtful = newton.fit == Some(Fit::Same) && !leaves(VERY_SURE);
+            if leaves(SURE) && (!doubtful || self.fit_here() == Fit::Same) {
+                add(&mut self.argument, 1.0, &self.newton.next);
                 return self.end_newton_stage();
             }
+            let newton = &self.newton;
             if size < CONTRACTION * newton.size {
                 return self.correct(size);
             }
         }
+        let newton = &mut self.newton;
         let along = if size.is_finite() { newton.along() } else { -1.0 };
         let there = if point == Point::Corrected {
             newton.search = Search::up_to(along);
@@ -216,10 +245,28 @@ impl<P: Problem> Integrator<P> {
         if there {
             return self.newton_round();
         }
-        let fraction = newton.search.next();
+        if point == Point::Corrected {
+            let reversal = self.reversal();
+            self.newton.search.reversal = reversal;
+        }
+        let newton = &mut self.newton;
+        let fraction = newton.search.next(along);
         self.argument.copy_from_slice(&newton.from);
         add(&mut self.argument, fraction, &newton.correction);
         self.want_newton(Point::Between)
+    }
+
+    /// What the last correction, whose end is the argument, gets across.
+    fn reversal(&mut self) -> Option<Reversal> {
+        let (n, time) = (self.dimension, self.underway.wanted);
+        let Newton { ends, from, .. } = &mut self.newton;
+        let [start, end] = ends;
+        if end.directions.is_empty() {
+            return None;
+        }
+        self.problem.kinks(time, &self.argument[..n], end);
+        self.problem.kinks(time, &from[..n], start);
+        Reversal::first(start, end)
     }
 
     /// 1/(hγ).
@@ -254,24 +301,38 @@ impl<P: Problem> Integrator<P> {
         if rounds > MOST_ROUNDS {
             return Err(unsolved());
         }
-        // A later stage begins with the matrix of the one before.
-        if rounds > 1 || self.newton.stage == 1 {
-            let (time, x, dx) = (self.underway.wanted, &self.argument[..n], &self.slope[..n]);
-            self.problem
-                .linearize_for_newton(time, x, dx, &mut self.df_dt[..n]);
-            self.statistics.jacobians += 1;
-            self.factor(self.newton_shift())?;
-        }
+        let known = self.choose_matrix()?;
         let size = self.next_correction();
         let newton = &mut self.newton;
         if size == f64::INFINITY {
             return Err(not_finite(&newton.next[..n]));
         }
-        if size <= 1.0 && (rounds > 1 || newton.stage == 1) {
+        if size <= 1.0 && known {
             add(&mut self.argument, 1.0, &newton.next);
             return self.end_newton_stage();
         }
         self.correct(size)
+    }
+
+    /// Has the matrix for a round, factored; whether it is known to be that of the place, or about that.
+    fn choose_matrix(&mut self) -> Result<bool, Failure> {
+        let fit = if self.newton.rounds == 1 {
+            self.fit_here()
+        } else {
+            Fit::Other
+        };
+        // A later stage begins with the matrix of the one before.
+        let form = match fit {
+            Fit::Same => false,
+            Fit::Other => true,
+            Fit::Unknown => self.newton.stage == 1,
+        };
+        self.newton.fit = if form { None } else { Some(fit) };
+        if form {
+            self.form_matrix();
+        }
+        self.factor_kept(self.newton_shift())?;
+        Ok(form || fit == Fit::Same)
     }
 
     /// Goes where the next correction, of this size, leads.

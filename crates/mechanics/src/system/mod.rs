@@ -154,6 +154,8 @@ pub struct System {
     plain: bool,
     /// Whether the speed of the system's answers can be bounded.
     bounded: bool,
+    /// Whether all points have a law that tells where it bends.
+    tells_pieces: bool,
     /// Positions and speeds for which all this was evaluated.
     placed: Vec<f64>,
     /// The face that alone was brought to them, and to this time, where `frames_at` is not a number.
@@ -344,6 +346,11 @@ impl Problem for System {
     fn kinks(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
         self.place(time, x);
         self.kink_signs(signs);
+    }
+
+    /// Bristles come to slip without telling. (So do coils that go solid, but they change no more than their own stiffness.)
+    fn tells_pieces(&self) -> bool {
+        self.tells_pieces
     }
 
     fn switch_count(&self) -> usize {

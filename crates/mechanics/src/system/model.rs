@@ -286,9 +286,8 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     let (error_bounds, layer_bounds) = error_bounds(&error_scales, layout, &mounted_faces, &presses);
     let moves = frames.iter().any(|frame| !frame.fixed);
     let plain = mounted_faces.iter().all(|m| m.plain) && mounted_coils.iter().all(|m| m.plain);
-    let bounded = plain
-        && free.iter().all(|free| frames[free.body].fixed)
-        && mounted_faces.iter().all(|face| face.internal_count == 0);
+    let tells_pieces = mounted_faces.iter().all(|face| face.internal_count == 0);
+    let bounded = plain && free.iter().all(|free| frames[free.body].fixed) && tells_pieces;
     for face in &mut mounted_faces {
         let body = &bodies[face.body];
         face.mobilities = face
@@ -330,6 +329,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         moves,
         plain,
         bounded,
+        tells_pieces,
         placed: vec![f64::NAN; 2 * layout.speeds],
         face_placed: (0, f64::NAN),
         met: false,
