@@ -16,10 +16,10 @@ Read this first.
   better.
 - All solvers but one (the last of these points) get the same compiled right-hand side and the same analytic Jacobian matrix; SciPy and
   Octave call them from their languages, which is where most of their time goes. Others integrate positions, speeds, bristles and one energy; ours integrates all
-  energies of the ledger besides. No solver records when contacts change, but ours where its name says so, as in users' runs. Its Rosenbrock methods alone are told where contacts open and close and where slip
-  reverses, and end their steps there, and they hold speeds to the reference speed of friction (0.001 in/s, where a point sticks) and the wedge's positions to 1e-6 m where a wider tolerance
-  is asked for: from 1e-3 to 1e-5 they do more than the others are asked to. Its TR-BDF2 and ESDIRK3 do neither; the tolerance holds for their
-  displacements alone, and their steps end at the rows.
+  energies of the ledger besides. No solver records when contacts change, but ours where its name says so, as in users' runs. It alone is told where contacts open and close and where slip
+  reverses. Its Rosenbrock methods end their steps there, and hold speeds to the reference speed of friction (0.001 in/s, where a point sticks) and the wedge's positions to 1e-6 m where a wider tolerance
+  is asked for: from 1e-3 to 1e-5 they do more than the others are asked to. Its TR-BDF2 and ESDIRK3 keep their Jacobian matrix in between
+  and look there for reversals in Newton's method; their tolerance holds for displacements alone, and their steps end at the rows.
 - The compiled solvers run at 3e-4, 3e-5, ... 3e-8 besides the decades of tolerance.
 - The equations are those of this project: nothing here says how a solver does on others.
 - Runs without bolster yaw ring and are chaotic in detail: only means are compared there. Every error is compared only down to the

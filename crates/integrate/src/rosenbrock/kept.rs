@@ -122,8 +122,10 @@ impl<P: Problem> Integrator<P> {
     /// Has the matrix factored with a shift.
     pub(super) fn factor_kept(&mut self, shift: f64) -> Result<(), Failure> {
         if self.newton.kept.place.shift != shift {
-            self.newton.kept.place.shift = 0.0;
+            // One that cannot be factored is not kept.
+            self.newton.kept.there = false;
             self.factor(shift)?;
+            self.newton.kept.there = true;
             self.newton.kept.place.shift = shift;
         }
         Ok(())
