@@ -438,7 +438,7 @@ fn overshoot(error: f64, spread: f64) -> f64 {
 }
 
 /// The square of the length of a plane vector.
-fn square([a, b]: &[f64; 2]) -> f64 {
+pub(crate) fn square([a, b]: &[f64; 2]) -> f64 {
     a * a + b * b
 }
 

@@ -193,7 +193,7 @@ fn analytic_a_sliding_mass_stops_and_sticks() {
     }
 }
 
-/// The slip over its reference speed of [`dragged`].
+/// The reference speed of the friction of [`dragged`].
 const DRAGGED_SPEED: f64 = 1e-5;
 
 /// A mass of 1 kg under friction of 10 N on a spring of 2000 N/m whose end moves as 0.02 sin 5t: it sticks, slips and rings at 7 Hz.
@@ -330,9 +330,9 @@ fn input_a_damaged_slope_or_matrix_is_refused() {
     let mut integrator = Integrator::new(carried(100.0), options(1e-4), 0.0, &[0.0, 1.0]).unwrap();
     integrator.step_to(1.0).unwrap();
     let saved = serde_json::to_value(integrator.state()).unwrap();
-    let resume = |slope: Vec<f64>| {
+    let resume = |key: &str, value: serde_json::Value| {
         let mut damaged = saved.clone();
-        damaged["slope"] = slope.into();
+        damaged[key] = value;
         let state: State = serde_json::from_value(damaged).unwrap();
         Integrator::resume(carried(100.0), options(1e-4), state).map(|_| ())
     };
@@ -341,20 +341,17 @@ fn input_a_damaged_slope_or_matrix_is_refused() {
         expected: 2,
         found: 1,
     };
-    assert_eq!(resume(vec![1.0]), Err(slopes));
-    let resume_with = |matrix: serde_json::Value| {
-        let mut damaged = saved.clone();
-        damaged["matrix"] = matrix;
-        let state: State = serde_json::from_value(damaged).unwrap();
-        Integrator::resume(carried(100.0), options(1e-4), state).map(|_| ())
-    };
+    assert_eq!(resume("slope", vec![1.0].into()), Err(slopes));
     let places = SetupError::Dimension {
         what: "states of the matrix",
         expected: 2,
         found: 1,
     };
     assert_eq!(
-        resume_with(serde_json::json!({ "time": 0.1, "x": [1.0], "shift": 0.0 })),
+        resume(
+            "matrix",
+            serde_json::json!({ "time": 0.1, "x": [1.0], "shift": 0.0 })
+        ),
         Err(places)
     );
     let early = SetupError::Damaged {
@@ -362,9 +359,12 @@ fn input_a_damaged_slope_or_matrix_is_refused() {
         value: -1.0,
     };
     assert_eq!(
-        resume_with(serde_json::json!({ "time": -1.0, "x": [1.0, 1.0], "shift": 0.0 })),
+        resume(
+            "matrix",
+            serde_json::json!({ "time": -1.0, "x": [1.0, 1.0], "shift": 0.0 })
+        ),
         Err(early)
     );
-    assert_eq!(resume_with(serde_json::Value::Null), Ok(()));
-    assert!(resume(integrator.derivative().to_vec()).is_ok());
+    assert_eq!(resume("matrix", serde_json::Value::Null), Ok(()));
+    assert!(resume("slope", integrator.derivative().to_vec().into()).is_ok());
 }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Integrator;
 use super::attempt::Failure;
-use crate::kinks::KinkSigns;
+use crate::kinks::{KinkSigns, square};
 use crate::problem::Problem;
 
 /// Directions larger than this are out of their layers.
@@ -33,13 +33,11 @@ pub(crate) struct Place {
 impl Place {
     /// A value that cannot be, in a run that began its smooth piece at `start`.
     pub fn damage(&self, start: f64) -> Option<f64> {
-        let mut values = self.x.iter().chain([&self.time, &self.shift]);
-        let late = self.time >= start;
+        let mut values = self.x.iter().chain([&self.time, &self.shift]).copied();
         values
             .find(|value| !value.is_finite())
-            .or((!late).then_some(&self.time))
-            .or((self.shift < 0.0).then_some(&self.shift))
-            .copied()
+            .or((self.time < start).then_some(self.time))
+            .or((self.shift < 0.0).then_some(self.shift))
     }
 }
 
@@ -83,23 +81,28 @@ impl Kept {
 impl<P: Problem> Integrator<P> {
     /// What is known of the kept matrix at the argument.
     pub(super) fn fit_here(&mut self) -> Fit {
-        let kept = &mut self.newton.kept;
+        self.look_here(self.underway.wanted);
+        let kept = &self.newton.kept;
         if !kept.there {
             Fit::Other
         } else if !self.problem.tells_pieces() {
             Fit::Unknown
+        } else if on_one_piece(&kept.signs, &kept.here) {
+            Fit::Same
         } else {
-            let x = &self.argument[..self.dimension];
-            self.problem.kinks(self.underway.wanted, x, &mut kept.here);
-            if on_one_piece(&kept.signs, &kept.here) {
-                Fit::Same
-            } else {
-                Fit::Other
-            }
+            Fit::Other
         }
     }
 
-    /// Forms the matrix at the argument, where the slope is known.
+    /// Sees what tells kinks at the argument.
+    pub(super) fn look_here(&mut self, time: f64) {
+        if self.problem.tells_pieces() {
+            let x = &self.argument[..self.dimension];
+            self.problem.kinks(time, x, &mut self.newton.kept.here);
+        }
+    }
+
+    /// Forms the matrix at the argument, which was looked at last, and where the slope is known.
     pub(super) fn form_matrix(&mut self) {
         self.statistics.jacobians += 1;
         self.form_at(self.underway.wanted);
@@ -114,9 +117,7 @@ impl<P: Problem> Integrator<P> {
         kept.there = true;
         (kept.place.time, kept.place.shift) = (time, 0.0);
         kept.place.x.copy_from_slice(&self.argument);
-        if self.problem.tells_pieces() {
-            self.problem.kinks(time, x, &mut kept.signs);
-        }
+        std::mem::swap(&mut kept.signs, &mut kept.here);
     }
 
     /// Has the matrix factored with a shift.
@@ -139,6 +140,7 @@ impl<P: Problem> Integrator<P> {
         self.argument[..n].copy_from_slice(&saved.x);
         self.problem
             .derivative(saved.time, &saved.x, &mut self.slope[..n]);
+        self.look_here(saved.time);
         self.form_at(saved.time);
         if saved.shift > 0.0 && self.problem.factor(saved.shift).is_ok() {
             self.newton.kept.place.shift = saved.shift;
@@ -163,7 +165,7 @@ fn on_one_piece(a: &KinkSigns, b: &KinkSigns) -> bool {
 }
 
 fn is_near(a: [f64; 2], b: [f64; 2]) -> bool {
-    let (square_a, square_b) = (a[0] * a[0] + a[1] * a[1], b[0] * b[0] + b[1] * b[1]);
+    let (square_a, square_b) = (square(&a), square(&b));
     if square_a.is_nan() || square_b.is_nan() {
         return square_a.is_nan() && square_b.is_nan();
     }

@@ -79,7 +79,7 @@ impl Search {
         };
         self.count += 1;
         self.at = aimed
-            .filter(|at| (a..b).contains(at) && *at > a)
+            .filter(|at| a < *at && *at < b)
             .unwrap_or((a * fb - b * fa) / (fb - fa));
         self.at
     }
@@ -115,8 +115,8 @@ pub(super) struct Newton {
     size: f64,
     search: Search,
     pub kept: Kept,
-    /// What is known of the matrix at the guess; nothing: it was formed in this stage.
-    fit: Option<Fit>,
+    /// Whether the matrix was kept because it fits at the guess.
+    fits: bool,
     /// What tells kinks at both ends of a correction.
     ends: [KinkSigns; 2],
     base: Vec<f64>,
@@ -224,7 +224,7 @@ impl<P: Problem> Integrator<P> {
         if point == Point::Corrected {
             let leaves =
                 |part: f64| size <= part || (size < newton.size && size * size <= part * newton.size);
-            let doubtful = newton.fit == Some(Fit::Same) && !leaves(VERY_SURE);
+            let doubtful = newton.fits && !leaves(VERY_SURE);
             if leaves(SURE) && (!doubtful || self.fit_here() == Fit::Same) {
                 add(&mut self.argument, 1.0, &self.newton.next);
                 return self.end_newton_stage();
@@ -319,6 +319,7 @@ impl<P: Problem> Integrator<P> {
         let fit = if self.newton.rounds == 1 {
             self.fit_here()
         } else {
+            self.look_here(self.underway.wanted);
             Fit::Other
         };
         // A later stage begins with the matrix of the one before.
@@ -327,12 +328,12 @@ impl<P: Problem> Integrator<P> {
             Fit::Other => true,
             Fit::Unknown => self.newton.stage == 1,
         };
-        self.newton.fit = if form { None } else { Some(fit) };
+        self.newton.fits = fit == Fit::Same;
         if form {
             self.form_matrix();
         }
         self.factor_kept(self.newton_shift())?;
-        Ok(form || fit == Fit::Same)
+        Ok(form || self.newton.fits)
     }
 
     /// Goes where the next correction, of this size, leads.

@@ -9,9 +9,10 @@
 //! ```
 //!
 //! the law of smoothed Coulomb friction (Steets 2007, eq. 3-8); B is such that s is what was found at one place. Its zero was within the
-//! tolerance of the search in four of five searches of a rattling wedge, where regula falsi takes seven or eight evaluations: s is 1 at one end and -10 to -40 at the other.
+//! tolerance of the search after 1.2 evaluations on average in a rattling wedge, where regula falsi takes seven or eight: s is 1 at one end and -10 to -40 at the
+//! other.
 
-use crate::kinks::KinkSigns;
+use crate::kinks::{KinkSigns, square};
 
 /// Outside of this size a direction is taken to be out of its layer.
 const OUTSIDE: f64 = 4.0;
@@ -36,7 +37,7 @@ impl Reversal {
             // not so where one of them is no number
             if a[0] * b[0] + a[1] * b[1] < 0.0 {
                 let change = [b[0] - a[0], b[1] - a[1]];
-                let length = size(change);
+                let length = square(&change).sqrt();
                 let along = |d: &[f64; 2]| (d[0] * change[0] + d[1] * change[1]) / length;
                 let (start, end) = (along(a), along(b));
                 let place = -start / length;
@@ -54,7 +55,7 @@ impl Reversal {
         let change = self.end - self.start;
         let force = |f: f64| {
             let u = self.start + f * change;
-            let r = size([u, self.miss]);
+            let r = square(&[u, self.miss]).sqrt();
             if r > 0.0 { u * libm::tanh(r) / r } else { 0.0 }
         };
         let before = force(0.0);
@@ -83,10 +84,6 @@ impl Reversal {
         }
         Some(0.5 * (low + high))
     }
-}
-
-fn size([a, b]: [f64; 2]) -> f64 {
-    (a * a + b * b).sqrt()
 }
 
 #[cfg(test)]
