@@ -2,6 +2,7 @@
 
 use crate::block_lu::BlockLu;
 use crate::kinks::KinkSigns;
+use crate::matrices::Matrices;
 use crate::problem::{Problem, Singular};
 
 type Function<'a> = Box<dyn FnMut(f64, &[f64], &mut [f64]) + Send + 'a>;
@@ -56,11 +57,12 @@ pub struct Ordinary<'a> {
     stiffness: Option<Stiffness<'a>>,
     /// How many values and directions, and what writes them.
     kinks: Option<((usize, usize), Kinks<'a>)>,
-    pieces: bool,
+    /// How many matrices are kept, one a piece; zero: not all kinks are told.
+    pieces: usize,
     /// Ends of segments, ascending.
     breaks: Vec<f64>,
     displacements: usize,
-    matrix: BlockLu,
+    matrix: Matrices<BlockLu>,
 }
 
 impl std::fmt::Debug for Ordinary<'_> {
@@ -90,9 +92,9 @@ impl<'a> Ordinary<'a> {
             layer_bounds: Vec::new(),
             stiffness: None,
             kinks: None,
-            pieces: false,
+            pieces: 0,
             breaks: Vec::new(),
-            matrix,
+            matrix: Matrices::new(matrix),
         }
     }
 
@@ -123,10 +125,10 @@ impl<'a> Ordinary<'a> {
         self
     }
 
-    /// The kinks told are all there are, see [`Problem::tells_pieces`].
+    /// The kinks told are all there are, see [`Problem::tells_pieces`]; so many matrices are kept.
     #[must_use]
-    pub fn in_pieces(mut self) -> Self {
-        self.pieces = true;
+    pub fn in_pieces(mut self, matrices: usize) -> Self {
+        self.pieces = matrices;
         self
     }
 
@@ -210,6 +212,14 @@ impl Problem for Ordinary<'_> {
         }
     }
 
+    fn matrices(&self) -> usize {
+        self.pieces.max(1)
+    }
+
+    fn take_matrix(&mut self, number: usize) {
+        self.matrix.take(number);
+    }
+
     fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
         match &mut self.stiffness {
             Some(function) => function(time, x),
@@ -236,7 +246,7 @@ impl Problem for Ordinary<'_> {
     }
 
     fn tells_pieces(&self) -> bool {
-        self.pieces
+        self.pieces > 0
     }
 
     fn switch_count(&self) -> usize {

@@ -18,6 +18,7 @@ mod between;
 mod collocation;
 mod kept;
 mod newton;
+mod piece;
 mod reversal;
 mod step;
 mod underway;
@@ -143,7 +144,7 @@ impl<P: Problem> Integrator<P> {
             calm: Calm::default(),
             reach: 0.0,
             slope: Vec::new(),
-            matrix: None,
+            matrices: Vec::new(),
             statistics: Statistics::default(),
         };
         let mut this = Self::resume(problem, options, state)?;
@@ -214,7 +215,7 @@ impl<P: Problem> Integrator<P> {
         x[..n].copy_from_slice(&state.x);
         let all_stages = vec![0.0; stride * MAXIMUM_STAGES];
         let newton = match tableau.family {
-            Family::DiagonallyImplicit => Newton::new(&problem, options.relative_tolerance, stride),
+            Family::DiagonallyImplicit => Newton::new(&mut problem, options.relative_tolerance, stride),
             _ => Newton::default(),
         };
         let collocates = options.collocation_steps
@@ -283,7 +284,7 @@ impl<P: Problem> Integrator<P> {
                 value,
             });
         }
-        this.continue_stages(&state.slope, state.matrix.as_ref());
+        this.continue_stages(&state.slope, &state.matrices);
         Ok(this)
     }
 
@@ -306,7 +307,7 @@ impl<P: Problem> Integrator<P> {
                 Family::DiagonallyImplicit => self.derivative().to_vec(),
                 _ => Vec::new(),
             },
-            matrix: self.place_of_matrix(),
+            matrices: self.places_of_matrices(),
             statistics: self.statistics.clone(),
         }
     }
@@ -439,17 +440,17 @@ impl<P: Problem> Integrator<P> {
         let counted = self.statistics.derivatives;
         self.evaluate_derivative();
         self.statistics.derivatives = counted;
-        self.continue_stages(&state.slope, state.matrix.as_ref());
+        self.continue_stages(&state.slope, &state.matrices);
         Ok(())
     }
 
-    /// Takes the slope with which the last step ended, and the matrix that it left.
-    fn continue_stages(&mut self, slope: &[f64], matrix: Option<&Place>) {
+    /// Takes the slope with which the last step ended, and the matrices that there were.
+    fn continue_stages(&mut self, slope: &[f64], matrices: &[Place]) {
         if self.tableau.family == Family::DiagonallyImplicit {
             for (dx, slope) in self.dx.iter_mut().zip(slope) {
                 *dx = *slope;
             }
-            self.form_matrix_again(matrix);
+            self.form_matrices_again(matrices);
         }
     }
 

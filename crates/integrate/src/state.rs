@@ -9,7 +9,7 @@ use crate::rosenbrock::{Calm, Place};
 use crate::statistics::Statistics;
 
 /// Version of [`State`].
-pub const STATE_VERSION: u32 = 9;
+pub const STATE_VERSION: u32 = 10;
 
 /// All that is needed to continue an integration with the same bits.
 ///
@@ -41,8 +41,8 @@ pub struct State {
     pub(crate) reach: f64,
     /// The slope with which an implicit step ended, which is the first stage of the next one; empty: the derivative at the states is.
     pub(crate) slope: Vec<f64>,
-    /// Where the matrix of Newton's method was formed, if it is kept.
-    pub(crate) matrix: Option<Place>,
+    /// Where the matrices that Newton's method keeps were formed, from the one used longest ago on.
+    pub(crate) matrices: Vec<Place>,
     /// What was done so far.
     pub statistics: Statistics,
 }
@@ -53,9 +53,10 @@ impl State {
             return Err(SetupError::Version { found: self.version });
         }
         let slopes = if self.slope.is_empty() { 0 } else { dimension };
-        let places = self.matrix.as_ref().map_or(dimension, |place| place.x.len());
+        let mut places = self.matrices.iter().map(|place| place.x.len());
+        let places = places.find(|length| *length != dimension).unwrap_or(dimension);
         let lengths = [
-            ("states of the matrix", dimension, places),
+            ("states of a matrix", dimension, places),
             ("states", dimension, self.x.len()),
             ("switches", switches, self.modes.len()),
             ("slopes", slopes, self.slope.len()),
@@ -76,12 +77,9 @@ impl State {
         if let Some(slope) = self.slope.iter().find(|slope| !slope.is_finite()) {
             return damaged("slope", *slope);
         }
-        let wrong = self
-            .matrix
-            .as_ref()
-            .and_then(|place| place.damage(self.segment_start));
-        if let Some(value) = wrong {
-            return damaged("matrix", value);
+        let mut places = self.matrices.iter();
+        if let Some(value) = places.find_map(|place| place.damage(self.segment_start)) {
+            return damaged("matrices", value);
         }
         if !(self.reach >= 0.0 && self.reach.is_finite()) {
             return damaged("reach", self.reach);

@@ -1,7 +1,7 @@
-//! The matrix that Newton's method keeps from stage to stage and from step to step, and where it was formed.
+//! The matrices that Newton's method keeps from stage to stage and from step to step, and where they were formed.
 //!
-//! Contact and friction are nearly linear in pieces: while the same points are closed, and slip as they did, the matrix changes little.
-//! It is kept where the problem tells that the place is on the piece of the right-hand side on which it was formed. A matrix from elsewhere does
+//! While a place is on the piece of the right-hand side on which a matrix was formed ([`super::piece`]), that matrix serves; what rattles comes back to
+//! the same few pieces again and again, so that several are kept, the one that was used longest ago giving way. A matrix from another piece does
 //! harm that corrections do not show: one from within a layer of friction is some hundred times as stiff as what slips, so that what
 //! is missing looks as much smaller.
 
@@ -9,24 +9,17 @@ use serde::{Deserialize, Serialize};
 
 use super::Integrator;
 use super::attempt::Failure;
-use crate::kinks::{KinkSigns, square};
+use super::piece::Piece;
+use crate::kinks::KinkSigns;
 use crate::problem::Problem;
 
-/// Directions larger than this are out of their layers.
-const OUTSIDE: f64 = 8.0;
-/// They may turn by an angle with this cosine.
-const TURNS: f64 = 0.9;
-/// Sizes of directions in layers may differ by this. By 0.5 a fifth of the matrices is saved, but the losses of what sticks, which change as fast as the
-/// hold of the layer, come out wrong: ledgers miss 3e-3 of the work instead of 1e-3.
-const NEAR: f64 = 0.1;
-
-/// Where the matrix was formed.
+/// Where a matrix was formed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Place {
     pub time: f64,
     /// States; padded while the integrator has them.
     pub x: Vec<f64>,
-    /// What the matrix is factored with; zero: nothing.
+    /// What it is factored with; zero: nothing.
     pub shift: f64,
 }
 
@@ -41,18 +34,28 @@ impl Place {
     }
 }
 
-/// The matrix.
-#[derive(Debug, Default)]
-pub(super) struct Kept {
-    /// Whether there is one.
-    pub there: bool,
-    pub place: Place,
-    signs: KinkSigns,
-    /// Scratch memory: what tells kinks at the place that was asked for last.
-    here: KinkSigns,
+/// A matrix.
+#[derive(Clone, Debug, Default)]
+struct Matrix {
+    place: Place,
+    piece: Piece,
 }
 
-/// What is known of the matrix at a place.
+/// The matrices.
+#[derive(Debug, Default)]
+pub(super) struct Kept {
+    /// By number.
+    matrices: Vec<Matrix>,
+    /// The numbers of those that are there, the one used last first: the problem uses that one.
+    order: Vec<usize>,
+    /// Scratch memory: what the problem told of the place that was asked for last.
+    signs: KinkSigns,
+    here: Piece,
+    /// Where in the order the first matrix is that fits there.
+    found: Option<usize>,
+}
+
+/// What is known of the matrix in use at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fit {
     /// It was formed on the same piece.
@@ -64,144 +67,177 @@ pub(super) enum Fit {
 }
 
 impl Kept {
-    pub fn new<P: Problem>(problem: &P, stride: usize) -> Self {
+    /// Room for the matrices of a problem, there too.
+    pub fn new<P: Problem>(problem: &mut P, stride: usize) -> Self {
         let signs = KinkSigns::of(problem);
-        Self {
+        let here = Piece::of(&signs);
+        let matrix = Matrix {
             place: Place {
                 x: vec![0.0; stride],
                 ..Place::default()
             },
-            here: signs.clone(),
-            signs,
-            ..Self::default()
+            piece: here.clone(),
+        };
+        let count = if problem.tells_pieces() {
+            problem.matrices()
+        } else {
+            1
+        };
+        for number in (0..count).rev() {
+            problem.take_matrix(number);
         }
+        Self {
+            matrices: vec![matrix; count],
+            order: Vec::with_capacity(count),
+            signs,
+            here,
+            found: None,
+        }
+    }
+
+    /// No matrix is there any more.
+    pub fn forget(&mut self) {
+        self.order.clear();
+    }
+
+    /// Looks for the first matrix that fits at the place that was asked for last.
+    fn find(&mut self) -> Option<usize> {
+        let fits = |number: &usize| self.matrices[*number].piece.is(&self.here);
+        self.found = self.order.iter().position(fits);
+        self.found
+    }
+
+    /// Brings what stands there to the front of the order; its number.
+    fn bring(&mut self, place: usize) -> usize {
+        self.order[..=place].rotate_right(1);
+        self.order[0]
+    }
+
+    /// The number for a matrix to be formed, at the front of the order: that of the one that was found to fit and failed, one that is free, or
+    /// that of the one that was used longest ago.
+    fn make_room(&mut self) -> usize {
+        let count = self.order.len();
+        let place = self.found.filter(|place| *place < count).unwrap_or_else(|| {
+            if count < self.matrices.len() {
+                self.order.push(count);
+                count
+            } else {
+                count - 1
+            }
+        });
+        self.bring(place)
+    }
+
+    fn in_use(&mut self) -> &mut Matrix {
+        &mut self.matrices[self.order[0]]
     }
 }
 
 impl<P: Problem> Integrator<P> {
-    /// What is known of the kept matrix at the argument.
+    /// What is known of the matrix in use at the argument, after one that fits was taken if there is one.
     pub(super) fn fit_here(&mut self) -> Fit {
         self.look_here(self.underway.wanted);
-        let kept = &self.newton.kept;
-        if !kept.there {
-            Fit::Other
-        } else if !self.problem.tells_pieces() {
-            Fit::Unknown
-        } else if on_one_piece(&kept.signs, &kept.here) {
-            Fit::Same
-        } else {
-            Fit::Other
+        let kept = &mut self.newton.kept;
+        if kept.order.is_empty() {
+            return Fit::Other;
+        }
+        if !self.problem.tells_pieces() {
+            return Fit::Unknown;
+        }
+        match kept.find() {
+            None => Fit::Other,
+            Some(0) => Fit::Same,
+            Some(place) => {
+                self.problem.take_matrix(kept.bring(place));
+                Fit::Same
+            }
         }
     }
 
-    /// Sees what tells kinks at the argument.
+    /// The same where the matrix in use has failed: another one that fits, or none.
+    pub(super) fn another_fits_here(&mut self) -> Fit {
+        match self.fit_here() {
+            Fit::Same if self.newton.kept.found != Some(0) => Fit::Same,
+            _ => Fit::Other,
+        }
+    }
+
+    /// Whether the matrix in use fits at the argument.
+    pub(super) fn still_fits(&mut self) -> bool {
+        self.look_here(self.underway.wanted);
+        self.newton.kept.find() == Some(0)
+    }
+
+    /// Sees on which piece the argument is.
     pub(super) fn look_here(&mut self, time: f64) {
         if self.problem.tells_pieces() {
             let x = &self.argument[..self.dimension];
-            self.problem.kinks(time, x, &mut self.newton.kept.here);
+            let Kept { signs, here, .. } = &mut self.newton.kept;
+            self.problem.kinks(time, x, signs);
+            here.see(signs);
         }
     }
 
-    /// Forms the matrix at the argument, which was looked at last, and where the slope is known.
+    /// Forms a matrix at the argument, which was looked at last, and where the slope is known.
     pub(super) fn form_matrix(&mut self) {
         self.statistics.jacobians += 1;
-        self.form_at(self.underway.wanted);
+        let number = self.newton.kept.make_room();
+        self.form_at(self.underway.wanted, number);
     }
 
-    fn form_at(&mut self, time: f64) {
+    fn form_at(&mut self, time: f64, number: usize) {
         let n = self.dimension;
         let (x, dx) = (&self.argument[..n], &self.slope[..n]);
+        self.problem.take_matrix(number);
         self.problem
             .linearize_for_newton(time, x, dx, &mut self.df_dt[..n]);
-        let kept = &mut self.newton.kept;
-        kept.there = true;
-        (kept.place.time, kept.place.shift) = (time, 0.0);
-        kept.place.x.copy_from_slice(&self.argument);
-        std::mem::swap(&mut kept.signs, &mut kept.here);
+        let Kept { matrices, here, .. } = &mut self.newton.kept;
+        let Matrix { place, piece } = &mut matrices[number];
+        (place.time, place.shift) = (time, 0.0);
+        place.x.copy_from_slice(&self.argument);
+        std::mem::swap(piece, here);
     }
 
-    /// Has the matrix factored with a shift.
+    /// Has the matrix in use factored with a shift.
     pub(super) fn factor_kept(&mut self, shift: f64) -> Result<(), Failure> {
-        if self.newton.kept.place.shift != shift {
-            // One that cannot be factored is not kept.
-            self.newton.kept.there = false;
-            self.factor(shift)?;
-            self.newton.kept.there = true;
-            self.newton.kept.place.shift = shift;
+        if self.newton.kept.in_use().place.shift != shift {
+            if let Err(failure) = self.factor(shift) {
+                // One that cannot be factored is not kept.
+                self.newton.kept.forget();
+                return Err(failure);
+            }
+            self.newton.kept.in_use().place.shift = shift;
         }
         Ok(())
     }
 
-    /// Has the matrix as a saved run had it. Not counted: a run without a break has it.
-    pub(super) fn form_matrix_again(&mut self, saved: Option<&Place>) {
-        let Some(saved) = saved else { return };
+    /// Has the matrices as a saved run had them. Not counted: a run without a break has them.
+    pub(super) fn form_matrices_again(&mut self, saved: &[Place]) {
         let n = self.dimension;
-        self.argument.fill(0.0);
-        self.argument[..n].copy_from_slice(&saved.x);
-        self.problem
-            .derivative(saved.time, &saved.x, &mut self.slope[..n]);
-        self.look_here(saved.time);
-        self.form_at(saved.time);
-        if saved.shift > 0.0 && self.problem.factor(saved.shift).is_ok() {
-            self.newton.kept.place.shift = saved.shift;
+        self.newton.kept.forget();
+        // From the one used longest ago on: the last one is in use.
+        for (number, saved) in saved.iter().take(self.newton.kept.matrices.len()).enumerate() {
+            self.argument.fill(0.0);
+            self.argument[..n].copy_from_slice(&saved.x);
+            self.problem
+                .derivative(saved.time, &saved.x, &mut self.slope[..n]);
+            self.look_here(saved.time);
+            self.newton.kept.order.insert(0, number);
+            self.form_at(saved.time, number);
+            if saved.shift > 0.0 && self.problem.factor(saved.shift).is_ok() {
+                self.newton.kept.in_use().place.shift = saved.shift;
+            }
         }
     }
 
-    /// Where the matrix was formed, for a saved run.
-    pub(super) fn place_of_matrix(&self) -> Option<Place> {
-        let Kept { there, place, .. } = &self.newton.kept;
-        there.then(|| Place {
+    /// Where the matrices were formed, for a saved run: from the one used longest ago on.
+    pub(super) fn places_of_matrices(&self) -> Vec<Place> {
+        let Kept { matrices, order, .. } = &self.newton.kept;
+        let places = order.iter().rev().map(|number| &matrices[*number].place);
+        let own = |place: &Place| Place {
             x: place.x[..self.dimension].to_vec(),
             ..*place
-        })
-    }
-}
-
-/// Whether two places lie on one piece of the right-hand side, on which its derivatives are about the same.
-fn on_one_piece(a: &KinkSigns, b: &KinkSigns) -> bool {
-    let mut values = a.values.iter().zip(&b.values);
-    let mut directions = a.directions.iter().zip(&b.directions);
-    values.all(|(a, b)| (*a < 0.0) == (*b < 0.0)) && directions.all(|(a, b)| is_near(*a, *b))
-}
-
-fn is_near(a: [f64; 2], b: [f64; 2]) -> bool {
-    let (square_a, square_b) = (square(&a), square(&b));
-    if square_a.is_nan() || square_b.is_nan() {
-        return square_a.is_nan() && square_b.is_nan();
-    }
-    if square_a.min(square_b) > OUTSIDE * OUTSIDE {
-        let product = a[0] * b[0] + a[1] * b[1];
-        return product > 0.0 && product * product > TURNS * TURNS * (square_a * square_b);
-    }
-    (square_a.sqrt() - square_b.sqrt()).abs() <= NEAR
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_piece_ends_where_a_point_opens_or_its_slip_turns_or_comes_to_stick() {
-        const NONE: [f64; 2] = [f64::NAN; 2];
-        let signs = |value: f64, direction| KinkSigns {
-            values: vec![value],
-            directions: vec![direction],
         };
-        let slips = signs(-1e-4, [100.0, 0.0]);
-        let sticks = signs(-1e-4, [0.3, 0.0]);
-        for (a, b, one) in [
-            (&slips, signs(-2e-4, [30.0, 5.0]), true),
-            (&slips, signs(-1e-4, [-100.0, 0.0]), false),
-            (&slips, signs(-1e-4, [0.0, 100.0]), false),
-            (&slips, signs(-1e-4, [2.0, 0.0]), false),
-            (&slips, signs(1e-4, NONE), false),
-            (&sticks, signs(-1e-4, [-0.3, 0.1]), true),
-            (&sticks, signs(-1e-4, [1.0, 0.0]), false),
-            (&signs(1e-4, NONE), signs(1e-5, NONE), true),
-            (&signs(-1e-4, NONE), signs(1e-5, NONE), false),
-        ] {
-            assert_eq!(on_one_piece(a, &b), one, "{a:?}, {b:?}");
-            assert_eq!(on_one_piece(&b, a), one, "{b:?}, {a:?}");
-        }
+        places.map(own).collect()
     }
 }

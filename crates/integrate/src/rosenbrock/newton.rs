@@ -1,7 +1,7 @@
 //! One attempt of a diagonally implicit method: its stages are found by Newton's method with a search along its corrections.
 //!
-//! A stage is the zero of `F(z) = (base - z)/(hγ) + f(t, z)`; a correction is `d = (I/(hγ) - J)⁻¹ F(z)`. The matrix is the one that is there
-//! where the problem tells that it fits ([`super::kept`]), else that at the guess (of the first stage, where nothing is told), kept while the next
+//! A stage is the zero of `F(z) = (base - z)/(hγ) + f(t, z)`; a correction is `d = (I/(hγ) - J)⁻¹ F(z)`. The matrix is one that is there
+//! and fits, where the problem tells of that ([`super::kept`]), else that at the guess (of the first stage, where nothing is told), kept while the next
 //! correction, by the same matrix, is a fifth of the last one or smaller. Where a correction
 //! gets across a kink - slip that would reverse, a contact that would open -, the next one points back. Then the zero of their
 //! product is looked for between both ends (where slip reverses, [`super::reversal`]; regula falsi, Illinois), and the matrix is formed there: without that search, Newton's
@@ -132,9 +132,10 @@ pub(super) struct Newton {
 
 impl Newton {
     /// For a problem; vectors have `stride` entries.
-    pub fn new<P: Problem>(problem: &P, tolerance: f64, stride: usize) -> Self {
+    pub fn new<P: Problem>(problem: &mut P, tolerance: f64, stride: usize) -> Self {
         let zero = || vec![0.0; stride];
         let (mut weights, mut controlled) = (zero(), zero());
+        let kept = Kept::new(problem, stride);
         let scales = problem.scales();
         for (weight, scale) in weights.iter_mut().zip(scales).take(problem.read_states()) {
             *weight = 1.0 / (LAST_CORRECTION * tolerance * scale);
@@ -146,7 +147,7 @@ impl Newton {
             *weight = 1.0 / (tolerance * scale);
         }
         Self {
-            kept: Kept::new(problem, stride),
+            kept,
             ends: [KinkSigns::of(problem), KinkSigns::of(problem)],
             base: zero(),
             from: zero(),
@@ -225,7 +226,7 @@ impl<P: Problem> Integrator<P> {
             let leaves =
                 |part: f64| size <= part || (size < newton.size && size * size <= part * newton.size);
             let doubtful = newton.fits && !leaves(VERY_SURE);
-            if leaves(SURE) && (!doubtful || self.fit_here() == Fit::Same) {
+            if leaves(SURE) && (!doubtful || self.still_fits()) {
                 add(&mut self.argument, 1.0, &self.newton.next);
                 return self.end_newton_stage();
             }
@@ -319,8 +320,7 @@ impl<P: Problem> Integrator<P> {
         let fit = if self.newton.rounds == 1 {
             self.fit_here()
         } else {
-            self.look_here(self.underway.wanted);
-            Fit::Other
+            self.another_fits_here()
         };
         // A later stage begins with the matrix of the one before.
         let form = match fit {

@@ -16,8 +16,9 @@ use crate::kinks::{KinkSigns, square};
 
 /// Outside of this size a direction is taken to be out of its layer.
 const OUTSIDE: f64 = 4.0;
-/// Halvings of the way through the layer, or of the whole way where the zero lies outside.
-const HALVINGS: u32 = 10;
+/// Corrections of the place where it comes to rest, at most; and how small the last one is, in units of the layer.
+const ROUNDS: u32 = 10;
+const CLOSE: f64 = 0.002;
 
 /// One direction that reverses between both ends of a correction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,17 +51,26 @@ impl Reversal {
         first.map(|(_, reversal)| reversal)
     }
 
+    /// φ at a part of the correction, and its slope by that part.
+    fn force(&self, part: f64) -> (f64, f64) {
+        let change = self.end - self.start;
+        let u = self.start + part * change;
+        let r = square(&[u, self.miss]).sqrt();
+        if r == 0.0 {
+            return (0.0, change);
+        }
+        let tanh = libm::tanh(r);
+        let (ratio, hold) = (tanh / r, 1.0 - tanh * tanh);
+        let along = u / r;
+        (u * ratio, (ratio + along * along * (hold - ratio)) * change)
+    }
+
     /// The part of the correction where the next one has no part along it, if it has the part `along` after the part `at`.
     pub fn rest(&self, at: f64, along: f64) -> Option<f64> {
         let change = self.end - self.start;
-        let force = |f: f64| {
-            let u = self.start + f * change;
-            let r = square(&[u, self.miss]).sqrt();
-            if r > 0.0 { u * libm::tanh(r) / r } else { 0.0 }
-        };
-        let before = force(0.0);
-        let jump = (1.0 - at - along) / (force(at) - before);
-        let ahead = |f: f64| 1.0 - f - jump * (force(f) - before) > 0.0;
+        let (before, _) = self.force(0.0);
+        let jump = (1.0 - at - along) / (self.force(at).0 - before);
+        let ahead = |f: f64| 1.0 - f - jump * (self.force(f).0 - before) > 0.0;
         if !jump.is_finite() || ahead(1.0) {
             return None;
         }
@@ -74,15 +84,28 @@ impl Reversal {
                 break;
             }
         }
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if ahead(middle) {
-                low = middle;
+        // Newton's method, halving where it leaves the bounds.
+        let mut at = 0.5 * (low + high);
+        for _ in 0..ROUNDS {
+            let (force, slope) = self.force(at);
+            let value = 1.0 - at - jump * (force - before);
+            if value > 0.0 {
+                low = at;
             } else {
-                high = middle;
+                high = at;
+            }
+            let next = at + value / (1.0 + jump * slope);
+            let last = at;
+            at = if low < next && next < high {
+                next
+            } else {
+                0.5 * (low + high)
+            };
+            if ((at - last) * change).abs() < CLOSE {
+                break;
             }
         }
-        Some(0.5 * (low + high))
+        Some(at)
     }
 }
 

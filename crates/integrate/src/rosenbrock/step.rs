@@ -281,7 +281,7 @@ impl<P: Problem> Integrator<P> {
             .derivative(self.time, &self.x[..n], &mut self.dx[..n]);
         self.statistics.derivatives += 1;
         self.linearized = false;
-        self.newton.kept.there = false;
+        self.newton.kept.forget();
         self.switches.forget();
         self.bound();
         if self.foresees() {
