@@ -21,8 +21,9 @@ const TURNED: f64 = 0.5;
 /// A piece.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Piece {
-    /// Which values are negative: 64 of them a word.
-    closed: Vec<u64>,
+    /// Which of the first 64 values are negative, and of the others.
+    first: u64,
+    others: Vec<u64>,
     /// By direction: the parts of φ, in units of what they may differ by; the entries of ∂φ/∂u, in units of theirs.
     holds: Vec<[f64; 5]>,
 }
@@ -31,17 +32,21 @@ impl Piece {
     /// Room for what a problem tells.
     pub fn of(signs: &KinkSigns) -> Self {
         Self {
-            closed: vec![0; signs.values.len().div_ceil(64)],
+            first: 0,
+            others: vec![0; signs.values.len().div_ceil(64).saturating_sub(1)],
             holds: vec![[0.0; 5]; signs.directions.len()],
         }
     }
 
     /// Takes what a problem tells of a place.
     pub fn see(&mut self, signs: &KinkSigns) {
-        for (closed, values) in self.closed.iter_mut().zip(signs.values.chunks(64)) {
-            *closed = values
-                .iter()
-                .fold(0, |word, value| word << 1 | u64::from(*value < 0.0));
+        let mut words = signs.values.chunks(64).map(|values| {
+            let bit = |word, value: &f64| word << 1 | u64::from(*value < 0.0);
+            values.iter().fold(0, bit)
+        });
+        self.first = words.next().unwrap_or(0);
+        for (target, word) in self.others.iter_mut().zip(words) {
+            *target = word;
         }
         for (hold, direction) in self.holds.iter_mut().zip(&signs.directions) {
             *hold = hold_of(*direction);
@@ -50,11 +55,17 @@ impl Piece {
 
     /// Whether this is about the same piece.
     pub fn is(&self, other: &Self) -> bool {
-        let mut words = self.closed.iter().zip(&other.closed);
-        let holds = self.holds.as_flattened().iter();
-        let mut pairs = holds.zip(other.holds.as_flattened());
-        words.all(|(a, b)| a == b) && pairs.all(|(a, b)| (a - b).abs() <= 1.0)
+        self.first == other.first
+            && self.others.iter().zip(&other.others).all(|(a, b)| a == b)
+            && self.holds.iter().zip(&other.holds).all(|(a, b)| is_near(a, b))
     }
+}
+
+#[inline(always)]
+fn is_near(a: &[f64; 5], b: &[f64; 5]) -> bool {
+    a.iter()
+        .zip(b)
+        .fold(true, |all, (a, b)| all & ((a - b).abs() <= 1.0))
 }
 
 /// Zeros where there is nothing to reverse.
