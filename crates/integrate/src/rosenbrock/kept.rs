@@ -165,7 +165,15 @@ impl<P: Problem> Integrator<P> {
     /// Whether the matrix in use fits at the argument.
     pub(super) fn still_fits(&mut self) -> bool {
         self.look_here(self.underway.wanted);
-        self.newton.kept.find() == Some(0)
+        let Kept {
+            matrices,
+            order,
+            here,
+            ..
+        } = &self.newton.kept;
+        order
+            .first()
+            .is_some_and(|number| matrices[*number].piece.is(here))
     }
 
     /// Sees on which piece the argument is.
@@ -216,7 +224,8 @@ impl<P: Problem> Integrator<P> {
         let n = self.dimension;
         self.newton.kept.forget();
         // From the one used longest ago on: the last one is in use.
-        for (number, saved) in saved.iter().take(self.newton.kept.matrices.len()).enumerate() {
+        let more = saved.len().saturating_sub(self.newton.kept.matrices.len());
+        for (number, saved) in saved[more..].iter().enumerate() {
             self.argument.fill(0.0);
             self.argument[..n].copy_from_slice(&saved.x);
             self.problem

@@ -10,7 +10,7 @@
 //! which is near to the law of smoothed Coulomb friction (`u tanh(u)/u` with its length for `u` in it, Steets 2007, eq. 3-8) and costs one root: how a point
 //! that sticks is held, from one at rest to none, and where the friction of one that slips points to.
 
-use crate::kinks::KinkSigns;
+use crate::kinks::{KinkSigns, square};
 
 /// Entries of ∂φ/∂u may differ by this. By 0.2 a sixth of the matrices is saved, but losses of what sticks, which change as fast as its hold, come out
 /// worse: ledgers of studies miss 1.5e-3 of the work instead of 0.9e-3.
@@ -70,7 +70,7 @@ fn is_near(a: &[f64; 5], b: &[f64; 5]) -> bool {
 
 /// Zeros where there is nothing to reverse.
 fn hold_of([x, y]: [f64; 2]) -> [f64; 5] {
-    let square = x * x + y * y;
+    let square = square(&[x, y]);
     if square.is_nan() {
         return [0.0; 5];
     }

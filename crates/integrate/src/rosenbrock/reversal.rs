@@ -70,14 +70,18 @@ impl Reversal {
         let change = self.end - self.start;
         let (before, _) = self.force(0.0);
         let jump = (1.0 - at - along) / (self.force(at).0 - before);
-        let ahead = |f: f64| 1.0 - f - jump * (self.force(f).0 - before) > 0.0;
-        if !jump.is_finite() || ahead(1.0) {
+        // s(f), and how fast it falls.
+        let ahead = |f: f64| {
+            let (force, slope) = self.force(f);
+            (1.0 - f - jump * (force - before), 1.0 + jump * slope)
+        };
+        if !jump.is_finite() || ahead(1.0).0 > 0.0 {
             return None;
         }
         let place = |u: f64| ((u - self.start) / change).clamp(0.0, 1.0);
         let (mut low, mut high) = (0.0, 1.0);
         for edge in [place(-OUTSIDE), place(OUTSIDE)] {
-            if ahead(edge) {
+            if ahead(edge).0 > 0.0 {
                 low = edge;
             } else {
                 high = edge;
@@ -87,14 +91,13 @@ impl Reversal {
         // Newton's method, halving where it leaves the bounds.
         let mut at = 0.5 * (low + high);
         for _ in 0..ROUNDS {
-            let (force, slope) = self.force(at);
-            let value = 1.0 - at - jump * (force - before);
+            let (value, falls) = ahead(at);
             if value > 0.0 {
                 low = at;
             } else {
                 high = at;
             }
-            let next = at + value / (1.0 + jump * slope);
+            let next = at + value / falls;
             let last = at;
             at = if low < next && next < high {
                 next

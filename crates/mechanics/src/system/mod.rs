@@ -316,11 +316,7 @@ impl Problem for System {
     }
 
     fn matrices(&self) -> usize {
-        if self.tells_pieces {
-            (MOST_MATRICES / self.free.len()).max(1)
-        } else {
-            1
-        }
+        (MOST_MATRICES / self.free.len()).max(1)
     }
 
     fn take_matrix(&mut self, number: usize) {
