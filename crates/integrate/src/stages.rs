@@ -85,6 +85,27 @@ pub(crate) fn add(target: &mut [f64], factor: f64, term: &[f64]) {
     }
 }
 
+/// `target = factor · a - factor · b`; lengths are multiples of [`LANES`].
+#[inline(always)]
+pub(crate) fn scale_difference(target: &mut [f64], factor: f64, a: &[f64], b: &[f64]) {
+    let factor = f64x4::splat(factor);
+    let pairs = a.as_chunks::<LANES>().0.iter().zip(b.as_chunks::<LANES>().0);
+    for (value, (a, b)) in target.as_chunks_mut::<LANES>().0.iter_mut().zip(pairs) {
+        *value = (factor * f64x4::new(*a) - factor * f64x4::new(*b)).to_array();
+    }
+}
+
+/// `target = term + factor · a - factor · b`; lengths are multiples of [`LANES`].
+#[inline(always)]
+pub(crate) fn add_difference(target: &mut [f64], term: &[f64], factor: f64, a: &[f64], b: &[f64]) {
+    let factor = f64x4::splat(factor);
+    let pairs = a.as_chunks::<LANES>().0.iter().zip(b.as_chunks::<LANES>().0);
+    let terms = term.as_chunks::<LANES>().0.iter().zip(pairs);
+    for (value, (term, (a, b))) in target.as_chunks_mut::<LANES>().0.iter_mut().zip(terms) {
+        *value = (f64x4::new(*term) + factor * f64x4::new(*a) - factor * f64x4::new(*b)).to_array();
+    }
+}
+
 /// `target = factor · term`; lengths are multiples of [`LANES`].
 #[inline(always)]
 pub(crate) fn scale(target: &mut [f64], factor: f64, term: &[f64]) {
@@ -130,6 +151,24 @@ pub(crate) fn largest(values: &[f64], weights: &[f64]) -> f64 {
         }
     }
     most[0].max(most[1]).max(most[2].max(most[3]))
+}
+
+/// [`largest`], or infinite if not all values are finite.
+#[inline(always)]
+pub(crate) fn largest_if_finite(values: &[f64], weights: &[f64]) -> f64 {
+    let (mut most, mut taint) = (f64x4::ZERO, f64x4::ZERO);
+    let weights = weights.as_chunks::<LANES>().0;
+    for (group, weight) in values.as_chunks::<LANES>().0.iter().zip(weights) {
+        let group = f64x4::new(*group);
+        taint += group * 0.0;
+        most = most.fast_max(group.abs() * f64x4::new(*weight));
+    }
+    let ([a, b, c, d], taint) = (most.to_array(), taint.to_array());
+    if taint[0] + taint[1] + (taint[2] + taint[3]) == 0.0 {
+        a.max(b).max(c.max(d))
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// The dense output of one step.

@@ -11,7 +11,7 @@ use crate::problem::Problem;
 use crate::rosenbrock::{Call, Integrator, Progress};
 
 /// The largest number of places in a team.
-pub const MOST_PLACES: usize = 8;
+pub const MOST_PLACES: usize = 4;
 
 /// Evaluates the right-hand sides of several problems of one kind at once, each with the bits of its [`Problem::derivative`].
 pub trait Together {

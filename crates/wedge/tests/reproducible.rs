@@ -99,7 +99,8 @@ fn compare(base: &Parameters, numbers: &mut Random) -> usize {
             .collect();
         abreast.derivatives(&mut calls);
         drop(calls);
-        for ((system, found), (time, x, there)) in alone.iter_mut().zip(&found).zip(&states) {
+        let both = alone.iter_mut().zip(&mut beside);
+        for (((system, beside), found), (time, x, there)) in both.zip(&found).zip(&states) {
             if !there {
                 assert!(found.iter().all(|value| value.is_nan()));
                 continue;
@@ -113,6 +114,16 @@ fn compare(base: &Parameters, numbers: &mut Random) -> usize {
                     "rate {i} at {time} s, {x:?}: {found:e} instead of {expected:e}"
                 );
                 touched += usize::from(i >= speeds && i < 2 * speeds && expected.abs() > 100.0);
+            }
+            // Gaps and slips: told there, seen elsewhere.
+            let mut elsewhere = x.clone();
+            elsewhere[round % speeds] += 1e-6;
+            for (time, x) in [(*time, x), (*time, &elsewhere), (time + 1e-3, x), (*time, x)] {
+                let (seen, told) = (kinks(system, time, x), kinks(beside, time, x));
+                assert!(
+                    same(&seen, &told),
+                    "kinks at {time} s, {x:?}: {told:?} instead of {seen:?}"
+                );
             }
         }
     }
@@ -180,25 +191,31 @@ fn only_wedges_of_one_shape_sit_side_by_side() {
     }
 }
 
+fn kinks(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
+    let (values, directions) = system.kink_counts();
+    let mut signs = KinkSigns {
+        values: vec![0.0; values],
+        directions: vec![[0.0; 2]; directions],
+    };
+    system.kinks(time, x, &mut signs);
+    [&signs.values[..], signs.directions.as_flattened()].concat()
+}
+
+fn same(a: &[f64], b: &[f64]) -> bool {
+    let one = |(a, b): (&f64, &f64)| a == b || a.is_nan() && b.is_nan();
+    a.len() == b.len() && a.iter().zip(b).all(one)
+}
+
 /// All that an integrator may ask for at a place, one question after the other.
 fn ask(system: &mut System, question: usize, time: f64, x: &[f64], modes: &[u8]) -> Vec<f64> {
     let n = x.len();
-    let (values, directions) = system.kink_counts();
     let mut dx = vec![0.0; n];
     match question {
         0 => {
             system.derivative(time, x, &mut dx);
             dx
         }
-        1 => {
-            let mut signs = KinkSigns {
-                values: vec![0.0; values],
-                directions: vec![[0.0; 2]; directions],
-            };
-            system.kinks(time, x, &mut signs);
-            let turned = signs.directions.iter().flatten();
-            signs.values.iter().chain(turned).copied().collect()
-        }
+        1 => kinks(system, time, x),
         2 => {
             let mut margins = vec![0.0; modes.len()];
             system.margins(time, x, modes, &mut margins);

@@ -16,7 +16,9 @@ use super::reversal::Reversal;
 use super::underway::{Phase, Underway};
 use crate::kinks::KinkSigns;
 use crate::problem::Problem;
-use crate::stages::{add, all_finite, combine, largest, scale};
+use crate::stages::{
+    add, add_difference, all_finite, combine, largest, largest_if_finite, scale, scale_difference,
+};
 
 /// The last correction by a fresh matrix, relative to the tolerance. What it leaves is smaller still.
 const LAST_CORRECTION: f64 = 0.03;
@@ -216,11 +218,7 @@ impl<P: Problem> Integrator<P> {
         if point == Point::Guess {
             return self.newton_round();
         }
-        let size = if all_finite(&self.slope) {
-            self.next_correction()
-        } else {
-            f64::INFINITY
-        };
+        let size = self.next_correction();
         let newton = &self.newton;
         if point == Point::Corrected {
             let leaves =
@@ -275,20 +273,14 @@ impl<P: Problem> Integrator<P> {
         1.0 / (self.tableau.gamma * self.underway.step)
     }
 
-    /// The next correction, at the argument by the matrix that is there; its size.
+    /// The next correction, at the argument by the matrix that is there; its size, infinite where anything is not finite.
     fn next_correction(&mut self) -> f64 {
         let shift = self.newton_shift();
         let newton = &mut self.newton;
-        newton.next.copy_from_slice(&self.slope);
-        add(&mut newton.next, shift, &newton.base);
-        add(&mut newton.next, -shift, &self.argument);
+        add_difference(&mut newton.next, &self.slope, shift, &newton.base, &self.argument);
         self.problem.solve(&mut newton.next[..self.dimension]);
         self.statistics.solves += 1;
-        if all_finite(&newton.next) {
-            largest(&newton.next, &newton.weights)
-        } else {
-            f64::INFINITY
-        }
+        largest_if_finite(&newton.next, &newton.weights)
     }
 
     /// A correction from the argument, by the matrix there.
@@ -351,9 +343,7 @@ impl<P: Problem> Integrator<P> {
         let (stride, tableau) = (self.stride, self.tableau);
         let i = self.newton.stage;
         let stage = &mut self.trial_stages[i * stride..][..stride];
-        stage.fill(0.0);
-        add(stage, 1.0 / tableau.gamma, &self.argument);
-        add(stage, -1.0 / tableau.gamma, &self.newton.base);
+        scale_difference(stage, 1.0 / tableau.gamma, &self.argument, &self.newton.base);
         if i + 2 < tableau.stages() {
             return self.begin_newton_stage(i + 1);
         }

@@ -5,6 +5,8 @@
 //!
 //! Limits: all elements are plain (their neighbours are prescribed and do not turn), friction is by tanh, coils are linear.
 
+use std::ops::Range;
+
 use integrate::lanes::{LANES, Runs};
 use integrate::scalar::{Mask, Number};
 use integrate::{Call, Together};
@@ -31,6 +33,10 @@ pub struct Abreast {
     /// States that are read, and rates.
     x: Vec<Runs>,
     dx: Vec<Runs>,
+    /// Gap and slip of all points where forces were asked for last.
+    seen: Vec<[Runs; 3]>,
+    /// The time to which the frames of each system were brought, and which smooth piece of the motions it was on.
+    travelled: [[f64; 2]; Runs::COUNT],
 }
 
 /// What systems must have in common to sit side by side.
@@ -92,6 +98,8 @@ struct FaceRuns {
     at: SightRuns,
     grip: Grip<Runs>,
     points: Vec<(Vector<Runs>, Grade<Runs>)>,
+    /// Where its points stand among all points.
+    own: Range<usize>,
 }
 
 #[derive(Clone, Debug)]
@@ -154,6 +162,7 @@ impl Abreast {
                 ways: [none; 3],
             },
         };
+        let mut count = 0;
         let faces = shape.faces.iter().map(|(place, points)| FaceRuns {
             at: at(place),
             grip: Grip {
@@ -174,6 +183,11 @@ impl Abreast {
                     (none, grade)
                 })
                 .collect(),
+            own: {
+                let first = count;
+                count += points.len();
+                first..count
+            },
         });
         let coils = shape.coils.iter().map(|(place, pulls, central)| CoilRuns {
             at: at(place),
@@ -188,13 +202,16 @@ impl Abreast {
             free_length: zero,
             pulls: *pulls,
         });
+        let faces: Vec<FaceRuns> = faces.collect();
         let mut this = Self {
             frames: frames.collect(),
             bodies: bodies.collect(),
-            faces: faces.collect(),
+            seen: vec![[zero; 3]; count],
+            faces,
             coils: coils.collect(),
             x: vec![zero; 2 * shape.speeds],
             dx: vec![zero; shape.states],
+            travelled: [[f64::NAN; 2]; Runs::COUNT],
             shape,
         };
         for place in 0..Runs::COUNT {
@@ -334,15 +351,16 @@ impl FaceRuns {
         }
     }
 
-    /// What its points do: [`ContactFace::effect`] with runs in lanes instead of points.
+    /// What its points do, and where they are seen: [`ContactFace::effect`] with runs in lanes instead of points.
     #[inline(always)]
-    fn effect(&self, body: &Kinematics<Runs>) -> Effect<Runs> {
+    fn effect(&self, body: &Kinematics<Runs>, seen: &mut [[Runs; 3]]) -> Effect<Runs> {
         let view = View::of(&self.at.sight, body);
         let zero = Runs::zero();
         let mut sums = [[zero; 8]; LANES];
-        for points in self.points.chunks(LANES) {
-            for (sums, (position, grade)) in sums.iter_mut().zip(points) {
+        for (points, seen) in self.points.chunks(LANES).zip(seen.chunks_mut(LANES)) {
+            for ((sums, (position, grade)), seen) in sums.iter_mut().zip(points).zip(seen) {
                 let at = view.meet::<Runs>(*position, grade.damped);
+                *seen = [at.gap, at.slip[0], at.slip[1]];
                 let closed = at.gap.below(zero);
                 if closed.none() {
                     continue;
@@ -390,6 +408,11 @@ impl Abreast {
     /// Brings the frames of one system to a time.
     #[inline(always)]
     fn travel(&mut self, place: usize, system: &System, time: f64) {
+        let there = [time, system.reference];
+        if self.travelled[place] == there {
+            return;
+        }
+        self.travelled[place] = there;
         for (frame, body) in self.frames.iter_mut().zip(&system.bodies) {
             for (k, jet) in &mut frame.moves {
                 let values: [f64; 3] = body.frame.motions[*k].evaluate(time, system.reference);
@@ -437,7 +460,8 @@ impl Abreast {
                 add_effect(effect, &at.sight, channels, (&mut force, &mut moment), powers);
             };
             for face in body.faces.iter().map(|face| &self.faces[*face]) {
-                add(&face.effect(&kinematics), &face.at);
+                let seen = &mut self.seen[face.own.clone()];
+                add(&face.effect(&kinematics, seen), &face.at);
             }
             for coil in body.coils.iter().map(|coil| &self.coils[*coil]) {
                 add(&coil.effect(&kinematics), &coil.at);
@@ -461,6 +485,7 @@ impl Together for Abreast {
     }
 
     fn put(&mut self, place: usize, system: &System) {
+        self.travelled[place] = [f64::NAN; 2];
         self.travel(place, system, 0.0);
         for (lanes, frame) in self.frames.iter_mut().zip(&system.frames) {
             let own = &frame.motion;
@@ -514,6 +539,8 @@ impl Together for Abreast {
             for (value, lanes) in call.dx.iter_mut().zip(&self.dx) {
                 *value = lanes.at(place);
             }
+            let motions = self.seen.iter().map(|motion| motion.map(|part| part.at(place)));
+            call.problem.tell(call.time, call.x, motions);
         }
     }
 }

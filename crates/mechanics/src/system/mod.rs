@@ -163,6 +163,11 @@ pub struct System {
     face_placed: (usize, f64),
     /// Whether the faces have seen their points there.
     met: bool,
+    /// Gap and slip of all points, where they were told of them by whoever evaluated the right-hand side in the system's stead: at which time,
+    /// positions and speeds; not a number: nowhere.
+    told: Vec<[f64; 3]>,
+    told_at: f64,
+    told_of: Vec<f64>,
 }
 
 impl System {
@@ -356,8 +361,7 @@ impl Problem for System {
     }
 
     fn kinks(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
-        self.place(time, x);
-        self.kink_signs(signs);
+        self.kink_signs(time, x, signs);
     }
 
     /// Bristles come to slip without telling. (So do coils that go solid, but they change no more than their own stiffness.)
