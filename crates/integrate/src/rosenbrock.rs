@@ -16,6 +16,7 @@ use crate::tableau::{Family, MAXIMUM_STAGES, Tableau};
 mod attempt;
 mod between;
 mod collocation;
+mod guess;
 mod kept;
 mod newton;
 mod piece;
@@ -26,6 +27,7 @@ mod underway;
 use between::Between;
 pub(crate) use collocation::Calm;
 use collocation::Collocation;
+pub(crate) use guess::Behind;
 pub(crate) use kept::Place;
 use newton::Newton;
 use underway::Underway;
@@ -144,6 +146,7 @@ impl<P: Problem> Integrator<P> {
             calm: Calm::default(),
             reach: 0.0,
             slope: Vec::new(),
+            behind: None,
             matrices: Vec::new(),
             statistics: Statistics::default(),
         };
@@ -284,7 +287,7 @@ impl<P: Problem> Integrator<P> {
                 value,
             });
         }
-        this.continue_stages(&state.slope, &state.matrices);
+        this.continue_stages(&state.slope, state.behind.as_ref(), &state.matrices);
         Ok(this)
     }
 
@@ -307,6 +310,7 @@ impl<P: Problem> Integrator<P> {
                 Family::DiagonallyImplicit => self.derivative().to_vec(),
                 _ => Vec::new(),
             },
+            behind: self.newton.behind(self.dimension),
             matrices: self.places_of_matrices(),
             statistics: self.statistics.clone(),
         }
@@ -440,17 +444,18 @@ impl<P: Problem> Integrator<P> {
         let counted = self.statistics.derivatives;
         self.evaluate_derivative();
         self.statistics.derivatives = counted;
-        self.continue_stages(&state.slope, &state.matrices);
+        self.continue_stages(&state.slope, state.behind.as_ref(), &state.matrices);
         Ok(())
     }
 
-    /// Takes the slope with which the last step ended, and the matrices that there were.
-    fn continue_stages(&mut self, slope: &[f64], matrices: &[Place]) {
+    /// Takes the slope with which the last step ended, that step, and the matrices that there were.
+    fn continue_stages(&mut self, slope: &[f64], behind: Option<&Behind>, matrices: &[Place]) {
         if self.tableau.family == Family::DiagonallyImplicit {
             for (dx, slope) in self.dx.iter_mut().zip(slope) {
                 *dx = *slope;
             }
             self.form_matrices_again(matrices);
+            self.newton.restore_behind(behind);
         }
     }
 

@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 use crate::control::Controller;
 use crate::error::SetupError;
 use crate::kinks::{Ahead, Passage};
-use crate::rosenbrock::{Calm, Place};
+use crate::rosenbrock::{Behind, Calm, Place};
 use crate::statistics::Statistics;
 
 /// Version of [`State`].
-pub const STATE_VERSION: u32 = 10;
+pub const STATE_VERSION: u32 = 11;
 
 /// All that is needed to continue an integration with the same bits.
 ///
@@ -41,6 +41,8 @@ pub struct State {
     pub(crate) reach: f64,
     /// The slope with which an implicit step ended, which is the first stage of the next one; empty: the derivative at the states is.
     pub(crate) slope: Vec<f64>,
+    /// The last step, from which Newton's method guesses how the next one begins; none: it guesses straight on.
+    pub(crate) behind: Option<Behind>,
     /// Where the matrices that Newton's method keeps were formed, from the one used longest ago on.
     pub(crate) matrices: Vec<Place>,
     /// What was done so far.
@@ -55,8 +57,12 @@ impl State {
         let slopes = if self.slope.is_empty() { 0 } else { dimension };
         let mut places = self.matrices.iter().map(|place| place.x.len());
         let places = places.find(|length| *length != dimension).unwrap_or(dimension);
+        let behind = self.behind.as_ref();
+        let behind = behind.map_or([dimension; 2], |behind| [behind.x.len(), behind.first.len()]);
         let lengths = [
             ("states of a matrix", dimension, places),
+            ("states of the last step", dimension, behind[0]),
+            ("slopes of the last step", dimension, behind[1]),
             ("states", dimension, self.x.len()),
             ("switches", switches, self.modes.len()),
             ("slopes", slopes, self.slope.len()),
@@ -80,6 +86,9 @@ impl State {
         let mut places = self.matrices.iter();
         if let Some(value) = places.find_map(|place| place.damage(self.segment_start)) {
             return damaged("matrices", value);
+        }
+        if let Some(value) = self.behind.as_ref().and_then(Behind::damage) {
+            return damaged("behind", value);
         }
         if !(self.reach >= 0.0 && self.reach.is_finite()) {
             return damaged("reach", self.reach);

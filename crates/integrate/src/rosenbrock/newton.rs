@@ -11,13 +11,15 @@
 
 use super::Integrator;
 use super::attempt::{Advance, Failure, not_finite, stage_time, unsolved};
+use super::guess::{Behind, Way};
 use super::kept::{Fit, Kept};
 use super::reversal::Reversal;
 use super::underway::{Phase, Underway};
 use crate::kinks::KinkSigns;
 use crate::problem::Problem;
 use crate::stages::{
-    add, add_difference, all_finite, combine, largest, largest_if_finite, scale, scale_difference,
+    add, add_difference, all_finite, combine, largest, largest_if_finite, leading_states, scale,
+    scale_difference,
 };
 
 /// The last correction by a fresh matrix, relative to the tolerance. What it leaves is smaller still.
@@ -119,6 +121,11 @@ pub(super) struct Newton {
     pub kept: Kept,
     /// Whether the matrix was kept because it fits at the guess.
     fits: bool,
+    /// Whether the guess is the cubic; then `next` is the straight one.
+    curved: bool,
+    /// The last step, if it ended smoothly.
+    knows_behind: bool,
+    behind: Behind,
     /// What tells kinks at both ends of a correction.
     ends: [KinkSigns; 2],
     base: Vec<f64>,
@@ -151,6 +158,11 @@ impl Newton {
         Self {
             kept,
             ends: [KinkSigns::of(problem), KinkSigns::of(problem)],
+            behind: Behind {
+                step: 0.0,
+                x: zero(),
+                first: zero(),
+            },
             base: zero(),
             from: zero(),
             correction: zero(),
@@ -159,6 +171,48 @@ impl Newton {
             controlled,
             ..Self::default()
         }
+    }
+
+    /// Whether the last stage needed no matrix but the one that fitted where it began.
+    fn was_smooth(&self) -> bool {
+        self.fits && self.rounds == 1
+    }
+
+    /// Takes the step that was made, from states `x` by the change `first` at the slope there.
+    pub fn leave_behind(&mut self, step: f64, x: &[f64], first: &[f64]) {
+        self.knows_behind = self.was_smooth();
+        if self.knows_behind {
+            self.behind.step = step;
+            self.behind.x.copy_from_slice(x);
+            self.behind.first.copy_from_slice(first);
+        }
+    }
+
+    /// The last step, for a saved run, with vectors of `n` entries.
+    pub fn behind(&self, n: usize) -> Option<Behind> {
+        let Behind { step, x, first } = &self.behind;
+        self.knows_behind.then(|| Behind {
+            step: *step,
+            x: x[..n].to_vec(),
+            first: first[..n].to_vec(),
+        })
+    }
+
+    /// Has the last step as a saved run had it.
+    pub fn restore_behind(&mut self, saved: Option<&Behind>) {
+        self.knows_behind = saved.is_some();
+        if let Some(saved) = saved {
+            let n = saved.x.len();
+            self.behind.step = saved.step;
+            self.behind.x[..n].copy_from_slice(&saved.x);
+            self.behind.first[..n].copy_from_slice(&saved.first);
+        }
+    }
+
+    /// Nothing is known any more of the right-hand side before.
+    pub fn forget(&mut self) {
+        self.kept.forget();
+        self.knows_behind = false;
     }
 
     /// The next correction's part along this one, relative to it.
@@ -186,21 +240,46 @@ impl<P: Problem> Integrator<P> {
     fn begin_newton_stage(&mut self, i: usize) -> Advance {
         let (stride, tableau) = (self.stride, self.tableau);
         let newton = &mut self.newton;
+        let smooth = newton.was_smooth();
         (newton.stage, newton.rounds) = (i, 0);
         let done = &self.trial_stages[..i * stride];
         combine(&mut newton.base, &self.x, 1.0, tableau.a[i], done, stride);
-        self.argument.copy_from_slice(&self.x);
-        // Straight on: from the last step, then through the stage before. Whatever bends would foresee kinks wrongly.
-        if i == 1 {
-            add(&mut self.argument, tableau.alpha[1], done);
+        // From the last step, then from the stage before, where the argument is. Where nothing is known of the last step, its slope is.
+        let (way, cubic) = if i == 1 {
+            self.argument.copy_from_slice(&self.x);
+            let Behind { step, x, first } = &newton.behind;
+            let step = if newton.knows_behind {
+                *step
+            } else {
+                self.underway.step
+            };
+            let way = Way {
+                start: x,
+                first: (first, 1.0),
+                last: (&self.dx, step),
+                further: tableau.alpha[1] * self.underway.step / step,
+                by_slope: true,
+            };
+            (way, newton.knows_behind)
         } else {
-            let (before, last) = done.split_at((i - 1) * stride);
-            let share = tableau.alpha[i] / tableau.alpha[i - 1];
-            for (weight, stage) in tableau.a[i - 1].iter().zip(before.chunks_exact(stride)) {
-                add(&mut self.argument, share * weight, stage);
-            }
-            add(&mut self.argument, share * tableau.gamma, last);
-        }
+            let reached = tableau.alpha[i - 1];
+            let way = Way {
+                start: &self.x,
+                first: (&done[..stride], reached),
+                last: (&done[(i - 1) * stride..], reached),
+                further: (tableau.alpha[i] - reached) / reached,
+                by_slope: false,
+            };
+            (way, smooth)
+        };
+        // Of what is only integrated no guess is needed.
+        let read = ..leading_states(&self.problem);
+        newton.curved = way.go_on(
+            cubic,
+            &newton.weights,
+            &mut self.argument[read],
+            &mut newton.next[read],
+        );
         self.want_newton(Point::Guess)
     }
 
@@ -286,15 +365,28 @@ impl<P: Problem> Integrator<P> {
     /// A correction from the argument, by the matrix there.
     fn newton_round(&mut self) -> Advance {
         let n = self.dimension;
-        if !all_finite(&self.slope) {
+        let finite = all_finite(&self.slope);
+        let curved = std::mem::take(&mut self.newton.curved);
+        if !finite && !curved {
             return Err(not_finite(&self.slope[..n]));
         }
-        self.newton.rounds += 1;
-        let rounds = self.newton.rounds;
+        let rounds = self.newton.rounds + 1;
         if rounds > MOST_ROUNDS {
             return Err(unsolved());
         }
-        let known = self.choose_matrix()?;
+        let fit = if rounds == 1 {
+            self.fit_here()
+        } else {
+            self.another_fits_here()
+        };
+        if curved && (!finite || fit != Fit::Same) {
+            let newton = &self.newton;
+            let read = ..leading_states(&self.problem);
+            self.argument[read].copy_from_slice(&newton.next[read]);
+            return self.want_newton(Point::Guess);
+        }
+        self.newton.rounds = rounds;
+        let known = self.have_matrix(fit)?;
         let size = self.next_correction();
         let newton = &mut self.newton;
         if size == f64::INFINITY {
@@ -307,13 +399,8 @@ impl<P: Problem> Integrator<P> {
         self.correct(size)
     }
 
-    /// Has the matrix for a round, factored; whether it is known to be that of the place, or about that.
-    fn choose_matrix(&mut self) -> Result<bool, Failure> {
-        let fit = if self.newton.rounds == 1 {
-            self.fit_here()
-        } else {
-            self.another_fits_here()
-        };
+    /// Has the matrix for a round, factored, where this is known of the one that is there; whether it is known to be that of the place, or about that.
+    fn have_matrix(&mut self, fit: Fit) -> Result<bool, Failure> {
         // A later stage begins with the matrix of the one before.
         let form = match fit {
             Fit::Same => false,

@@ -281,7 +281,7 @@ impl<P: Problem> Integrator<P> {
             .derivative(self.time, &self.x[..n], &mut self.dx[..n]);
         self.statistics.derivatives += 1;
         self.linearized = false;
-        self.newton.kept.forget();
+        self.newton.forget();
         self.switches.forget();
         self.bound();
         if self.foresees() {
@@ -365,6 +365,11 @@ impl<P: Problem> Integrator<P> {
         self.statistics.accept(step);
         let family = self.last_method.family;
         self.between.open(family);
+        if family == Family::DiagonallyImplicit {
+            let first = &self.stages[..self.stride];
+            self.newton
+                .leave_behind(self.time - self.previous_time, &self.previous_x, first);
+        }
         self.statistics.explicit_steps += u64::from(family == Family::Explicit);
         self.statistics.collocation_steps += u64::from(family == Family::Collocation);
         // All that is asked at the end is asked at once: what the problem has computed there serves several times.
