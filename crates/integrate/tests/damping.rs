@@ -251,6 +251,42 @@ fn convergence_a_matrix_kept_on_its_piece_changes_nothing_but_its_cost() {
     }
 }
 
+/// Where the way is smooth, and a problem tells so, a stage takes one right-hand side: its guess is within the tolerance.
+#[test]
+fn convergence_a_smooth_way_is_guessed() {
+    let follower = |tells: bool| {
+        let problem = Ordinary::new(
+            vec![1.0],
+            |t, x, dx| dx[0] = 50.0 * (libm::sin(5.0 * t) - x[0]),
+            |_, _, j| j[0] = -50.0,
+        )
+        .displacements(1);
+        if tells {
+            problem
+                .kinks(1, 0, |_, _, signs| signs.values[0] = 1.0)
+                .in_pieces(1)
+        } else {
+            problem
+        }
+    };
+    // x = (sin 5t - cos 5t/10 + exp(-50t)/10)/1.01
+    let exact = (libm::sin(10.0) - 0.1 * libm::cos(10.0)) / 1.01;
+    for method in DAMPING {
+        let options = Options {
+            maximum_step: 0.01,
+            ..options_of(method, 1e-3)
+        };
+        let [straight, guessed] =
+            [false, true].map(|tells| run(follower(tells), options.clone(), &[0.0], 2.0));
+        println!("{method}: {:?}\n{:?}", straight.1, guessed.1);
+        for (x, _) in [&straight, &guessed] {
+            assert!((x[0] - exact).abs() < 1e-4, "{method}: {x:?}, {exact}");
+        }
+        assert_eq!(straight.1.steps, guessed.1.steps, "{method}");
+        assert!(5 * guessed.1.derivatives < 3 * straight.1.derivatives, "{method}");
+    }
+}
+
 /// A run that was saved has the matrices that were kept, in the order of their use.
 #[test]
 fn reproducible_a_saved_run_goes_on_with_the_matrices_it_kept() {
@@ -328,7 +364,7 @@ fn input_stages_without_solution_are_reported() {
     assert!(integrator.statistics().rejected_unsolved > 2);
 }
 
-/// A saved run has the slope with which its last step ended, and the place of its matrix. Those that cannot be are refused.
+/// A saved run has the slope with which its last step ended, the place of its matrix, and that step. Those that cannot be are refused.
 #[test]
 fn input_a_damaged_slope_or_matrix_is_refused() {
     let mut integrator = Integrator::new(carried(100.0), options(1e-4), 0.0, &[0.0, 1.0]).unwrap();
@@ -370,5 +406,18 @@ fn input_a_damaged_slope_or_matrix_is_refused() {
         Err(early)
     );
     assert_eq!(resume("matrices", serde_json::json!([])), Ok(()));
+    let behind = |step: f64, x: &[f64]| serde_json::json!({ "step": step, "x": x, "first": [0.0, 0.1] });
+    let short = SetupError::Dimension {
+        what: "states of the last step",
+        expected: 2,
+        found: 1,
+    };
+    assert_eq!(resume("behind", behind(0.1, &[1.0])), Err(short));
+    let still = SetupError::Damaged {
+        name: "behind",
+        value: 0.0,
+    };
+    assert_eq!(resume("behind", behind(0.0, &[1.0, 1.0])), Err(still));
+    assert_eq!(resume("behind", behind(0.1, &[1.0, 1.0])), Ok(()));
     assert!(resume("slope", integrator.derivative().to_vec().into()).is_ok());
 }

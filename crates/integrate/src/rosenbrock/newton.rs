@@ -1,6 +1,6 @@
 //! One attempt of a diagonally implicit method: its stages are found by Newton's method with a search along its corrections.
 //!
-//! A stage is the zero of `F(z) = (base - z)/(hγ) + f(t, z)`; a correction is `d = (I/(hγ) - J)⁻¹ F(z)`. The matrix is one that is there
+//! It begins where [`super::guess`] says. A stage is the zero of `F(z) = (base - z)/(hγ) + f(t, z)`; a correction is `d = (I/(hγ) - J)⁻¹ F(z)`. The matrix is one that is there
 //! and fits, where the problem tells of that ([`super::kept`]), else that at the guess (of the first stage, where nothing is told), kept while the next
 //! correction, by the same matrix, is a fifth of the last one or smaller. Where a correction
 //! gets across a kink - slip that would reverse, a contact that would open -, the next one points back. Then the zero of their
