@@ -110,7 +110,7 @@ fn compare(base: &Parameters, numbers: &mut Random) -> usize {
             for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
                 // Equal as numbers: zero may have another sign.
                 assert!(
-                    found == expected || found.is_nan() && expected.is_nan(),
+                    equal(*found, *expected),
                     "rate {i} at {time} s, {x:?}: {found:e} instead of {expected:e}"
                 );
                 touched += usize::from(i >= speeds && i < 2 * speeds && expected.abs() > 100.0);
@@ -201,9 +201,13 @@ fn kinks(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
     [&signs.values[..], signs.directions.as_flattened()].concat()
 }
 
+/// As numbers: zero may have another sign, and what is not a number is as good as another.
+fn equal(a: f64, b: f64) -> bool {
+    a == b || a.is_nan() && b.is_nan()
+}
+
 fn same(a: &[f64], b: &[f64]) -> bool {
-    let one = |(a, b): (&f64, &f64)| a == b || a.is_nan() && b.is_nan();
-    a.len() == b.len() && a.iter().zip(b).all(one)
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| equal(*a, *b))
 }
 
 /// All that an integrator may ask for at a place, one question after the other.
@@ -277,7 +281,7 @@ fn what_was_asked_before_changes_nothing() {
             assert_eq!(found.len(), expected.len());
             for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
                 assert!(
-                    found == expected || found.is_nan() && expected.is_nan(),
+                    equal(*found, *expected),
                     "question {question}, answer {i} at {x:?}: {found:e} instead of {expected:e}"
                 );
             }

@@ -113,11 +113,8 @@ impl<P: Problem> Integrator<P> {
         let (stride, last) = (self.stride, self.trial_method.stages() - 1);
         let (done, error) = self.trial_stages.split_at_mut(last * stride);
         let error = &mut error[..stride];
-        let (weights, mut stages) = (self.trial_method.a[last], done.chunks_exact(stride));
-        if let (Some(weight), Some(stage)) = (weights.first(), stages.next()) {
-            scale(error, *weight, stage);
-        }
-        for (weight, stage) in weights.iter().skip(1).zip(stages) {
+        error.fill(0.0);
+        for (weight, stage) in self.trial_method.a[last].iter().zip(done.chunks_exact(stride)) {
             add(error, *weight, stage);
         }
     }

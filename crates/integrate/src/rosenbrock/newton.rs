@@ -399,7 +399,7 @@ impl<P: Problem> Integrator<P> {
         self.correct(size)
     }
 
-    /// Has the matrix for a round, factored, where this is known of the one that is there; whether it is known to be that of the place, or about that.
+    /// Has a matrix for a round, factored, where so much is known of the one in use; whether it is known to be that of the place, or about that.
     fn have_matrix(&mut self, fit: Fit) -> Result<bool, Failure> {
         // A later stage begins with the matrix of the one before.
         let form = match fit {

@@ -162,8 +162,8 @@ impl Abreast {
                 ways: [none; 3],
             },
         };
-        let mut count = 0;
-        let faces = shape.faces.iter().map(|(place, points)| FaceRuns {
+        let faces = shape.faces.iter().enumerate();
+        let faces = faces.map(|(number, (place, points))| FaceRuns {
             at: at(place),
             grip: Grip {
                 coefficient: zero,
@@ -183,11 +183,7 @@ impl Abreast {
                     (none, grade)
                 })
                 .collect(),
-            own: {
-                let first = count;
-                count += points.len();
-                first..count
-            },
+            own: system.points_of(number),
         });
         let coils = shape.coils.iter().map(|(place, pulls, central)| CoilRuns {
             at: at(place),
@@ -202,15 +198,14 @@ impl Abreast {
             free_length: zero,
             pulls: *pulls,
         });
-        let faces: Vec<FaceRuns> = faces.collect();
         let mut this = Self {
             frames: frames.collect(),
             bodies: bodies.collect(),
-            seen: vec![[zero; 3]; count],
-            faces,
+            faces: faces.collect(),
             coils: coils.collect(),
             x: vec![zero; 2 * shape.speeds],
             dx: vec![zero; shape.states],
+            seen: vec![[zero; 3]; system.point_count()],
             travelled: [[f64::NAN; 2]; Runs::COUNT],
             shape,
         };

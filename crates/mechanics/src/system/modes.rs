@@ -181,7 +181,7 @@ impl System {
     }
 
     /// The points of a face among all points.
-    fn points_of(&self, face: usize) -> Range<usize> {
+    pub(super) fn points_of(&self, face: usize) -> Range<usize> {
         let first = self.first_points[face];
         first..first + self.faces[face].element.points.len()
     }
@@ -201,15 +201,8 @@ impl System {
     /// Whether that is known here.
     #[inline(always)]
     fn was_told(&self, time: f64, x: &[f64]) -> bool {
-        let differ = |(a, b): (&f64, &f64)| a.to_bits() ^ b.to_bits();
-        time == self.told_at
-            && self
-                .told_of
-                .iter()
-                .zip(x)
-                .map(differ)
-                .fold(0, |all, bits| all | bits)
-                == 0
+        let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
+        time == self.told_at && self.told_of.iter().zip(x).all(same)
     }
 
     /// What foretells kinks: the gap of every point (m), and the slip of closed points over the reference speed of their law
@@ -220,19 +213,19 @@ impl System {
             self.place(time, x);
             self.meet();
         }
-        for (face, &first) in self.faces.iter().zip(&self.first_points) {
+        for (number, face) in self.faces.iter().enumerate() {
+            let own = self.points_of(number);
             let scale = match face.element.law {
                 FrictionLaw::Tanh { reference_speed } => 1.0 / reference_speed,
                 FrictionLaw::Bristle { .. } => f64::NAN,
             };
             let mut put = |i: usize, gap: f64, slip: [f64; 2]| {
-                signs.values[first + i] = gap;
+                signs.values[own.start + i] = gap;
                 let closed = if gap < 0.0 { scale } else { f64::NAN };
-                signs.directions[first + i] = slip.map(|part| part * closed);
+                signs.directions[own.start + i] = slip.map(|part| part * closed);
             };
             if told {
-                let own = &self.told[first..][..face.element.points.len()];
-                for (i, [gap, x, y]) in own.iter().enumerate() {
+                for (i, [gap, x, y]) in self.told[own.clone()].iter().enumerate() {
                     put(i, *gap, [*x, *y]);
                 }
             } else {
