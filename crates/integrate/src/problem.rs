@@ -73,6 +73,16 @@ pub trait Problem {
     /// Within a step that is about to be rejected `x` may be far out or not finite; so may then be `dx`.
     fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]);
 
+    /// Writes `f` at several times and states, `f(times[k], x_k)` to `dx_k`, each with the bits of [`Problem::derivative`]: for problems that do
+    /// it quicker at once. Each `x_k` and `dx_k` begins `stride` numbers behind the one before.
+    fn derivatives(&mut self, times: &[f64], stride: usize, x: &[f64], dx: &mut [f64]) {
+        let n = self.dimension();
+        let rows = x.chunks_exact(stride).zip(dx.chunks_exact_mut(stride));
+        for (time, (x, dx)) in times.iter().zip(rows) {
+            self.derivative(*time, &x[..n], &mut dx[..n]);
+        }
+    }
+
     /// Evaluates and keeps the Jacobian matrix `J = ∂f/∂x` at `(time, x)`, where `f` is `dx`; writes `∂f/∂t`.
     ///
     /// `df_dt` comes filled with zeros: an autonomous problem need not touch it.
@@ -220,6 +230,9 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     }
     fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]) {
         (**self).derivative(time, x, dx);
+    }
+    fn derivatives(&mut self, times: &[f64], stride: usize, x: &[f64], dx: &mut [f64]) {
+        (**self).derivatives(times, stride, x, dx);
     }
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         (**self).linearize(time, x, dx, df_dt);

@@ -157,6 +157,53 @@ fn rates_have_the_bits_of_a_wedge_alone() {
     }
 }
 
+/// The rates of a system at several times and states at once are those that it finds one after the other, however many they are; also after its
+/// parameters have been changed, and where it cannot sit beside itself.
+#[test]
+fn rates_at_several_places_have_the_bits_of_one_after_the_other() {
+    let mut numbers = Random(11);
+    let thesis = thesis::parameters(Damping::Variable, TOE, YAW);
+    let mut turned = thesis.clone();
+    turned.bolster.coordinates[4] = Motion::line(0.0, [0.0, 1e-3]);
+    for parameters in [thesis.clone(), with_law(thesis, bristle()), turned] {
+        let mut together = system(&parameters);
+        let (n, stride) = (together.dimension(), together.dimension() + 3);
+        for round in 0..60 {
+            let count = 1 + round % 9;
+            match round {
+                20 => together.set_friction(0, 0.2).unwrap(),
+                30 => {
+                    let stiffness = 1e5;
+                    together.set_coil_law(0, CoilLaw::Linear { stiffness }).unwrap();
+                }
+                40 => {
+                    let table = Characteristic::new(vec![[0.0, 0.0], [0.1, 1e4]]).unwrap();
+                    together.set_coil_law(0, CoilLaw::Table(table)).unwrap();
+                }
+                _ => {}
+            }
+            let mut alone = together.clone();
+            let times: Vec<f64> = (0..count).map(|_| numbers.between(0.0, 3.0)).collect();
+            let mut x = vec![f64::NAN; count * stride];
+            for row in x.chunks_mut(stride) {
+                for (value, start) in row.iter_mut().zip(together.initial_state()) {
+                    *value = start + numbers.between(-3e-4, 3e-4);
+                }
+            }
+            let mut found = vec![f64::INFINITY; count * stride];
+            together.derivatives(&times, stride, &x, &mut found);
+            let mut expected = vec![f64::INFINITY; count * stride];
+            for (k, time) in times.iter().enumerate() {
+                let own = k * stride..k * stride + n;
+                alone.derivative(*time, &x[own.clone()], &mut expected[own]);
+            }
+            // What lies between the rows is left alone.
+            assert!(same(&found, &expected), "{count} places, round {round}");
+            assert!(expected.iter().any(|rate| rate.is_finite() && rate.abs() > 100.0));
+        }
+    }
+}
+
 #[test]
 fn only_wedges_of_one_shape_sit_side_by_side() {
     let base = thesis::parameters(Damping::Variable, TOE, YAW);

@@ -42,7 +42,6 @@ impl<P: Problem> Integrator<P> {
             Phase::Implicit(stage) => self.after_stage(stage),
             Phase::End => self.after_end(),
             Phase::Explicit(stage) => self.after_explicit_stage(stage),
-            Phase::Point(point) => self.after_point(point),
             Phase::Newton(point) => self.after_newton(point),
             Phase::Idle | Phase::Start => {
                 if self.tableau.family == Family::DiagonallyImplicit {

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Integrator;
 use super::attempt::{Advance, Failure, not_finite, stage_time, unsolved};
-use super::underway::{Phase, Underway};
+use super::underway::Phase;
 use crate::problem::Problem;
 use crate::radau::{ERROR, FROM_PARTS, NODES, PAIRS, PARTS_OF_A_LINE, POINTS, RADAU, REAL, TO_PARTS};
 use crate::stages::{all_finite, combine, largest};
@@ -63,7 +63,9 @@ pub(super) struct Collocation {
     rounds: u32,
     /// The size of the last correction, in units of the tolerance.
     size: f64,
-    /// Slopes at the points.
+    /// Times, states and slopes at the points.
+    times: [f64; POINTS],
+    places: Vec<f64>,
     slopes: Vec<f64>,
     /// Parts of the changes along the eigenvectors; the same times -μ/h; their corrections.
     parts: Vec<f64>,
@@ -77,6 +79,8 @@ impl Collocation {
         Self {
             rounds: 0,
             size: 0.0,
+            times: [0.0; POINTS],
+            places: rows(),
             slopes: rows(),
             parts: rows(),
             pull: rows(),
@@ -160,10 +164,17 @@ impl<P: Problem> Integrator<P> {
         }
         self.collocation.parts.fill(0.0);
         self.trial_stages[..POINTS * stride].fill(0.0);
-        self.collocation.rounds = 0;
         self.correct_parts();
-        self.want_point(0);
-        Ok(None)
+        for (time, node) in self.collocation.times.iter_mut().zip(NODES) {
+            *time = stage_time(node, self.time, step, self.underway.target);
+        }
+        for round in 1..=MOST_ROUNDS {
+            self.collocation.rounds = round;
+            if self.correct_points()? {
+                return self.end_of_points();
+            }
+        }
+        Err(unsolved())
     }
 
     /// Solves for the corrections of the parts, and adds them.
@@ -213,26 +224,25 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
-    fn want_point(&mut self, point: usize) {
-        let Underway { step, target, .. } = self.underway;
-        let stage = &self.trial_stages[point * self.stride..][..self.stride];
-        for ((argument, x), change) in self.argument.iter_mut().zip(&self.x).zip(stage) {
-            *argument = x + change;
-        }
-        let time = stage_time(NODES[point], self.time, step, target);
-        self.want(time, Phase::Point(point));
-    }
-
-    #[inline(never)]
-    pub(super) fn after_point(&mut self, point: usize) -> Advance {
+    /// One round: evaluates at all points at once, and corrects; whether what is left is small. (It wants nothing from its caller: the points
+    /// fill a processor's lanes without other runs beside them.)
+    fn correct_points(&mut self) -> Result<bool, Failure> {
         let stride = self.stride;
-        self.statistics.derivatives += 1;
-        self.collocation.slopes[point * stride..][..stride].copy_from_slice(&self.slope);
-        if point + 1 < POINTS {
-            self.want_point(point + 1);
-            return Ok(None);
+        let Collocation {
+            times,
+            places,
+            slopes,
+            ..
+        } = &mut self.collocation;
+        let changes = self.trial_stages.chunks_exact(stride);
+        for (place, change) in places.chunks_exact_mut(stride).zip(changes) {
+            for ((place, x), change) in place.iter_mut().zip(&self.x).zip(change) {
+                *place = x + change;
+            }
         }
-        if !all_finite(&self.collocation.slopes) {
+        self.problem.derivatives(times, stride, places, slopes);
+        self.statistics.derivatives += POINTS as u64;
+        if !all_finite(slopes) {
             return Err(unsolved());
         }
         let Collocation {
@@ -247,21 +257,13 @@ impl<P: Problem> Integrator<P> {
         }
         let before = self.collocation.size;
         self.correct_parts();
-        self.collocation.rounds += 1;
         let Collocation { rounds, size, .. } = self.collocation;
         // The first correction is what f bends over the change itself; the bend of J, which the next one meets, is twice that.
         let rate = if rounds == 1 { 2.0 } else { 1.0 } * size / before;
         if !(size <= LEFT || rate < CONTRACTION) {
             return Err(unsolved());
         }
-        if size > LEFT && rate / (1.0 - rate) * size > LEFT {
-            if rounds == MOST_ROUNDS {
-                return Err(unsolved());
-            }
-            self.want_point(0);
-            return Ok(None);
-        }
-        self.end_of_points()
+        Ok(size <= LEFT || rate / (1.0 - rate) * size <= LEFT)
     }
 
     /// The points are found: the states at the end, and their error.

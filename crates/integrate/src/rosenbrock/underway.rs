@@ -49,8 +49,6 @@ pub(super) enum Phase {
     Implicit(usize),
     /// It waits for this point of a stage that Newton's method looks for.
     Newton(Point),
-    /// It waits for this point of collocation.
-    Point(usize),
     /// It waits for the derivative at the end.
     End,
 }

@@ -5,22 +5,22 @@
 //!
 //! Limits: all elements are plain (their neighbours are prescribed and do not turn), friction is by tanh, coils are linear.
 
-use std::ops::Range;
+mod elements;
 
 use integrate::lanes::{LANES, Runs};
-use integrate::scalar::{Mask, Number};
+use integrate::scalar::Number;
 use integrate::{Call, Together};
 
+use super::System;
 use super::forces::{WORK, accelerate, add_effect};
-use super::{Mounted, System};
 use crate::body::{Kinematics, Rigid};
-use crate::coil::{Coil, CoilLaw, Seating, taut};
-use crate::contact::{ContactFace, Grade, Grip, View};
+use crate::coil::{CoilLaw, Seating};
+use crate::contact::{Grade, Grip};
 use crate::frame::FrameMotion;
 use crate::friction::FrictionLaw;
 use crate::link::{Effect, Sight, Translation};
-use crate::surface::Plane;
 use crate::vector::{Matrix, Vector};
+use elements::{CoilRuns, FaceRuns, Place, SightRuns, put_matrix, put_vector};
 
 /// Systems of one shape, one a lane.
 #[derive(Clone, Debug)]
@@ -55,16 +55,6 @@ struct Shape {
     coils: Vec<(Place, bool, bool)>,
 }
 
-/// Where an element sits.
-#[derive(Clone, Debug, PartialEq)]
-struct Place {
-    body: usize,
-    on: usize,
-    channels: [Option<usize>; 2],
-    driven: bool,
-    translates: bool,
-}
-
 #[derive(Clone, Debug)]
 struct FrameRuns {
     /// Of a frame that stands still.
@@ -83,32 +73,6 @@ struct BodyRuns {
     initial: [Runs; 6],
     faces: Vec<usize>,
     coils: Vec<usize>,
-}
-
-/// How an element sees the body that it carries.
-#[derive(Clone, Debug)]
-struct SightRuns {
-    place: Place,
-    sight: Sight<Runs>,
-    translation: Translation<Runs>,
-}
-
-#[derive(Clone, Debug)]
-struct FaceRuns {
-    at: SightRuns,
-    grip: Grip<Runs>,
-    points: Vec<(Vector<Runs>, Grade<Runs>)>,
-    /// Where its points stand among all points.
-    own: Range<usize>,
-}
-
-#[derive(Clone, Debug)]
-struct CoilRuns {
-    at: SightRuns,
-    seating: Seating<Runs>,
-    stiffness: Runs,
-    free_length: Runs,
-    pulls: bool,
 }
 
 impl Abreast {
@@ -266,139 +230,6 @@ impl Shape {
     }
 }
 
-impl Place {
-    fn of<E>(mounted: &Mounted<E>) -> Self {
-        Self {
-            body: mounted.body,
-            on: mounted.on,
-            channels: mounted.channels,
-            driven: mounted.driven,
-            translates: mounted.translation.is_some(),
-        }
-    }
-}
-
-/// Puts a vector into a lane.
-fn put_vector(lanes: &mut Vector<Runs>, lane: usize, value: &Vector<f64>) {
-    for (lanes, value) in lanes.0.iter_mut().zip(value.0) {
-        lanes.put(lane, value);
-    }
-}
-
-/// Puts a matrix into a lane.
-fn put_matrix(lanes: &mut Matrix<Runs>, lane: usize, value: &Matrix<f64>) {
-    for (lanes, value) in lanes.0.as_flattened_mut().iter_mut().zip(value.0.as_flattened()) {
-        lanes.put(lane, *value);
-    }
-}
-
-impl SightRuns {
-    fn put<E>(&mut self, lane: usize, mounted: &Mounted<E>) {
-        let (sight, own) = (&mut self.sight, &mounted.sight);
-        put_matrix(&mut sight.rotation, lane, &own.rotation);
-        for (lanes, value) in [
-            (&mut sight.position, &own.position),
-            (&mut sight.velocity, &own.velocity),
-            (&mut sight.angular_velocity, &own.angular_velocity),
-            (&mut sight.mount_velocity, &own.mount_velocity),
-            (&mut sight.mount_angular_velocity, &own.mount_angular_velocity),
-        ] {
-            put_vector(lanes, lane, value);
-        }
-        if let Some(translation) = &mounted.translation {
-            put_vector(&mut self.translation.rest, lane, &translation.rest);
-            for (lanes, way) in self.translation.ways.iter_mut().zip(&translation.ways) {
-                put_vector(lanes, lane, way);
-            }
-        }
-    }
-
-    /// Brings it to the present place of the frames.
-    #[inline(always)]
-    fn update(&mut self, frames: &[FrameRuns]) {
-        if self.place.translates {
-            let jets = frames[self.place.on].moves.iter().map(|(_, jet)| *jet);
-            self.translation.update(&mut self.sight, jets);
-        }
-    }
-}
-
-impl FaceRuns {
-    fn put(&mut self, lane: usize, mounted: &Mounted<ContactFace<Plane>>) {
-        self.at.put(lane, mounted);
-        let grip = mounted.element.grip();
-        self.grip.coefficient.put(lane, grip.coefficient);
-        if let (
-            FrictionLaw::Tanh {
-                reference_speed: lanes,
-            },
-            FrictionLaw::Tanh { reference_speed },
-        ) = (&mut self.grip.law, grip.law)
-        {
-            lanes.put(lane, reference_speed);
-        }
-        for ((position, grade), point) in self.points.iter_mut().zip(&mounted.element.points) {
-            put_vector(position, lane, &point.position);
-            let own = point.grade();
-            grade.stiffness.put(lane, own.stiffness);
-            grade.damping.put(lane, own.damping);
-            grade.share.put(lane, own.share);
-        }
-    }
-
-    /// What its points do, and where they are seen: [`ContactFace::effect`] with runs in lanes instead of points.
-    #[inline(always)]
-    fn effect(&self, body: &Kinematics<Runs>, seen: &mut [[Runs; 3]]) -> Effect<Runs> {
-        let view = View::of(&self.at.sight, body);
-        let zero = Runs::zero();
-        let mut sums = [[zero; 8]; LANES];
-        for (points, seen) in self.points.chunks(LANES).zip(seen.chunks_mut(LANES)) {
-            for ((sums, (position, grade)), seen) in sums.iter_mut().zip(points).zip(seen) {
-                let at = view.meet::<Runs>(*position, grade.damped);
-                *seen = [at.gap, at.slip[0], at.slip[1]];
-                let closed = at.gap.below(zero);
-                if closed.none() {
-                    continue;
-                }
-                let touch = self.grip.touch(grade, closed, &at, [zero; 2]);
-                for (sum, term) in sums.iter_mut().zip(view.push(*position, &touch)) {
-                    *sum += term;
-                }
-            }
-        }
-        let [a, b, c, d] = &sums;
-        let sum = |k: usize| (a[k] + b[k]) + (c[k] + d[k]);
-        Effect {
-            force: Vector([sum(0), sum(1), sum(2)]),
-            moment: Vector([sum(3), sum(4), sum(5)]),
-            powers: [sum(6), sum(7)],
-        }
-    }
-}
-
-impl CoilRuns {
-    fn put(&mut self, lane: usize, mounted: &Mounted<Coil>) {
-        self.at.put(lane, mounted);
-        let (seating, own) = (&mut self.seating, mounted.element.seating());
-        put_vector(&mut seating.end, lane, &own.end);
-        put_vector(&mut seating.acts_at, lane, &own.acts_at);
-        seating.damping.put(lane, own.damping);
-        seating.rotational_damping.put(lane, own.rotational_damping);
-        if let CoilLaw::Linear { stiffness } = mounted.element.law {
-            self.stiffness.put(lane, stiffness);
-        }
-        self.free_length.put(lane, mounted.element.free_length);
-    }
-
-    #[inline(always)]
-    fn effect(&self, body: &Kinematics<Runs>) -> Effect<Runs> {
-        self.seating.effect(&self.at.sight, body, |length| {
-            let compression = -length + self.free_length;
-            taut(compression * self.stiffness, self.pulls)
-        })
-    }
-}
-
 impl Abreast {
     /// Brings the frames of one system to a time.
     #[inline(always)]
@@ -418,9 +249,26 @@ impl Abreast {
         }
     }
 
-    /// Rates at the states and frames that are in place.
+    /// Takes time and states of one system into its place.
     #[inline(always)]
-    fn forces(&mut self) {
+    pub(super) fn take(&mut self, place: usize, system: &System, time: f64, x: &[f64]) {
+        self.travel(place, system, time);
+        for (lanes, value) in self.x.iter_mut().zip(x) {
+            lanes.put(place, *value);
+        }
+    }
+
+    /// Writes the rates in a place.
+    #[inline(always)]
+    pub(super) fn give(&self, place: usize, dx: &mut [f64]) {
+        for (value, lanes) in dx.iter_mut().zip(&self.dx) {
+            *value = lanes.at(place);
+        }
+    }
+
+    /// Rates at the states and frames that are in place.
+    #[inline]
+    pub(super) fn forces(&mut self) {
         let Shape {
             gravity,
             states,
@@ -520,20 +368,14 @@ impl Together for Abreast {
 
     fn derivatives(&mut self, calls: &mut [Option<Call<'_, System>>]) {
         for (place, call) in calls.iter().enumerate() {
-            let Some(Call { problem, time, x, .. }) = call else {
-                continue;
-            };
-            self.travel(place, problem, *time);
-            for (lanes, value) in self.x.iter_mut().zip(*x) {
-                lanes.put(place, *value);
+            if let Some(Call { problem, time, x, .. }) = call {
+                self.take(place, problem, *time, x);
             }
         }
         self.forces();
         for (place, call) in calls.iter_mut().enumerate() {
             let Some(call) = call else { continue };
-            for (value, lanes) in call.dx.iter_mut().zip(&self.dx) {
-                *value = lanes.at(place);
-            }
+            self.give(place, call.dx);
             let motions = self.seen.iter().map(|motion| motion.map(|part| part.at(place)));
             call.problem.tell(call.time, call.x, motions);
         }

@@ -54,6 +54,7 @@ impl System {
         }
         moved.frame.motions = motions;
         self.forget_places();
+        self.forget_stages();
         Ok(())
     }
 
@@ -66,6 +67,7 @@ impl System {
         match self.coils.get_mut(coil) {
             Some(mounted) => {
                 mounted.element.law = law;
+                self.forget_stages();
                 Ok(())
             }
             None => Err(DriveError::NoSuch {
@@ -85,6 +87,7 @@ impl System {
         match self.faces.get_mut(face) {
             Some(mounted) => {
                 mounted.element.coefficient = coefficient;
+                self.forget_stages();
                 Ok(())
             }
             None => Err(DriveError::NoSuch {

@@ -17,6 +17,7 @@ mod place;
 mod placer;
 mod rows;
 mod sense;
+mod stages;
 mod stiffness;
 mod time;
 
@@ -168,6 +169,8 @@ pub struct System {
     told: Vec<[f64; 3]>,
     told_at: f64,
     told_of: Vec<f64>,
+    /// Room for several of its own stages.
+    stages: stages::Stages,
 }
 
 impl System {
@@ -305,6 +308,10 @@ impl Problem for System {
     fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]) {
         self.place(time, x);
         self.forces(x, dx);
+    }
+
+    fn derivatives(&mut self, times: &[f64], stride: usize, x: &[f64], dx: &mut [f64]) {
+        self.forces_at(times, stride, x, dx);
     }
 
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {

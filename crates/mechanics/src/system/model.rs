@@ -338,6 +338,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         told,
         told_at: f64::NAN,
         told_of: vec![0.0; 2 * layout.speeds],
+        stages: super::stages::Stages::default(),
     })
 }
 
