@@ -9,7 +9,7 @@ use crate::rosenbrock::{Behind, Calm, Place};
 use crate::statistics::Statistics;
 
 /// Version of [`State`].
-pub const STATE_VERSION: u32 = 11;
+pub const STATE_VERSION: u32 = 12;
 
 /// All that is needed to continue an integration with the same bits.
 ///

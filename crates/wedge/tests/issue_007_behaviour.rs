@@ -2,7 +2,7 @@
 //! made the wedge slide to and fro, and the energy lost was wrong by a third.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use integrate::{Integrator, Method, Options, Reason};
+use integrate::{Integrator, Method, Options, Problem, Reason};
 use mechanics::coil::CoilLaw;
 use wedge::parameters::Damping;
 use wedge::{Wedge, thesis};
@@ -65,4 +65,47 @@ fn a_run_that_cannot_go_on_stops_at_once() {
         "{stopped:?}"
     );
     assert!(integrator.statistics().rejected() < 5_000);
+}
+
+/// Where a wedge that rang has come to rest on its faces and only creeps, steps by collocation grew to 12 ms. By the sizes of states their first
+/// corrections seemed to shrink a thousandfold, those of what creeps shrank by a half; the losses of one step were off by 10 tolerances.
+#[test]
+fn long_steps_over_what_creeps_keep_the_tolerance() {
+    let wedge = Wedge::new(thesis::parameters(Damping::Constant, 0.0, 0.0)).unwrap();
+    let system = wedge.system;
+    let scales = system.scales().to_vec();
+    let options = |relative_tolerance| Options {
+        relative_tolerance,
+        record_switches: false,
+        ..Options::of(Method::Rodas5P)
+    };
+    let tolerance = 5e-6;
+    let mut exact = Integrator::new(system.clone(), options(1e-10), 0.0, &wedge.initial_state).unwrap();
+    while exact.time() < 0.9 {
+        exact.step_to(0.9).unwrap();
+    }
+    let start = exact.x().to_vec();
+    let mut integrator = Integrator::new(system.clone(), options(tolerance), 0.9, &start).unwrap();
+    let (mut long, mut worst) = (0, 0.0_f64);
+    while integrator.time() < 1.6 {
+        let (time, x) = (integrator.time(), integrator.x().to_vec());
+        integrator.step_to(1.6).unwrap();
+        if integrator.time() - time < 2e-3 {
+            continue;
+        }
+        long += 1;
+        let mut exact = Integrator::new(system.clone(), options(1e-9), time, &x).unwrap();
+        while exact.time() < integrator.time() {
+            exact.step_to(integrator.time()).unwrap();
+        }
+        for ((found, exact), scale) in integrator.x().iter().zip(exact.x()).zip(&scales) {
+            worst = worst.max((found - exact).abs() / (tolerance * scale));
+        }
+    }
+    assert!(
+        integrator.statistics().collocation_steps > 100,
+        "others are tested"
+    );
+    assert!(long > 20, "{long} long steps");
+    assert!(worst < 1.0, "a step is off by {worst} tolerances");
 }

@@ -35,9 +35,13 @@ const FEW_ROUNDS: u32 = 2;
 /// Most rounds.
 const MOST_ROUNDS: u32 = 3;
 /// What the rounds may leave, in units of the tolerance.
-const LEFT: f64 = 0.03;
+const LEFT: f64 = 0.1;
 /// Corrections that do not shrink by this factor are given up.
 const CONTRACTION: f64 = 0.5;
+/// How corrections shrink is looked at anew in steps that are longer by this factor.
+const LONGER: f64 = 1.25;
+/// They may shrink more than this, but not reliably.
+const LEAST_RATE: f64 = 1e-3;
 
 /// When steps are by collocation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,6 +50,9 @@ pub(crate) struct Calm {
     smooth: u32,
     /// How many must be.
     needed: u32,
+    /// By which factor corrections shrank where two were made last since then, and the length of that step; zero: nowhere yet.
+    rate: f64,
+    rate_step: f64,
 }
 
 impl Default for Calm {
@@ -53,7 +60,20 @@ impl Default for Calm {
         Self {
             smooth: 0,
             needed: SMOOTH[0],
+            rate: 0.0,
+            rate_step: 0.0,
         }
+    }
+}
+
+impl Calm {
+    /// By which factor a second correction of a step of this length would be smaller than its first, going by what was seen: as the matrix changes
+    /// along the step; one that cannot be relied on if none so long has been seen.
+    fn rate_of(&self, step: f64) -> f64 {
+        if step > LONGER * self.rate_step {
+            return CONTRACTION;
+        }
+        self.rate.max(LEAST_RATE) * step / self.rate_step
     }
 }
 
@@ -127,7 +147,7 @@ impl<P: Problem> Integrator<P> {
     /// The next steps are not by collocation; whether they would have been.
     pub(super) fn leave_calm(&mut self) -> bool {
         let calm = self.is_calm();
-        self.calm.smooth = 0;
+        (self.calm.smooth, self.calm.rate_step) = (0, 0.0);
         if calm {
             self.calm.needed = self.calm.needed.saturating_mul(2).min(SMOOTH[1]);
         }
@@ -263,6 +283,14 @@ impl<P: Problem> Integrator<P> {
         if !(size <= LEFT || rate < CONTRACTION) {
             return Err(unsolved());
         }
+        // But what is stiff and turns hardly moves: sizes of states say nothing of its corrections, only earlier ones do.
+        let step = self.underway.step;
+        let rate = if rounds == 1 {
+            rate.max(self.calm.rate_of(step))
+        } else {
+            (self.calm.rate, self.calm.rate_step) = (rate, step);
+            rate
+        };
         Ok(size <= LEFT || rate / (1.0 - rate) * size <= LEFT)
     }
 
