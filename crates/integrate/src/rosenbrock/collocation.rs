@@ -50,7 +50,7 @@ pub(crate) struct Calm {
     smooth: u32,
     /// How many must be.
     needed: u32,
-    /// By which factor corrections shrank where two were made last since then, and the length of that step; zero: nowhere yet.
+    /// By which factor corrections shrank where a second one was made last, and the length of that step; zero: nowhere yet since steps became smooth.
     rate: f64,
     rate_step: f64,
 }
