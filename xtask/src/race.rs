@@ -20,6 +20,7 @@ With RUSTFLAGS=\"-C target-cpu=x86-64-v3\" what is Rust is compiled for processo
   --solvers PART,...  solvers likewise
   --tolerances T,...  some of 1e-3, 1e-4, ... 1e-9
   --limit SECONDS     CPU time of a run (60)
+  --starts NUMBER     starts of each case of which only means are compared (5): errors are their root mean square
   --short SECONDS     simulated time of Octave's runs (1); 10: minutes a run
   --kept-only yes     run nothing, judge what was kept";
 

@@ -43,6 +43,8 @@ const SLACK: f64 = 0.05;
 /// A direction breaks away if it comes from below this size and grows by this much and by this factor.
 const HELD: f64 = 3.0;
 const GROWTH: (f64, f64) = (1.0, 1.5);
+/// Between its ends a long step may break loose what sticks again at its end: from this size on, if it grows by this factor.
+const LOOSE: [f64; 2] = [1.3, 1.3];
 /// The sizes between which the hold of a layer fades.
 const FADING: [f64; 2] = [2.0, 12.0];
 /// Behind a layer the direction is larger than this.
@@ -209,6 +211,16 @@ impl Kinks {
         pairs.any(|(from, to)| {
             let (from, to) = (square(from).sqrt(), square(to).sqrt());
             from < HELD && to > (from + GROWTH.0).max(GROWTH.1 * from)
+        })
+    }
+
+    /// Whether a direction that its layer held at the place that was looked at last is slipping out of it at the one peered at.
+    pub fn break_loose(&self) -> bool {
+        let [least, factor] = LOOSE.map(|size| size * size);
+        let mut pairs = self.here.directions.iter().zip(&self.signs.directions);
+        pairs.any(|(from, to)| {
+            let (from, to) = (square(from), square(to));
+            from < HELD * HELD && to > least.max(factor * from)
         })
     }
 

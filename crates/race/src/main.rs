@@ -16,7 +16,10 @@ race solve SOLVER CASE TOLERANCE LIMIT FILE [ROWS]   one run of a solver that is
 race wedge CASE                                      parameters, start, scales and times of a wedge, as JSON
 race all --library FILE --drivers FOLDER --out FOLDER [--cvode FILE] [--python FILE] [--exudyn FILE]
          [--octave FILE --mex FOLDER] [--cases PART,...] [--solvers PART,...] [--tolerances T,...] [--limit SECONDS]
-         [--short SECONDS] [--kept-only yes]";
+         [--starts NUMBER] [--short SECONDS] [--kept-only yes]";
+
+/// From how many starts a case runs of which only means are compared.
+const STARTS: u32 = 5;
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -80,6 +83,12 @@ fn number(word: &str) -> Result<f64, String> {
     word.parse::<f64>().map_err(|_| format!("`{word}` is no number"))
 }
 
+/// A number of starts.
+fn whole(word: &str) -> Result<u32, String> {
+    let number = word.parse().ok().filter(|number| *number > 0);
+    number.ok_or_else(|| format!("--starts {word}: expected 1, 2, 3, ..."))
+}
+
 /// The whole race.
 fn all(words: &[&str]) -> Result<(), String> {
     let mut options = std::collections::BTreeMap::new();
@@ -130,6 +139,9 @@ fn all(words: &[&str]) -> Result<(), String> {
         limit: options.get("--limit").map_or(Ok(60.0), |limit| number(limit))?,
         folder: folder.clone(),
         short: options.get("--short").map(|short| number(short)).transpose()?,
+        starts: options
+            .get("--starts")
+            .map_or(Ok(STARTS), |starts| whole(starts))?,
         kept_only: options.get("--kept-only") == Some(&"yes"),
     };
     let entries = plan.run(&tools)?;

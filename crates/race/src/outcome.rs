@@ -30,6 +30,32 @@ pub struct Outcome {
     pub failure: String,
 }
 
+impl Outcome {
+    /// The mean of times and counts over this run and others of the same solver.
+    #[must_use]
+    pub fn mean_with(&self, others: &[&Self]) -> Self {
+        let number = others.len() as u64 + 1;
+        let time =
+            |of: fn(&Self) -> f64| (of(self) + others.iter().map(|one| of(one)).sum::<f64>()) / number as f64;
+        let count = |of: fn(&Self) -> u64| {
+            let sum = of(self) + others.iter().map(|one| of(one)).sum::<u64>();
+            (sum + number / 2) / number
+        };
+        Self {
+            cpu: time(|one| one.cpu),
+            wall: time(|one| one.wall),
+            repeats: self.repeats,
+            steps: count(|one| one.steps),
+            rejected: count(|one| one.rejected),
+            derivatives: count(|one| one.derivatives),
+            jacobians: count(|one| one.jacobians),
+            factorizations: count(|one| one.factorizations),
+            rows: self.rows,
+            failure: self.failure.clone(),
+        }
+    }
+}
+
 /// Repeats short runs, and keeps the quickest.
 ///
 /// # Errors

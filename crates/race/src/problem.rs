@@ -20,6 +20,12 @@ const TOE: f64 = 0.2 * std::f64::consts::PI / 180.0;
 /// Where the mass of the stick test comes to rest for ever, m: from 0.2 m, each half cycle loses 2 μmg/k.
 pub const STICK_REST: f64 = -0.00601;
 
+/// How much lower the wedge starts from one start of a case to the next, m.
+pub const START_STEP: f64 = 1e-5;
+
+/// What stands between the name of a case and the number of its start.
+const START_MARK: char = '@';
+
 /// On what a solver is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Judged {
@@ -58,6 +64,12 @@ pub enum ProblemError {
         /// What was asked for.
         name: String,
     },
+    /// It has nothing that could start elsewhere.
+    #[error("{case} has no wedge that could start elsewhere; ask for `{case}` alone")]
+    NoOtherStart {
+        /// The problem.
+        case: String,
+    },
     /// Its parameters make no system, which would be a defect.
     #[error("{name}: {reason}")]
     Build {
@@ -89,12 +101,51 @@ pub fn is_yawed(name: &str) -> bool {
     builtin::thesis_names().any(|known| known == name) && !name.ends_with("psi_0")
 }
 
+/// The name of a case from another start than its own, which is number 0: `vdrun_toe_0_psi_0@2` begins with the wedge 2 steps of
+/// [`START_STEP`] lower. Drivers in other languages hand such a name on.
+#[must_use]
+pub fn with_start(case: &str, start: u32) -> String {
+    match start {
+        0 => case.to_owned(),
+        _ => format!("{case}{START_MARK}{start}"),
+    }
+}
+
+/// The case and the number of its start in a name.
+#[must_use]
+pub fn start_of(name: &str) -> (&str, u32) {
+    let parts = name.split_once(START_MARK);
+    parts
+        .and_then(|(case, start)| Some((case, start.parse().ok()?)))
+        .unwrap_or((name, 0))
+}
+
 impl Problem {
-    /// The problem of this name.
+    /// The problem of this name, which may ask for another start ([`with_start`]).
     ///
     /// # Errors
-    /// There is none, or it makes no system.
+    /// There is none, or it makes no system, or it has no wedge to start elsewhere.
     pub fn named(name: &str) -> Result<Self, ProblemError> {
+        let (case, start) = start_of(name);
+        let mut problem = Self::from_its_own_start(case)?;
+        if start > 0 {
+            let wedge = problem
+                .parameters
+                .as_ref()
+                .map(|parameters| &parameters.wedge.free);
+            // Coordinates that are held are no states.
+            let vertical =
+                wedge.and_then(|free| free[2].then(|| free[..2].iter().filter(|free| **free).count()));
+            let vertical = vertical.ok_or_else(|| ProblemError::NoOtherStart {
+                case: case.to_owned(),
+            })?;
+            problem.start[vertical] -= f64::from(start) * START_STEP;
+            name.clone_into(&mut problem.name);
+        }
+        Ok(problem)
+    }
+
+    fn from_its_own_start(name: &str) -> Result<Self, ProblemError> {
         let build = |reason: String| ProblemError::Build {
             name: name.to_owned(),
             reason,

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contest::{Program, SOLVERS, Solver, Tools, solver};
 use crate::outcome::Outcome;
-use crate::problem::Problem;
+use crate::problem::{Judged, Problem, with_start};
 
 /// The tolerances of the race.
 pub const TOLERANCES: [&str; 12] = [
@@ -50,6 +50,8 @@ pub struct Plan {
     pub folder: PathBuf,
     /// Simulated time of the solvers that do not get the whole of it, s; none: what each of them is given.
     pub short: Option<f64>,
+    /// From how many starts a case runs of which only means are compared.
+    pub starts: u32,
     /// Whether nothing is run at all: what is kept is judged.
     pub kept_only: bool,
 }
@@ -72,9 +74,17 @@ impl Plan {
         for case in &self.cases {
             let problem = Problem::named(case).map_err(|error| error.to_string())?;
             let all = problem.rows();
+            // One run of what is chaotic in detail is a matter of luck.
+            let starts = match problem.judged {
+                Judged::Means => self.starts,
+                Judged::Series | Judged::Position => 1,
+            };
             let reference = solver(REFERENCE.0).ok_or("the reference's solver is not in the race")?;
             for tolerance in [REFERENCE.1, REFERENCE.2] {
-                entries.extend(self.one(tools, case, reference, tolerance, all, REFERENCE_LIMIT)?);
+                for start in 0..starts {
+                    let case = with_start(case, start);
+                    entries.extend(self.one(tools, &case, reference, tolerance, all, REFERENCE_LIMIT)?);
+                }
             }
             let wanted = |solver: &&Solver| {
                 self.solvers.iter().any(|name| name == solver.name) && solver.takes_part(tools, case)
@@ -89,19 +99,28 @@ impl Plan {
                 if rows < all && !spans.contains(&rows) {
                     spans.push(rows);
                 }
-                entries.extend(self.tolerances(tools, case, one, rows)?);
+                let starts = if rows < all { 1 } else { starts };
+                entries.extend(self.tolerances(tools, case, one, rows, starts)?);
             }
             // Who has less time is compared with us over the same time.
             for rows in spans {
                 for one in SOLVERS.iter().filter(|solver| solver.ours) {
-                    entries.extend(self.tolerances(tools, case, one, rows)?);
+                    entries.extend(self.tolerances(tools, case, one, rows, 1)?);
                 }
             }
         }
         Ok(entries)
     }
 
-    fn tolerances(&self, tools: &Tools, case: &str, one: &Solver, rows: usize) -> Result<Vec<Entry>, String> {
+    /// The runs of a solver from so many starts.
+    fn tolerances(
+        &self,
+        tools: &Tools,
+        case: &str,
+        one: &Solver,
+        rows: usize,
+        starts: u32,
+    ) -> Result<Vec<Entry>, String> {
         let mut entries = Vec::new();
         let mut late = None;
         // Halves of decades only where a run takes seconds at most: a front of seven points makes one of them a matter of luck.
@@ -117,13 +136,21 @@ impl Plan {
                 entries.push(entry(case, one, tolerance, rows, outcome));
                 continue;
             }
-            let Some(found) = self.one(tools, case, one, tolerance, rows, self.limit)? else {
-                continue;
-            };
-            if found.outcome.failure.contains("out of time") {
-                late = Some(tolerance.clone());
+            for start in 0..starts {
+                let case = with_start(case, start);
+                let Some(found) = self.one(tools, &case, one, tolerance, rows, self.limit)? else {
+                    continue;
+                };
+                if found.outcome.failure.contains("out of time") {
+                    late = Some(tolerance.clone());
+                }
+                let failed = !found.outcome.failure.is_empty();
+                entries.push(found);
+                // What fails from one start has failed.
+                if failed {
+                    break;
+                }
             }
-            entries.push(found);
         }
         Ok(entries)
     }
@@ -160,7 +187,7 @@ impl Plan {
         let outcome = wait(child, Duration::from_secs_f64(30.0 + 8.0 * limit));
         let found = entry(case, one, tolerance, rows, outcome);
         println!(
-            "{case:26} {:18} {tolerance:>6} {:>10.2} ms {:>9} steps  {}",
+            "{case:28} {:18} {tolerance:>6} {:>10.2} ms {:>9} steps  {}",
             one.name,
             1e3 * found.outcome.cpu,
             found.outcome.steps,

@@ -7,8 +7,8 @@ use serde::Serialize;
 
 use crate::contest::solver;
 use crate::measure::{Judge, Quantities};
-use crate::outcome::read_states;
-use crate::problem::Judged;
+use crate::outcome::{Outcome, read_states};
+use crate::problem::{Judged, start_of, with_start};
 use crate::runner::{Entry, REFERENCE, states_file};
 
 /// Errors at which solvers are compared.
@@ -43,6 +43,9 @@ pub struct Standing {
     pub judged: String,
     /// How well the reference is known: smaller errors say nothing.
     pub floor: f64,
+    /// From how many starts each run was made: errors and the floor are root mean squares over them, times and counts their means; the floor
+    /// then has twice the scatter of such a root mean square on top.
+    pub starts: usize,
     /// The runs.
     pub runs: Vec<Judgement>,
 }
@@ -52,24 +55,71 @@ pub struct Standing {
 /// # Errors
 /// A file cannot be read, or a reference is missing.
 pub fn judge(folder: &Path, entries: &[Entry]) -> Result<Vec<Standing>, String> {
-    let mut groups: BTreeMap<(usize, usize), Vec<&Entry>> = BTreeMap::new();
+    let mut groups: BTreeMap<(usize, usize), BTreeMap<u32, Vec<&Entry>>> = BTreeMap::new();
     let mut cases: Vec<&str> = Vec::new();
     for entry in entries {
-        if !cases.contains(&entry.case.as_str()) {
-            cases.push(&entry.case);
+        let (case, start) = start_of(&entry.case);
+        if !cases.contains(&case) {
+            cases.push(case);
         }
-        let number = cases.iter().position(|case| *case == entry.case).unwrap_or(0);
+        let number = cases.iter().position(|known| *known == case).unwrap_or(0);
         // The longest span first.
-        groups
-            .entry((number, usize::MAX - entry.rows))
-            .or_default()
-            .push(entry);
+        let group = groups.entry((number, usize::MAX - entry.rows)).or_default();
+        group.entry(start).or_default().push(entry);
     }
     let mut standings = Vec::new();
-    for ((number, _), group) in groups {
-        standings.push(standing(folder, cases[number], &group)?);
+    for ((number, _), starts) in groups {
+        let each = starts
+            .iter()
+            .map(|(start, group)| standing(folder, &with_start(cases[number], *start), group));
+        standings.extend(over_starts(each.collect::<Result<_, _>>()?));
     }
     Ok(standings)
+}
+
+/// What the same case says from several starts, the first its own. A run counts that came through from each.
+#[must_use]
+pub fn over_starts(each: Vec<Standing>) -> Option<Standing> {
+    let starts = each.len();
+    let mut others = each.into_iter();
+    let mut whole = others.next()?;
+    let others: Vec<Standing> = others.collect();
+    let mean_square = |first: f64, rest: &[f64]| {
+        let sum: f64 = rest.iter().fold(first * first, |sum, value| sum + value * value);
+        (sum / starts as f64).sqrt()
+    };
+    let floors: Vec<f64> = others.iter().map(|one| one.floor).collect();
+    whole.floor = mean_square(whole.floor, &floors);
+    if starts > 1 {
+        // A root mean square over n starts scatters by 1/√(2n) of itself. Nearer to the floor than twice that, who is below a level and who
+        // is above it would be luck.
+        whole.floor *= 1.0 + (2.0 / starts as f64).sqrt();
+    }
+    for run in whole.runs.iter_mut().filter(|run| run.finished()) {
+        let same = |one: &&Judgement| {
+            one.entry.solver == run.entry.solver && one.entry.tolerance == run.entry.tolerance
+        };
+        let rest: Vec<&Judgement> = others
+            .iter()
+            .filter_map(|one| one.runs.iter().find(same))
+            .collect();
+        let failed = rest.iter().find(|one| !one.finished());
+        if failed.is_some() || rest.len() + 1 < starts {
+            let started = failed.map_or_else(
+                || format!("run from {} of {starts} starts only", rest.len() + 1),
+                |one| format!("{} (started {})", one.entry.outcome.failure, one.entry.case),
+            );
+            run.entry.outcome.failure = started;
+            run.error = None;
+            continue;
+        }
+        let errors: Vec<f64> = rest.iter().filter_map(|one| one.error).collect();
+        run.error = run.error.map(|error| mean_square(error, &errors));
+        let outcomes: Vec<&Outcome> = rest.iter().map(|one| &one.entry.outcome).collect();
+        run.entry.outcome = run.entry.outcome.mean_with(&outcomes);
+    }
+    whole.starts = starts;
+    Some(whole)
 }
 
 fn standing(folder: &Path, case: &str, group: &[&Entry]) -> Result<Standing, String> {
@@ -117,6 +167,7 @@ fn standing(folder: &Path, case: &str, group: &[&Entry]) -> Result<Standing, Str
         span: judge.problem().time(rows - 1),
         judged: judged.to_owned(),
         floor,
+        starts: 1,
         runs,
     })
 }

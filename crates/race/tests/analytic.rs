@@ -4,9 +4,9 @@
 use race::equations::Equations;
 use race::measure::Quantities;
 use race::outcome::Outcome;
-use race::problem::{Problem, names};
+use race::problem::{Problem, START_STEP, names, start_of, with_start};
 use race::runner::Entry;
-use race::standings::{Judgement, Standing};
+use race::standings::{Judgement, Standing, over_starts};
 
 /// Each column against a central difference with Richardson's extrapolation, at a state on the way, where contacts are closed.
 #[test]
@@ -106,8 +106,69 @@ fn standing(runs: &[(&str, f64, f64, &str)]) -> Standing {
         span: 10.0,
         judged: String::new(),
         floor: 2e-4,
+        starts: 1,
         runs: runs.collect(),
     }
+}
+
+/// Two starts: the root mean square of errors and floors, the mean of times; what fails from one start has failed.
+#[test]
+fn starts_are_taken_together_by_hand() {
+    let own = standing(&[
+        ("a", 3e-3, 1.0, ""),
+        ("b", 1e-3, 2.0, ""),
+        ("c", 1e-3, 2.0, "fails"),
+    ]);
+    let mut other = standing(&[("a", 4e-3, 2.0, ""), ("b", 1e-3, 2.0, "fails")]);
+    other.floor = 1e-4;
+    let alone = over_starts(vec![own.clone()]).unwrap();
+    assert_eq!(
+        (alone.starts, alone.floor, alone.runs[0].error),
+        (1, own.floor, own.runs[0].error)
+    );
+    let both = over_starts(vec![own, other]).unwrap();
+    assert_eq!(both.starts, 2);
+    // √((2² + 1²)/2) × 1e-4, and twice the scatter of 1/√4 of itself on top.
+    assert!((both.floor - 2.0 * 1e-4 * 2.5_f64.sqrt()).abs() < 1e-18);
+    assert!((both.runs[0].error.unwrap() - 1e-3 * 12.5_f64.sqrt()).abs() < 1e-17);
+    assert_eq!(both.runs[0].entry.outcome.cpu, 1.5);
+    assert_eq!(both.runs[1].entry.outcome.failure, "fails (started case)");
+    assert_eq!(both.runs[2].entry.outcome.failure, "fails");
+    assert!(!both.runs[1].finished() && !both.runs[2].finished());
+    // A solver that runs from one start only is not compared with what others do on average.
+    let alone = standing(&[("a", 3e-3, 1.0, "")]);
+    let both = over_starts(vec![alone, standing(&[])]).unwrap();
+    assert_eq!(both.runs[0].entry.outcome.failure, "run from 1 of 2 starts only");
+}
+
+/// Another start is the same case with the wedge lower, and nothing else.
+#[test]
+fn another_start_is_lower() {
+    for case in ["vdrun_toe_0_psi_0", "planar_variable"] {
+        let (own, other) = (
+            Problem::named(case).unwrap(),
+            Problem::named(&with_start(case, 3)).unwrap(),
+        );
+        let differs: Vec<usize> = (0..own.start.len())
+            .filter(|k| own.start[*k] != other.start[*k])
+            .collect();
+        assert_eq!(differs.len(), 1, "{case}");
+        let heights = |problem: &Problem| -> Vec<f64> {
+            let seen = problem.system.clone().observe(0.0, &problem.start);
+            seen.bodies.iter().map(|body| body.origin.0[2]).collect()
+        };
+        // Side frame and bolster stay where they are.
+        let lower: Vec<f64> = heights(&own)
+            .iter()
+            .zip(heights(&other))
+            .map(|(own, other)| own - other)
+            .collect();
+        assert_eq!(lower[..2], [0.0, 0.0], "{case}");
+        assert!((lower[2] - 3.0 * START_STEP).abs() < 1e-12, "{case}: {lower:?}");
+        assert_eq!((own.judged, own.rows()), (other.judged, other.rows()));
+    }
+    assert_eq!(start_of(&with_start("a case", 12)), ("a case", 12));
+    assert_eq!(start_of(&with_start("a case", 0)), ("a case", 0));
 }
 
 #[test]

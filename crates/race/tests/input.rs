@@ -18,6 +18,14 @@ fn an_unknown_problem_is_named_with_those_there_are() {
 }
 
 #[test]
+fn what_is_no_wedge_starts_nowhere_else() {
+    let error = Problem::named("stick_tanh@1").err().unwrap().to_string();
+    assert!(error.contains("stick_tanh has no wedge"), "{error}");
+    let error = Problem::named("vdrun_toe_0_psi_0@x").err().unwrap().to_string();
+    assert!(error.contains("`vdrun_toe_0_psi_0@x`"), "{error}");
+}
+
+#[test]
 fn what_is_no_wedge_is_not_handed_over() {
     let error = WedgeCase::named("stick_tanh").err().unwrap();
     assert!(error.contains("stick_tanh is no wedge"), "{error}");

@@ -1,10 +1,14 @@
-//! The functions of FMI 2.0, in the order of the standard's header.
+//! The functions of FMI 2.0, in the order of the standard's header: here those of both interfaces, in [`model_exchange`] and
+//! [`co_simulation`] those of one.
 //!
 //! # Safety
 //! All functions share the standard's contract: a component comes from [`fmi2Instantiate`] and has not been freed, a pointer to an array
 //! points to as many values as the call says, strings end with a zero byte, and no component is used by two threads at once.
 //! Null pointers are refused.
 #![allow(clippy::missing_safety_doc)]
+
+pub mod co_simulation;
+pub mod model_exchange;
 
 use std::ffi::{c_char, c_int, c_void};
 use std::ptr::null_mut;
@@ -15,8 +19,8 @@ use fmi::instance::{Instance, Message};
 use fmi::{Category, Error, Severity, resources};
 
 use crate::component::{
-    Component, DISCARD, Logger, Logger2, OK, Status, call, deserialize, free_saved, guard, hand_out, log,
-    none_of, put, read, save, saved, serialize, slice, slice_mut, string, strings, take_back, write,
+    Component, Logger, Logger2, OK, Status, call, deserialize, free_saved, guard, hand_out, log, none_of,
+    put, read, save, saved, serialize, slice, slice_mut, string, strings, take_back, write,
 };
 
 /// What an importer gives: `fmi2CallbackFunctions`.
@@ -34,23 +38,6 @@ pub struct CallbackFunctions {
     pub step_finished: Option<unsafe extern "C" fn(*mut c_void, c_int)>,
     /// Given back with every message.
     pub component_environment: *mut c_void,
-}
-
-/// What event handling says: `fmi2EventInfo`.
-#[repr(C)]
-pub struct EventInfo {
-    /// Another update is needed.
-    pub new_discrete_states_needed: c_int,
-    /// The simulation must end.
-    pub terminate_simulation: c_int,
-    /// Nominal values have changed.
-    pub nominals_of_continuous_states_changed: c_int,
-    /// States have changed.
-    pub values_of_continuous_states_changed: c_int,
-    /// There is a time event ahead.
-    pub next_event_time_defined: c_int,
-    /// When.
-    pub next_event_time: f64,
 }
 
 type References = *const u32;
@@ -438,241 +425,4 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
             Ok(OK)
         })
     }
-}
-
-/// Begins event mode.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2EnterEventMode(c: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { simple(c, Instance::enter_event_mode) }
-}
-
-/// Handles events.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2NewDiscreteStates(c: *mut c_void, info: *mut EventInfo) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call(c, |component| {
-            if info.is_null() {
-                return Err(Error::new("the pointer to the event info is null"));
-            }
-            let update = component.instance.update_discrete_states()?;
-            let found = EventInfo {
-                new_discrete_states_needed: c_int::from(update.again),
-                terminate_simulation: 0,
-                nominals_of_continuous_states_changed: 0,
-                values_of_continuous_states_changed: 0,
-                next_event_time_defined: 0,
-                next_event_time: 0.0,
-            };
-            put(info, found, "the event info")?;
-            Ok(OK)
-        })
-    }
-}
-
-/// Begins continuous-time mode.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(c: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { simple(c, Instance::enter_continuous_time_mode) }
-}
-
-/// An integrator step is complete.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
-    c: *mut c_void,
-    _no_set_state_prior: c_int,
-    enter_event_mode: *mut c_int,
-    terminate: *mut c_int,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call(c, |component| {
-            component.instance.completed_integrator_step()?;
-            put(enter_event_mode, 0, "enterEventMode")?;
-            put(terminate, 0, "terminateSimulation")?;
-            Ok(OK)
-        })
-    }
-}
-
-/// Sets time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetTime(c: *mut c_void, time: f64) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { simple(c, |instance| instance.set_time(time)) }
-}
-
-/// Sets the states.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetContinuousStates(c: *mut c_void, x: *const f64, n: usize) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { simple(c, |instance| instance.set_states(slice(x, n, "the states")?)) }
-}
-
-/// Reads the rates of the states.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetDerivatives(c: *mut c_void, out: *mut f64, n: usize) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        simple(c, |instance| {
-            instance.rates(slice_mut(out, n, "the derivatives")?)
-        })
-    }
-}
-
-/// Reads the event indicators.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetEventIndicators(c: *mut c_void, out: *mut f64, n: usize) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        simple(c, |instance| {
-            instance.indicators(slice_mut(out, n, "the event indicators")?)
-        })
-    }
-}
-
-/// Reads the states.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetContinuousStates(c: *mut c_void, out: *mut f64, n: usize) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { simple(c, |instance| instance.states(slice_mut(out, n, "the states")?)) }
-}
-
-/// Reads the nominal values of the states.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
-    c: *mut c_void,
-    out: *mut f64,
-    n: usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        simple(c, |instance| {
-            instance.nominals(slice_mut(out, n, "the nominal values")?)
-        })
-    }
-}
-
-/// Sets derivatives of inputs for the next step.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
-    c: *mut c_void,
-    vr: References,
-    n: usize,
-    order: *const c_int,
-    value: *const f64,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call(c, |component| {
-            let order = slice(order, n, "the orders")?;
-            let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
-            for ((vr, order), value) in vr.iter().zip(order).zip(value) {
-                component.instance.set_input_derivative(*vr, *order, *value)?;
-            }
-            Ok(OK)
-        })
-    }
-}
-
-/// Derivatives of outputs are not offered (`maxOutputDerivativeOrder` is 0).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
-    c: *mut c_void,
-    _vr: References,
-    n: usize,
-    _order: *const c_int,
-    _value: *mut f64,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call(c, |_| match n {
-            0 => Ok(OK),
-            _ => Err(Error::new("the FMU gives no derivatives of outputs")),
-        })
-    }
-}
-
-/// Makes a step.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2DoStep(
-    c: *mut c_void,
-    time: f64,
-    step: f64,
-    _no_set_state_prior: c_int,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { simple(c, |instance| instance.do_step(time, step)) }
-}
-
-/// Steps are finished when they return: there is nothing to cancel.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2CancelStep(c: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call(c, |_| {
-            Err(Error::new(
-                "no step is under way: steps are finished when they return",
-            ))
-        })
-    }
-}
-
-/// The status of a step: there is none under way.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetStatus(c: *mut c_void, _kind: c_int, _value: *mut c_int) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { call(c, |_| Ok(DISCARD)) }
-}
-
-/// The last time that was reached (`fmi2LastSuccessfulTime`).
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetRealStatus(c: *mut c_void, kind: c_int, value: *mut f64) -> Status {
-    const LAST_SUCCESSFUL_TIME: c_int = 2;
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call(c, |component| {
-            if kind != LAST_SUCCESSFUL_TIME {
-                return Ok(DISCARD);
-            }
-            put(value, component.instance.time(), "the time")?;
-            Ok(OK)
-        })
-    }
-}
-
-/// There is no such status.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetIntegerStatus(c: *mut c_void, _kind: c_int, _value: *mut c_int) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { call(c, |_| Ok(DISCARD)) }
-}
-
-/// Whether the FMU wants the simulation to end (`fmi2Terminated`): never.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetBooleanStatus(c: *mut c_void, kind: c_int, value: *mut c_int) -> Status {
-    const TERMINATED: c_int = 3;
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call(c, |_| {
-            if kind != TERMINATED {
-                return Ok(DISCARD);
-            }
-            put(value, 0, "the value")?;
-            Ok(OK)
-        })
-    }
-}
-
-/// There is no such status.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetStringStatus(
-    c: *mut c_void,
-    _kind: c_int,
-    _value: *mut *const c_char,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { call(c, |_| Ok(DISCARD)) }
 }

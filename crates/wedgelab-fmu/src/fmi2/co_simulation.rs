@@ -1,0 +1,131 @@
+//! Functions of FMI 2.0 for co-simulation: steps, their status, derivatives of inputs and outputs.
+#![allow(clippy::missing_safety_doc)]
+
+use std::ffi::{c_char, c_int, c_void};
+
+use fmi::Error;
+
+use super::{References, simple};
+use crate::component::{DISCARD, OK, Status, call, put, slice};
+
+/// Sets derivatives of inputs for the next step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
+    c: *mut c_void,
+    vr: References,
+    n: usize,
+    order: *const c_int,
+    value: *const f64,
+) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        call(c, |component| {
+            let order = slice(order, n, "the orders")?;
+            let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
+            for ((vr, order), value) in vr.iter().zip(order).zip(value) {
+                component.instance.set_input_derivative(*vr, *order, *value)?;
+            }
+            Ok(OK)
+        })
+    }
+}
+
+/// Derivatives of outputs are not offered (`maxOutputDerivativeOrder` is 0).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+    c: *mut c_void,
+    _vr: References,
+    n: usize,
+    _order: *const c_int,
+    _value: *mut f64,
+) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        call(c, |_| match n {
+            0 => Ok(OK),
+            _ => Err(Error::new("the FMU gives no derivatives of outputs")),
+        })
+    }
+}
+
+/// Makes a step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DoStep(
+    c: *mut c_void,
+    time: f64,
+    step: f64,
+    _no_set_state_prior: c_int,
+) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe { simple(c, |instance| instance.do_step(time, step)) }
+}
+
+/// Steps are finished when they return: there is nothing to cancel.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2CancelStep(c: *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        call(c, |_| {
+            Err(Error::new(
+                "no step is under way: steps are finished when they return",
+            ))
+        })
+    }
+}
+
+/// The status of a step: there is none under way.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStatus(c: *mut c_void, _kind: c_int, _value: *mut c_int) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe { call(c, |_| Ok(DISCARD)) }
+}
+
+/// The last time that was reached (`fmi2LastSuccessfulTime`).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealStatus(c: *mut c_void, kind: c_int, value: *mut f64) -> Status {
+    const LAST_SUCCESSFUL_TIME: c_int = 2;
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        call(c, |component| {
+            if kind != LAST_SUCCESSFUL_TIME {
+                return Ok(DISCARD);
+            }
+            put(value, component.instance.time(), "the time")?;
+            Ok(OK)
+        })
+    }
+}
+
+/// There is no such status.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetIntegerStatus(c: *mut c_void, _kind: c_int, _value: *mut c_int) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe { call(c, |_| Ok(DISCARD)) }
+}
+
+/// Whether the FMU wants the simulation to end (`fmi2Terminated`): never.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBooleanStatus(c: *mut c_void, kind: c_int, value: *mut c_int) -> Status {
+    const TERMINATED: c_int = 3;
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        call(c, |_| {
+            if kind != TERMINATED {
+                return Ok(DISCARD);
+            }
+            put(value, 0, "the value")?;
+            Ok(OK)
+        })
+    }
+}
+
+/// There is no such status.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStringStatus(
+    c: *mut c_void,
+    _kind: c_int,
+    _value: *mut *const c_char,
+) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe { call(c, |_| Ok(DISCARD)) }
+}

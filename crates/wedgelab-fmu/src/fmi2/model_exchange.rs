@@ -1,0 +1,142 @@
+//! Functions of FMI 2.0 for model exchange: events, time, states, rates and event indicators.
+#![allow(clippy::missing_safety_doc)]
+
+use std::ffi::{c_int, c_void};
+
+use fmi::Error;
+use fmi::instance::Instance;
+
+use super::simple;
+use crate::component::{OK, Status, call, put, slice, slice_mut};
+
+/// What event handling says: `fmi2EventInfo`.
+#[repr(C)]
+pub struct EventInfo {
+    /// Another update is needed.
+    pub new_discrete_states_needed: c_int,
+    /// The simulation must end.
+    pub terminate_simulation: c_int,
+    /// Nominal values have changed.
+    pub nominals_of_continuous_states_changed: c_int,
+    /// States have changed.
+    pub values_of_continuous_states_changed: c_int,
+    /// There is a time event ahead.
+    pub next_event_time_defined: c_int,
+    /// When.
+    pub next_event_time: f64,
+}
+
+/// Begins event mode.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterEventMode(c: *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe { simple(c, Instance::enter_event_mode) }
+}
+
+/// Handles events.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2NewDiscreteStates(c: *mut c_void, info: *mut EventInfo) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        call(c, |component| {
+            if info.is_null() {
+                return Err(Error::new("the pointer to the event info is null"));
+            }
+            let update = component.instance.update_discrete_states()?;
+            let found = EventInfo {
+                new_discrete_states_needed: c_int::from(update.again),
+                terminate_simulation: 0,
+                nominals_of_continuous_states_changed: 0,
+                values_of_continuous_states_changed: 0,
+                next_event_time_defined: 0,
+                next_event_time: 0.0,
+            };
+            put(info, found, "the event info")?;
+            Ok(OK)
+        })
+    }
+}
+
+/// Begins continuous-time mode.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(c: *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe { simple(c, Instance::enter_continuous_time_mode) }
+}
+
+/// An integrator step is complete.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
+    c: *mut c_void,
+    _no_set_state_prior: c_int,
+    enter_event_mode: *mut c_int,
+    terminate: *mut c_int,
+) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        call(c, |component| {
+            component.instance.completed_integrator_step()?;
+            put(enter_event_mode, 0, "enterEventMode")?;
+            put(terminate, 0, "terminateSimulation")?;
+            Ok(OK)
+        })
+    }
+}
+
+/// Sets time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetTime(c: *mut c_void, time: f64) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe { simple(c, |instance| instance.set_time(time)) }
+}
+
+/// Sets the states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetContinuousStates(c: *mut c_void, x: *const f64, n: usize) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe { simple(c, |instance| instance.set_states(slice(x, n, "the states")?)) }
+}
+
+/// Reads the rates of the states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDerivatives(c: *mut c_void, out: *mut f64, n: usize) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        simple(c, |instance| {
+            instance.rates(slice_mut(out, n, "the derivatives")?)
+        })
+    }
+}
+
+/// Reads the event indicators.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetEventIndicators(c: *mut c_void, out: *mut f64, n: usize) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        simple(c, |instance| {
+            instance.indicators(slice_mut(out, n, "the event indicators")?)
+        })
+    }
+}
+
+/// Reads the states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetContinuousStates(c: *mut c_void, out: *mut f64, n: usize) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe { simple(c, |instance| instance.states(slice_mut(out, n, "the states")?)) }
+}
+
+/// Reads the nominal values of the states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
+    c: *mut c_void,
+    out: *mut f64,
+    n: usize,
+) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        simple(c, |instance| {
+            instance.nominals(slice_mut(out, n, "the nominal values")?)
+        })
+    }
+}

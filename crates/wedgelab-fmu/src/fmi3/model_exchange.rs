@@ -1,0 +1,157 @@
+//! Functions of FMI 3.0 for model exchange: updates at events, time, states, rates and event indicators.
+#![allow(clippy::missing_safety_doc)]
+
+use std::ffi::c_void;
+
+use fmi::instance::Instance;
+
+use super::simple;
+use crate::component::{OK, Status, call, put, slice, slice_mut};
+
+/// Handles events.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
+    instance: *mut c_void,
+    again: *mut bool,
+    terminate: *mut bool,
+    nominals_changed: *mut bool,
+    values_changed: *mut bool,
+    next_time_defined: *mut bool,
+    next_time: *mut f64,
+) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        call(instance, |component| {
+            let update = component.instance.update_discrete_states()?;
+            put(again, update.again, "discreteStatesNeedUpdate")?;
+            put(terminate, false, "terminateSimulation")?;
+            put(nominals_changed, false, "nominalsOfContinuousStatesChanged")?;
+            put(values_changed, false, "valuesOfContinuousStatesChanged")?;
+            put(next_time_defined, false, "nextEventTimeDefined")?;
+            put(next_time, 0.0, "nextEventTime")?;
+            Ok(OK)
+        })
+    }
+}
+
+/// Begins continuous-time mode.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3EnterContinuousTimeMode(instance: *mut c_void) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe { simple(instance, Instance::enter_continuous_time_mode) }
+}
+
+/// An integrator step is complete.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3CompletedIntegratorStep(
+    instance: *mut c_void,
+    _no_set_state_prior: bool,
+    enter_event_mode: *mut bool,
+    terminate: *mut bool,
+) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        call(instance, |component| {
+            component.instance.completed_integrator_step()?;
+            put(enter_event_mode, false, "enterEventMode")?;
+            put(terminate, false, "terminateSimulation")?;
+            Ok(OK)
+        })
+    }
+}
+
+/// Sets time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3SetTime(instance: *mut c_void, time: f64) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe { simple(instance, |instance| instance.set_time(time)) }
+}
+
+/// Sets the states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3SetContinuousStates(instance: *mut c_void, x: *const f64, n: usize) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        simple(instance, |instance| {
+            instance.set_states(slice(x, n, "the states")?)
+        })
+    }
+}
+
+/// Reads the rates of the states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3GetContinuousStateDerivatives(
+    instance: *mut c_void,
+    out: *mut f64,
+    n: usize,
+) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        simple(instance, |instance| {
+            instance.rates(slice_mut(out, n, "the derivatives")?)
+        })
+    }
+}
+
+/// Reads the event indicators.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3GetEventIndicators(instance: *mut c_void, out: *mut f64, n: usize) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        simple(instance, |instance| {
+            instance.indicators(slice_mut(out, n, "the event indicators")?)
+        })
+    }
+}
+
+/// Reads the states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3GetContinuousStates(instance: *mut c_void, out: *mut f64, n: usize) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        simple(instance, |instance| {
+            instance.states(slice_mut(out, n, "the states")?)
+        })
+    }
+}
+
+/// Reads the nominal values of the states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3GetNominalsOfContinuousStates(
+    instance: *mut c_void,
+    out: *mut f64,
+    n: usize,
+) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        simple(instance, |instance| {
+            instance.nominals(slice_mut(out, n, "the nominal values")?)
+        })
+    }
+}
+
+/// How many event indicators there are.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3GetNumberOfEventIndicators(instance: *mut c_void, count: *mut usize) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        simple(instance, |instance| {
+            put(
+                count,
+                instance.description().entries.indicators.len(),
+                "the number",
+            )
+        })
+    }
+}
+
+/// How many continuous states there are.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3GetNumberOfContinuousStates(instance: *mut c_void, count: *mut usize) -> Status {
+    // SAFETY: the standard's contract, see the module above.
+    unsafe {
+        simple(instance, |instance| {
+            put(count, instance.description().entries.states.len(), "the number")
+        })
+    }
+}
