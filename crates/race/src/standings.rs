@@ -81,15 +81,11 @@ pub fn judge(folder: &Path, entries: &[Entry]) -> Result<Vec<Standing>, String> 
 #[must_use]
 pub fn over_starts(each: Vec<Standing>) -> Option<Standing> {
     let starts = each.len();
+    let floor = root_mean_square(each.iter().map(|one| one.floor), starts);
     let mut others = each.into_iter();
     let mut whole = others.next()?;
     let others: Vec<Standing> = others.collect();
-    let mean_square = |first: f64, rest: &[f64]| {
-        let sum: f64 = rest.iter().fold(first * first, |sum, value| sum + value * value);
-        (sum / starts as f64).sqrt()
-    };
-    let floors: Vec<f64> = others.iter().map(|one| one.floor).collect();
-    whole.floor = mean_square(whole.floor, &floors);
+    whole.floor = floor;
     if starts > 1 {
         // A root mean square over n starts scatters by 1/√(2n) of itself. Nearer to the floor than twice that, who is below a level and who
         // is above it would be luck.
@@ -113,13 +109,17 @@ pub fn over_starts(each: Vec<Standing>) -> Option<Standing> {
             run.error = None;
             continue;
         }
-        let errors: Vec<f64> = rest.iter().filter_map(|one| one.error).collect();
-        run.error = run.error.map(|error| mean_square(error, &errors));
+        let errors = rest.iter().filter_map(|one| one.error).chain(run.error);
+        run.error = Some(root_mean_square(errors, starts));
         let outcomes: Vec<&Outcome> = rest.iter().map(|one| &one.entry.outcome).collect();
         run.entry.outcome = run.entry.outcome.mean_with(&outcomes);
     }
     whole.starts = starts;
     Some(whole)
+}
+
+fn root_mean_square(values: impl Iterator<Item = f64>, number: usize) -> f64 {
+    (values.map(|value| value * value).sum::<f64>() / number as f64).sqrt()
 }
 
 fn standing(folder: &Path, case: &str, group: &[&Entry]) -> Result<Standing, String> {

@@ -40,10 +40,10 @@ const LEFT: f64 = 0.3;
 const CONTRACTION: f64 = 0.5;
 /// How corrections shrink is looked at anew in steps that are longer by this factor.
 const LONGER: f64 = 1.25;
-/// At so many points, in the first sixth of a step, nothing can have broken loose that would not be loose at the next one too.
-const BEGINNING: usize = 2;
 /// They may shrink more than this, but not reliably.
 const LEAST_RATE: f64 = 1e-3;
+/// At so many points, in the first sixth of a step, nothing can have broken loose that would not be loose at the next one too.
+const BEGINNING: usize = 2;
 
 /// When steps are by collocation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
