@@ -13,7 +13,7 @@ Builds the race and its drivers, installs what they need (Debian: SUNDIALS, Octa
 solvers on the thesis's twelve cases, the planar wedge and the stick test, and writes tables and figures into target/race.
 Octave runs with the compiled equations and, on the yawed cases, with equations in its own language.
 Runs that are there already are kept; --again begins anew.
-With RUSTFLAGS=\"-C target-cpu=x86-64-v3\" what is Rust is compiled for processors with AVX2.
+What is Rust is compiled for processors with AVX2; with RUSTFLAGS=\"-C target-cpu=x86-64\" for all.
 
   --quick             four cases at three tolerances, without Octave: two to three minutes
   --cases PART,...    problems whose names contain one of the parts

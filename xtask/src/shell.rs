@@ -5,6 +5,13 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+/// Makes cargo (and maturin) compile for all processors of the kind x86-64 instead of those with AVX2 (`.cargo/config.toml`): what comes later in these
+/// arguments wins. What leaves this machine is compiled so.
+pub const PORTABLE: [&str; 2] = [
+    "--config",
+    "target.'cfg(target_arch = \"x86_64\")'.rustflags=[\"-C\", \"target-cpu=x86-64\"]",
+];
+
 /// The workspace on disk and the `cargo` that builds it.
 pub struct Workspace {
     /// The folder of the workspace's `Cargo.toml`.

@@ -23,6 +23,7 @@ mod options;
 mod ordinary;
 pub mod partitioned;
 mod problem;
+pub mod processor;
 mod radau;
 mod rodas;
 mod rosenbrock;

@@ -22,3 +22,4 @@ pub mod surface;
 pub mod system;
 pub mod turn;
 pub mod vector;
+mod without_roll;

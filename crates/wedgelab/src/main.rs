@@ -11,6 +11,7 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use integrate::processor::{OldProcessor, check};
 
 use commands::{case, compare, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, study};
 use failure::Failure;
@@ -75,6 +76,17 @@ impl Cli {
 }
 
 fn main() -> ExitCode {
+    // As plain as can be: what renders other messages may be compiled to instructions that are not there.
+    if let Err(error) = check() {
+        failure::say(&format!("error: {error}\n{}", OldProcessor::ADVICE));
+        return ExitCode::from(failure::FAILED);
+    }
+    start()
+}
+
+/// Not part of `main`, whose first instructions every processor must have.
+#[inline(never)]
+fn start() -> ExitCode {
     failure::set_up();
     let done = match Cli::try_parse() {
         Ok(cli) => cli.execute(),

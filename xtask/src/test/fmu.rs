@@ -5,7 +5,7 @@ use std::process::Command;
 
 use super::Outcome;
 use crate::debian;
-use crate::shell::{self, Workspace};
+use crate::shell::{self, PORTABLE, Workspace};
 use crate::venv;
 
 /// Where the tests in Python and their requirements lie.
@@ -17,6 +17,15 @@ pub fn check(workspace: &Workspace) -> Outcome {
     // All of it: so the features of dependencies are those that `test` has built with.
     shell::run(&mut workspace.cargo(["build", "--release", "--workspace"]))?;
     let tests = workspace.root.join(TESTS);
+    // Compiled for all processors the library is to compute the same bits; and Valgrind does not know all instructions of the newer ones.
+    let portable = workspace.target.join("portable");
+    let mut build = workspace.cargo(["build", "--release", "-p", "wedgelab-fmu"]);
+    shell::run(build.args(PORTABLE).env("CARGO_TARGET_DIR", &portable))?;
+    let library = portable.join("release").join(format!(
+        "{}wedgelab_fmu{}",
+        std::env::consts::DLL_PREFIX,
+        std::env::consts::DLL_SUFFIX
+    ));
     let python = venv::environment(&workspace.target, "fmu", &tests.join("requirements.txt"))?;
     let program = workspace
         .target
@@ -27,6 +36,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
         .args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"])
         .arg(&tests)
         .env("WEDGELAB", program)
+        .env("PORTABLE_LIBRARY", library)
         .env("PYTHONDONTWRITEBYTECODE", "1");
     shell::run(&mut pytest)?;
     Ok(None)

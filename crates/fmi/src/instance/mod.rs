@@ -14,6 +14,7 @@ pub use step::EventUpdate;
 use std::path::Path;
 use std::sync::Arc;
 
+use integrate::processor::{self, OldProcessor};
 use study::case::Case;
 
 use crate::description::{Description, Model, Version};
@@ -94,7 +95,8 @@ impl Instance {
     /// An instance of the FMU whose `resources` lie in a folder.
     ///
     /// # Errors
-    /// The folder is not that of an FMU of this program, or the token is not that of its description.
+    /// The folder is not that of an FMU of this program, the token is not that of its description, or the library was compiled for other
+    /// processors.
     pub fn new(
         name: &str,
         token: &str,
@@ -102,6 +104,7 @@ impl Instance {
         version: Version,
         interface: Interface,
     ) -> Result<Self, Error> {
+        processor::check().map_err(|error| Error::new(format!("{error}. {}", OldProcessor::ADVICE)))?;
         let (model, case) = resources::read(folder)?;
         Self::of_case(name, Some(token), model, case, version, interface)
     }

@@ -359,6 +359,11 @@ pub(super) fn accelerate<P: Number<Plain = P>>(
     gravity: Vector<f64>,
     (force, moment): (Vector<P>, Vector<P>),
 ) -> [P; 6] {
+    if !body.rolls && !frame_moves {
+        let field: Vector<P> = frame.acceleration - Vector::<P>::lift(gravity);
+        let field: Vector<P> = frame.rotation.apply_transposed(field);
+        return kinematics.accelerations_without_roll(body, &field, &force, &moment);
+    }
     let (inertia, turning) = kinematics.inertia(body, frame, frame_moves, gravity, &[0.0; 6]);
     let (force, moment) = (force - inertia, moment - turning);
     kinematics.accelerations(body, &force, kinematics.about_axes(&moment))

@@ -1,6 +1,7 @@
 """FMUs of a yawed case, exported once, and what `wedgelab run` says of it.
 
-The environment variable WEDGELAB names the program; the library lies beside it.
+The environment variable WEDGELAB names the program; the library lies beside it. PORTABLE_LIBRARY is the same library compiled for all
+processors.
 """
 
 import json
@@ -17,6 +18,7 @@ INCH = 0.0254
 LBF = 0.45359237 * 9.80665
 # The bolster moves by 1 in · sin(2 rad/s · t), for 5 s: one whole cycle after the first half period.
 AMPLITUDE, OMEGA, DURATION, STEP = INCH, 2.0, 5.0, 1e-3
+PORTABLE = ["--library", os.environ["PORTABLE_LIBRARY"]]
 KINDS = ["ModelExchange", "CoSimulation"]
 
 
