@@ -10,8 +10,10 @@
 pub mod c_interface;
 pub mod clock;
 pub mod contest;
+#[cfg(feature = "solvers")]
 pub mod diffsol;
 pub mod equations;
+#[cfg(feature = "solvers")]
 pub mod figures;
 pub mod measure;
 pub mod outcome;
