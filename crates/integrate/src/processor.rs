@@ -1,7 +1,7 @@
 //! Whether the processor has the instructions that the program was compiled for.
 //!
 //! The repository's `.cargo/config.toml` compiles for processors of the kind x86-64-v3 (AVX2; Intel since 2013, AMD since 2015). On an older one such a program
-//! would be stopped by the system at its first vector instruction, without a word: front doors ask here first.
+//! would be stopped by the system at its first vector instruction, without a word: the command and FMUs ask here first.
 
 /// The processor lacks instructions that the program was compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

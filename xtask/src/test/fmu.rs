@@ -5,7 +5,7 @@ use std::process::Command;
 
 use super::Outcome;
 use crate::debian;
-use crate::shell::{self, PORTABLE, Workspace};
+use crate::shell::{self, Workspace};
 use crate::venv;
 
 /// Where the tests in Python and their requirements lie.
@@ -18,10 +18,8 @@ pub fn check(workspace: &Workspace) -> Outcome {
     shell::run(&mut workspace.cargo(["build", "--release", "--workspace"]))?;
     let tests = workspace.root.join(TESTS);
     // Compiled for all processors the library is to compute the same bits; and Valgrind does not know all instructions of the newer ones.
-    let portable = workspace.target.join("portable");
-    let mut build = workspace.cargo(["build", "--release", "-p", "wedgelab-fmu"]);
-    shell::run(build.args(PORTABLE).env("CARGO_TARGET_DIR", &portable))?;
-    let library = portable.join("release").join(format!(
+    let portable = workspace.build_portable(&["-p", "wedgelab-fmu"])?;
+    let library = portable.join(format!(
         "{}wedgelab_fmu{}",
         std::env::consts::DLL_PREFIX,
         std::env::consts::DLL_SUFFIX

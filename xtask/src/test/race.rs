@@ -2,7 +2,7 @@
 
 use super::Outcome;
 use crate::race::tools;
-use crate::shell::{self, PORTABLE, Workspace};
+use crate::shell::{self, Workspace};
 
 /// Compiles the driver and runs the tests that need it.
 pub fn check(workspace: &Workspace) -> Outcome {
@@ -10,21 +10,12 @@ pub fn check(workspace: &Workspace) -> Outcome {
     shell::run(&mut workspace.cargo(["build", "--release", "--workspace", "--lib"]))?;
     let driver = tools::cvode(workspace)?;
     // For Valgrind, which does not know all instructions of newer processors.
-    let portable = workspace.target.join("portable");
-    let mut build = workspace.cargo([
-        "build",
-        "--release",
-        "-p",
-        "race",
-        "--lib",
-        "--no-default-features",
-    ]);
-    shell::run(build.args(PORTABLE).env("CARGO_TARGET_DIR", &portable))?;
+    let portable = workspace.build_portable(&["-p", "race", "--lib", "--no-default-features"])?;
     let mut tests = workspace.cargo(["test", "--release", "--workspace", "--test", "drivers"]);
     tests
         .args(["--", "--ignored"])
         .env("RACE_CVODE", driver)
-        .env("RACE_PORTABLE", portable.join("release"));
+        .env("RACE_PORTABLE", portable);
     shell::run(&mut tests)?;
     Ok(None)
 }
