@@ -51,9 +51,15 @@ impl Problem for Trivial {
     fn switch_count(&self) -> usize {
         self.switches
     }
-    fn margins(&mut self, _: f64, x: &[f64], _: &[u8], margins: &mut [f64]) {
-        for (margin, x) in margins.iter_mut().zip(x) {
-            *margin = x.abs() + 1.0;
+    fn sign_count(&self) -> usize {
+        self.switches
+    }
+    fn signs(&mut self, _: f64, x: &[f64], signs: &mut [f64]) {
+        signs.copy_from_slice(&x[..self.switches]);
+    }
+    fn group_margins(&mut self, _: usize, signs: &[f64], _: &[u8], margins: &mut [f64]) {
+        for (margin, sign) in margins.iter_mut().zip(signs) {
+            *margin = sign.abs() + 1.0;
         }
     }
 }

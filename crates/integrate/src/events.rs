@@ -29,6 +29,8 @@ pub struct Event {
 pub struct SwitchGroup {
     /// Their numbers.
     pub switches: Range<usize>,
+    /// Their signs among those of all groups: what tells margins and following modes, see [`Problem::signs`].
+    pub signs: Range<usize>,
     /// The leading states that their margins and modes depend on.
     pub states: Vec<Range<usize>>,
 }
@@ -40,10 +42,17 @@ pub(crate) struct Switches {
     pub before: Vec<u8>,
     pub events: Vec<Event>,
     groups: Vec<Group>,
-    /// Margins with the present modes: at the place that was evaluated last, at the beginning of what is searched, at the end of the step.
-    margins: Vec<f64>,
+    /// Signs: at the place that was evaluated last, at the beginning of the step, at the place up to which changes are searched, at the end
+    /// of the step, at the upper end of what is searched.
+    signs: Vec<f64>,
     at_start: Vec<f64>,
+    looked: Vec<f64>,
     at_end: Vec<f64>,
+    at_high: Vec<f64>,
+    /// Whether `at_start` holds the signs there.
+    start_known: bool,
+    /// Margins by signs evaluated last, with the present modes.
+    margins: Vec<f64>,
     search: Search,
     /// Switches that are not looked at any more in this step: `next_mode` declined.
     muted: Vec<bool>,
@@ -59,13 +68,11 @@ pub(crate) struct Switches {
 #[derive(Clone, Debug)]
 struct Group {
     switches: Range<usize>,
+    signs: Range<usize>,
     /// The states that they depend on, in ranges that begin and end at multiples of [`LANES`].
     states: Vec<Range<usize>>,
     /// From which fraction of the step on changes are searched.
     from: f64,
-    /// Whether `at_start` holds the margins there, and `at_end` those at the end of the step.
-    start_known: bool,
-    end_known: bool,
 }
 
 /// More changes in a step than there may be.
@@ -81,14 +88,19 @@ impl Switches {
             _ => problem.switch_groups().into_iter().map(Group::new).collect(),
         };
         let largest = groups.iter().map(|group| group.switches.len()).max();
+        let signs = vec![0.0; groups.last().map_or(0, |group| group.signs.end)];
         Self {
             before: modes.clone(),
             modes,
             events: Vec::with_capacity(capacity),
             groups,
+            at_start: signs.clone(),
+            looked: signs.clone(),
+            at_end: signs.clone(),
+            at_high: signs.clone(),
+            signs,
+            start_known: false,
             margins: vec![0.0; count],
-            at_start: vec![0.0; count],
-            at_end: vec![0.0; count],
             search: Search::new(largest.unwrap_or(0)),
             muted: vec![false; count],
             changed: vec![false; count],
@@ -98,17 +110,15 @@ impl Switches {
         }
     }
 
-    /// Tells that the margins at the place reached may have changed: those known of it are not used any more.
+    /// Tells that the signs at the place reached may have changed: those known of it are not used any more.
     pub fn forget(&mut self) {
-        for group in &mut self.groups {
-            group.start_known = false;
-        }
+        self.start_known = false;
     }
 
-    /// Evaluates the margins at the end of a step. Before [`Switches::detect`], and apart from it: right after other functions were
+    /// Evaluates the signs at the end of a step. Before [`Switches::detect`], and apart from it: right after other functions were
     /// evaluated there it may cost the problem little.
     pub fn look<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
-        problem.margins(time, x, &self.modes, &mut self.at_end);
+        problem.signs(time, x, &mut self.at_end);
     }
 
     /// Finds all changes of modes in a step, at whose end [`Switches::look`] was called.
@@ -123,12 +133,13 @@ impl Switches {
         self.before.copy_from_slice(&self.modes);
         self.muted.fill(false);
         for group in &mut self.groups {
-            (group.from, group.end_known) = (0.0, true);
+            group.from = 0.0;
         }
         if self.follow(problem, dense, maximum).is_err() {
             statistics.events_unresolved += 1;
-            self.forget();
         }
+        std::mem::swap(&mut self.at_start, &mut self.at_end);
+        self.start_known = true;
         statistics.events += self.events.len() as u64;
         if self.groups.len() > 1 {
             in_order(&mut self.events);
@@ -151,57 +162,59 @@ impl Switches {
         for &to in looks {
             dense.evaluate(to, &mut self.x[..self.leading]);
             let x = &self.x[..self.dimension];
-            problem.margins(dense.time(to), x, &self.modes, &mut self.margins);
-            for number in 0..self.groups.len() {
+            problem.signs(dense.time(to), x, &mut self.looked);
+            self.resolve_all(problem, dense, to, maximum)?;
+        }
+        self.looked.copy_from_slice(&self.at_end);
+        self.resolve_all(problem, dense, 1.0, maximum)
+    }
+
+    /// Finds the changes of all groups up to a fraction of the step, where `looked` holds the signs.
+    fn resolve_all<P: Problem>(
+        &mut self,
+        problem: &mut P,
+        dense: &Dense<'_>,
+        to: f64,
+        maximum: usize,
+    ) -> Result<(), TooMany> {
+        for number in 0..self.groups.len() {
+            // The search for a change behind this place begins where this one began all the same: there may be several.
+            while self.groups[number].from <= to && self.ends(problem, number) {
                 self.resolve(problem, dense, number, to, maximum)?;
             }
-        }
-        // As in most steps: nothing changes, in no group.
-        if self.groups.iter().all(|group| group.end_known) && !leaving(&self.at_end, &self.muted) {
-            std::mem::swap(&mut self.at_start, &mut self.at_end);
-            for group in &mut self.groups {
-                group.start_known = true;
-            }
-            return Ok(());
-        }
-        for number in 0..self.groups.len() {
-            let switches = self.groups[number].switches.clone();
-            if self.groups[number].end_known {
-                self.margins[switches.clone()].copy_from_slice(&self.at_end[switches.clone()]);
-            } else {
-                self.evaluate(problem, dense, number, 1.0);
-            }
-            let known = self.resolve(problem, dense, number, 1.0, maximum)?;
-            if known {
-                self.at_start[switches.clone()].copy_from_slice(&self.margins[switches]);
-            }
-            self.groups[number].start_known = known;
         }
         Ok(())
     }
 
-    /// Brings the states that a group depends on to a fraction of the step.
-    #[inline]
-    fn place(&mut self, dense: &Dense<'_>, number: usize, theta: f64) {
-        dense.evaluate_parts(theta, &self.groups[number].states, &mut self.x);
+    /// Whether a switch of a group must leave its mode where `looked` holds the signs; the margins there.
+    #[inline(always)]
+    fn ends<P: Problem>(&mut self, problem: &mut P, number: usize) -> bool {
+        let group = &self.groups[number];
+        let looked = &self.looked[group.signs.clone()];
+        group.weigh(problem, number, looked, &self.modes, &mut self.margins);
+        self.leaving(number)
     }
 
-    /// Evaluates the margins of a group at a fraction of the step.
+    /// Evaluates the signs of a group at a fraction of the step, and the margins by them.
     #[inline]
     fn evaluate<P: Problem>(&mut self, problem: &mut P, dense: &Dense<'_>, number: usize, theta: f64) {
-        self.place(dense, number, theta);
+        let group = &self.groups[number];
+        dense.evaluate_parts(theta, &group.states, &mut self.x);
         let x = &self.x[..self.dimension];
-        problem.group_margins(number, dense.time(theta), x, &self.modes, &mut self.margins);
+        let own = &mut self.signs[group.signs.clone()];
+        problem.group_signs(number, dense.time(theta), x, own);
+        group.weigh(problem, number, own, &self.modes, &mut self.margins);
     }
 
-    /// Whether a switch of a group must leave its mode by the margins evaluated last.
+    /// Whether a switch of a group must leave its mode by the margins found last.
     #[inline]
     fn leaving(&self, number: usize) -> bool {
         let switches = self.groups[number].switches.clone();
         leaving(&self.margins[switches.clone()], &self.muted[switches])
     }
 
-    /// Finds the changes of a group up to a fraction of the step, where `margins` hold its margins; whether they do so still.
+    /// Finds the next change of a group up to a fraction of the step, where `looked` holds the signs and [`Switches::ends`] has found one.
+    #[inline(never)]
     fn resolve<P: Problem>(
         &mut self,
         problem: &mut P,
@@ -209,30 +222,17 @@ impl Switches {
         number: usize,
         to: f64,
         maximum: usize,
-    ) -> Result<bool, TooMany> {
+    ) -> Result<(), TooMany> {
         let resolution = (4.0 * f64::EPSILON * dense.end.abs() / dense.step).max(1e-12);
-        while self.groups[number].from <= to {
-            if !self.leaving(number) {
-                // The search for a change behind this place begins where this one began all the same: there may be several.
-                return Ok(true);
-            }
-            let theta = self.locate(problem, dense, number, to, resolution);
-            self.groups[number].start_known = false;
-            let known = self.events.len();
-            self.change(problem, dense, number, theta, maximum)?;
-            let group = &mut self.groups[number];
-            group.end_known &= self.events.len() == known;
-            // A change that leads straight to the next one is told apart by the resolution.
-            group.from = theta + resolution;
-            if group.from <= to {
-                self.evaluate(problem, dense, number, to);
-            }
-        }
-        Ok(false)
+        let theta = self.locate(problem, dense, number, to, resolution);
+        self.change(problem, dense.time(theta), number, maximum)?;
+        // A change that leads straight to the next one is told apart by the resolution.
+        self.groups[number].from = theta + resolution;
+        Ok(())
     }
 
-    /// The first instant up to `to` at which a switch of a group must leave, given that one must at `to`, by the margins there; those at
-    /// this instant.
+    /// The first instant up to `to` at which a switch of a group must leave, given that one must at `to`, by the margins there; the signs at
+    /// this instant, in `at_high`, and the margins.
     fn locate<P: Problem>(
         &mut self,
         problem: &mut P,
@@ -242,32 +242,41 @@ impl Switches {
         resolution: f64,
     ) -> f64 {
         let group = &self.groups[number];
-        let (switches, from) = (group.switches.clone(), group.from);
+        let (switches, own, from) = (group.switches.clone(), group.signs.clone(), group.from);
         let count = switches.len();
         self.search.clear();
         self.search.next()[..count].copy_from_slice(&self.margins[switches.clone()]);
         self.search.put_high(to);
-        if !group.start_known {
+        if from == 0.0 && self.start_known {
+            let start = &self.at_start[own.clone()];
+            self.signs[own.clone()].copy_from_slice(start);
+            group.weigh(problem, number, start, &self.modes, &mut self.margins);
+        } else {
             self.evaluate(problem, dense, number, from);
-            self.at_start[switches.clone()].copy_from_slice(&self.margins[switches.clone()]);
         }
-        let at_start = &self.at_start[switches.clone()];
-        if leaving(at_start, &self.muted[switches.clone()]) {
-            self.margins[switches].copy_from_slice(at_start);
+        if self.leaving(number) {
+            self.at_high[own.clone()].copy_from_slice(&self.signs[own]);
             return from;
         }
-        self.search.next()[..count].copy_from_slice(at_start);
+        self.at_high[own.clone()].copy_from_slice(&self.looked[own.clone()]);
+        self.search.next()[..count].copy_from_slice(&self.margins[switches.clone()]);
         self.search.put_low(from);
         loop {
             let (low, high) = self.search.ends();
             if high - low <= resolution {
                 break;
             }
-            let theta = self.search.place(self.first_zero(number), resolution);
+            let (expected, doubt) = self.first_zero(number);
+            let settled = self.search.settle(expected, doubt, resolution);
+            let theta = settled.unwrap_or_else(|| self.search.place(expected, resolution));
             self.evaluate(problem, dense, number, theta);
             self.search.next()[..count].copy_from_slice(&self.margins[switches.clone()]);
             if self.leaving(number) {
                 self.search.put_high(theta);
+                self.at_high[own.clone()].copy_from_slice(&self.signs[own.clone()]);
+                if settled.is_some() && self.confirmed(number, resolution) {
+                    break;
+                }
             } else {
                 self.search.put_low(theta);
             }
@@ -276,31 +285,42 @@ impl Switches {
         self.search.ends().1
     }
 
-    /// Where the first switch of a group is expected to have to leave.
-    fn first_zero(&self, number: usize) -> f64 {
+    /// The switches that must leave at the upper end of what is searched, by their numbers in a group.
+    #[inline]
+    fn crossing(&self, number: usize) -> impl Iterator<Item = usize> {
         let muted = &self.muted[self.groups[number].switches.clone()];
-        let mut first = f64::INFINITY;
-        for (index, (margin, muted)) in self.search.high().iter().zip(muted).enumerate() {
-            if *margin <= 0.0 && !muted {
-                first = first.min(self.search.zero(index));
-            }
-        }
-        first
+        let all = self.search.high().iter().zip(muted).enumerate();
+        all.filter(|(_, (margin, muted))| **margin <= 0.0 && !**muted)
+            .map(|(index, _)| index)
     }
 
-    /// Changes the modes of all switches of a group that must leave at an instant, each once, by the margins there.
+    /// Where the first switch of a group is expected to have to leave, and how much this is in doubt.
+    fn first_zero(&self, number: usize) -> (f64, f64) {
+        self.crossing(number)
+            .map(|index| self.search.zero_and_doubt(index))
+            .fold((f64::INFINITY, f64::INFINITY), |first, next| {
+                if next.0 < first.0 { next } else { first }
+            })
+    }
+
+    /// Whether a switch has come to leave at the place where the search has settled.
+    fn confirmed(&self, number: usize, resolution: f64) -> bool {
+        self.crossing(number)
+            .any(|index| self.search.confirms(index, resolution))
+    }
+
+    /// Changes the modes of all switches of a group that must leave at an instant, each once, by the signs `at_high` and the margins there.
     fn change<P: Problem>(
         &mut self,
         problem: &mut P,
-        dense: &Dense<'_>,
+        time: f64,
         number: usize,
-        theta: f64,
         maximum: usize,
     ) -> Result<(), TooMany> {
-        let switches = self.groups[number].switches.clone();
+        let group = &self.groups[number];
+        let switches = group.switches.clone();
+        let signs = &self.at_high[group.signs.clone()];
         self.changed[switches.clone()].fill(false);
-        self.place(dense, number, theta);
-        let time = dense.time(theta);
         while let Some(index) = switches
             .clone()
             .find(|&i| self.margins[i] <= 0.0 && !self.muted[i] && !self.changed[i])
@@ -308,9 +328,8 @@ impl Switches {
             if self.events.len() >= maximum {
                 return Err(TooMany);
             }
-            let x = &self.x[..self.dimension];
             let from = self.modes[index];
-            let to = problem.next_mode(time, x, index, from);
+            let to = problem.next_mode(number, signs, index - switches.start, from);
             if to == from {
                 self.muted[index] = true;
                 continue;
@@ -324,7 +343,7 @@ impl Switches {
                 to,
             });
             // the margins of other switches may depend on this mode
-            problem.group_margins(number, time, x, &self.modes, &mut self.margins);
+            group.weigh(problem, number, signs, &self.modes, &mut self.margins);
         }
         Ok(())
     }
@@ -343,11 +362,24 @@ impl Group {
         }
         Self {
             switches: group.switches,
+            signs: group.signs,
             states,
             from: 0.0,
-            start_known: false,
-            end_known: false,
         }
+    }
+
+    /// Writes the margins by signs of this group.
+    #[inline]
+    fn weigh<P: Problem>(
+        &self,
+        problem: &mut P,
+        number: usize,
+        signs: &[f64],
+        modes: &[u8],
+        margins: &mut [f64],
+    ) {
+        let own = self.switches.clone();
+        problem.group_margins(number, signs, &modes[own.clone()], &mut margins[own]);
     }
 }
 

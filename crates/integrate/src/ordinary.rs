@@ -259,15 +259,25 @@ impl Problem for Ordinary<'_> {
         }
     }
 
-    fn margins(&mut self, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+    /// Time and states: what the functions are told.
+    fn sign_count(&self) -> usize {
+        1 + self.dimension()
+    }
+
+    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
+        signs[0] = time;
+        signs[1..].copy_from_slice(x);
+    }
+
+    fn group_margins(&mut self, _: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
         if let Some(switches) = &mut self.switches {
-            (switches.margins)(time, x, modes, margins);
+            (switches.margins)(signs[0], &signs[1..], modes, margins);
         }
     }
 
-    fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
+    fn next_mode(&mut self, _: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
         match &mut self.switches {
-            Some(switches) => (switches.next)(time, x, index, mode),
+            Some(switches) => (switches.next)(signs[0], &signs[1..], index, mode),
             None => mode,
         }
     }

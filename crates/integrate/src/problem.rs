@@ -172,35 +172,44 @@ pub trait Problem {
         let _ = (time, x, modes);
     }
 
-    /// Writes a margin for each switch: positive while the switch stays in `modes[i]`, not positive when it must
-    /// leave. Margins must be continuous in time as long as the modes do not change.
-    fn margins(&mut self, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
-        let _ = (time, x, modes, margins);
+    /// How many signs tell the margins and modes of all switches: gaps and loads of contacts, say.
+    fn sign_count(&self) -> usize {
+        0
     }
 
-    /// How switches that have nothing to do with each other fall into groups: all switches in their order, each in one group. Changes are
-    /// then searched in one group after the other, which for many groups costs much less. Without this all are one group.
+    /// Writes the signs of all switches at `(time, x)`. They must be continuous in time, and do not know of modes.
+    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
+        let _ = (time, x, signs);
+    }
+
+    /// How switches that have nothing to do with each other fall into groups: all switches and signs in their order, each in one group.
+    /// Changes are then searched in one group after the other, which for many groups costs much less. Without this all are one group.
     fn switch_groups(&self) -> Vec<SwitchGroup> {
         let all = SwitchGroup {
             switches: 0..self.switch_count(),
+            signs: 0..self.sign_count(),
             states: std::iter::once(0..self.read_states()).collect(),
         };
         vec![all]
     }
 
-    /// Writes the margins of the switches of one group, the same as [`Problem::margins`] does; of `x` only the states of this group are
-    /// what they should be, and of the modes only those of this group count.
-    fn group_margins(&mut self, group: usize, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+    /// Writes the signs of one group, the same as [`Problem::signs`] does; of `x` only the states of this group are what they should be.
+    fn group_signs(&mut self, group: usize, time: f64, x: &[f64], signs: &mut [f64]) {
         let _ = group;
-        self.margins(time, x, modes, margins);
+        self.signs(time, x, signs);
     }
 
-    /// The mode to which switch `index` goes from `mode` at `(time, x)`, where its margin has come to zero or below;
-    /// of `x` only the states of its group are what they should be.
+    /// Writes, by the signs of a group, a margin for each of its switches: positive while the switch stays in `modes[i]`, not positive when
+    /// it must leave. Margins must be continuous in the signs.
+    fn group_margins(&mut self, group: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
+        let _ = (group, signs, modes, margins);
+    }
+
+    /// The mode to which switch `index` of a group goes from `mode` where, by these signs, its margin has come to zero or below.
     ///
     /// Returning `mode` means that there is no event; the switch is then not asked again within this step.
-    fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
-        let _ = (time, x, index);
+    fn next_mode(&mut self, group: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
+        let _ = (group, signs, index);
         mode
     }
 }
@@ -279,16 +288,22 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
         (**self).initial_modes(time, x, modes);
     }
-    fn margins(&mut self, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
-        (**self).margins(time, x, modes, margins);
+    fn sign_count(&self) -> usize {
+        (**self).sign_count()
+    }
+    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
+        (**self).signs(time, x, signs);
     }
     fn switch_groups(&self) -> Vec<SwitchGroup> {
         (**self).switch_groups()
     }
-    fn group_margins(&mut self, group: usize, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
-        (**self).group_margins(group, time, x, modes, margins);
+    fn group_signs(&mut self, group: usize, time: f64, x: &[f64], signs: &mut [f64]) {
+        (**self).group_signs(group, time, x, signs);
     }
-    fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
-        (**self).next_mode(time, x, index, mode)
+    fn group_margins(&mut self, group: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
+        (**self).group_margins(group, signs, modes, margins);
+    }
+    fn next_mode(&mut self, group: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
+        (**self).next_mode(group, signs, index, mode)
     }
 }

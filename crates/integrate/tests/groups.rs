@@ -11,7 +11,7 @@ struct Waves {
     frequencies: Vec<f64>,
     scales: Vec<f64>,
     grouped: bool,
-    /// How many margins were computed for all switches at once, and for single groups.
+    /// How many signs were computed for all switches at once, and for single groups.
     together: usize,
     alone: usize,
 }
@@ -80,16 +80,18 @@ impl Problem for Waves {
     fn switch_count(&self) -> usize {
         self.dimension()
     }
-    fn margins(&mut self, _: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
-        self.together += modes.len();
-        for ((margin_of, mode), x) in margins.iter_mut().zip(modes).zip(x) {
-            *margin_of = margin(*mode, *x);
-        }
+    fn sign_count(&self) -> usize {
+        self.dimension()
+    }
+    fn signs(&mut self, _: f64, x: &[f64], signs: &mut [f64]) {
+        self.together += signs.len();
+        signs.copy_from_slice(x);
     }
     fn switch_groups(&self) -> Vec<SwitchGroup> {
         let count = self.dimension();
         let group = |range: std::ops::Range<usize>| SwitchGroup {
             switches: range.clone(),
+            signs: range.clone(),
             states: vec![range],
         };
         if self.grouped {
@@ -98,16 +100,24 @@ impl Problem for Waves {
             vec![group(0..count)]
         }
     }
-    fn group_margins(&mut self, group: usize, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+    fn group_signs(&mut self, group: usize, time: f64, x: &[f64], signs: &mut [f64]) {
         if self.grouped {
             self.alone += 1;
-            margins[group] = margin(modes[group], x[group]);
+            signs[0] = x[group];
         } else {
-            self.margins(time, x, modes, margins);
+            self.signs(time, x, signs);
         }
     }
-    fn next_mode(&mut self, _: f64, x: &[f64], index: usize, mode: u8) -> u8 {
-        assert!(margin(mode, x[index]) <= 0.0, "asked where the switch is to stay");
+    fn group_margins(&mut self, _: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
+        for ((margin_of, mode), sign) in margins.iter_mut().zip(modes).zip(signs) {
+            *margin_of = margin(*mode, *sign);
+        }
+    }
+    fn next_mode(&mut self, _: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
+        assert!(
+            margin(mode, signs[index]) <= 0.0,
+            "asked where the switch is to stay"
+        );
         1 - mode
     }
 }
@@ -166,8 +176,8 @@ fn limits_the_cost_of_a_change_does_not_depend_on_the_number_of_groups() {
         few_looks == many_looks,
         "{few_looks} and {many_looks} looks at all"
     );
-    assert!(few < 12.0 && many < 12.0, "{few} and {many} margins a change");
-    assert!(many < 1.2 * few, "{few} and {many} margins a change");
+    assert!(few < 12.0 && many < 12.0, "{few} and {many} signs a change");
+    assert!(many < 1.2 * few, "{few} and {many} signs a change");
     // Without groups each change looks at all.
     let (together, _) = cost(80, false);
     assert!(

@@ -104,8 +104,23 @@ fn state(system: &System, random: &mut Random) -> Vec<f64> {
     x
 }
 
+/// Margins of all switches, and the modes that follow, by the signs of all at once.
+fn margins(system: &mut System, time: f64, x: &[f64], modes: &[u8]) -> (Vec<f64>, Vec<u8>) {
+    let mut signs = vec![f64::NAN; system.sign_count()];
+    system.signs(time, x, &mut signs);
+    let (mut margins, mut next) = (vec![f64::NAN; modes.len()], modes.to_vec());
+    for (number, group) in system.switch_groups().into_iter().enumerate() {
+        let (own, signs) = (group.switches, &signs[group.signs]);
+        system.group_margins(number, signs, &modes[own.clone()], &mut margins[own.clone()]);
+        for (index, next) in next[own].iter_mut().enumerate() {
+            *next = system.next_mode(number, signs, index, *next);
+        }
+    }
+    (margins, next)
+}
+
 #[test]
-fn limits_margins_of_a_face_depend_on_the_states_of_its_group_alone() {
+fn limits_signs_of_a_face_depend_on_the_states_of_its_group_alone() {
     let mut random = Random(5);
     let mut closed = [0, 0];
     for mut system in models() {
@@ -119,38 +134,25 @@ fn limits_margins_of_a_face_depend_on_the_states_of_its_group_alone() {
         );
         for _ in 0..60 {
             let (x, time) = (state(&system, &mut random), random.between(0.0, 1.0));
-            let modes: Vec<u8> = (0..count).map(|_| random.between(0.0, 3.0) as u8).collect();
-            let mut expected = vec![0.0; count];
-            system.clone().margins(time, &x, &modes, &mut expected);
+            let mut expected = vec![0.0; system.sign_count()];
+            system.clone().signs(time, &x, &mut expected);
             for (number, group) in groups.iter().enumerate() {
                 // What it does not depend on is not even a number.
                 let mut own = vec![f64::NAN; x.len()];
                 for part in &group.states {
                     own[part.clone()].copy_from_slice(&x[part.clone()]);
                 }
-                let mut found = vec![7.0; count];
-                system.group_margins(number, time, &own, &modes, &mut found);
-                for i in 0..count {
-                    let expected = if group.switches.contains(&i) {
-                        expected[i]
-                    } else {
-                        7.0
-                    };
-                    assert_eq!(
-                        found[i].to_bits(),
-                        expected.to_bits(),
-                        "switch {i} of group {number}"
-                    );
-                }
-                for i in group.switches.clone() {
-                    let next = system.next_mode(time, &own, i, modes[i]);
-                    assert_eq!(next, system.clone().next_mode(time, &x, i, modes[i]));
+                let mut found = vec![7.0; group.signs.len()];
+                system.group_signs(number, time, &own, &mut found);
+                let expected = &expected[group.signs.clone()];
+                for (found, expected) in found.iter().zip(expected) {
+                    assert_eq!(found.to_bits(), expected.to_bits(), "group {number}");
                 }
             }
             // What follows does not see what was asked before, not even at another time and place.
-            let mut again = vec![0.0; count];
+            let mut again = vec![0.0; system.sign_count()];
             for _ in 0..2 {
-                system.margins(time, &x, &modes, &mut again);
+                system.signs(time, &x, &mut again);
                 assert!(
                     again
                         .iter()
@@ -158,11 +160,10 @@ fn limits_margins_of_a_face_depend_on_the_states_of_its_group_alone() {
                         .all(|(a, b)| a.to_bits() == b.to_bits())
                 );
                 let elsewhere = state(&system, &mut random);
-                system.group_margins(0, time + 0.1, &elsewhere, &modes, &mut again);
+                let own = groups[0].signs.clone();
+                system.group_signs(0, time + 0.1, &elsewhere, &mut again[own]);
             }
-            let open = vec![0; count];
-            system.margins(time, &x, &open, &mut again);
-            for gap in again {
+            for gap in margins(&mut system, time, &x, &vec![0; count]).0 {
                 closed[usize::from(gap < 0.0)] += 1;
             }
         }
@@ -270,17 +271,16 @@ fn limits_a_mode_is_left_where_its_margin_is_used_up() {
                     }
                 })
                 .collect();
-            let mut margins = vec![f64::NAN; count];
-            system.margins(time, &x, &modes, &mut margins);
+            let (margins, next) = margins(&mut system, time, &x, &modes);
             for (i, (&margin, &mode)) in margins.iter().zip(&modes).enumerate() {
                 // An open point is not asked before its margin is used up.
                 if mode == 0 && margin > 0.0 {
                     left[0][0] += 1;
                     continue;
                 }
-                let next = system.next_mode(time, &x, i, mode);
-                assert_eq!(margin <= 0.0, next != mode, "switch {i}: {margin} in mode {mode}");
-                left[usize::from(mode)][usize::from(next != mode)] += 1;
+                let leaves = next[i] != mode;
+                assert_eq!(margin <= 0.0, leaves, "switch {i}: {margin} in mode {mode}");
+                left[usize::from(mode)][usize::from(leaves)] += 1;
             }
         }
     }
@@ -292,12 +292,11 @@ fn limits_a_face_is_placed_anew_when_a_motion_changes() {
     let mut random = Random(3);
     let system = System::new(tower(true, TANH)).unwrap();
     let (x, time) = (state(&system, &mut random), 0.3);
-    let modes = vec![2; system.switch_count()];
-    let group = 2; // upper body on the base
-    let margins = |system: &mut System| {
-        let mut margins = vec![0.0; modes.len()];
-        system.group_margins(group, time, &x, &modes, &mut margins);
-        margins
+    let (group, own) = (2, system.switch_groups()[2].signs.clone()); // upper body on the base
+    let signs = |system: &mut System| {
+        let mut signs = vec![0.0; own.len()];
+        system.group_signs(group, time, &x, &mut signs);
+        signs
     };
     let mut motions = system.bodies()[2].frame.motions.clone();
     motions[0] = Motion::Constant(0.3);
@@ -307,17 +306,17 @@ fn limits_a_face_is_placed_anew_when_a_motion_changes() {
         phase: 0.0,
     };
     let mut asked_before = system.clone();
-    let before = margins(&mut asked_before);
-    assert_eq!(margins(&mut asked_before), before);
+    let before = signs(&mut asked_before);
+    assert_eq!(signs(&mut asked_before), before);
     asked_before.drive(2, motions.clone()).unwrap();
     let mut fresh = system.clone();
     fresh.drive(2, motions).unwrap();
-    let expected = margins(&mut fresh);
+    let expected = signs(&mut fresh);
     assert_ne!(before, expected);
-    assert_eq!(margins(&mut asked_before), expected);
+    assert_eq!(signs(&mut asked_before), expected);
     // Nor does it keep what it saw when all else has moved on.
-    let mut margins_elsewhere = vec![0.0; modes.len()];
+    let mut signs_elsewhere = vec![0.0; system.sign_count()];
     let elsewhere = state(&system, &mut random);
-    asked_before.margins(time, &elsewhere, &modes, &mut margins_elsewhere);
-    assert_eq!(margins(&mut asked_before), expected);
+    asked_before.signs(time, &elsewhere, &mut signs_elsewhere);
+    assert_eq!(signs(&mut asked_before), expected);
 }

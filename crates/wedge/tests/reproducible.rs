@@ -257,6 +257,30 @@ fn same(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| equal(*a, *b))
 }
 
+/// Margins of all switches, and the modes that follow, by the signs of all at once.
+fn margins(system: &mut System, time: f64, x: &[f64], modes: &[u8]) -> (Vec<f64>, Vec<u8>) {
+    let mut signs = vec![f64::NAN; system.sign_count()];
+    system.signs(time, x, &mut signs);
+    let (mut margins, mut next) = (vec![f64::NAN; modes.len()], modes.to_vec());
+    for (number, group) in system.switch_groups().into_iter().enumerate() {
+        let (own, signs) = (group.switches, &signs[group.signs]);
+        system.group_margins(number, signs, &modes[own.clone()], &mut margins[own.clone()]);
+        for (index, next) in next[own].iter_mut().enumerate() {
+            *next = system.next_mode(number, signs, index, *next);
+        }
+    }
+    (margins, next)
+}
+
+/// The signs of all groups, one after the other.
+fn face_signs(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
+    let mut signs = vec![f64::NAN; system.sign_count()];
+    for (number, group) in system.switch_groups().into_iter().enumerate() {
+        system.group_signs(number, time, x, &mut signs[group.signs]);
+    }
+    signs
+}
+
 /// All that an integrator may ask for at a place, one question after the other.
 fn ask(system: &mut System, question: usize, time: f64, x: &[f64], modes: &[u8]) -> Vec<f64> {
     let n = x.len();
@@ -267,15 +291,8 @@ fn ask(system: &mut System, question: usize, time: f64, x: &[f64], modes: &[u8])
             dx
         }
         1 => kinks(system, time, x),
-        2 => {
-            let mut margins = vec![0.0; modes.len()];
-            system.margins(time, x, modes, &mut margins);
-            margins
-        }
-        3 => {
-            let next = |(i, mode): (usize, &u8)| f64::from(system.next_mode(time, x, i, *mode));
-            modes.iter().enumerate().map(next).collect()
-        }
+        2 => margins(system, time, x, modes).0,
+        3 => face_signs(system, time, x),
         4 => vec![system.stiffness(time, x)],
         _ => {
             system.derivative(time, x, &mut dx);

@@ -257,12 +257,20 @@ impl Problem for Loaded {
         self.system.initial_modes(time, x, modes);
     }
 
-    fn margins(&mut self, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
-        self.system.margins(time, x, modes, margins);
+    fn sign_count(&self) -> usize {
+        self.system.sign_count()
     }
 
-    fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
-        self.system.next_mode(time, x, index, mode)
+    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
+        self.system.signs(time, x, signs);
+    }
+
+    fn group_margins(&mut self, group: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
+        self.system.group_margins(group, signs, modes, margins);
+    }
+
+    fn next_mode(&mut self, group: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
+        self.system.next_mode(group, signs, index, mode)
     }
 }
 

@@ -50,6 +50,7 @@ use law::surface::Surface;
 use law::wedge::WedgeLaw;
 use place::Site;
 
+use crate::system::Mode;
 pub use curve::{Curve, CurveError};
 pub use equilibrium::StaticFriction;
 pub use law::Accumulator;
@@ -59,6 +60,7 @@ pub use law::surface::SurfaceFriction;
 pub use law::wedge::{Column, Wedge, WedgeState};
 pub use model::{Body, COORDINATES, Connection, Kind, Law, Model, ModelError};
 pub use modes::{CLOSING_FORCE, OPENING_FORCE};
+use modes::{SIGNS, Signs};
 pub use observe::{BodyState, ConnectionState, Energies, Observation};
 pub use options::{Branch, GapTension, NegativeRise, Options, SlopeDirection};
 pub use vibration::{Held, NoVibration, Vibration, Vibrations};
@@ -338,13 +340,23 @@ impl Problem for System {
         self.find_modes(x, modes);
     }
 
-    fn margins(&mut self, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
-        self.place(time, x);
-        self.mode_margins(x, modes, margins);
+    /// What presses each element (N) and the load of its accumulator.
+    fn sign_count(&self) -> usize {
+        SIGNS * self.switches.len()
     }
 
-    fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
+    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
         self.place(time, x);
-        self.follow_mode(x, index, mode)
+        self.mode_signs(x, signs);
+    }
+
+    fn group_margins(&mut self, _: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
+        for (i, (margin, mode)) in margins.iter_mut().zip(modes).enumerate() {
+            *margin = Signs::of(signs, i).margin(Mode::from_number(*mode));
+        }
+    }
+
+    fn next_mode(&mut self, _: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
+        Signs::of(signs, index).next(Mode::from_number(mode)) as u8
     }
 }

@@ -19,9 +19,27 @@ pub const OPENING_FORCE: f64 = 1e-3;
 /// Bristles, in the tables of thresholds.
 const BRISTLE: usize = 1;
 
-impl Friction {
+/// What presses an element (N) and the load of its accumulator: the signs of its switch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Signs {
+    normal: f64,
+    load: f64,
+}
+
+/// Signs of an element.
+pub(super) const SIGNS: usize = 2;
+
+impl Signs {
+    /// Those of one element among the signs of all.
+    pub(super) fn of(signs: &[f64], index: usize) -> Self {
+        Self {
+            normal: signs[SIGNS * index],
+            load: signs[SIGNS * index + 1],
+        }
+    }
+
     /// Positive while the mode lasts.
-    fn margin(&self, mode: Mode) -> f64 {
+    pub(super) fn margin(self, mode: Mode) -> f64 {
         let stays_closed = (self.normal - OPENING_FORCE) / OPENING_FORCE;
         // An element without force says nothing about friction; `min` passes over NaN.
         let load = if self.normal > 0.0 { self.load } else { f64::NAN };
@@ -33,7 +51,7 @@ impl Friction {
     }
 
     /// The mode that follows one that must be left.
-    fn next(&self, mode: Mode) -> Mode {
+    pub(super) fn next(self, mode: Mode) -> Mode {
         match mode {
             Mode::Open => self.closed(),
             _ if self.normal <= OPENING_FORCE => Mode::Open,
@@ -43,18 +61,21 @@ impl Friction {
         }
     }
 
-    fn closed(&self) -> Mode {
+    fn closed(self) -> Mode {
         if self.load < SLIP_LOAD[BRISTLE] {
             Mode::Stick
         } else {
             Mode::Slip
         }
     }
+}
 
+impl Friction {
     /// The mode without a history.
     pub(super) fn mode(&self) -> Mode {
         if self.normal > OPENING_FORCE {
-            self.closed()
+            let (normal, load) = (self.normal, self.load);
+            Signs { normal, load }.closed()
         } else {
             Mode::Open
         }
@@ -85,19 +106,9 @@ impl System {
         self.frictions(x, |i, friction| modes[i] = friction.mode() as u8);
     }
 
-    pub(super) fn mode_margins(&self, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+    pub(super) fn mode_signs(&self, x: &[f64], signs: &mut [f64]) {
         self.frictions(x, |i, friction| {
-            margins[i] = friction.margin(Mode::from_number(modes[i]))
+            signs[SIGNS * i..][..SIGNS].copy_from_slice(&[friction.normal, friction.load]);
         });
-    }
-
-    pub(super) fn follow_mode(&self, x: &[f64], index: usize, mode: u8) -> u8 {
-        let mut next = mode;
-        self.frictions(x, |i, friction| {
-            if i == index {
-                next = friction.next(Mode::from_number(mode)) as u8;
-            }
-        });
-        next
     }
 }

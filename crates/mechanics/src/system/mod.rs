@@ -385,21 +385,30 @@ impl Problem for System {
         self.find_modes(x, modes);
     }
 
-    fn margins(&mut self, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+    /// Gap (m) and load of each point: the gaps of a face's points, their loads, and so on face by face.
+    fn sign_count(&self) -> usize {
+        2 * self.point_count()
+    }
+
+    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
         self.place(time, x);
-        self.mode_margins(x, modes, margins);
+        self.mode_signs(x, signs);
     }
 
     fn switch_groups(&self) -> Vec<SwitchGroup> {
         self.point_groups()
     }
 
-    fn group_margins(&mut self, group: usize, time: f64, x: &[f64], modes: &[u8], margins: &mut [f64]) {
-        self.face_margins(group, time, x, modes, margins);
+    fn group_signs(&mut self, group: usize, time: f64, x: &[f64], signs: &mut [f64]) {
+        self.face_signs(group, time, x, signs);
     }
 
-    fn next_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
-        self.follow_mode(time, x, index, mode)
+    fn group_margins(&mut self, group: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
+        self.face_margins(group, signs, modes, margins);
+    }
+
+    fn next_mode(&mut self, group: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
+        self.follow_mode(group, signs, index, mode)
     }
 }
 

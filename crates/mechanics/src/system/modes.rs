@@ -89,20 +89,51 @@ impl Signs {
     }
 }
 
+/// A law's place in [`SLIP_LOAD`] and [`STICK_LOAD`].
+#[inline(always)]
+fn threshold(law: &FrictionLaw) -> usize {
+    usize::from(matches!(law, FrictionLaw::Bristle { .. }))
+}
+
+/// Up to four numbers, the rest zeros.
+#[inline(always)]
+fn take(numbers: &[f64]) -> Lanes {
+    match numbers.as_array::<LANES>() {
+        Some(all) => Lanes::new(*all),
+        None => Lanes::new(std::array::from_fn(|i| numbers.get(i).copied().unwrap_or(0.0))),
+    }
+}
+
+/// Writes up to four numbers.
+#[inline(always)]
+fn put(target: &mut [f64], numbers: Lanes) {
+    let numbers = numbers.to_array();
+    match target.as_mut_array::<LANES>() {
+        Some(all) => *all = numbers,
+        None => target.copy_from_slice(&numbers[..target.len()]),
+    }
+}
+
 /// Positive where the mode of a point lasts, for up to four points: see [`Signs::next`].
 #[inline(always)]
 fn margins_of(modes: &[u8], gap: Lanes, load: Lanes, law: usize) -> Lanes {
-    let all = |mode: Mode| LaneMask::new(std::array::from_fn(|i| modes.get(i) == Some(&(mode as u8))));
     let stays_open = gap - CLOSING_GAP;
-    if modes.iter().all(|mode| *mode == Mode::Open as u8) {
+    let all = |mode: Mode| modes.iter().all(|own| *own == mode as u8);
+    if all(Mode::Open) {
         return stays_open;
     }
+    let which = |mode: Mode| LaneMask::new(std::array::from_fn(|i| modes.get(i) == Some(&(mode as u8))));
     let stays_closed = (OPENING_GAP - gap) / OPENING_GAP;
-    let friction = Lanes::blend(all(Mode::Stick), SLIP_LOAD[law] - load, load - STICK_LOAD[law]);
+    let (stays_stuck, keeps_slipping) = (SLIP_LOAD[law] - load, load - STICK_LOAD[law]);
+    let friction = if all(Mode::Slip) {
+        keeps_slipping
+    } else {
+        Lanes::blend(which(Mode::Stick), stays_stuck, keeps_slipping)
+    };
     // A closed point in the band of hysteresis carries no force: its friction says nothing. Nor does what is not a number.
     let bears = gap.below(Lanes::zero()).and(friction.below(stays_closed));
     let stays = Lanes::blend(bears, friction, stays_closed);
-    Lanes::blend(all(Mode::Open), stays_open, stays)
+    Lanes::blend(which(Mode::Open), stays_open, stays)
 }
 
 impl System {
@@ -141,43 +172,23 @@ impl System {
         let [_, _, internal, _] = self.layout.split(x);
         let face = &self.faces[number];
         let deflections = &internal[face.first_internal..][..face.internal_count];
-        let law = usize::from(matches!(face.element.law, FrictionLaw::Bristle { .. }));
+        let law = threshold(&face.element.law);
         let first = self.first_points[number];
         face.element.signs(&face.points, deflections, |own, gap, load| {
             each(first + own.start..first + own.end, gap, load, law);
         });
     }
 
-    /// The same of every point by itself.
+    /// Writes gaps and loads of the points of a face, once it has seen them.
     #[inline(always)]
-    fn face_signs(&self, number: usize, x: &[f64], mut each: impl FnMut(usize, Signs)) {
-        self.face_quads(number, x, |points, gap, load, law| {
-            for (i, point) in points.enumerate() {
-                let (gap, load) = (gap.at(i), load.at(i));
-                each(point, Signs { gap, load, law });
-            }
+    fn signs_of_face(&self, number: usize, x: &[f64], signs: &mut [f64]) {
+        let first = self.first_points[number];
+        let (gaps, loads) = signs.split_at_mut(signs.len() / 2);
+        self.face_quads(number, x, |points, gap, load, _| {
+            let own = points.start - first..points.end - first;
+            put(&mut gaps[own.clone()], gap);
+            put(&mut loads[own], load);
         });
-    }
-
-    /// The margins of the points of a face, once it has seen its points.
-    #[inline(always)]
-    fn margins_of_face(&self, number: usize, x: &[f64], modes: &[u8], margins: &mut [f64]) {
-        self.face_quads(number, x, |points, gap, load, law| {
-            let values = margins_of(&modes[points.clone()], gap, load, law).to_array();
-            let margins = &mut margins[points];
-            match margins.as_mut_array::<LANES>() {
-                Some(all) => *all = values,
-                None => margins.copy_from_slice(&values[..margins.len()]),
-            }
-        });
-    }
-
-    /// Gap and load of every point, where [`System::meet`] was called.
-    #[inline(always)]
-    fn signs(&self, x: &[f64], mut each: impl FnMut(usize, Signs)) {
-        for number in 0..self.faces.len() {
-            self.face_signs(number, x, &mut each);
-        }
     }
 
     /// The points of a face among all points.
@@ -236,49 +247,62 @@ impl System {
 
     pub(super) fn find_modes(&mut self, x: &[f64], modes: &mut [u8]) {
         self.meet();
-        self.signs(x, |i, signs| {
-            modes[i] = if signs.gap < CLOSING_GAP {
-                signs.closed()
-            } else {
-                Mode::Open
-            } as u8;
-        });
+        for number in 0..self.faces.len() {
+            self.face_quads(number, x, |points, gap, load, law| {
+                for (i, mode) in modes[points].iter_mut().enumerate() {
+                    let (gap, load) = (gap.at(i), load.at(i));
+                    *mode = if gap < CLOSING_GAP {
+                        Signs { gap, load, law }.closed()
+                    } else {
+                        Mode::Open
+                    } as u8;
+                }
+            });
+        }
     }
 
-    pub(super) fn mode_margins(&mut self, x: &[f64], modes: &[u8], margins: &mut [f64]) {
+    /// Gaps of the points of the first face, their loads, and so on.
+    pub(super) fn mode_signs(&mut self, x: &[f64], signs: &mut [f64]) {
         self.meet();
         for number in 0..self.faces.len() {
-            self.margins_of_face(number, x, modes, margins);
+            self.signs_of_face(number, x, &mut signs[self.signs_range(number)]);
         }
     }
 
-    /// Margins of the points of one face, which depend on nothing but the bodies it touches.
-    pub(super) fn face_margins(
-        &mut self,
-        number: usize,
-        time: f64,
-        x: &[f64],
-        modes: &[u8],
-        margins: &mut [f64],
-    ) {
-        if self.place_face(number, time, x) {
-            self.meet_face(number);
-        }
-        self.margins_of_face(number, x, modes, margins);
+    /// Where the signs of a face stand among all signs.
+    fn signs_range(&self, face: usize) -> Range<usize> {
+        let points = self.points_of(face);
+        2 * points.start..2 * points.end
     }
 
-    pub(super) fn follow_mode(&mut self, time: f64, x: &[f64], index: usize, mode: u8) -> u8 {
-        let number = self.first_points.partition_point(|first| *first <= index) - 1;
+    /// The signs of one face, which depend on nothing but the bodies it touches.
+    pub(super) fn face_signs(&mut self, number: usize, time: f64, x: &[f64], signs: &mut [f64]) {
         if self.place_face(number, time, x) {
             self.meet_face(number);
         }
-        let mut next = mode;
-        self.face_signs(number, x, |i, signs| {
-            if i == index {
-                next = signs.next(Mode::from_number(mode)) as u8;
-            }
-        });
-        next
+        self.signs_of_face(number, x, signs);
+    }
+
+    /// The margins of the points of one face by its signs.
+    pub(super) fn face_margins(&self, number: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
+        let law = threshold(&self.faces[number].element.law);
+        let (gaps, loads) = signs.split_at(modes.len());
+        let seen = gaps.chunks(LANES).zip(loads.chunks(LANES));
+        let points = margins.chunks_mut(LANES).zip(modes.chunks(LANES));
+        for ((margins, modes), (gaps, loads)) in points.zip(seen) {
+            put(margins, margins_of(modes, take(gaps), take(loads), law));
+        }
+    }
+
+    /// The mode that follows at one point of a face, by the face's signs.
+    pub(super) fn follow_mode(&self, number: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
+        let (gaps, loads) = signs.split_at(signs.len() / 2);
+        let signs = Signs {
+            gap: gaps[index],
+            load: loads[index],
+            law: threshold(&self.faces[number].element.law),
+        };
+        signs.next(Mode::from_number(mode)) as u8
     }
 
     /// The points of each face, with the states that they depend on.
@@ -296,6 +320,7 @@ impl System {
             states.push(first..first + face.internal_count);
             SwitchGroup {
                 switches: self.points_of(number),
+                signs: self.signs_range(number),
                 states,
             }
         };

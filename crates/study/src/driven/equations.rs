@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use integrate::{Problem, SetupError, StepError};
+use integrate::{Problem, SetupError, StepError, SwitchGroup};
 use mechanics::output::Column;
 use mechanics::system::{
     Along, Direction, DriveChange, DriveError, Energies, Mode, Observation, Sense, System,
@@ -98,6 +98,8 @@ pub struct Equations {
     time: f64,
     x: Vec<f64>,
     modes: Vec<u8>,
+    groups: Vec<SwitchGroup>,
+    signs: Vec<f64>,
     margins: Vec<f64>,
     neighbours: Neighbours,
     coil: CoilDrive,
@@ -144,6 +146,8 @@ impl Equations {
             start_coil: coil,
             start_energy,
             time: 0.0,
+            groups: wedge.system.switch_groups(),
+            signs: vec![0.0; wedge.system.sign_count()],
             margins: vec![0.0; modes.len()],
             modes,
             x,
@@ -326,31 +330,45 @@ impl Equations {
 
     /// For each corner a margin that is positive while its contact state lasts, and not positive when it must change.
     pub fn margins(&mut self) -> &[f64] {
-        self.wedge
-            .system
-            .margins(self.time, &self.x, &self.modes, &mut self.margins);
+        let system = &mut self.wedge.system;
+        system.signs(self.time, &self.x, &mut self.signs);
+        for number in 0..self.groups.len() {
+            self.weigh(number);
+        }
         &self.margins
+    }
+
+    /// Brings the margins of a group up to date with its signs and contact states.
+    fn weigh(&mut self, number: usize) {
+        let group = &self.groups[number];
+        let (own, signs) = (group.switches.clone(), &self.signs[group.signs.clone()]);
+        let (modes, margins) = (&self.modes[own.clone()], &mut self.margins[own]);
+        self.wedge.system.group_margins(number, signs, modes, margins);
     }
 
     /// Brings the contact states up to date; whether any has changed.
     pub fn update_modes(&mut self) -> bool {
         let mut changed = false;
-        for corner in 0..self.modes.len() {
-            // A change may lead straight to the next one, open to stick to slip.
-            for _ in 0..3 {
-                self.margins();
-                if self.margins[corner] > 0.0 {
-                    break;
+        self.margins();
+        for number in 0..self.groups.len() {
+            let own = self.groups[number].switches.clone();
+            for corner in own.clone() {
+                // A change may lead straight to the next one, open to stick to slip.
+                for _ in 0..3 {
+                    if self.margins[corner] > 0.0 {
+                        break;
+                    }
+                    let signs = &self.signs[self.groups[number].signs.clone()];
+                    let mode = self.modes[corner];
+                    let index = corner - own.start;
+                    let next = self.wedge.system.next_mode(number, signs, index, mode);
+                    if next == mode {
+                        break;
+                    }
+                    self.modes[corner] = next;
+                    self.weigh(number);
+                    changed = true;
                 }
-                let next = self
-                    .wedge
-                    .system
-                    .next_mode(self.time, &self.x, corner, self.modes[corner]);
-                if next == self.modes[corner] {
-                    break;
-                }
-                self.modes[corner] = next;
-                changed = true;
             }
         }
         changed
