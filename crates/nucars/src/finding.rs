@@ -3,6 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
+use input::{bounded, limits};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use thiserror::Error;
 
@@ -51,7 +52,7 @@ impl Finding {
         Finding {
             severity,
             code,
-            message: message.into(),
+            message: bounded(message.into()),
             label: String::new(),
             help: String::new(),
             place: Place {
@@ -67,7 +68,7 @@ impl Finding {
     }
 
     pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = help.into();
+        self.help = bounded(help.into());
         self
     }
 
@@ -132,23 +133,19 @@ impl Diagnostic for Finding {
         } else {
             &self.label
         };
-        let range = self.place.span.range();
-        let span = LabeledSpan::new(Some(label.to_owned()), range.start, range.len());
+        let marked = self.place.source.mark(self.place.span);
+        let span = LabeledSpan::new_with_span(Some(label.to_owned()), marked);
         Some(Box::new(std::iter::once(span)))
     }
 }
-
-/// How many findings of a severity are kept for a file; a file that is none of ours would have one in every line.
-const MOST: usize = 100;
 
 /// Findings of one file.
 #[derive(Clone, Debug)]
 pub struct Findings {
     source: Arc<Source>,
     list: Vec<Finding>,
-    /// How many of each severity are in the list.
-    kept: [usize; 3],
-    not_kept: usize,
+    /// How many of each severity were found.
+    found: [usize; 3],
 }
 
 impl Findings {
@@ -156,14 +153,13 @@ impl Findings {
         Findings {
             source: Arc::clone(source),
             list: Vec::new(),
-            kept: [0; 3],
-            not_kept: 0,
+            found: [0; 3],
         }
     }
 
-    /// Counts one that is not kept.
+    /// Counts an error that is not kept.
     pub(crate) fn skip(&mut self) {
-        self.not_kept += 1;
+        self.found[Severity::Error as usize] += 1;
     }
 
     /// Whether no more errors are kept.
@@ -173,7 +169,7 @@ impl Findings {
 
     /// Whether no more of this severity are kept.
     pub(crate) fn is_full_of(&self, severity: Severity) -> bool {
-        self.kept[severity as usize] >= MOST
+        self.found[severity as usize] >= limits::MISTAKES
     }
 
     pub(crate) fn source(&self) -> &Arc<Source> {
@@ -189,18 +185,19 @@ impl Findings {
         message: impl Into<String>,
         with: impl FnOnce(Finding) -> Finding,
     ) {
-        if self.is_full_of(severity) {
-            self.not_kept += 1;
+        let full = self.is_full_of(severity);
+        self.found[severity as usize] += 1;
+        if full {
             return;
         }
-        self.kept[severity as usize] += 1;
         let finding = Finding::new(severity, code, &self.source, span, message);
         self.list.push(with(finding));
     }
 
     /// Gives the last finding another help.
     pub(crate) fn help_last(&mut self, help: String) {
-        if let Some(last) = self.list.last_mut().filter(|_| self.not_kept == 0) {
+        let all_kept = self.not_kept() == [0; 3];
+        if let Some(last) = self.list.last_mut().filter(|_| all_kept) {
             last.help = help;
         }
     }
@@ -227,7 +224,10 @@ impl Findings {
 
     /// Adds findings about the same text, without those that follow from an error at the same place.
     pub(crate) fn join(&mut self, other: Findings) {
-        self.not_kept += other.not_kept;
+        let beyond = other.not_kept();
+        for (own, others) in self.found.iter_mut().zip(beyond) {
+            *own += others;
+        }
         for finding in other.list {
             let span = finding.place.span;
             let known = |had: &Finding| {
@@ -236,12 +236,11 @@ impl Findings {
             if self.list.iter().any(known) {
                 continue;
             }
-            if self.is_full_of(finding.severity) {
-                self.not_kept += 1;
-            } else {
-                self.kept[finding.severity as usize] += 1;
+            let severity = finding.severity;
+            if self.kept(severity) < limits::MISTAKES {
                 self.list.push(finding);
             }
+            self.found[severity as usize] += 1;
         }
     }
 
@@ -255,19 +254,26 @@ impl Findings {
         self
     }
 
-    /// The findings; of each severity at most a hundred are kept.
+    /// The findings; of each severity the first [`limits::MISTAKES`] are kept.
     pub fn list(&self) -> &[Finding] {
         &self.list
     }
 
-    /// How many more there were.
-    pub fn not_kept(&self) -> usize {
-        self.not_kept
+    /// How many of a severity are in the list.
+    fn kept(&self, severity: Severity) -> usize {
+        let own = |finding: &&Finding| finding.severity == severity;
+        self.list.iter().filter(own).count()
     }
 
-    /// How many of this severity are kept.
+    /// How many more there are of each severity than the list has: notes, warnings, errors.
+    pub fn not_kept(&self) -> [usize; 3] {
+        let severities = [Severity::Note, Severity::Warning, Severity::Error];
+        severities.map(|severity| self.count(severity) - self.kept(severity))
+    }
+
+    /// How many of this severity there are.
     pub fn count(&self, severity: Severity) -> usize {
-        self.kept[severity as usize]
+        self.found[severity as usize]
     }
 
     /// Whether the file cannot be used.

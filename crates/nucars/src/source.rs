@@ -2,12 +2,14 @@
 
 use std::fmt;
 use std::ops::{Deref, Range};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
-use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
+use input::Text;
+use input::structure::{self, Excess};
+use miette::{MietteError, SourceCode, SourceSpan, SpanContents};
 use thiserror::Error;
 
-/// A piece of a text, in bytes of [`Source::text`]; texts are below 4 GiB.
+/// A piece of a text, in bytes of [`Source::text`]; texts are far below 4 GiB.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
     /// First byte.
@@ -97,31 +99,26 @@ impl PartialEq for At {
 
 /// Why a text cannot be read at all.
 #[derive(Clone, Debug, Error)]
-pub enum SourceError {
-    /// It is longer than places can say.
-    #[error("{name} has {length} bytes; files of 4 GiB and more are not read")]
-    TooLong {
-        /// The file.
-        name: String,
-        /// Its length.
-        length: usize,
-    },
+#[error("{name}: {excess}")]
+pub struct SourceError {
+    /// The file.
+    pub name: String,
+    /// What is beyond the limits of readers.
+    pub excess: Excess,
 }
 
 /// A file's text.
 #[derive(Debug)]
 pub struct Source {
-    name: String,
-    text: String,
+    text: Text,
     latin1: bool,
-    lines: OnceLock<Vec<u32>>,
 }
 
 impl Source {
     /// The text of a file: UTF-8, with or without byte order mark, UTF-16 with one, or else Latin-1. Lines end with `\n`, `\r\n` or `\r`.
     ///
     /// # Errors
-    /// Files of 4 GiB and more.
+    /// It, or one of its lines, is longer than [`input::limits`] allow.
     pub fn from_bytes(name: impl Into<String>, bytes: Vec<u8>) -> Result<Arc<Self>, SourceError> {
         let name = name.into();
         let (mut text, latin1) = match utf16(&bytes).map_or_else(|| String::from_utf8(bytes), Ok) {
@@ -134,39 +131,34 @@ impl Source {
         if text.starts_with('\u{feff}') {
             text.drain(..'\u{feff}'.len_utf8());
         }
-        if text.len() >= u32::MAX as usize {
-            return Err(SourceError::TooLong {
-                name,
-                length: text.len(),
-            });
-        }
         if !text.contains('\n') && text.contains('\r') {
             text = text.replace('\r', "\n");
         }
+        if let Err(excess) = structure::lines(&text) {
+            return Err(SourceError { name, excess });
+        }
         Ok(Arc::new(Source {
-            name,
-            text,
+            text: Text::new(name, text),
             latin1,
-            lines: OnceLock::new(),
         }))
     }
 
     /// A text that is not from a file.
     ///
     /// # Errors
-    /// Texts of 4 GiB and more.
+    /// As [`Source::from_bytes`].
     pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Result<Arc<Self>, SourceError> {
         Source::from_bytes(name, text.into().into_bytes())
     }
 
     /// The file as the user named it.
     pub fn name(&self) -> &str {
-        &self.name
+        self.text.name()
     }
 
     /// The text, without byte order mark.
     pub fn text(&self) -> &str {
-        &self.text
+        self.text.text()
     }
 
     /// Whether the file is no UTF-8 and was taken as Latin-1.
@@ -176,32 +168,17 @@ impl Source {
 
     /// The text of a piece; empty if it is not one of this text.
     pub fn slice(&self, span: Span) -> &str {
-        self.text.get(span.range()).unwrap_or("")
+        self.text.slice(span.range())
     }
 
     /// Line and column of a byte, from 1; columns count characters.
     pub fn line_and_column(&self, byte: u32) -> (usize, usize) {
-        let (line, start) = self.line_of(byte as usize);
-        let before = self.text.get(start..byte as usize).unwrap_or("");
-        (line + 1, before.chars().count() + 1)
+        self.text.line_and_column(byte as usize)
     }
 
-    fn lines(&self) -> &[u32] {
-        self.lines.get_or_init(|| {
-            let ends = self.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
-            std::iter::once(0)
-                .chain(ends.map(|(at, _)| at as u32 + 1))
-                .collect()
-        })
-    }
-
-    /// The line of a byte, from 0, and where it starts.
-    fn line_of(&self, byte: usize) -> (usize, usize) {
-        let line = self
-            .lines()
-            .partition_point(|start| *start as usize <= byte)
-            .saturating_sub(1);
-        (line, self.lines().get(line).map_or(0, |start| *start as usize))
+    /// The part of a piece that a message marks.
+    pub(crate) fn mark(&self, span: Span) -> SourceSpan {
+        self.text.mark(span.range())
     }
 }
 
@@ -223,43 +200,7 @@ impl SourceCode for Source {
         before: usize,
         after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
-        let end = span.offset().saturating_add(span.len());
-        if end > self.text.len() {
-            return Err(MietteError::OutOfBounds);
-        }
-        let first = self.line_of(span.offset()).0.saturating_sub(before);
-        // A very long line is not shown as a whole.
-        const WIDEST: usize = 2000;
-        let last = self.line_of(end).0 + after;
-        let start_of = |line: usize| {
-            self.lines()
-                .get(line)
-                .map_or(self.text.len(), |start| *start as usize)
-        };
-        // Without lines before it the caller asks for the place of the span itself.
-        let line_start = if before == 0 {
-            span.offset()
-        } else {
-            start_of(first)
-        };
-        let mut start = line_start.max(span.offset().saturating_sub(WIDEST));
-        let mut stop = start_of(last + 1).min(end.saturating_add(WIDEST));
-        while !self.text.is_char_boundary(start) {
-            start += 1;
-        }
-        while !self.text.is_char_boundary(stop) {
-            stop -= 1;
-        }
-        let (line, own) = self.line_of(start);
-        let contents = MietteSpanContents::new_named(
-            self.name.clone(),
-            &self.text.as_bytes()[start..stop],
-            (start, stop - start).into(),
-            line,
-            self.text[own..start].chars().count(),
-            self.line_of(stop.max(start)).0 - line + 1,
-        );
-        Ok(Box::new(contents))
+        self.text.read_span(span, before, after)
     }
 }
 

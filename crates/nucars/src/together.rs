@@ -1,16 +1,17 @@
 //! Files that belong together: a run with its system, data and input file.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use input::file::{self, Expected};
+use input::{FileType, bounded, limits};
 use miette::Diagnostic;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::files::locate;
 use crate::read::{FileKind, Read, read_data, read_input, read_run, read_system};
-use crate::source::Source;
+use crate::source::{Source, SourceError};
 use crate::tree::{DataFile, InputFile, RunFile, SystemFile};
 use crate::{Findings, Severity, check};
 
@@ -27,8 +28,8 @@ pub struct LoadError {
 impl LoadError {
     fn new(message: impl Into<String>, advice: impl Into<String>) -> Self {
         Self {
-            message: message.into(),
-            advice: advice.into(),
+            message: bounded(message.into()),
+            advice: bounded(advice.into()),
         }
     }
 }
@@ -60,15 +61,25 @@ pub fn find(path: &Path) -> Result<PathBuf, LoadError> {
     })
 }
 
+/// What a file of NUCARS must be.
+const NUCARS_FILE: Expected = Expected {
+    what: "file of NUCARS",
+    types: &[FileType::Nucars],
+    most: limits::TEXT_FILE,
+};
+
 /// The text of a file that is there.
 ///
 /// # Errors
-/// It cannot be read, or is too large.
+/// It cannot be read, is something else, or too large.
 pub fn load(path: &Path) -> Result<Arc<Source>, LoadError> {
-    let bytes = fs::read(path)
-        .map_err(|error| LoadError::new(format!("{} cannot be read: {error}", path.display()), ""))?;
-    Source::from_bytes(path.display().to_string(), bytes)
-        .map_err(|error| LoadError::new(error.to_string(), "cut it into several files"))
+    let bytes = file::read(path, &NUCARS_FILE)
+        .map_err(|error| LoadError::new(error.to_string(), error.help().unwrap_or_default()))?;
+    Source::from_bytes(path.display().to_string(), bytes).map_err(|error| too_long(&error))
+}
+
+fn too_long(error: &SourceError) -> LoadError {
+    LoadError::new(error.to_string(), "cut it into several files")
 }
 
 /// The kind of a file, by its ending or its keywords.
@@ -401,8 +412,7 @@ impl RunFiles {
             read: impl FnOnce(&Arc<Source>) -> Read<T>,
         ) -> Result<Option<usize>, LoadError> {
             let Some(text) = text else { return Ok(None) };
-            let source = Source::from_text(&*text.name, &*text.text)
-                .map_err(|error| LoadError::new(error.to_string(), "cut it into several files"))?;
+            let source = Source::from_text(&*text.name, &*text.text).map_err(|error| too_long(&error))?;
             list.push(Entry {
                 path: PathBuf::from(&text.name),
                 read: read(&source),

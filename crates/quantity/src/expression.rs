@@ -3,6 +3,7 @@
 use crate::error::UnitError;
 use crate::units::{SYNONYMS, UNITS, find};
 use crate::{Dimension, nearest};
+use input::{limits, shortened};
 use std::ops::Range;
 
 /// A unit, named or composed: its dimension and its size in SI.
@@ -23,17 +24,22 @@ impl Unit {
     /// [`UnitError::UnknownUnit`] or [`UnitError::BadExpression`], with places counted from the
     /// start of `text`.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
-        Parser {
-            text,
-            at: 0,
-            offset: 0,
-        }
-        .expression()
+        Self::parse_at(text, 0)
     }
 
     /// As [`Unit::parse`], with places counted from `offset`.
     pub(crate) fn parse_at(text: &str, offset: usize) -> Result<Self, UnitError> {
-        Parser { text, at: 0, offset }.expression()
+        let parser = Parser {
+            text,
+            at: 0,
+            offset,
+            depth: 0,
+        };
+        if text.len() > limits::QUANTITY {
+            let reason = format!("it has more than {} characters", limits::QUANTITY);
+            return Err(parser.bad(0..text.len(), &reason));
+        }
+        parser.expression()
     }
 
     /// One of these, in SI units.
@@ -51,6 +57,8 @@ struct Parser<'a> {
     text: &'a str,
     at: usize,
     offset: usize,
+    /// How many brackets are open: the parser recurses at each of them.
+    depth: usize,
 }
 
 /// Numerators and denominators are multiplied up apart and divided once, so that `N/mm` is not
@@ -160,9 +168,15 @@ impl Parser<'_> {
     fn factor(&mut self, sign: i8, may_be_one: bool, product: Product) -> Result<Product, UnitError> {
         let start = self.at;
         match self.peek() {
+            Some('(') if self.depth == limits::NESTING => {
+                let reason = format!("brackets are nested more than {} deep", limits::NESTING);
+                Err(self.bad(start..start + 1, &reason))
+            }
             Some('(') => {
                 self.bump();
+                self.depth += 1;
                 let product = self.product(sign, true, product)?;
+                self.depth -= 1;
                 if self.peek() != Some(')') {
                     return Err(self.bad(start..start + 1, "this bracket is not closed"));
                 }
@@ -260,7 +274,7 @@ impl Parser<'_> {
             nearest(name, UNITS.iter().map(|unit| unit.name)).map(String::from)
         };
         UnitError::UnknownUnit {
-            unit: name.into(),
+            unit: shortened(name),
             nearest,
             span: self.place(span.clone()),
         }

@@ -5,14 +5,23 @@
 /// Nearness counts inserted, left-out, changed and swapped letters, whatever their case; up to
 /// two in five may differ.
 pub fn nearest<'a>(typed: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // Nothing that has a name is so long, and the time grows with the length.
+    const LONGEST: usize = 200;
+    if typed.len() > LONGEST {
+        return None;
+    }
     let typed: Vec<char> = typed.to_lowercase().chars().collect();
     candidates
         .into_iter()
+        .filter(|candidate| candidate.len() <= LONGEST)
         .filter_map(|candidate| {
             let letters: Vec<char> = candidate.to_lowercase().chars().collect();
-            let distance = distance(&typed, &letters);
             let longer = typed.len().max(letters.len());
             let limit = if longer == 1 { 0 } else { (longer * 2 / 5).max(1) };
+            if typed.len().abs_diff(letters.len()) > limit {
+                return None;
+            }
+            let distance = distance(&typed, &letters);
             (distance <= limit).then_some((distance, candidate))
         })
         .min_by_key(|(distance, _)| *distance)

@@ -1,6 +1,7 @@
 //! Quantities as typed.
 
 use crate::{Dimension, Kind, Unit, UnitError};
+use input::{limits, shortened};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::str::FromStr;
@@ -56,8 +57,8 @@ impl Quantity {
             return Ok(());
         }
         Err(UnitError::WrongDimension {
-            number: self.text[..self.unit_start].trim().into(),
-            unit: self.unit_text().into(),
+            number: shortened(self.text[..self.unit_start].trim()),
+            unit: shortened(self.unit_text()),
             found: self.dimension(),
             expected: kind,
             span: self.unit_start..self.unit_start + self.unit_text().len(),
@@ -100,6 +101,14 @@ impl Quantity {
         if trimmed.is_empty() {
             return Err(UnitError::Empty { expected });
         }
+        if text.len() > limits::QUANTITY {
+            return Err(UnitError::BadNumber {
+                text: shortened(trimmed),
+                reason: format!("it has more than {} characters", limits::QUANTITY),
+                expected,
+                span: 0..text.len(),
+            });
+        }
         let end = start + number_length(trimmed);
         let number = &text[start..end];
         let rest = &text[end..];
@@ -107,12 +116,12 @@ impl Quantity {
             return Err(error);
         }
         let not_finite = || UnitError::NotFinite {
-            text: number.into(),
+            text: shortened(number),
             span: start..end,
         };
         let value: f64 = number.parse().map_err(|_| not_finite())?;
         if rest.trim().is_empty() {
-            let number = number.into();
+            let number = shortened(number);
             return Err(UnitError::MissingUnit {
                 number,
                 expected,
@@ -170,7 +179,7 @@ fn bad_number(text: &str, start: usize, end: usize, expected: Option<Kind>) -> O
     let word = rest.split(char::is_whitespace).next().unwrap_or("");
     let span = start..end + word.len();
     let bad = |reason: &str| {
-        let text = text[span.clone()].into();
+        let text = shortened(&text[span.clone()]);
         Some(UnitError::BadNumber {
             text,
             reason: reason.into(),
@@ -186,7 +195,7 @@ fn bad_number(text: &str, start: usize, end: usize, expected: Option<Kind>) -> O
         let name = word.trim_start_matches(['+', '-']).to_lowercase();
         if ["nan", "inf", "infinity"].contains(&name.as_str()) {
             return Some(UnitError::NotFinite {
-                text: word.into(),
+                text: shortened(word),
                 span,
             });
         }

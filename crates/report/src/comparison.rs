@@ -79,6 +79,21 @@ pub struct Difference {
     pub mean_of_first: f64,
 }
 
+impl Difference {
+    /// Whether none of its numbers has overflowed.
+    fn is_finite(&self) -> bool {
+        let numbers = [
+            self.largest,
+            self.time,
+            self.root_mean_square,
+            self.range,
+            self.mean,
+            self.mean_of_first,
+        ];
+        numbers.iter().all(|number| number.is_finite())
+    }
+}
+
 /// Friction energy per cycle, from the summaries, in the first result's units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Energy {
@@ -138,7 +153,14 @@ impl Comparison {
             let own_values = sampled(&first.table, own, units, &times);
             for (k, other) in others.iter().enumerate() {
                 let values = sampled(&other.table, other.table.column(name)?, units, &times);
-                differences.push(difference(own, units, k + 1, &times, &own_values, &values));
+                let found = difference(own, units, k + 1, &times, &own_values, &values);
+                if !found.is_finite() {
+                    return Err(ComparisonError::NotFinite {
+                        column: name.clone(),
+                        result: other.label.clone(),
+                    });
+                }
+                differences.push(found);
             }
         }
         Ok(Self {

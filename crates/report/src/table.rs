@@ -11,6 +11,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use ::csv::{ReaderBuilder, Trim};
+use input::file::{Expected, read};
+use input::{FileType, limits, shortened};
 use quantity::{Kind, System as Units, nearest};
 
 pub use error::TableError;
@@ -18,6 +20,13 @@ use header::{Header, Place};
 
 mod error;
 mod header;
+
+/// What the file of a result must be.
+const RESULT_FILE: Expected = Expected {
+    what: "table of results",
+    types: &[FileType::Results],
+    most: limits::RESULT_FILE,
+};
 
 /// A column.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,10 +77,7 @@ impl Table {
     /// There is no such result, it is no table, or the table is wrong: see [`TableError`].
     pub fn read(path: &Path) -> Result<Self, TableError> {
         let file = locate(path)?;
-        let bytes = fs::read(&file).map_err(|reason| TableError::Unreadable {
-            file: file.clone(),
-            reason,
-        })?;
+        let bytes = read(&file, &RESULT_FILE).map_err(|error| TableError::of_file(&file, error))?;
         Self::parse(&file, &bytes)
     }
 
@@ -87,15 +93,12 @@ impl Table {
             .trim(Trim::All)
             .comment(Some(b'#'))
             .from_reader(text.as_bytes());
-        let foreign = || TableError::Foreign {
-            file: file.to_owned(),
-            what: "empty",
-        };
         let mut rows = Rows {
             file,
             header: None,
             columns: Vec::new(),
             short: None,
+            cells: 0,
         };
         for record in reader.records() {
             // The text is UTF-8 and lengths may differ: what is left are errors of reading from memory, which has none.
@@ -108,7 +111,7 @@ impl Table {
                 rows.add(record.position().map_or(0, |place| line_of(text, place)), &cells)?;
             }
         }
-        rows.finish().ok_or_else(foreign)?
+        rows.finish().ok_or_else(|| TableError::foreign(file, "empty"))?
     }
 
     /// All columns, in the order of the file.
@@ -161,6 +164,8 @@ struct Rows<'f> {
     columns: Vec<Vec<f64>>,
     /// A line with too few cells: cut off if no other follows.
     short: Option<(u64, usize)>,
+    /// How many cells there are.
+    cells: usize,
 }
 
 impl Rows<'_> {
@@ -176,6 +181,13 @@ impl Rows<'_> {
             return Ok(());
         };
         let expected = header.names.len();
+        self.cells += expected;
+        if self.cells > limits::RESULT_CELLS {
+            return Err(TableError::TooLarge {
+                file: self.file.to_owned(),
+                line,
+            });
+        }
         let ragged = |(line, found)| TableError::Ragged {
             file: self.file.to_owned(),
             line,
@@ -202,7 +214,7 @@ impl Rows<'_> {
                         line,
                         column: index + 1,
                         name: name(),
-                        text: (*cell).to_owned(),
+                        text: shortened(cell),
                     });
                 }
             };
@@ -266,18 +278,21 @@ fn line_of(text: &str, place: &::csv::Position) -> u64 {
 
 /// The text of a file, unless it is something else.
 fn text_of<'b>(file: &Path, bytes: &'b [u8]) -> Result<&'b str, TableError> {
-    let foreign = |what| TableError::Foreign {
-        file: file.to_owned(),
-        what,
-    };
-    if bytes.starts_with(b"MATLAB 5.0 MAT-file") {
-        return Err(foreign("a MAT-file"));
+    let foreign = |what| TableError::foreign(file, what);
+    if let Some(found) = FileType::of(bytes).filter(|found| *found != FileType::Results) {
+        return Err(TableError::of_type(file, found));
     }
     let text = std::str::from_utf8(bytes).map_err(|_| foreign("no text"))?;
     if text.contains('\0') {
         return Err(foreign("no text"));
     }
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if let Some(long) = text.split('\n').position(|line| line.len() > limits::LINE) {
+        return Err(TableError::LongLine {
+            file: file.to_owned(),
+            line: long as u64 + 1,
+        });
+    }
     match text.trim_start().chars().next() {
         None => Err(foreign("empty")),
         Some('{' | '[') => Err(foreign("no table, but looks like JSON or TOML")),

@@ -11,6 +11,7 @@ use crate::shell::Workspace;
 
 /// The floors from the ground up, and the crates on each.
 const FLOORS: &[(&str, &[&str])] = &[
+    ("reading", &["input"]),
     ("ground", &["integrate", "quantity"]),
     ("mechanics", &["mechanics"]),
     ("systems", &["wedge", "nucars"]),

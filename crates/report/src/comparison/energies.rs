@@ -1,16 +1,23 @@
 //! Energies per cycle, from the summaries beside the results.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::io;
 use std::path::Path;
 
+use input::file::{Expected, Reason, read};
+use input::{FileType, limits, shortened};
 use quantity::{Kind, System as Units};
 use serde::Deserialize;
 use study::summary::Measure;
 
 use super::{Energy, Entry};
 use crate::{csv, summary};
+
+/// What the file of a summary must be.
+const SUMMARY_FILE: Expected = Expected {
+    what: "summary",
+    types: &[FileType::Json],
+    most: limits::RECORD_FILE,
+};
 
 /// What is wanted of a summary.
 #[derive(Deserialize)]
@@ -64,11 +71,11 @@ fn summary_beside(file: &Path) -> Result<Option<SummaryPart>, String> {
     if file.file_name().is_none_or(|name| name != csv::FILE_NAME) {
         return Ok(None);
     }
-    match fs::read(file.with_file_name(summary::FILE_NAME)) {
+    match read(&file.with_file_name(summary::FILE_NAME), &SUMMARY_FILE) {
         Ok(bytes) => serde_json::from_slice(&bytes)
             .map(Some)
-            .map_err(|error| error.to_string()),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            .map_err(|error| shortened(&error.to_string())),
+        Err(error) if matches!(error.reason, Reason::NotFound) => Ok(None),
         Err(error) => Err(error.to_string()),
     }
 }
@@ -78,8 +85,10 @@ fn energy(measure: &Measure, units: Units) -> Option<f64> {
     let own = [Units::Us, Units::Si]
         .into_iter()
         .find(|own| Kind::Energy.label(*own) == measure.unit)?;
-    if own == units {
-        return Some(measure.value);
-    }
-    Some(measure.value / Kind::Energy.from_si(own) * Kind::Energy.from_si(units))
+    let value = match own == units {
+        true => measure.value,
+        false => measure.value / Kind::Energy.from_si(own) * Kind::Energy.from_si(units),
+    };
+    // An energy edited by hand, beyond what numbers can hold.
+    value.is_finite().then_some(value)
 }

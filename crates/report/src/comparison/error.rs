@@ -40,6 +40,17 @@ pub enum ComparisonError {
         /// What it is there.
         other: &'static str,
     },
+    /// Numbers so large that differences, means or squares of them are not finite.
+    #[error(
+        "the comparison of `{column}` with `{result}` is not finite: its numbers are too large to compute with"
+    )]
+    #[diagnostic(help("look for wrong units or damage in this column, or leave it out with --columns"))]
+    NotFinite {
+        /// The column.
+        column: String,
+        /// The result that is compared with the first one.
+        result: String,
+    },
     /// The time was asked for as a column.
     #[error("columns are compared at the same times; the time itself cannot be compared")]
     #[diagnostic(help("name other columns, such as vertical_wedge_force"))]

@@ -1,8 +1,10 @@
 //! What can be wrong with a table of results.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use input::file::{ReadError, Reason};
+use input::{FileType, limits};
 use miette::Diagnostic;
 use quantity::nearest;
 use thiserror::Error;
@@ -39,14 +41,32 @@ pub enum TableError {
     },
     /// Not a table of numbers as text at all.
     #[error("`{}` is {what}; a table is expected: lines of numbers with `,` between them, below a line of names", .file.display())]
-    #[diagnostic(help(
-        "name a result.csv, the folder it is in, or another CSV file with columns such as time_s, wedge_x_in"
-    ))]
+    #[diagnostic(help("{advice}"))]
     Foreign {
         /// The file.
         file: PathBuf,
         /// What it seems to be.
         what: &'static str,
+        /// What takes such a file, or what to name instead.
+        advice: String,
+    },
+    /// It is larger than what is read, or has more numbers.
+    #[error("`{}`, line {line}: the table has more than {} numbers", .file.display(), limits::RESULT_CELLS)]
+    #[diagnostic(help("leave out columns, or every second row"))]
+    TooLarge {
+        /// The file.
+        file: PathBuf,
+        /// The line that is one too many.
+        line: u64,
+    },
+    /// A line is longer than what is read.
+    #[error("`{}`, line {line}: the line has more than {} bytes", .file.display(), limits::LINE)]
+    #[diagnostic(help("look whether the file has line ends; a table has a line for each time"))]
+    LongLine {
+        /// The file.
+        file: PathBuf,
+        /// The line.
+        line: u64,
     },
     /// The first line holds no names that columns may have.
     #[error("`{}`, line {line}: {problem}", .file.display())]
@@ -167,6 +187,41 @@ pub enum TableError {
         /// What may have been meant.
         advice: String,
     },
+}
+
+impl TableError {
+    /// A file that holds something else.
+    pub(super) fn foreign(file: &Path, what: &'static str) -> Self {
+        Self::Foreign {
+            file: file.to_owned(),
+            what,
+            advice: "name a result.csv, the folder it is in, or another CSV file with columns such as time_s, wedge_x_in".to_owned(),
+        }
+    }
+
+    /// A file of another type.
+    pub(super) fn of_type(file: &Path, found: FileType) -> Self {
+        Self::Foreign {
+            file: file.to_owned(),
+            what: found.name(),
+            advice: found.advice(&file.display().to_string()),
+        }
+    }
+
+    /// A file that was not read.
+    pub(super) fn of_file(file: &Path, error: ReadError) -> Self {
+        match error.reason {
+            Reason::WrongType(found) => Self::of_type(file, found),
+            Reason::System(reason) => Self::Unreadable {
+                file: file.to_owned(),
+                reason,
+            },
+            _ => Self::Unreadable {
+                file: file.to_owned(),
+                reason: io::Error::other(error.to_string()),
+            },
+        }
+    }
 }
 
 /// "did you mean ...?" among the names of columns.

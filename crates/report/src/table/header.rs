@@ -65,6 +65,11 @@ pub(super) fn read(place: &Place<'_>, cells: &[&str]) -> Result<Header, TableErr
             "separate the columns by `,` and write decimal points",
         ));
     }
+    const MOST: usize = 5000;
+    if cells.len() > MOST {
+        let problem = format!("{} columns; at most {MOST} are read", cells.len());
+        return Err(place.error(problem, "look whether this is the file you mean"));
+    }
     let known = known();
     let mut names: Vec<Name> = Vec::with_capacity(cells.len());
     for (index, cell) in cells.iter().enumerate() {
@@ -131,6 +136,11 @@ fn understand(
     if cell.is_empty() {
         let problem = format!("column {} has no name", index + 1);
         return Err(place.error(problem, "name it, with its unit, or leave it out"));
+    }
+    const LONGEST: usize = 200;
+    if cell.len() > LONGEST {
+        let problem = format!("the name of column {} has {} characters", index + 1, cell.len());
+        return Err(place.error(problem, format!("give it a name of at most {LONGEST} characters")));
     }
     if let Some(kind) = known.get(cell) {
         if !kind.suffix(Units::Us).is_empty() {

@@ -1,7 +1,7 @@
 //! The thesis's values, which complete what a case leaves out: they are case files themselves.
 
 use super::document::{Damping, METHODS};
-use super::problem::{Problem, Source};
+use super::problem::{Problems, Source};
 use super::section::name_of;
 use super::tree::{self, Table};
 use integrate::Method;
@@ -82,7 +82,7 @@ nominal_length = "5.379257200606367 in"
 "#;
 
 /// The values that complete a case of this damping.
-pub(super) fn tree(damping: Damping) -> Result<Table, Vec<Problem>> {
+pub(super) fn tree(damping: Damping) -> Result<Table, Problems> {
     let own = match damping {
         Damping::Variable => VARIABLE,
         Damping::Constant => CONSTANT,

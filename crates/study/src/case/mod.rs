@@ -34,8 +34,10 @@ pub use motion::{Motion, Profile};
 pub use problem::{CaseError, Problem};
 pub use table::QuantityTable;
 
+use input::file::{Expected, Reason, read_text};
+use input::{FileType, limits};
 use integrate::Method;
-use problem::Source;
+use problem::{Problems, Source};
 use quantity::System;
 use std::path::Path;
 use wedge::parameters::Parameters;
@@ -100,7 +102,7 @@ impl Case {
         mut tree: tree::Table,
         source: &str,
         folder: &Path,
-        mut problems: Vec<Problem>,
+        mut problems: Problems,
     ) -> Result<Self, CaseError> {
         let stem = Path::new(source)
             .file_stem()
@@ -146,21 +148,27 @@ impl Case {
     }
 }
 
+/// What a case file must be.
+pub(crate) const CASE_FILE: Expected = Expected {
+    what: "case file",
+    types: &[FileType::Case],
+    most: limits::TEXT_FILE,
+};
+
 /// The text of a case file.
 ///
 /// # Errors
-/// There is no such file, or it cannot be read, or it is not text.
+/// There is no such file, or it cannot be read, or it is not text, something else than a case, or too large.
 pub fn text_of(path: &Path) -> Result<String, CaseError> {
-    std::fs::read_to_string(path).map_err(|error| {
-        let shown = path.display();
-        let problem = match error.kind() {
-            std::io::ErrorKind::NotFound => Problem::new(format!("there is no case file {shown}"))
-                .help("check the path; `wedgelab case NAME` prints a built-in case to start from"),
-            std::io::ErrorKind::InvalidData => Problem::new(format!("the case file {shown} is not text"))
-                .help("a case file is TOML, saved as UTF-8"),
-            _ => Problem::new(format!("the case file {shown} cannot be read: {error}"))
-                .help("name a file that you may read"),
+    read_text(path, &CASE_FILE).map_err(|error| {
+        let help = match error.reason {
+            Reason::NotFound => {
+                "check the path; `wedgelab case NAME` prints a built-in case to start from".to_owned()
+            }
+            _ => error
+                .help()
+                .unwrap_or_else(|| "a case file is TOML, saved as UTF-8".to_owned()),
         };
-        problem.into()
+        Problem::new(error.to_string()).help(help).into()
     })
 }

@@ -1,7 +1,7 @@
 //! Motions as typed, and their reading.
 
 use super::document::PROFILES;
-use super::problem::Problem;
+use super::problem::{Problem, Problems};
 use super::section::{self, Range, Section, name_of};
 use super::table::{self, QuantityTable};
 use super::tree::{Node, Value};
@@ -78,7 +78,7 @@ pub(super) fn read(
     path: &str,
     kind: Kind,
     folder: &Path,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) -> Option<Motion> {
     match &node.value {
         Value::List(items) if items.is_empty() => {
@@ -112,12 +112,7 @@ pub(super) fn read(
     }
 }
 
-fn read_shape(
-    section: &Section<'_>,
-    kind: Kind,
-    folder: &Path,
-    problems: &mut Vec<Problem>,
-) -> Option<Motion> {
+fn read_shape(section: &Section<'_>, kind: Kind, folder: &Path, problems: &mut Problems) -> Option<Motion> {
     section.require("shape", EXAMPLE, problems)?;
     let (shape, node) = section.text("shape", problems)?;
     let (keys, optional): (&[&str], &[&str]) = match shape {

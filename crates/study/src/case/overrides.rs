@@ -1,6 +1,6 @@
 //! `--set path.key=value`: single values laid over a case.
 
-use super::problem::{Place, Problem, Source};
+use super::problem::{Place, Problem, Problems, Source};
 use super::tree::{self, Entry, Table, Value};
 use std::sync::Arc;
 
@@ -8,42 +8,41 @@ use std::sync::Arc;
 pub(super) const SOURCE: &str = "--set";
 
 /// Lays every override over the tree; the problems are those of the overrides themselves.
-pub(super) fn apply(tree: &mut Table, overrides: &[String]) -> Vec<Problem> {
-    let mut problems = Vec::new();
+pub(super) fn apply(tree: &mut Table, overrides: &[String]) -> Problems {
+    let mut problems = Problems::new();
     for text in overrides {
         match parse(text).and_then(|(path, entry)| set(tree, &path, entry)) {
             Ok(()) => {}
-            Err(mut found) => problems.append(&mut found),
+            Err(found) => problems.append(found),
         }
     }
     problems
 }
 
 /// The tables on the way, and the last key with its value.
-fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Vec<Problem>> {
+fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Problems> {
     let source = Source::new(SOURCE, text);
     let whole = Place {
         source: Arc::clone(&source),
         span: 0..text.len(),
     };
     let malformed = |message: &str| {
-        vec![
-            Problem::new(message)
-                .at(&whole)
-                .label("path.key=value is expected")
-                .help("write for example --set friction.column=0.3 or --set 'wedge.angle=\"30 deg\"'"),
-        ]
+        Problem::new(message)
+            .at(&whole)
+            .label("path.key=value is expected")
+            .help("write for example --set friction.column=0.3 or --set 'wedge.angle=\"30 deg\"'")
     };
     let Some(equals) = equals_sign(text) else {
-        return Err(malformed("this sets nothing: there is no = in it"));
+        return Err(malformed("this sets nothing: there is no = in it").into());
     };
     let (key, value) = (text[..equals].trim(), text[equals + 1..].trim());
     if key.is_empty() || value.is_empty() {
-        return Err(malformed(if key.is_empty() {
+        let missing = if key.is_empty() {
             "the key is missing"
         } else {
             "the value is missing"
-        }));
+        };
+        return Err(malformed(missing).into());
     }
     let (table, equals) = match tree::parse(&source) {
         Ok(table) => (table, equals),
@@ -58,10 +57,10 @@ fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Vec<Problem>> {
     let mut table = table;
     loop {
         let [_] = table.entries.as_slice() else {
-            return Err(malformed("one --set sets one value"));
+            return Err(malformed("one --set sets one value").into());
         };
         let Some(entry) = table.entries.pop() else {
-            return Err(malformed("the key is missing"));
+            return Err(malformed("the key is missing").into());
         };
         match entry.node.value {
             Value::Table(ref inner)
@@ -92,7 +91,7 @@ fn equals_sign(text: &str) -> Option<usize> {
     None
 }
 
-fn set(tree: &mut Table, path: &[Entry], entry: Entry) -> Result<(), Vec<Problem>> {
+fn set(tree: &mut Table, path: &[Entry], entry: Entry) -> Result<(), Problems> {
     let Some((first, rest)) = path.split_first() else {
         tree.set(entry);
         return Ok(());
@@ -109,7 +108,7 @@ fn set(tree: &mut Table, path: &[Entry], entry: Entry) -> Result<(), Vec<Problem
 }
 
 /// Sets a key of a table, or an item of a list by its number, counted from 0: `bolster.vertical.1.amplitude`.
-fn set_inside(within: &mut Value, named: &Entry, path: &[Entry], entry: Entry) -> Result<(), Vec<Problem>> {
+fn set_inside(within: &mut Value, named: &Entry, path: &[Entry], entry: Entry) -> Result<(), Problems> {
     match within {
         Value::Table(table) => set(table, path, entry),
         Value::List(items) => {
@@ -118,15 +117,12 @@ fn set_inside(within: &mut Value, named: &Entry, path: &[Entry], entry: Entry) -
             let Some(item) = number.and_then(|number| items.get_mut(number)) else {
                 let last = count.saturating_sub(1);
                 let message = format!("`{}` is a list of {count}; it has no `{}`", named.key, key.key);
-                return Err(vec![
-                    Problem::new(message)
-                        .at(&key.key_place)
-                        .label("no number of an item")
-                        .help(format!(
-                            "items have the numbers 0 to {last}; or set all of it at once: `{}=...`",
-                            named.key
-                        )),
-                ]);
+                let problem = Problem::new(message).at(&key.key_place);
+                let help = format!(
+                    "items have the numbers 0 to {last}; or set all of it at once: `{}=...`",
+                    named.key
+                );
+                return Err(problem.label("no number of an item").help(help).into());
             };
             match path.split_first() {
                 Some((first, rest)) => set_inside(&mut item.value, first, rest, entry),
@@ -136,16 +132,15 @@ fn set_inside(within: &mut Value, named: &Entry, path: &[Entry], entry: Entry) -
                 }
             }
         }
-        other => Err(vec![
-            Problem::new(format!(
-                "`{}` is {} in this case, it has no `{}`",
-                named.key,
-                other.describe(),
-                path.first().unwrap_or(&entry).key
-            ))
-            .at(&named.key_place)
-            .label("this is no table")
-            .help(format!("set all of it at once: `{}=...`", named.key)),
-        ]),
+        other => Err(Problem::new(format!(
+            "`{}` is {} in this case, it has no `{}`",
+            named.key,
+            other.describe(),
+            path.first().unwrap_or(&entry).key
+        ))
+        .at(&named.key_place)
+        .label("this is no table")
+        .help(format!("set all of it at once: `{}=...`", named.key))
+        .into()),
     }
 }

@@ -1,6 +1,7 @@
 //! What is wrong with an input, where, and what to write instead.
 
-use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
+use input::{Text, bounded, limits};
+use miette::{Diagnostic, LabeledSpan, SourceCode};
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -8,9 +9,7 @@ use std::sync::Arc;
 /// A text that was read: a case file, a table, or what was given to `--set`.
 #[derive(Debug)]
 pub(crate) struct Source {
-    /// The file as the user named it, or `--set`.
-    pub name: String,
-    pub named: NamedSource<String>,
+    named: Text,
     /// Whether a bare number where a quantity is expected is one in SI units.
     pub bare_numbers_are_si: bool,
 }
@@ -27,14 +26,18 @@ impl Source {
 
     fn of(name: String, text: String, bare_numbers_are_si: bool) -> Self {
         Source {
-            named: NamedSource::new(&name, text),
-            name,
+            named: Text::new(name, text),
             bare_numbers_are_si,
         }
     }
 
+    /// The file as the user named it, or `--set`.
+    pub fn name(&self) -> &str {
+        self.named.name()
+    }
+
     pub fn text(&self) -> &str {
-        self.named.inner()
+        self.named.text()
     }
 }
 
@@ -48,7 +51,7 @@ pub(crate) struct Place {
 
 impl Place {
     pub fn text(&self) -> &str {
-        self.source.text().get(self.span.clone()).unwrap_or("")
+        self.source.named.slice(self.span.clone())
     }
 }
 
@@ -65,7 +68,7 @@ impl Problem {
     /// A mistake at no particular place.
     pub(crate) fn new(message: impl Into<String>) -> Self {
         Problem {
-            message: message.into(),
+            message: bounded(message.into()),
             label: String::new(),
             help: None,
             place: None,
@@ -83,7 +86,7 @@ impl Problem {
     }
 
     pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(bounded(help.into()));
         self
     }
 
@@ -109,7 +112,7 @@ impl Problem {
     pub(crate) fn is_at(&self, other: &Place) -> bool {
         self.place
             .as_ref()
-            .is_some_and(|place| place.span == other.span && place.source.name == other.source.name)
+            .is_some_and(|place| place.span == other.span && place.source.name() == other.source.name())
     }
 
     /// What was found and what was expected.
@@ -124,14 +127,14 @@ impl Problem {
 
     /// The file, or `--set`.
     pub fn source_name(&self) -> Option<&str> {
-        self.place.as_ref().map(|place| place.source.name.as_str())
+        self.place.as_ref().map(|place| place.source.name())
     }
 
     /// The path that was set, if the mistake is in what was given to `--set`.
     pub fn set_path(&self) -> Option<&str> {
         let place = self.place.as_ref()?;
         let text = place.source.text();
-        (place.source.name == super::overrides::SOURCE)
+        (place.source.name() == super::overrides::SOURCE)
             .then(|| text.split_once('=').map_or(text, |(path, _)| path).trim())
     }
 
@@ -143,12 +146,7 @@ impl Problem {
     /// Line and column of the mistake, from 1; columns count characters.
     pub fn line_and_column(&self) -> Option<(usize, usize)> {
         let place = self.place.as_ref()?;
-        let before = place.source.text().get(..place.span.start)?;
-        let line_start = before.rfind('\n').map_or(0, |end| end + 1);
-        Some((
-            before.matches('\n').count() + 1,
-            before[line_start..].chars().count() + 1,
-        ))
+        Some(place.source.named.line_and_column(place.span.start))
     }
 }
 
@@ -180,30 +178,99 @@ impl Diagnostic for Problem {
         } else {
             self.label.clone()
         };
-        let span = LabeledSpan::new(Some(label), place.span.start, place.span.len());
-        Some(Box::new(std::iter::once(span)))
+        let marked = place.source.named.mark(place.span.clone());
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(
+            Some(label),
+            marked,
+        ))))
     }
 }
 
-/// Everything that is wrong with an input, in the order of the text.
+/// Mistakes as they are found: the first [`limits::MISTAKES`] are kept, the others counted.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Problems {
+    kept: Vec<Problem>,
+    more: usize,
+}
+
+impl Problems {
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    pub fn push(&mut self, problem: Problem) {
+        self.push_with(|| problem);
+    }
+
+    /// Adds a mistake that is described only if it is kept.
+    pub fn push_with(&mut self, problem: impl FnOnce() -> Problem) {
+        if self.kept.len() < limits::MISTAKES {
+            self.kept.push(problem());
+        } else {
+            self.more += 1;
+        }
+    }
+
+    pub fn extend(&mut self, problems: impl IntoIterator<Item = Problem>) {
+        for problem in problems {
+            self.push(problem);
+        }
+    }
+
+    /// Adds those of another input.
+    pub fn append(&mut self, other: Problems) {
+        self.extend(other.kept);
+        self.more += other.more;
+    }
+
+    /// How many were found.
+    pub fn count(&self) -> usize {
+        self.kept.len() + self.more
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.kept.is_empty()
+    }
+
+    pub fn kept(&self) -> &[Problem] {
+        &self.kept
+    }
+
+    /// The same mistakes, each changed.
+    pub fn map(mut self, change: impl FnMut(Problem) -> Problem) -> Self {
+        self.kept = self.kept.into_iter().map(change).collect();
+        self
+    }
+}
+
+impl From<Problem> for Problems {
+    fn from(problem: Problem) -> Self {
+        Self {
+            kept: vec![problem],
+            more: 0,
+        }
+    }
+}
+
+/// What is wrong with an input, in the order of the text: at most 20 mistakes, and how many more there are.
 ///
 /// As a [`Diagnostic`] it shows each mistake in its text; [`CaseError::problems`] gives them one
 /// by one.
 #[derive(Clone, Debug)]
 pub struct CaseError {
-    problems: Vec<Problem>,
+    problems: Problems,
     /// What was read: `case`, `study`.
     subject: &'static str,
 }
 
 impl CaseError {
     /// `problems` must not be empty.
-    pub(crate) fn new(mut problems: Vec<Problem>) -> Self {
-        problems.sort_by_key(|problem| {
+    pub(crate) fn new(mut problems: Problems) -> Self {
+        problems.kept.sort_by_cached_key(|problem| {
             problem
                 .place
                 .as_ref()
-                .map(|place| (place.source.name.clone(), place.span.start))
+                .map(|place| (place.source.name().to_owned(), place.span.start))
         });
         CaseError {
             problems,
@@ -217,18 +284,23 @@ impl CaseError {
         self
     }
 
-    /// The mistakes; at least one.
+    /// The mistakes that are told; at least one, at most 20.
     pub fn problems(&self) -> &[Problem] {
-        &self.problems
+        self.problems.kept()
     }
 
-    pub(crate) fn into_problems(self) -> Vec<Problem> {
+    /// How many mistakes there are beyond those that are told.
+    pub fn more(&self) -> usize {
+        self.problems.more
+    }
+
+    pub(crate) fn into_problems(self) -> Problems {
         self.problems
     }
 
     fn only(&self) -> Option<&Problem> {
-        match self.problems.as_slice() {
-            [problem] => Some(problem),
+        match self.problems() {
+            [problem] if self.more() == 0 => Some(problem),
             _ => None,
         }
     }
@@ -236,7 +308,7 @@ impl CaseError {
 
 impl From<Problem> for CaseError {
     fn from(problem: Problem) -> Self {
-        CaseError::new(vec![problem])
+        CaseError::new(problem.into())
     }
 }
 
@@ -245,7 +317,13 @@ impl fmt::Display for CaseError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.only() {
             Some(problem) => problem.fmt(out),
-            None => write!(out, "the {} has {} mistakes", self.subject, self.problems.len()),
+            None => {
+                write!(out, "the {} has {} mistakes", self.subject, self.problems.count())?;
+                match self.more() {
+                    0 => Ok(()),
+                    _ => write!(out, "; the first {} are", self.problems().len()),
+                }
+            }
         }
     }
 }
@@ -270,7 +348,7 @@ impl Diagnostic for CaseError {
             return None;
         }
         Some(Box::new(
-            self.problems.iter().map(|problem| problem as &dyn Diagnostic),
+            self.problems().iter().map(|problem| problem as &dyn Diagnostic),
         ))
     }
 }

@@ -2,11 +2,12 @@
 
 use super::document::*;
 use super::motion;
-use super::problem::{Place, Problem};
+use super::problem::{Place, Problem, Problems};
 use super::section::{self, Range, Section, inner_place, unit_problem};
 use super::table::{self, Form};
 use super::tree::{Node, Table, Value};
 use super::{defaults, name};
+use input::limits;
 use quantity::{Kind, Quantity, System};
 use std::path::Path;
 
@@ -97,15 +98,12 @@ const ANGLE: Range = Range::Between(0.0, RIGHT_ANGLE, "between 0 deg and 90 deg,
 const TOE: Range = Range::Between(-RIGHT_ANGLE / 4.0, RIGHT_ANGLE / 4.0, "below 22.5 deg");
 const TOLERANCE: Range = Range::Between(0.0, 1.0, "between 0 and 1, both excluded");
 
-/// More rows than this are a slip of the pen.
-const MOST_OUTPUTS: f64 = 1e7;
-
 /// Completes the tree and reads it; notes what is wrong.
 pub(super) fn document(
     tree: &mut Table,
     default_name: &str,
     folder: &Path,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) -> Option<CaseDocument> {
     complete(tree, problems);
     let top = Section {
@@ -187,18 +185,18 @@ pub(super) fn document(
 }
 
 /// Takes over what is left out from the thesis's values of the damping.
-fn complete(tree: &mut Table, problems: &mut Vec<Problem>) {
+fn complete(tree: &mut Table, problems: &mut Problems) {
     let damping = tree.table("wedge").and_then(|wedge| wedge.text("damping"));
     let damping = Damping::NAMES.iter().find(|(name, _)| Some(*name) == damping);
     // A damping that is wrong is noted when it is read.
     let damping = damping.map_or(Damping::Variable, |(_, damping)| *damping);
     match defaults::tree(damping) {
         Ok(defaults) => tree.complete_from(&defaults),
-        Err(mut broken) => problems.append(&mut broken),
+        Err(broken) => problems.append(broken),
     }
 }
 
-fn read_wedge(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<WedgeSection> {
+fn read_wedge(s: &Section<'_>, problems: &mut Problems) -> Option<WedgeSection> {
     let damping = s.choice("damping", Damping::NAMES, problems);
     let angle = s.quantity("angle", Kind::Angle, ANGLE, problems);
     let height = s.quantity("height", Kind::Length, Range::Positive, problems);
@@ -223,7 +221,7 @@ fn read_wedge(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<WedgeSecti
     })
 }
 
-fn read_free_coordinates(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<Vec<Coordinate>> {
+fn read_free_coordinates(s: &Section<'_>, problems: &mut Problems) -> Option<Vec<Coordinate>> {
     let help = "list the free ones of \"x\", \"y\", \"z\", \"roll\", \"pitch\", \"yaw\", for example \
                 free_coordinates = [\"x\", \"z\", \"pitch\", \"yaw\"]";
     let node = s.require("free_coordinates", help, problems)?;
@@ -264,7 +262,7 @@ fn read_free_coordinates(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option
     Some(coordinates)
 }
 
-fn read_coil(s: &Section<'_>, folder: &Path, problems: &mut Vec<Problem>) -> Option<CoilSection> {
+fn read_coil(s: &Section<'_>, folder: &Path, problems: &mut Problems) -> Option<CoilSection> {
     let force = match (s.table.entry("stiffness"), s.table.entry("table")) {
         (Some(_), Some(table)) => {
             let problem =
@@ -318,7 +316,7 @@ fn rotational_damping(damping: &Quantity) -> Option<Quantity> {
     Quantity::new(number, Kind::RotationalDamping.unit(System::Us)).ok()
 }
 
-fn read_friction(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<FrictionSection> {
+fn read_friction(s: &Section<'_>, problems: &mut Problems) -> Option<FrictionSection> {
     let laws = match &s.table.get("law")?.value {
         Value::Table(table) => {
             let place = s.table.entry("law").map(|entry| entry.key_place.clone());
@@ -353,7 +351,7 @@ fn read_friction(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<Frictio
     })
 }
 
-fn read_toe(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<Toe> {
+fn read_toe(s: &Section<'_>, problems: &mut Problems) -> Option<Toe> {
     const HELP: &str = "write for example \"0.2 deg out\" (the gap between column and bolster opens downwards), \
                         \"0.2 deg in\", or \"0 deg\"";
     let node = s.require("toe", HELP, problems)?;
@@ -415,7 +413,7 @@ fn read_toe(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<Toe> {
 }
 
 /// A toe that a program gives: a number in rad, positive out.
-fn signed_toe(angle: f64, node: &Node, path: &str, problems: &mut Vec<Problem>) -> Option<Toe> {
+fn signed_toe(angle: f64, node: &Node, path: &str, problems: &mut Problems) -> Option<Toe> {
     let mut size = node.clone();
     size.value = Value::Number(angle.abs());
     Some(Toe {
@@ -428,7 +426,7 @@ fn signed_toe(angle: f64, node: &Node, path: &str, problems: &mut Vec<Problem>) 
     })
 }
 
-fn read_neighbour(s: &Section<'_>, folder: &Path, problems: &mut Vec<Problem>) -> Option<NeighbourSection> {
+fn read_neighbour(s: &Section<'_>, folder: &Path, problems: &mut Problems) -> Option<NeighbourSection> {
     let center = match s.table.get("center") {
         Some(_) => Some(s.triple("center", Kind::Length, Range::Any, problems)?),
         None => None,
@@ -446,7 +444,7 @@ fn read_neighbour(s: &Section<'_>, folder: &Path, problems: &mut Vec<Problem>) -
     })
 }
 
-fn read_simulation(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<SimulationSection> {
+fn read_simulation(s: &Section<'_>, problems: &mut Problems) -> Option<SimulationSection> {
     let duration = s.quantity("duration", Kind::Time, Range::Positive, problems);
     let output_interval = s.quantity("output_interval", Kind::Time, Range::Positive, problems);
     let relative_tolerance = s.number("relative_tolerance", TOLERANCE, "1e-6", problems);
@@ -459,9 +457,11 @@ fn read_simulation(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<Simul
                 format!("`simulation.output_interval` ({interval}) is longer than the duration ({duration})");
             let help = "write an interval that is shorter, for example \"0.01 s\", or a longer duration";
             Some(Problem::new(message).label("longer than the run").help(help))
-        } else if duration.to_si() / interval.to_si() > MOST_OUTPUTS {
-            let message = format!("{duration} in steps of {interval} are more than ten million output times");
-            let help = "write a longer interval, for example \"0.01 s\"";
+        } else if duration.to_si() / interval.to_si() >= limits::OUTPUT_ROWS as f64 {
+            let most = limits::OUTPUT_ROWS;
+            let message = format!("{duration} in steps of {interval} are more than {most} output times");
+            let least = duration.to_si() / (most / 2) as f64;
+            let help = format!("write a longer interval, for example \"{least:.1e} s\"");
             Some(Problem::new(message).label("too short").help(help))
         } else {
             None
@@ -470,7 +470,7 @@ fn read_simulation(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option<Simul
         let mut places = ["output_interval", "duration"]
             .into_iter()
             .filter_map(|key| s.table.place_of(key));
-        let place = places.find(|place| place.source.name != defaults::SOURCE);
+        let place = places.find(|place| place.source.name() != defaults::SOURCE);
         problems.extend(problem.map(|problem| match place {
             Some(place) => problem.at(place),
             None => problem,
@@ -492,7 +492,7 @@ fn check_cover(
     neighbour: &NeighbourSection,
     duration: &Quantity,
     tree: &Table,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) {
     for (key, motion) in NeighbourSection::COORDINATES.iter().zip(&neighbour.coordinates) {
         for table in motion.tables() {

@@ -1,7 +1,8 @@
 //! Reading one table of a case: typed values, ranges, unknown keys.
 
-use super::problem::{Place, Problem};
+use super::problem::{Place, Problem, Problems};
 use super::tree::{Node, Table, Value};
+use input::shortened;
 use quantity::{Kind, Quantity, System, UnitError, nearest};
 
 /// The range a value must lie in.
@@ -67,7 +68,7 @@ impl<'a> Section<'a> {
     }
 
     /// The table under a key.
-    pub fn section(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Section<'a>> {
+    pub fn section(&self, key: &str, problems: &mut Problems) -> Option<Section<'a>> {
         let entry = self.table.entry(key)?;
         let Value::Table(table) = &entry.node.value else {
             let found = entry.node.value.describe();
@@ -90,7 +91,7 @@ impl<'a> Section<'a> {
     }
 
     /// The value of a key that must be there.
-    pub fn require(&self, key: &str, help: &str, problems: &mut Vec<Problem>) -> Option<&'a Node> {
+    pub fn require(&self, key: &str, help: &str, problems: &mut Problems) -> Option<&'a Node> {
         let node = self.table.get(key);
         if node.is_none() {
             let mut problem = Problem::new(format!("`{}` is missing", self.path_of(key)))
@@ -105,53 +106,41 @@ impl<'a> Section<'a> {
     }
 
     /// Notes every key that is not among `keys`.
-    pub fn allow(&self, keys: &[&str], elsewhere: &[(&str, &[&str])], problems: &mut Vec<Problem>) {
+    pub fn allow(&self, keys: &[&str], elsewhere: &[(&str, &[&str])], problems: &mut Problems) {
         self.allow_in(keys, elsewhere, "a case", problems);
     }
 
     /// The same; `top` says what the topmost table is.
-    pub fn allow_in(
-        &self,
-        keys: &[&str],
-        elsewhere: &[(&str, &[&str])],
-        top: &str,
-        problems: &mut Vec<Problem>,
-    ) {
+    pub fn allow_in(&self, keys: &[&str], elsewhere: &[(&str, &[&str])], top: &str, problems: &mut Problems) {
         for entry in self
             .table
             .entries
             .iter()
             .filter(|entry| !keys.contains(&entry.key.as_str()))
         {
-            let owner = elsewhere
-                .iter()
-                .find(|(_, keys)| keys.contains(&entry.key.as_str()));
-            let help = match (nearest(&entry.key, keys.iter().copied()), owner) {
-                (Some(near), _) => format!("did you mean `{near}`?"),
-                (None, Some((owner, _))) => format!("`{}` belongs below [{owner}]", entry.key),
-                (None, None) => format!("known here: {}", keys.join(", ")),
-            };
-            let place = if self.path.is_empty() {
-                format!("in {top}")
-            } else {
-                format!("in `{}`", self.path)
-            };
-            problems.push(
-                Problem::new(format!("there is no key `{}` {place}", entry.key))
+            problems.push_with(|| {
+                let owner = elsewhere
+                    .iter()
+                    .find(|(_, keys)| keys.contains(&entry.key.as_str()));
+                let help = match (nearest(&entry.key, keys.iter().copied()), owner) {
+                    (Some(near), _) => format!("did you mean `{near}`?"),
+                    (None, Some((owner, _))) => format!("`{}` belongs below [{owner}]", entry.key),
+                    (None, None) => format!("known here: {}", keys.join(", ")),
+                };
+                let place = if self.path.is_empty() {
+                    format!("in {top}")
+                } else {
+                    format!("in `{}`", self.path)
+                };
+                Problem::new(format!("there is no key `{}` {place}", shortened(&entry.key)))
                     .at(&entry.key_place)
                     .label("unknown key")
-                    .help(help),
-            );
+                    .help(help)
+            });
         }
     }
 
-    pub fn quantity(
-        &self,
-        key: &str,
-        kind: Kind,
-        range: Range,
-        problems: &mut Vec<Problem>,
-    ) -> Option<Quantity> {
+    pub fn quantity(&self, key: &str, kind: Kind, range: Range, problems: &mut Problems) -> Option<Quantity> {
         let node = self.require(
             key,
             &format!("write for example {key} = \"{}\"", example(kind)),
@@ -166,7 +155,7 @@ impl<'a> Section<'a> {
         key: &str,
         kind: Kind,
         range: Range,
-        problems: &mut Vec<Problem>,
+        problems: &mut Problems,
     ) -> Option<[Quantity; 3]> {
         let one = example(kind);
         let help = format!("write for example {key} = [\"{one}\", \"{one}\", \"{one}\"]");
@@ -209,7 +198,7 @@ impl<'a> Section<'a> {
     }
 
     /// A pure number.
-    pub fn number(&self, key: &str, range: Range, example: &str, problems: &mut Vec<Problem>) -> Option<f64> {
+    pub fn number(&self, key: &str, range: Range, example: &str, problems: &mut Problems) -> Option<f64> {
         let help = format!("write for example {key} = {example}");
         let node = self.require(key, &help, problems)?;
         let path = self.path_of(key);
@@ -241,7 +230,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    pub fn truth(&self, key: &str, problems: &mut Vec<Problem>) -> Option<bool> {
+    pub fn truth(&self, key: &str, problems: &mut Problems) -> Option<bool> {
         let help = format!("write {key} = true or {key} = false, without quotes");
         let node = self.require(key, &help, problems)?;
         if let Value::Truth(truth) = node.value {
@@ -261,7 +250,7 @@ impl<'a> Section<'a> {
         None
     }
 
-    pub fn text(&self, key: &str, problems: &mut Vec<Problem>) -> Option<(&'a str, &'a Node)> {
+    pub fn text(&self, key: &str, problems: &mut Problems) -> Option<(&'a str, &'a Node)> {
         let help = format!("write {key} = \"...\"");
         let node = self.require(key, &help, problems)?;
         if let Value::Text(text) = &node.value {
@@ -281,7 +270,7 @@ impl<'a> Section<'a> {
         None
     }
 
-    pub fn choice<T: Copy>(&self, key: &str, names: Names<T>, problems: &mut Vec<Problem>) -> Option<T> {
+    pub fn choice<T: Copy>(&self, key: &str, names: Names<T>, problems: &mut Problems) -> Option<T> {
         let node = self.require(key, &one_of(names), problems)?;
         choice(node, &self.path_of(key), names, problems)
     }
@@ -292,7 +281,7 @@ pub(crate) fn choice<T: Copy>(
     node: &Node,
     path: &str,
     names: Names<T>,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) -> Option<T> {
     let message = match &node.value {
         Value::Text(text) => match names.iter().find(|(name, _)| name == text) {
@@ -329,7 +318,7 @@ pub(crate) fn quantity(
     path: &str,
     kind: Kind,
     range: Range,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) -> Option<Quantity> {
     let read = match &node.value {
         Value::Text(text) => Quantity::parse_as(text, kind),

@@ -3,7 +3,7 @@
 //! A CSV file has a line of names with units, `time [s], value [in]`, then one line of numbers a
 //! point. Empty lines and lines that begin with `#` do not count.
 
-use super::problem::{Place, Problem, Source};
+use super::problem::{Place, Problem, Problems, Source};
 use super::section::{self, Range, Section};
 use super::tree::{Node, Value};
 use super::units::in_system;
@@ -101,7 +101,7 @@ pub(super) fn read_either(
     points: &str,
     form: &Form,
     folder: &Path,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) -> Option<QuantityTable> {
     match (section.table.get(file), section.table.entry(points)) {
         (Some(_), Some(second)) => {
@@ -131,7 +131,7 @@ pub(super) fn read(
     path: &str,
     form: &Form,
     folder: &Path,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) -> Option<QuantityTable> {
     let (file, rows) = match &node.value {
         Value::Text(file) => (
@@ -158,9 +158,9 @@ pub(super) fn read(
     })
 }
 
-fn read_points(items: &[Node], path: &str, form: &Form, problems: &mut Vec<Problem>) -> Option<Vec<Row>> {
+fn read_points(items: &[Node], path: &str, form: &Form, problems: &mut Problems) -> Option<Vec<Row>> {
     let mut rows = Vec::with_capacity(items.len());
-    let before = problems.len();
+    let before = problems.count();
     for (at, item) in items.iter().enumerate() {
         let path = format!("{path}[{at}]");
         match &item.value {
@@ -189,7 +189,7 @@ fn read_points(items: &[Node], path: &str, form: &Form, problems: &mut Vec<Probl
             }
         }
     }
-    (problems.len() == before).then_some(rows)
+    (problems.count() == before).then_some(rows)
 }
 
 fn read_file(
@@ -198,7 +198,7 @@ fn read_file(
     path: &str,
     form: &Form,
     folder: &Path,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) -> Option<Vec<Row>> {
     let full = folder.join(file);
     let text = match std::fs::read_to_string(&full) {
@@ -226,7 +226,7 @@ fn read_file(
     read_csv(&Source::new(full.display().to_string(), text), form, problems)
 }
 
-fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Vec<Problem>) -> Option<Vec<Row>> {
+fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Problems) -> Option<Vec<Row>> {
     let mut start = 0;
     let mut lines = source.text().split_inclusive('\n').filter_map(|line| {
         let at = start;
@@ -323,7 +323,7 @@ fn cells(line: &str, at: usize) -> impl Iterator<Item = (usize, &str)> {
 }
 
 /// Checks that there are enough rows and that they are in order.
-fn check(rows: &[Row], place: &Place, path: &str, form: &Form, problems: &mut Vec<Problem>) -> Option<()> {
+fn check(rows: &[Row], place: &Place, path: &str, form: &Form, problems: &mut Problems) -> Option<()> {
     let [first, second] = form.names;
     if rows.len() < form.least {
         let message = format!(

@@ -3,7 +3,8 @@
 //! Three trees are laid over each other: the thesis's values, the file, and what `--set` gives.
 //! Whatever turns out to be wrong can still be shown where it was written.
 
-use super::problem::{Place, Problem, Source};
+use super::problem::{Place, Problem, Problems, Source};
+use input::structure;
 use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -40,23 +41,38 @@ pub(crate) struct Entry {
     pub node: Node,
 }
 
-/// Reads TOML; every mistake of syntax becomes a problem.
-pub(crate) fn parse(source: &Arc<Source>) -> Result<Table, Vec<Problem>> {
+/// Reads TOML; every mistake of syntax becomes a problem. What is too long or nested too deeply is not parsed.
+pub(crate) fn parse(source: &Arc<Source>) -> Result<Table, Problems> {
+    structure::toml(source.text()).map_err(|excess| {
+        let place = Place {
+            source: Arc::clone(source),
+            span: excess.span(),
+        };
+        Problem::new(format!("this is not read: {excess}"))
+            .at(&place)
+            .label("too much")
+            .help(excess.help())
+    })?;
     let (table, errors) = DeTable::parse_recoverable(source.text());
     if errors.is_empty() {
         return Ok(table_of(table.get_ref(), source));
     }
-    let problems = errors.iter().map(|error| {
-        let span = error.span().unwrap_or(0..0);
-        let message = error.message().lines().collect::<Vec<_>>().join(", ");
-        Problem::new(format!("this is not TOML: {message}"))
-            .at(&Place {
-                source: Arc::clone(source),
-                span,
-            })
-            .help("a line is `key = value`; text and quantities stand in quotes: angle = \"32 deg\"")
-    });
-    Err(problems.collect())
+    let mut problems = Problems::new();
+    for error in &errors {
+        problems.push_with(|| syntax(error, source));
+    }
+    Err(problems)
+}
+
+/// A mistake of syntax.
+fn syntax(error: &toml::de::Error, source: &Arc<Source>) -> Problem {
+    let message = error.message().lines().collect::<Vec<_>>().join(", ");
+    Problem::new(format!("this is not TOML: {message}"))
+        .at(&Place {
+            source: Arc::clone(source),
+            span: error.span().unwrap_or(0..0),
+        })
+        .help("a line is `key = value`; text and quantities stand in quotes: angle = \"32 deg\"")
 }
 
 fn table_of(table: &DeTable<'_>, source: &Arc<Source>) -> Table {

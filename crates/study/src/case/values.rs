@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::problem::Source;
+use super::problem::{Problems, Source};
 use super::tree::{Table, Value};
 use super::{Case, CaseError, tree};
 
@@ -37,7 +37,7 @@ impl Case {
             tree.complete_from(&below);
             source = name;
         }
-        Self::of_tree(tree, source, folder, Vec::new())
+        Self::of_tree(tree, source, folder, Problems::new())
     }
 }
 

@@ -4,14 +4,17 @@ mod vary;
 
 use std::path::Path;
 
+use input::file::{Expected, Reason, read_text};
+use input::{FileType, limits};
+
 use super::factor::{Factor, Value};
 use super::{Accuracy, CaseSource, DIMENSIONS, Sampling, Study, StudySource, accuracy_overrides};
 use crate::case::builtin;
 use crate::case::name;
-use crate::case::problem::{Place, Problem, Source};
+use crate::case::problem::{Place, Problem, Problems, Source};
 use crate::case::section::{Names, Section};
 use crate::case::tree::{self, Node, Table, Value as Toml};
-use crate::case::{Case, CaseError};
+use crate::case::{CASE_FILE, Case, CaseError};
 use vary::{RANGE_HELP, TRIED, assignments, check_paths, factors, variants};
 
 const KEYS: [&str; 10] = [
@@ -46,16 +49,19 @@ struct Draft {
 }
 
 pub(super) fn file(path: &Path) -> Result<Study, CaseError> {
-    let text = std::fs::read_to_string(path).map_err(|error| {
-        let shown = path.display();
-        match error.kind() {
-            std::io::ErrorKind::NotFound => Problem::new(format!("there is no study file {shown}"))
-                .help("check the path; docs/study.md has a study to begin with"),
-            std::io::ErrorKind::InvalidData => Problem::new(format!("the study file {shown} is not text"))
-                .help("a study file is TOML, saved as UTF-8"),
-            _ => Problem::new(format!("the study file {shown} cannot be read: {error}"))
-                .help("name a file that you may read"),
-        }
+    const STUDY: Expected = Expected {
+        what: "study file",
+        types: &[FileType::Study],
+        most: limits::TEXT_FILE,
+    };
+    let text = read_text(path, &STUDY).map_err(|error| {
+        let help = match error.reason {
+            Reason::NotFound => "check the path; docs/study.md has a study to begin with".to_owned(),
+            _ => error
+                .help()
+                .unwrap_or_else(|| "a study file is TOML, saved as UTF-8".to_owned()),
+        };
+        Problem::new(error.to_string()).help(help)
     })?;
     let folder = path.parent().unwrap_or(Path::new(""));
     self::text(&path.display().to_string(), &text, folder, None)
@@ -71,7 +77,7 @@ pub(super) fn text(
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let failed = |problems| CaseError::new(problems).of("study");
     let tree = tree::parse(&Source::new(file, text)).map_err(failed)?;
-    let mut problems = Vec::new();
+    let mut problems = Problems::new();
     let top = Section {
         path: String::new(),
         table: &tree,
@@ -177,7 +183,7 @@ pub(super) fn text(
         Ok(base) => base,
         Err(error) if try_out(&[]).is_ok() => {
             let set = set.iter().map(|(path, written)| (path.as_str(), written));
-            problems.extend(moved(error, set, None));
+            problems.append(moved(error, set, None));
             return Err(failed(problems));
         }
         Err(error) => return Err(error),
@@ -190,7 +196,7 @@ pub(super) fn text(
                 if let Err(error) = try_out(&overrides) {
                     let written = (value.clone(), place.clone());
                     let about_key = error.problems().iter().any(Problem::is_about_key);
-                    problems.extend(moved(
+                    problems.append(moved(
                         error,
                         [(path.as_str(), &written)].into_iter(),
                         Some(&draft.key),
@@ -200,7 +206,7 @@ pub(super) fn text(
                     }
                 }
             }
-            if problems.iter().any(|problem| problem.is_at(&draft.key)) {
+            if problems.kept().iter().any(|problem| problem.is_at(&draft.key)) {
                 break;
             }
         }
@@ -231,9 +237,8 @@ pub(super) fn text(
     };
     let Some(count) = count else {
         let problem = Problem::new("the study has more runs than can be counted");
-        return Err(failed(vec![problem.help(
-            "vary fewer parameters, or take a sample of them: sampling = \"sobol\"",
-        )]));
+        let help = "vary fewer parameters, or take a sample of them: sampling = \"sobol\"";
+        return Err(failed(problem.help(help).into()));
     };
     Ok(Study {
         name,
@@ -262,9 +267,8 @@ fn moved<'w>(
     error: CaseError,
     written: impl Iterator<Item = (&'w str, &'w Written)>,
     key: Option<&Place>,
-) -> Vec<Problem> {
+) -> Problems {
     let written: Vec<(&str, &Written)> = written.collect();
-    let problems = error.into_problems().into_iter();
     let place = |problem: &Problem| {
         if problem.is_about_key()
             && let Some(key) = key
@@ -276,22 +280,20 @@ fn moved<'w>(
         let found = own.or(written.first());
         found.map(|(_, (_, place))| place.clone())
     };
-    problems
-        .map(|problem| match place(&problem) {
-            Some(place) => problem.moved_to(&place),
-            None => problem,
-        })
-        .collect()
+    error.into_problems().map(|problem| match place(&problem) {
+        Some(place) => problem.moved_to(&place),
+        None => problem,
+    })
 }
 
 /// A table under a key; nothing if it is left out.
-fn section<'t>(top: &Section<'t>, key: &str, problems: &mut Vec<Problem>) -> Option<&'t Table> {
+fn section<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Option<&'t Table> {
     top.table.entry(key)?;
     top.section(key, problems).map(|section| section.table)
 }
 
 /// Notes a key that must not be there.
-fn refuse(top: &Section<'_>, key: &str, what: &str, help: &str, problems: &mut Vec<Problem>) {
+fn refuse(top: &Section<'_>, key: &str, what: &str, help: &str, problems: &mut Problems) {
     if let Some(entry) = top.table.entry(key) {
         let problem = Problem::new(format!("{what} has no `{key}`")).at(&entry.key_place);
         problems.push(problem.label("not here").help(help));
@@ -299,7 +301,7 @@ fn refuse(top: &Section<'_>, key: &str, what: &str, help: &str, problems: &mut V
 }
 
 /// A whole number that may be left out.
-fn whole(top: &Section<'_>, key: &str, least: f64, problems: &mut Vec<Problem>) -> Option<u64> {
+fn whole(top: &Section<'_>, key: &str, least: f64, problems: &mut Problems) -> Option<u64> {
     let node = top.table.get(key)?;
     match node.value {
         Toml::Number(value) if value.fract() == 0.0 && value >= least && value <= MOST_RUNS => {
@@ -323,7 +325,7 @@ fn whole(top: &Section<'_>, key: &str, least: f64, problems: &mut Vec<Problem>) 
 }
 
 /// The text of the case that is varied.
-fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Vec<Problem>) -> Option<CaseSource> {
+fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) -> Option<CaseSource> {
     let path = folder.join(case);
     if !path.is_file()
         && let Ok(text) = builtin::text(case)
@@ -334,7 +336,7 @@ fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Vec<Proble
             folder: folder.to_owned(),
         });
     }
-    match std::fs::read_to_string(&path) {
+    match read_text(&path, &CASE_FILE) {
         Ok(text) => Some(CaseSource {
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),
             name: path.display().to_string(),
@@ -343,8 +345,8 @@ fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Vec<Proble
         Err(error) => {
             let shown = path.display();
             let (message, help) = match quantity::nearest(case, builtin::names()) {
-                _ if error.kind() != std::io::ErrorKind::NotFound => {
-                    (format!("the case file {shown} cannot be read: {error}"), String::new())
+                _ if !matches!(error.reason, Reason::NotFound) => {
+                    (error.to_string(), error.help().unwrap_or_default())
                 }
                 Some(near) => (
                     format!("there is neither a case file {shown} nor a built-in case \"{case}\""),

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use input::limits;
 use nucars::Severity;
 use nucars::together::RunFiles;
 use nucars::tree::{DataFile, InputFile, RunFile, SystemFile};
@@ -11,9 +12,6 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::{TruckCase, TruckStart, requests, yaw};
-
-/// The most rows of a result: at some two hundred columns a gigabyte and a half.
-const MOST_ROWS: f64 = 1e6;
 
 /// The trees of the files of a run.
 #[derive(Clone, Copy, Debug)]
@@ -75,7 +73,8 @@ pub enum FilesError {
     NoDuration,
     /// Duration and interval give no rows, or too many.
     #[error(
-        "{duration} s with a row each {interval} s: both must be positive, and give at least one row and at most a million"
+        "{duration} s with a row each {interval} s: both must be positive, and give at least one row and at most {}",
+        limits::OUTPUT_ROWS
     )]
     Rows {
         /// The duration, s.
@@ -100,7 +99,7 @@ pub fn case(name: &str, title: &str, files: Files<'_>, settings: &Settings) -> R
         .ok_or(FilesError::NoDuration)?;
     let interval = settings.interval;
     let rows = duration / interval * (1.0 + 1e-12);
-    if !(duration > 0.0 && interval > 0.0 && (1.0..=MOST_ROWS).contains(&rows)) {
+    if !(duration > 0.0 && interval > 0.0 && (1.0..limits::OUTPUT_ROWS as f64).contains(&rows)) {
         return Err(FilesError::Rows { duration, interval });
     }
     let choices = &settings.choices;

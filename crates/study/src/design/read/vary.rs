@@ -1,7 +1,7 @@
 //! What a study varies, as its file says it: lists, ranges, variants.
 
 use super::{Draft, Kind, Written};
-use crate::case::problem::{Place, Problem};
+use crate::case::problem::{Place, Problem, Problems};
 use crate::case::section::{Names, Section};
 use crate::case::tree::{Node, Table, Value as Toml};
 use crate::design::factor::{Factor, Levels, Value};
@@ -54,13 +54,7 @@ pub(super) fn assignments(table: &Table, path: &str, out: &mut Vec<(String, Writ
 }
 
 /// The factors of `[vary]`.
-pub(super) fn factors(
-    table: &Table,
-    path: &str,
-    kind: Kind,
-    out: &mut Vec<Draft>,
-    problems: &mut Vec<Problem>,
-) {
+pub(super) fn factors(table: &Table, path: &str, kind: Kind, out: &mut Vec<Draft>, problems: &mut Problems) {
     for entry in &table.entries {
         let path = below(path, &entry.key);
         let draft = match &entry.node.value {
@@ -106,7 +100,7 @@ fn listed(
     path: &str,
     items: &[Node],
     node: &Node,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) -> Option<(Levels, Vec<Written>)> {
     if items.is_empty() {
         let problem = Problem::new(format!("`{path}` has no values")).at(&node.place);
@@ -138,14 +132,14 @@ fn range(
     table: &Table,
     key: &Place,
     kind: Kind,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) -> Option<(Vec<String>, Levels, Vec<Written>)> {
     let section = Section {
         path: path.to_owned(),
         table,
         place: Some(key.clone()),
     };
-    let before = problems.len();
+    let before = problems.count();
     section.allow(&RANGE_KEYS, &[], problems);
     let mut paths = vec![path.to_owned()];
     if let Some(node) = table.get("also") {
@@ -180,7 +174,7 @@ fn range(
             return None;
         };
         let (levels, written) = listed(path, items, &entry.node, problems)?;
-        return (problems.len() == before).then_some((paths, levels, written));
+        return (problems.count() == before).then_some((paths, levels, written));
     }
     let from = section.require("from", RANGE_HELP, problems)?;
     let to = section.require("to", RANGE_HELP, problems)?;
@@ -267,14 +261,11 @@ fn range(
         count,
     };
     let written = vec![(low.clone(), from.place.clone()), (high, to.place.clone())];
-    (problems.len() == before).then_some((paths, levels, written))
+    (problems.count() == before).then_some((paths, levels, written))
 }
 
 /// The variants of a list: all paths that one of them sets, and for each variant its values.
-pub(super) fn variants(
-    top: &Section<'_>,
-    problems: &mut Vec<Problem>,
-) -> (Vec<Draft>, Vec<Vec<Option<Value>>>) {
+pub(super) fn variants(top: &Section<'_>, problems: &mut Problems) -> (Vec<Draft>, Vec<Vec<Option<Value>>>) {
     const HELP: &str = "write [[variants]] for each of them and below it for example friction.column = 0.3";
     let mut drafts: Vec<Draft> = Vec::new();
     let mut rows: Vec<Vec<(String, Written)>> = Vec::new();
@@ -340,7 +331,7 @@ pub(super) fn variants(
 }
 
 /// Paths that stand twice, or that a study cannot vary.
-pub(super) fn check_paths(drafts: &[Draft], set: &[(String, Written)], problems: &mut Vec<Problem>) {
+pub(super) fn check_paths(drafts: &[Draft], set: &[(String, Written)], problems: &mut Problems) {
     let mut seen: Vec<&str> = Vec::new();
     for draft in drafts {
         for path in &draft.factor.paths {

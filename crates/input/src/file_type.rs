@@ -1,0 +1,212 @@
+//! What a file seems to be, from its first bytes.
+
+/// A type of file that users have around Wedgelab.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FileType {
+    /// A case (TOML).
+    Case,
+    /// A study (TOML).
+    Study,
+    /// A file of NUCARS (keywords that begin with `\`).
+    Nucars,
+    /// A table of results (CSV with a column of times).
+    Results,
+    /// JSON: a summary, the description of a study, a saved state.
+    Json,
+    /// A web page, such as a report.
+    Page,
+    /// A figure: PNG, SVG, PDF.
+    Figure,
+    /// A MAT-file.
+    MatFile,
+    /// A ZIP archive: an FMU or a system structure, or an office document.
+    Archive,
+    /// A Parquet table of a study.
+    Parquet,
+    /// Records of a study.
+    Records,
+    /// No text.
+    Binary,
+}
+
+/// How many bytes at the beginning of a file [`FileType::of`] needs at most.
+pub const HEAD: usize = 1 << 16;
+
+impl FileType {
+    /// Returns what the beginning of a file says it is; `None` if it says nothing.
+    #[must_use]
+    pub fn of(bytes: &[u8]) -> Option<Self> {
+        let signatures: [(&[u8], Self); 9] = [
+            (b"MATLAB 5.0 MAT-file", Self::MatFile),
+            (b"PK\x03\x04", Self::Archive),
+            (b"PAR1", Self::Parquet),
+            (b"WLR1", Self::Records),
+            (b"\x89PNG", Self::Figure),
+            (b"%PDF-", Self::Figure),
+            (b"\x7fELF", Self::Binary),
+            (b"\x1f\x8b", Self::Binary),
+            (b"\x93NUMPY", Self::Binary),
+        ];
+        if let Some((_, found)) = signatures.iter().find(|(sign, _)| bytes.starts_with(sign)) {
+            return Some(*found);
+        }
+        let head = &bytes[..bytes.len().min(HEAD)];
+        if head.starts_with(b"\xff\xfe") || head.starts_with(b"\xfe\xff") {
+            // UTF-16: only files of NUCARS are read in it, and its keywords are not looked for here.
+            return None;
+        }
+        if head.contains(&0) {
+            return Some(Self::Binary);
+        }
+        let text = String::from_utf8_lossy(head);
+        let text = text.trim_start_matches('\u{feff}').trim_start();
+        let begins = |sign: &str| {
+            text.get(..sign.len())
+                .is_some_and(|own| own.eq_ignore_ascii_case(sign))
+        };
+        if begins("<!doctype html") || begins("<html") {
+            return Some(Self::Page);
+        }
+        if begins("<svg") || (begins("<?xml") && text.contains("<svg")) {
+            return Some(Self::Figure);
+        }
+        if begins("{") || begins("[{") {
+            return Some(Self::Json);
+        }
+        let lines = || text.split(['\n', '\r']).map(str::trim_end);
+        if lines().any(is_nucars_keyword) {
+            return Some(Self::Nucars);
+        }
+        if let Some(found) = toml_type(lines()) {
+            return Some(found);
+        }
+        let mut rows = lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
+        let names = rows.next()?;
+        let has_time = names
+            .split(',')
+            .any(|name| ["time", "time_s"].contains(&name.trim()));
+        (has_time && names.contains(',')).then_some(Self::Results)
+    }
+
+    /// Returns what it is, with its article, for messages.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Case => "a case file",
+            Self::Study => "a study file",
+            Self::Nucars => "a file of NUCARS",
+            Self::Results => "a table of results",
+            Self::Json => "a JSON file",
+            Self::Page => "a web page",
+            Self::Figure => "a figure",
+            Self::MatFile => "a MAT-file",
+            Self::Archive => "a ZIP archive",
+            Self::Parquet => "a Parquet table",
+            Self::Records => "a file of a study's records",
+            Self::Binary => "not text",
+        }
+    }
+
+    /// Returns what takes such a file; `path` is the file as the user named it.
+    #[must_use]
+    pub fn advice(self, path: &str) -> String {
+        match self {
+            Self::Case => format!("`wedgelab run {path}` runs it"),
+            Self::Study => format!("`wedgelab study {path}` runs it"),
+            Self::Nucars => {
+                format!("`wedgelab nucars check {path}` reads it, `wedgelab nucars run` runs a .RUN file")
+            }
+            Self::Results => format!("`wedgelab compare` and `wedgelab plot {path}` take it"),
+            Self::Json => {
+                "`wedgelab compare` takes the folder that a summary.json lies in; no command takes other JSON"
+                    .to_owned()
+            }
+            Self::Page => "open it in a browser; the case of a run is its case.toml".to_owned(),
+            Self::Figure => {
+                "open it in a browser or viewer; `wedgelab plot` makes figures of results".to_owned()
+            }
+            Self::MatFile => {
+                "load it in MATLAB, Octave or SciPy; the same result as text is its result.csv".to_owned()
+            }
+            Self::Archive => {
+                "an FMU is for importers; `wedgelab fmu export CASE` makes one of a case".to_owned()
+            }
+            Self::Parquet => "read it with pandas, Polars or DuckDB; `wedgelab study` makes it".to_owned(),
+            Self::Records => "`wedgelab study` reads it in its folder".to_owned(),
+            Self::Binary => "name a text file".to_owned(),
+        }
+    }
+}
+
+/// A line such as `\BODY DATA`.
+fn is_nucars_keyword(line: &str) -> bool {
+    let word = line
+        .strip_prefix('\\')
+        .or_else(|| line.trim_start().strip_prefix("$\\"));
+    word.is_some_and(|word| word.starts_with(|letter: char| letter.is_ascii_alphabetic()))
+}
+
+/// A case or a study, by the sections and keys that only one of them has.
+fn toml_type<'t>(lines: impl Iterator<Item = &'t str>) -> Option<FileType> {
+    const CASE: [&str; 8] = [
+        "[wedge]",
+        "[control_coil]",
+        "[contact]",
+        "[friction]",
+        "[side_frame]",
+        "[bolster]",
+        "[environment]",
+        "[simulation]",
+    ];
+    const STUDY: [&str; 3] = ["[vary]", "[[variants]]", "[set]"];
+    let mut found = None;
+    for line in lines {
+        let line = line.split('#').next().unwrap_or("").trim();
+        let key = line.split(['=', '.']).next().unwrap_or("").trim();
+        if STUDY.contains(&line) || (["sampling", "case"].contains(&key) && line.contains('=')) {
+            return Some(FileType::Study);
+        }
+        let table = CASE
+            .iter()
+            .any(|section| *section == line || section.trim_matches(['[', ']']) == key);
+        if table && (line.starts_with('[') || line.contains('=')) {
+            found = Some(FileType::Case);
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn input_files_are_recognized_by_their_beginning() {
+        let page = format!("\u{feff}<!DOCTYPE html>{}", "x".repeat(1000));
+        let files: [(&[u8], Option<FileType>); 20] = [
+            (b"[wedge]\ndamping = \"constant\"", Some(FileType::Case)),
+            (b"wedge.angle = \"32 deg\"", Some(FileType::Case)),
+            (b"# a [vary] study?\n[bolster]\n", Some(FileType::Case)),
+            (b"case = \"x\"\n[vary]\nwedge.angle = []", Some(FileType::Study)),
+            (b"name = \"x\"\n[[variants]] # list", Some(FileType::Study)),
+            (b"  ! head\n\\BODY DATA\n", Some(FileType::Nucars)),
+            (b"$\\TITLE\r\n", Some(FileType::Nucars)),
+            (b"time_s,wedge_x_in\n0,1\n", Some(FileType::Results)),
+            (b"# remark\nwedge_x_in , time\n", Some(FileType::Results)),
+            (b"time [s], value [in]\n0, 1\n", None),
+            (b"{\"schema\": \"wedgelab.summary/1\"}", Some(FileType::Json)),
+            (page.as_bytes(), Some(FileType::Page)),
+            (b"<?xml version=\"1.0\"?><svg/>", Some(FileType::Figure)),
+            (b"\x89PNG\r\n", Some(FileType::Figure)),
+            (b"MATLAB 5.0 MAT-file, \0", Some(FileType::MatFile)),
+            (b"PK\x03\x04", Some(FileType::Archive)),
+            (b"\0\0\0\0", Some(FileType::Binary)),
+            (b"\xff\xfe\\\0T\0", None),
+            (b"", None),
+            (b"hello", None),
+        ];
+        for (bytes, found) in files {
+            assert_eq!(FileType::of(bytes), found, "{}", String::from_utf8_lossy(bytes));
+        }
+    }
+}

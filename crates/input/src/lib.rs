@@ -1,0 +1,21 @@
+//! Reading of files and texts within stated limits.
+//!
+//! - [`limits`]: the limits of every reader, in one place.
+//! - [`file`]: files read up to a size, their type looked at first.
+//! - [`FileType`]: what a file seems to be, and which command takes it.
+//! - [`Text`]: a text that was read, with excerpts of bounded size for messages.
+//! - [`structure`]: nesting, number of values and length of lines of TOML, found before it is parsed.
+//! - [`shortened`]: a piece of a user's text, short enough for a message.
+
+#![warn(missing_docs)]
+
+pub mod file;
+mod file_type;
+pub mod limits;
+mod shorten;
+pub mod structure;
+mod text;
+
+pub use file_type::FileType;
+pub use shorten::{bounded, shortened};
+pub use text::Text;
