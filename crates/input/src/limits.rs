@@ -35,6 +35,9 @@ pub const TABLE_ROWS: usize = 100_000;
 /// (three values a row, see [`VALUES`]).
 pub const CASE_ROWS: usize = 300_000;
 
+/// Most parameters that a study varies, and most that it sets for all runs.
+pub const FACTORS: usize = 100;
+
 /// Longest text of one quantity, number and unit together, in bytes.
 pub const QUANTITY: usize = 256;
 

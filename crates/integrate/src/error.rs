@@ -146,7 +146,7 @@ impl std::fmt::Display for StepError {
             Reason::Error => {
                 write!(
                     f,
-                    "at time {time} even a step of {step} has {scaled_error:.3e} times the admissible error"
+                    "at time {time:?} even a step of {step:?} has {scaled_error:.3e} times the admissible error"
                 )?;
                 state(f, " in")?;
                 f.write_str(
@@ -156,7 +156,7 @@ impl std::fmt::Display for StepError {
             Reason::NotFinite => {
                 write!(
                     f,
-                    "at time {time} even a step of {step} leads to values that are not finite"
+                    "at time {time:?} even a step of {step:?} leads to values that are not finite"
                 )?;
                 state(f, ", first in")?;
                 f.write_str(
@@ -165,27 +165,27 @@ impl std::fmt::Display for StepError {
             }
             Reason::Singular { block } => write!(
                 f,
-                "at time {time} the matrix of a step of {step} is singular in block {block}: \
+                "at time {time:?} the matrix of a step of {step:?} is singular in block {block}: \
                  look for an infinite or missing partial derivative"
             ),
             Reason::Unsolved => write!(
                 f,
-                "at time {time} the equations of a step of {step} could not be solved: look for a jump in the problem, \
+                "at time {time:?} the equations of a step of {step:?} could not be solved: look for a jump in the problem, \
                  or choose another method"
             ),
             Reason::MaximumSteps { maximum } => {
                 write!(
                     f,
-                    "at time {time} the {maximum} admissible steps are used up (the last one was {step} long)"
+                    "at time {time:?} the {maximum} admissible steps are used up (the last one was {step:?} long)"
                 )?;
                 state(f, ", the largest error being in")?;
                 f.write_str(": allow more steps, loosen the tolerance, or regularize the problem")
             }
-            Reason::Limit { limit } => write!(f, "a step from time {time} cannot end at {limit}"),
+            Reason::Limit { limit } => write!(f, "a step from time {time:?} cannot end at {limit:?}"),
             Reason::Segment { end } => {
                 write!(
                     f,
-                    "the problem's segment that starts at {time} ends at {end}; it must end later"
+                    "the problem's segment that starts at {time:?} ends at {end:?}; it must end later"
                 )
             }
         }

@@ -213,8 +213,9 @@ fn bad_number(text: &str, start: usize, end: usize, expected: Option<Kind>) -> O
     None
 }
 
-/// A number in the shortest form that reads back to the same bits.
-struct Number(f64);
+/// A number in the shortest form that reads back to the same bits: with an exponent where it would have many zeros.
+#[derive(Clone, Copy, Debug)]
+pub struct Number(pub f64);
 
 impl fmt::Display for Number {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -9,6 +9,7 @@ pub mod closed_form;
 pub mod cycles;
 pub mod design;
 pub mod driven;
+mod finite;
 pub mod fit;
 pub mod measures;
 pub mod metrics;

@@ -107,7 +107,13 @@ fn begin(study: &Study, number: u64) -> Result<Begun, Unmeasured> {
 /// What became of a variant as its record.
 fn record(number: u64, outcome: Result<Measures, Unmeasured>) -> Record {
     let (status, reason, measures) = match outcome {
-        Ok(measures) => (Status::Complete, String::new(), measures),
+        Ok(measures) => match measures.not_finite() {
+            None => (Status::Complete, String::new(), measures),
+            Some(name) => {
+                let reason = format!("`{name}` is not a finite number");
+                (Status::Stopped, reason, Measures::NONE)
+            }
+        },
         Err(Unmeasured::Refused(reason)) => (Status::Refused, shortened(reason), Measures::NONE),
         Err(Unmeasured::Stopped(reason)) => (Status::Stopped, shortened(reason), Measures::NONE),
     };

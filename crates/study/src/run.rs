@@ -11,6 +11,7 @@ use wedge::outputs::{CORNERS, FACES, Outputs};
 use wedge::{BuildError, Wedge};
 
 use crate::case::Case;
+use crate::finite::{first_not_finite, is_finite};
 use crate::metrics::Cycle;
 use crate::result::{ContactEvent, RunResult};
 use crate::rows::Rows;
@@ -42,6 +43,18 @@ pub enum RunError {
         error: StepError,
         /// Contact states at that time, in words.
         contacts: String,
+    },
+    /// A column of the result is not finite.
+    #[error(
+        "`{column}` is {value} at {time} s, which is not a finite number: look for values out of all proportion"
+    )]
+    NotFinite {
+        /// The column, without unit.
+        column: String,
+        /// Its value, SI.
+        value: f64,
+        /// The time, s.
+        time: f64,
     },
     /// A saved state that this version cannot read.
     #[error("the saved run state has version {found}; this program reads version {RUN_STATE_VERSION}")]
@@ -121,7 +134,7 @@ impl Run {
             ..Counts::default()
         };
         let mut run = Self::assemble(case, wedge, integrator, counts, 0);
-        run.emit_rows(true);
+        run.emit_rows(true)?;
         Ok(run)
     }
 
@@ -219,8 +232,7 @@ impl Run {
         self.count_events();
         self.count_creep();
         self.probe();
-        self.emit_rows(false);
-        Ok(())
+        self.emit_rows(false)
     }
 
     /// Runs to the end and gives the result; a run that cannot go on gives an incomplete result with the reason.
@@ -244,7 +256,15 @@ impl Run {
     /// The result so far.
     #[must_use]
     pub fn result(mut self, stopped: Option<Stopped>) -> RunResult {
-        let summary = summarize::summary(&mut self, stopped);
+        let mut summary = summarize::summary(&mut self, stopped);
+        if let Some(what) = first_not_finite(&summary).filter(|_| summary.stopped.is_none()) {
+            summary.complete = false;
+            summary.stopped = Some(Stopped {
+                time: self.time(),
+                reason: format!("{what} is not a finite number: look for values out of all proportion"),
+                contacts: self.contact_states(),
+            });
+        }
         RunResult {
             columns: self.outputs.columns().to_vec(),
             values: self.values,
@@ -336,12 +356,12 @@ impl Run {
         }
     }
 
-    /// Writes the rows whose time has been reached, with the contact modes of that time.
-    fn emit_rows(&mut self, first: bool) {
+    /// Writes the rows whose time has been reached, with the contact modes of that time, up to one that is not finite.
+    fn emit_rows(&mut self, first: bool) -> Result<(), RunError> {
         let rows = self.rows;
         // Most steps reach no row.
         if rows.time(self.next_row) > self.integrator.time() {
-            return;
+            return Ok(());
         }
         self.modes.copy_from_slice(self.integrator.modes_before_step());
         if first {
@@ -370,12 +390,20 @@ impl Run {
             let ledger = self
                 .outputs
                 .values(&self.wedge.system, &seen, &self.modes, start, &mut self.row);
+            if let Some(index) = self.row.iter().position(|value| !is_finite(*value)) {
+                return Err(RunError::NotFinite {
+                    column: self.outputs.columns()[index].name.clone(),
+                    value: self.row[index],
+                    time,
+                });
+            }
             for (column, value) in self.values.iter_mut().zip(&self.row) {
                 column.push(*value);
             }
             self.counts.largest_residual = self.counts.largest_residual.max(ledger.residual.abs());
             self.next_row += 1;
         }
+        Ok(())
     }
 }
 

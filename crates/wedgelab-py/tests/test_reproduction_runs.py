@@ -207,8 +207,8 @@ def test_many_runs_say_what_is_wrong(short_case: wl.Case, capsys: pytest.Capture
 
 
 def test_a_run_that_stops_keeps_what_it_has(short_case: wl.Case) -> None:
-    # No step is short enough for such a coil.
-    changes = {"control_coil.stiffness": "1e300 lbf/in", "simulation.duration": "0.05 s"}
+    # No step is short enough for a wedge that turns so easily.
+    changes = {"wedge.inertia": ["1e-300 lb in^2"] * 3, "simulation.duration": "0.05 s"}
     broken = wl.Case("vdrun_toe_0_psi_0").replace(changes)
     with pytest.raises(wl.RunError, match="is incomplete") as caught:
         broken.run()

@@ -26,7 +26,7 @@ sampling = "full_factorial"
 simulation.duration = "0.12 s"
 [vary]
 friction.column = { from = 0.2, to = 0.6, count = 20 }
-control_coil.stiffness = ["1500 lbf/in", "2000 lbf/in", "2500 lbf/in", "1e300 lbf/in"]
+friction.reference_speed = ["0.001 in/s", "0.002 in/s", "0.003 in/s", "1e-300 in/s"]
 """
 
 
@@ -52,8 +52,8 @@ def client(request: pytest.FixtureRequest) -> Iterator[Any]:
 def test_a_study_is_what_its_file_says(path: Path) -> None:
     study = wl.Study(path)
     assert (study.name, study.title, study.count, len(study)) == ("friction", "Friction and stiffness", 80, 80)
-    assert study.parameters == ["friction.column", "control_coil.stiffness"]
-    assert study.values(0) == {"friction.column": "0.2", "control_coil.stiffness": "1500 lbf/in"}
+    assert study.parameters == ["friction.column", "friction.reference_speed"]
+    assert study.values(0) == {"friction.column": "0.2", "friction.reference_speed": "0.001 in/s"}
     assert study.case(1).friction.column == 0.2
     assert study.columns["wear_power_column_lbf_in_per_s"].unit == "lbf·in/s"
     again = pickle.loads(pickle.dumps(study))
@@ -82,7 +82,7 @@ def test_cross_code_the_table_is_read_by_others(path: Path, tmp_path: Path) -> N
     rows = table.to_pylist()
     assert [row["run"] for row in rows] == list(range(80))
     assert rows[4]["friction.column"] == pytest.approx(0.2 + 0.4 / 19, abs=1e-15)
-    assert rows[4]["control_coil.stiffness_lbf_per_in"] == 1500.0
+    assert rows[4]["friction.reference_speed_in_per_s"] == 0.001
     assert rows[3]["status"] != "complete" and rows[3]["reason"] and rows[3]["steps"] is None
     steps = study.case(6).run().summary.solver.statistics.steps
     assert rows[6]["steps"] == steps

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use miette::Report;
+use quantity::Number;
 use report::files::Folder;
 use report::run_files;
 use study::case::Case;
@@ -31,7 +32,7 @@ pub fn execute(case: &Case, folder: &Folder, progress: &Progress) -> Result<Done
     let wall = start.elapsed();
     run_files::write(folder, case, &result)?;
     let how = match &result.summary.stopped {
-        Some(stopped) => format!("stopped at {} s", stopped.time),
+        Some(stopped) => format!("stopped at {} s", Number(stopped.time)),
         None => format!("{:.2} s", wall.as_secs_f64()),
     };
     progress.done(&case.name, &how);
@@ -53,7 +54,9 @@ pub fn incomplete(summary: &Summary, folder: &Folder) -> Option<Report> {
     let stopped = summary.stopped.as_ref()?;
     let message = format!(
         "the run {} stopped at {} s and is incomplete: {}",
-        summary.name, stopped.time, stopped.reason
+        summary.name,
+        Number(stopped.time),
+        stopped.reason
     );
     let advice = format!(
         "what was computed until then is in {}, marked as incomplete; values far from the thesis's are the first \

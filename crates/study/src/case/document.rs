@@ -36,6 +36,21 @@ pub struct CaseDocument {
     pub simulation: SimulationSection,
 }
 
+impl CaseDocument {
+    /// The rows of all its tables.
+    pub(super) fn table_rows(&self) -> usize {
+        let coil = match &self.control_coil.force {
+            CoilForce::Table(table) => table.rows.len(),
+            CoilForce::Stiffness(_) => 0,
+        };
+        let neighbours = [&self.side_frame, &self.bolster].into_iter();
+        let tables = neighbours
+            .flat_map(|neighbour| &neighbour.coordinates)
+            .flat_map(Motion::tables);
+        coil + tables.map(|table| table.rows.len()).sum::<usize>()
+    }
+}
+
 /// `[wedge]`
 #[derive(Clone, Debug, PartialEq)]
 pub struct WedgeSection {

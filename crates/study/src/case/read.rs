@@ -1,15 +1,16 @@
 //! From the tree of a case to the document: every section, key by key.
 
+use super::bounds;
 use super::document::*;
 use super::motion;
 use super::problem::{Place, Problem, Problems};
 use super::section::{self, Range, Section, inner_place, unit_problem};
 use super::table::{self, Form};
+use super::tables::Tables;
 use super::tree::{Node, Table, Value};
 use super::{defaults, name};
 use input::limits;
 use quantity::{Kind, Quantity, System};
-use std::path::Path;
 
 /// The keys of every table.
 const KEYS: &[(&str, &[&str])] = &[
@@ -96,13 +97,15 @@ const KEYS: &[(&str, &[&str])] = &[
 const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
 const ANGLE: Range = Range::Between(0.0, RIGHT_ANGLE, "between 0 deg and 90 deg, both excluded");
 const TOE: Range = Range::Between(-RIGHT_ANGLE / 4.0, RIGHT_ANGLE / 4.0, "below 22.5 deg");
-const TOLERANCE: Range = Range::Between(0.0, 1.0, "between 0 and 1, both excluded");
+const COEFFICIENT: Range = Range::UpTo(bounds::FRICTION, "between 0 and 10");
+/// Numbers have sixteen digits; a narrower tolerance is never met.
+const TOLERANCE: Range = Range::Between(1e-15, 1.0, "between 1e-15 and 1, both excluded");
 
 /// Completes the tree and reads it; notes what is wrong.
 pub(super) fn document(
     tree: &mut Table,
     default_name: &str,
-    folder: &Path,
+    tables: Tables<'_>,
     problems: &mut Problems,
 ) -> Option<CaseDocument> {
     complete(tree, problems);
@@ -143,7 +146,7 @@ pub(super) fn document(
     let simulation = section("simulation");
 
     let wedge = wedge.and_then(|s| read_wedge(&s, problems));
-    let control_coil = coil.and_then(|s| read_coil(&s, folder, problems));
+    let control_coil = coil.and_then(|s| read_coil(&s, tables, problems));
     let contact = contact.and_then(|s| {
         let stiffness = s.quantity("stiffness", Kind::Stiffness, Range::Positive, problems);
         let damping = s.quantity("damping", Kind::Damping, Range::NotNegative, problems);
@@ -154,8 +157,8 @@ pub(super) fn document(
     });
     let friction = friction.and_then(|s| read_friction(&s, problems));
     let toe = side_frame.as_ref().and_then(|s| read_toe(s, problems));
-    let side_frame = side_frame.and_then(|s| read_neighbour(&s, folder, problems));
-    let bolster = bolster.and_then(|s| read_neighbour(&s, folder, problems));
+    let side_frame = side_frame.and_then(|s| read_neighbour(&s, tables, problems));
+    let bolster = bolster.and_then(|s| read_neighbour(&s, tables, problems));
     let environment = environment.and_then(|s| {
         Some(EnvironmentSection {
             gravity: s.quantity("gravity", Kind::Acceleration, Range::NotNegative, problems)?,
@@ -165,11 +168,11 @@ pub(super) fn document(
     if let Some(simulation) = &simulation {
         for (key, neighbour) in [("side_frame", &side_frame), ("bolster", &bolster)] {
             if let Some(neighbour) = neighbour {
-                check_cover(key, neighbour, &simulation.duration, tree, problems);
+                check_cover(key, neighbour, &simulation.duration, tree, tables, problems);
             }
         }
     }
-    Some(CaseDocument {
+    let document = CaseDocument {
         name: name?,
         title: title?,
         wedge: wedge?,
@@ -181,7 +184,16 @@ pub(super) fn document(
         bolster: bolster?,
         environment: environment?,
         simulation: simulation?,
-    })
+    };
+    let rows = document.table_rows();
+    if rows > limits::CASE_ROWS {
+        let message = format!(
+            "the tables of the case have {rows} rows together; at most {} are read",
+            limits::CASE_ROWS
+        );
+        problems.push(Problem::new(message).help("leave out rows: motions are smooth between them"));
+    }
+    Some(document)
 }
 
 /// Takes over what is left out from the thesis's values of the damping.
@@ -262,7 +274,7 @@ fn read_free_coordinates(s: &Section<'_>, problems: &mut Problems) -> Option<Vec
     Some(coordinates)
 }
 
-fn read_coil(s: &Section<'_>, folder: &Path, problems: &mut Problems) -> Option<CoilSection> {
+fn read_coil(s: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) -> Option<CoilSection> {
     let force = match (s.table.entry("stiffness"), s.table.entry("table")) {
         (Some(_), Some(table)) => {
             let problem =
@@ -274,7 +286,7 @@ fn read_coil(s: &Section<'_>, folder: &Path, problems: &mut Problems) -> Option<
             );
             None
         }
-        (_, Some(table)) => table::read(&table.node, &s.path_of("table"), &Form::coil(), folder, problems)
+        (_, Some(table)) => table::read(&table.node, &s.path_of("table"), &Form::coil(), tables, problems)
             .map(CoilForce::Table),
         _ => s
             .quantity("stiffness", Kind::Stiffness, Range::Positive, problems)
@@ -334,8 +346,8 @@ fn read_friction(s: &Section<'_>, problems: &mut Problems) -> Option<FrictionSec
             .choice("law", FrictionLaw::NAMES, problems)
             .map(|law| (law, law)),
     };
-    let column = s.number("column", Range::NotNegative, "0.4", problems);
-    let slope = s.number("slope", Range::NotNegative, "0.4", problems);
+    let column = s.number("column", COEFFICIENT, "0.4", problems);
+    let slope = s.number("slope", COEFFICIENT, "0.4", problems);
     let reference_speed = s.quantity("reference_speed", Kind::Speed, Range::Positive, problems);
     let bristle_stiffness = s.quantity("bristle_stiffness", Kind::Stiffness, Range::Positive, problems);
     let bristle_damping = s.quantity("bristle_damping", Kind::Damping, Range::Positive, problems);
@@ -426,7 +438,7 @@ fn signed_toe(angle: f64, node: &Node, path: &str, problems: &mut Problems) -> O
     })
 }
 
-fn read_neighbour(s: &Section<'_>, folder: &Path, problems: &mut Problems) -> Option<NeighbourSection> {
+fn read_neighbour(s: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) -> Option<NeighbourSection> {
     let center = match s.table.get("center") {
         Some(_) => Some(s.triple("center", Kind::Length, Range::Any, problems)?),
         None => None,
@@ -435,7 +447,7 @@ fn read_neighbour(s: &Section<'_>, folder: &Path, problems: &mut Problems) -> Op
     for (at, key) in NeighbourSection::COORDINATES.into_iter().enumerate() {
         let kind = if at < 3 { Kind::Length } else { Kind::Angle };
         let node: Option<&Node> = s.require(key, "write a motion", problems);
-        motions.push(node.and_then(|node| motion::read(node, &s.path_of(key), kind, folder, problems)));
+        motions.push(node.and_then(|node| motion::read(node, &s.path_of(key), kind, tables, problems)));
     }
     let motions: Vec<_> = motions.into_iter().collect::<Option<_>>()?;
     Some(NeighbourSection {
@@ -492,6 +504,7 @@ fn check_cover(
     neighbour: &NeighbourSection,
     duration: &Quantity,
     tree: &Table,
+    tables: Tables<'_>,
     problems: &mut Problems,
 ) {
     for (key, motion) in NeighbourSection::COORDINATES.iter().zip(&neighbour.coordinates) {
@@ -503,8 +516,14 @@ fn check_cover(
                 continue;
             }
             let path = format!("{section}.{key}");
-            let message =
-                format!("`{path}` is given from {first} to {last}, but the run lasts from 0 to {duration}");
+            let message = match &table.file {
+                Some(file) if !tables.may_quote() => {
+                    format!("`{path}`: {file} does not last from 0 to {duration}, as the run does")
+                }
+                _ => format!(
+                    "`{path}` is given from {first} to {last}, but the run lasts from 0 to {duration}"
+                ),
+            };
             let help = "add rows to the table, or shorten simulation.duration";
             let problem = Problem::new(message).label("does not cover the run").help(help);
             problems.push(match tree.place_of(&path) {

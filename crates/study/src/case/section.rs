@@ -1,5 +1,6 @@
 //! Reading one table of a case: typed values, ranges, unknown keys.
 
+use super::bounds;
 use super::problem::{Place, Problem, Problems};
 use super::tree::{Node, Table, Value};
 use input::shortened;
@@ -16,6 +17,8 @@ pub(crate) enum Range {
     NotNegative,
     /// Between two values, both excluded, SI; with the words for it.
     Between(f64, f64, &'static str),
+    /// From zero to a value, both included; with the words for it.
+    UpTo(f64, &'static str),
 }
 
 impl Range {
@@ -25,6 +28,7 @@ impl Range {
             Range::Positive => value > 0.0 && value.is_finite(),
             Range::NotNegative => value >= 0.0 && value.is_finite(),
             Range::Between(low, high, _) => value > low && value < high,
+            Range::UpTo(high, _) => (0.0..=high).contains(&value),
         }
     }
 
@@ -33,7 +37,7 @@ impl Range {
             Range::Any => "a finite number",
             Range::Positive => "greater than zero",
             Range::NotNegative => "zero or greater",
-            Range::Between(.., words) => words,
+            Range::Between(.., words) | Range::UpTo(_, words) => words,
         }
     }
 }
@@ -357,7 +361,8 @@ pub(crate) fn quantity(
         Ok(quantity) => {
             let problem = out_of_range(&quantity, path, kind, range);
             let inside = problem.is_none();
-            problems.extend(problem.map(|problem| problem.at(&node.place).label(range.words())));
+            problems
+                .extend(problem.map(|problem| problem.at(&node.place).label(said(range, kind, &quantity))));
             inside.then_some(quantity)
         }
         Err(error) => {
@@ -398,12 +403,29 @@ pub(crate) fn inner_place(node: &Node, error: &UnitError) -> Place {
     place
 }
 
+/// Whether a quantity is not larger than anything of its kind.
+pub(crate) fn is_bounded(quantity: &Quantity, kind: Kind) -> bool {
+    quantity.to_si().abs() <= bounds::largest(kind)
+}
+
+/// What a quantity must be that is outside its range or beyond the bound of its kind.
+fn said(range: Range, kind: Kind, quantity: &Quantity) -> String {
+    if range.holds(quantity.to_si()) {
+        bounds::words(kind)
+    } else {
+        range.words().to_owned()
+    }
+}
+
 /// The problem of a quantity outside its range, still without a place.
 pub(crate) fn out_of_range(quantity: &Quantity, path: &str, kind: Kind, range: Range) -> Option<Problem> {
-    if range.holds(quantity.to_si()) {
+    if range.holds(quantity.to_si()) && is_bounded(quantity, kind) {
         return None;
     }
-    let message = format!("`{path}` is {quantity}; it must be {}", range.words());
+    let message = format!(
+        "`{path}` is {quantity}; it must be {}",
+        said(range, kind, quantity)
+    );
     Some(Problem::new(message).help(format!("write for example \"{}\"", example(kind))))
 }
 

@@ -3,12 +3,15 @@
 //! A CSV file has a line of names with units, `time [s], value [in]`, then one line of numbers a
 //! point. Empty lines and lines that begin with `#` do not count.
 
+use super::bounds;
 use super::problem::{Place, Problem, Problems, Source};
 use super::section::{self, Range, Section};
+use super::tables::Tables;
 use super::tree::{Node, Value};
 use super::units::in_system;
+use input::file::{Expected, Reason, read_text};
+use input::{FileType, limits, shortened, structure};
 use quantity::{Kind, Quantity, System};
-use std::path::Path;
 use std::sync::Arc;
 
 /// Two columns of quantities, the first one increasing.
@@ -100,7 +103,7 @@ pub(super) fn read_either(
     file: &str,
     points: &str,
     form: &Form,
-    folder: &Path,
+    tables: Tables<'_>,
     problems: &mut Problems,
 ) -> Option<QuantityTable> {
     match (section.table.get(file), section.table.entry(points)) {
@@ -120,23 +123,42 @@ pub(super) fn read_either(
             section.require(file, &help, problems);
             None
         }
-        (Some(node), None) => read(node, &section.path_of(file), form, folder, problems),
-        (None, Some(entry)) => read(&entry.node, &section.path_of(points), form, folder, problems),
+        (Some(node), None) => read(node, &section.path_of(file), form, tables, problems),
+        (None, Some(entry)) => read(&entry.node, &section.path_of(points), form, tables, problems),
     }
 }
 
-/// Reads a table from the name of a file or from points.
+/// Reads a table from the name of a file or from points. Of a file that must not be quoted, messages tell the place and
+/// the kind of a mistake.
 pub(super) fn read(
     node: &Node,
     path: &str,
     form: &Form,
-    folder: &Path,
+    tables: Tables<'_>,
+    problems: &mut Problems,
+) -> Option<QuantityTable> {
+    match &node.value {
+        Value::Text(file) if !tables.may_quote() => {
+            let mut found = Problems::new();
+            let table = read_quoting(node, path, form, tables, &mut found);
+            problems.append(found.map(|problem| problem.without_quoting(file, path, &node.place)));
+            table
+        }
+        _ => read_quoting(node, path, form, tables, problems),
+    }
+}
+
+fn read_quoting(
+    node: &Node,
+    path: &str,
+    form: &Form,
+    tables: Tables<'_>,
     problems: &mut Problems,
 ) -> Option<QuantityTable> {
     let (file, rows) = match &node.value {
         Value::Text(file) => (
             Some(file.clone()),
-            read_file(node, file, path, form, folder, problems)?,
+            read_file(node, file, path, form, tables, problems)?,
         ),
         Value::List(items) => (None, read_points(items, path, form, problems)?),
         other => {
@@ -197,21 +219,31 @@ fn read_file(
     file: &str,
     path: &str,
     form: &Form,
-    folder: &Path,
+    tables: Tables<'_>,
     problems: &mut Problems,
 ) -> Option<Vec<Row>> {
-    let full = folder.join(file);
-    let text = match std::fs::read_to_string(&full) {
+    let shown = tables.shown(file);
+    let full = match tables.locate(file) {
+        Ok(full) => full,
+        Err(refused) => {
+            let problem = Problem::new(format!("`{path}`: {shown} {}", refused.reason)).at(&node.place);
+            problems.push(problem.label("this file").help(refused.help));
+            return None;
+        }
+    };
+    let text = match read_text(&full, &TABLE_FILE) {
         Ok(text) => text,
-        Err(error) => {
-            let (message, help) = if error.kind() == std::io::ErrorKind::NotFound {
-                let help = "files are looked for from the folder of the case file; check the name";
-                (format!("`{path}`: there is no file {}", full.display()), help)
-            } else {
-                (
-                    format!("`{path}`: {} cannot be read: {error}", full.display()),
-                    "name a CSV text file",
-                )
+        Err(mut error) => {
+            error.path = shown.into();
+            let (message, help) = match error.reason {
+                Reason::NotFound => (
+                    format!("`{path}`: there is no file {}", error.path.display()),
+                    "files are looked for from the folder of the case file; check the name".to_owned(),
+                ),
+                _ => (
+                    format!("`{path}`: {error}"),
+                    error.help().unwrap_or_else(|| "name a CSV text file".to_owned()),
+                ),
             };
             problems.push(
                 Problem::new(message)
@@ -222,9 +254,25 @@ fn read_file(
             return None;
         }
     };
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_string();
-    read_csv(&Source::new(full.display().to_string(), text), form, problems)
+    let source = Source::new(shown, text);
+    if let Err(excess) = structure::lines(source.text()) {
+        let place = Place {
+            span: excess.span(),
+            source,
+        };
+        let problem = Problem::new(format!("`{path}`: {excess}")).at(&place);
+        problems.push(problem.label("too long").help(excess.help()));
+        return None;
+    }
+    read_csv(&source, form, problems)
 }
+
+/// What the file of a table must be.
+const TABLE_FILE: Expected = Expected {
+    what: "table",
+    types: &[FileType::Results],
+    most: limits::TEXT_FILE,
+};
 
 fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Problems) -> Option<Vec<Row>> {
     let mut start = 0;
@@ -243,7 +291,8 @@ fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Problems) -> Optio
             source: Arc::clone(source),
             span: 0..0,
         };
-        problems.push(Problem::new("the table is empty").at(&place).help(help));
+        let problem = Problem::new("the table is empty").at(&place).label("empty");
+        problems.push(problem.help(help));
         return None;
     };
     let place = |at: usize, cell: &str| {
@@ -264,12 +313,17 @@ fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Problems) -> Optio
             } else {
                 "is one column too many"
             };
-            let problem = Problem::new(format!("`{}` {found}", cell.trim())).at(&place(at, cell));
+            let problem = Problem::new(format!("`{}` {found}", shortened(cell.trim()))).at(&place(at, cell));
             problems.push(problem.label("name [unit] is expected").help(help));
             return None;
         };
         if let Err(error) = Quantity::parse_as(&format!("1 {unit}"), kind) {
-            problems.push(section::unit_problem(&error, cell.trim(), kind, &place(at, cell)));
+            problems.push(section::unit_problem(
+                &error,
+                &shortened(cell.trim()),
+                kind,
+                &place(at, cell),
+            ));
             return None;
         }
         units.push(unit);
@@ -291,8 +345,13 @@ fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Problems) -> Optio
         let mut read = |(at, cell): (usize, &str), unit: &str, kind: Kind| {
             let number = cell.trim();
             let quantity = match number.parse::<f64>() {
-                Ok(_) => Quantity::parse_as(&format!("{number} {unit}"), kind).map_err(|e| e.to_string()),
-                Err(_) => Err(format!("\"{number}\" is not a number")),
+                Ok(_) => Quantity::parse_as(&format!("{number} {unit}"), kind)
+                    .map_err(|e| e.to_string())
+                    .and_then(|quantity| match section::is_bounded(&quantity, kind) {
+                        true => Ok(quantity),
+                        false => Err(format!("{quantity} is not {}", bounds::words(kind))),
+                    }),
+                Err(_) => Err(format!("\"{}\" is not a number", shortened(number))),
             };
             quantity
                 .map_err(|message| {
@@ -325,6 +384,16 @@ fn cells(line: &str, at: usize) -> impl Iterator<Item = (usize, &str)> {
 /// Checks that there are enough rows and that they are in order.
 fn check(rows: &[Row], place: &Place, path: &str, form: &Form, problems: &mut Problems) -> Option<()> {
     let [first, second] = form.names;
+    if let Some(row) = rows.get(limits::TABLE_ROWS) {
+        let message = format!(
+            "`{path}` has {} rows; at most {} are read",
+            rows.len(),
+            limits::TABLE_ROWS
+        );
+        let problem = Problem::new(message).at(&row.place).label("one row too many");
+        problems.push(problem.help("leave out rows: motions are smooth between them"));
+        return None;
+    }
     if rows.len() < form.least {
         let message = format!(
             "`{path}` has {} rows; at least {} are expected",

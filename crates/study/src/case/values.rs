@@ -37,7 +37,7 @@ impl Case {
             tree.complete_from(&below);
             source = name;
         }
-        Self::of_tree(tree, source, folder, Problems::new())
+        Self::of_tree(tree, source, folder.into(), Problems::new())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use quantity::Quantity;
+use quantity::{Number, Quantity};
 use serde::Serialize;
 
 /// A value as a case file takes it.
@@ -25,16 +25,16 @@ impl Value {
     #[must_use]
     pub fn to_toml(&self, path: &str) -> String {
         match self {
-            Self::Number { value, unit } if unit.is_empty() => format!("{value}"),
+            Self::Number { value, unit } if unit.is_empty() => Number(*value).to_string(),
             Self::Number { value, unit } if path == TOE => {
                 let direction = match value {
                     value if *value > 0.0 => " out",
                     value if *value < 0.0 => " in",
                     _ => "",
                 };
-                format!("\"{} {unit}{direction}\"", value.abs())
+                format!("\"{} {unit}{direction}\"", Number(value.abs()))
             }
-            Self::Number { value, unit } => format!("\"{value} {unit}\""),
+            Self::Number { value, unit } => format!("\"{} {unit}\"", Number(*value)),
             Self::Toml(text) => text.clone(),
         }
     }
@@ -43,8 +43,8 @@ impl Value {
     #[must_use]
     pub fn shown(&self) -> Cow<'_, str> {
         match self {
-            Self::Number { value, unit } if unit.is_empty() => Cow::Owned(format!("{value}")),
-            Self::Number { value, unit } => Cow::Owned(format!("{value} {unit}")),
+            Self::Number { value, unit } if unit.is_empty() => Cow::Owned(Number(*value).to_string()),
+            Self::Number { value, unit } => Cow::Owned(format!("{} {unit}", Number(*value))),
             Self::Toml(text) => Cow::Borrowed(text.trim_matches('"')),
         }
     }

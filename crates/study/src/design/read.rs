@@ -150,6 +150,12 @@ pub(super) fn text(
             problems.push(Problem::new("nothing is varied: [vary] is empty").help(RANGE_HELP));
         }
     }
+    let varied: usize = drafts.iter().map(|draft| draft.factor.paths.len()).sum();
+    if varied.max(set.len()) > limits::FACTORS {
+        let message = format!("more than {} parameters are varied or set", limits::FACTORS);
+        let help = "vary fewer of them; what all runs share belongs into the case file";
+        return Err(failed(Problem::new(message).help(help).into()));
+    }
     check_paths(&drafts, &set, &mut problems);
     let samples = matches!(kind, Kind::Hypercube | Kind::Sobol);
     if samples && runs.is_none() && !optional("runs") {
@@ -188,8 +194,9 @@ pub(super) fn text(
         }
         Err(error) => return Err(error),
     };
+    let tried = (TRIED / varied.max(1)).max(2);
     for draft in &drafts {
-        for (value, place) in draft.written.iter().take(TRIED) {
+        for (value, place) in draft.written.iter().take(tried) {
             for path in &draft.factor.paths {
                 let mut overrides = everywhere.clone();
                 overrides.push(format!("{path}={}", value.to_toml(path)));

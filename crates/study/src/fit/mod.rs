@@ -8,7 +8,7 @@
 pub mod least_squares;
 mod student;
 
-use quantity::Quantity;
+use quantity::{Number, Quantity};
 use thiserror::Error;
 
 use crate::case::{Case, CaseError};
@@ -146,6 +146,11 @@ pub enum FitError {
         /// Free parameters.
         parameters: usize,
     },
+    /// The sum of squared differences overflows.
+    #[error(
+        "the differences between run and measured values are too large to compute with: their squares are not finite"
+    )]
+    NotFinite,
     /// The run does not give what is to be compared.
     #[error("{0}")]
     Model(String),
@@ -192,7 +197,8 @@ pub fn course(case: &Case, column: &str, times: &[f64]) -> Result<Vec<f64>, Stri
     if let Some(stopped) = &result.summary.stopped {
         return Err(format!(
             "the run stopped at {} s: {}",
-            stopped.time, stopped.reason
+            Number(stopped.time),
+            stopped.reason
         ));
     }
     let (Some(rows), Some(values)) = (result.column("time"), result.column(column)) else {
@@ -288,6 +294,9 @@ fn finish(
     confidence: f64,
 ) -> Result<Fit, FitError> {
     let found = minimize(evaluate, &measured.values, start, &Settings::default()).map_err(FitError::Model)?;
+    if !found.sum.is_finite() {
+        return Err(FitError::NotFinite);
+    }
     let freedom = (measured.values.len() - free.len()).max(1) as f64;
     let width = two_sided(confidence, freedom);
     let deviation = |k: usize| {

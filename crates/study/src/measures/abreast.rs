@@ -196,7 +196,9 @@ mod tests {
     #[test]
     fn limits_cases_side_by_side_have_the_measures_of_each_alone() {
         let mut cases: Vec<Case> = (0..7).map(variant).collect();
-        cases.push(case(&["control_coil.stiffness=1e300 lbf/in"]));
+        cases.push(case(&[
+            r#"wedge.inertia=["1e-300 lb in^2", "1e-300 lb in^2", "1e-300 lb in^2"]"#,
+        ]));
         cases.push(case(&["friction.law=bristle"]));
         let found = measure_all(&cases);
         assert_eq!(found.len(), cases.len());

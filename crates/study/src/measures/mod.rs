@@ -213,6 +213,23 @@ impl Measures {
     }
 }
 
+impl Measures {
+    /// The name of the first measure that is infinite, or is no number although every run has it.
+    pub(crate) fn not_finite(&self) -> Option<&'static str> {
+        let always = [place::PEAKS..place::STICK, place::WEAR..place::RESIDUAL];
+        let wrong = |(place, value): (usize, &f64)| {
+            let has_it = always.iter().any(|places| places.contains(&place));
+            value.is_infinite() || (value.is_nan() && has_it)
+        };
+        let found = self
+            .0
+            .iter()
+            .enumerate()
+            .find(|(place, value)| wrong((*place, value)));
+        found.map(|(place, _)| ALL[place].name)
+    }
+}
+
 impl PartialEq for Measures {
     /// The same bits, but any `NaN` equals any other.
     fn eq(&self, other: &Self) -> bool {

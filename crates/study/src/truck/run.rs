@@ -12,6 +12,7 @@ use thiserror::Error;
 
 use super::table::{Table, input_motion};
 use super::{SCHEMA, TruckCase, TruckResult, TruckStart, TruckSummary, WedgeSummary};
+use crate::finite::{find, is_finite};
 use crate::metrics::{Cycle, mean};
 use crate::run::MAXIMUM_STEPS;
 use crate::summary::{Measure, Stopped};
@@ -28,6 +29,16 @@ pub enum TruckError {
     /// The integrator cannot be set up.
     #[error(transparent)]
     Setup(#[from] SetupError),
+    /// A column of the result is not finite at the start.
+    #[error(
+        "`{column}` is {value} at the start, which is not a finite number: look for values out of all proportion"
+    )]
+    NotFinite {
+        /// The column, without unit.
+        column: String,
+        /// Its value, SI.
+        value: f64,
+    },
 }
 
 /// The state at the start.
@@ -75,17 +86,23 @@ pub fn run_while(
     let mut integrator = Integrator::new(system.clone(), options, 0.0, &x)?;
     let mut values = vec![Vec::new(); table.columns.len()];
     table.read(&system.observe(0.0, &x), &mut values);
+    if let Some((column, value)) = drop_not_finite(&table, &mut values) {
+        return Err(TruckError::NotFinite { column, value });
+    }
     let count = (case.duration / case.interval * (1.0 + 1e-12)).floor() as u64;
     let mut row = 1;
     let mut buffer = x;
     let mut stopped = None;
-    while row <= count {
+    let stop = |time: f64, reason: String| {
+        Some(Stopped {
+            time,
+            reason,
+            contacts: BTreeMap::new(),
+        })
+    };
+    'steps: while row <= count {
         if let Err(error) = integrator.step_to(case.duration) {
-            stopped = Some(Stopped {
-                time: integrator.time(),
-                reason: error.to_string(),
-                contacts: BTreeMap::new(),
-            });
+            stopped = stop(integrator.time(), error.to_string());
             break;
         }
         system.segment_like(integrator.problem());
@@ -97,14 +114,17 @@ pub fn run_while(
             }
             integrator.interpolate(time, &mut buffer);
             table.read(&system.observe(time, &buffer), &mut values);
+            if let Some((column, value)) = drop_not_finite(&table, &mut values) {
+                stopped = stop(
+                    time,
+                    format!("`{column}` is {value}, which is not a finite number"),
+                );
+                break 'steps;
+            }
             row += 1;
         }
         if progress(integrator.time()).is_break() {
-            stopped = Some(Stopped {
-                time: integrator.time(),
-                reason: "it was stopped from outside".to_owned(),
-                contacts: BTreeMap::new(),
-            });
+            stopped = stop(integrator.time(), "it was stopped from outside".to_owned());
             break;
         }
     }
@@ -132,7 +152,44 @@ pub fn run_while(
         },
     };
     summarize(case, &system, &works, &mut result);
+    if let Some(what) = first_not_finite(&result.summary)
+        && result.summary.stopped.is_none()
+    {
+        result.summary.complete = false;
+        result.summary.stopped = stop(integrator.time(), format!("{what} is not a finite number"));
+    }
     Ok(result)
+}
+
+/// Takes the last row away if one of its values is not finite; gives the column and the value.
+fn drop_not_finite(table: &Table, values: &mut [Vec<f64>]) -> Option<(String, f64)> {
+    let last = |column: &Vec<f64>| column.last().copied().unwrap_or(0.0);
+    let index = values.iter().position(|column| !is_finite(last(column)))?;
+    let value = last(&values[index]);
+    for column in values.iter_mut() {
+        column.pop();
+    }
+    Some((table.columns[index].name.clone(), value))
+}
+
+/// The first number of a summary that is not finite, in words.
+fn first_not_finite(summary: &TruckSummary) -> Option<String> {
+    let wedge = |wedge: &WedgeSummary| {
+        let measures = [
+            &wedge.energy_per_cycle,
+            &wedge.up,
+            &wedge.down,
+            &wedge.largest_normal_force,
+        ];
+        measures
+            .into_iter()
+            .flatten()
+            .any(|measure| !is_finite(measure.value))
+    };
+    let wedges = summary.wedges.iter().find(|(_, found)| wedge(found));
+    let wedges = wedges.map(|(number, _)| format!("an average of wedge {number}"));
+    let others = find(&summary.largest_displacements).or_else(|| find(&summary.ledger));
+    wedges.or(others.map(|name| format!("`{name}`")))
 }
 
 /// The cycle of the vertical input, if it is one sine.

@@ -122,7 +122,7 @@ fn input_variants_that_fail_are_records_with_reasons() {
     let study = study(&format!(
         "{HEAD}sampling = \"full_factorial\"\n{SHORT}[vary]\nsimulation.output_interval = [\"0.01 s\", \"0.015 s\"]\n\
          bolster.vertical = [\"0 in\", {{ shape = \"table\", points = [[\"0 s\", \"0 in\"], [\"0.01 s\", \"0 in\"], [\"0.02 s\", \"0 in\"], [\"0.03 s\", \"0 in\"]] }}]\n\
-         control_coil.stiffness = [\"2000 lbf/in\", \"1e300 lbf/in\"]\n"
+         wedge.inertia = [[\"400 lb in^2\", \"200 lb in^2\", \"300 lb in^2\"], [\"1e-300 lb in^2\", \"1e-300 lb in^2\", \"1e-300 lb in^2\"]]\n"
     ));
     let found = records::read(study.fingerprint(), &records::run_all(&study, 0..study.count()));
     assert_eq!(found.records.len(), 8);
@@ -158,7 +158,7 @@ fn mixed() -> Study {
         "{HEAD}sampling = \"full_factorial\"\n[vary]\nwedge.damping = [\"variable\", \"constant\"]\n\
          friction.law = [\"tanh\", \"bristle\"]\nsimulation.relative_tolerance = [1e-6, 1e-3]\nfriction.column = [0.3, 0.4]\n\
          simulation.output_interval = [\"0.01 s\", \"0.03 s\"]\nsimulation.duration = [\"0.02 s\", \"0.04 s\"]\n\
-         control_coil.stiffness = [\"2000 lbf/in\", \"1e300 lbf/in\"]\n"
+         wedge.inertia = [[\"400 lb in^2\", \"200 lb in^2\", \"300 lb in^2\"], [\"1e-300 lb in^2\", \"1e-300 lb in^2\", \"1e-300 lb in^2\"]]\n"
     ))
 }
 

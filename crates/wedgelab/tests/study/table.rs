@@ -49,7 +49,7 @@ friction.column = 0.3
 side_frame.toe = \"0.2 deg in\"
 friction.column = 0.35
 [[variants]]
-control_coil.stiffness = \"1e300 lbf/in\"
+wedge.inertia = [\"1e-300 lb in^2\", \"1e-300 lb in^2\", \"1e-300 lb in^2\"]
 [[variants]]
 wedge.damping = \"variable\"
 ";

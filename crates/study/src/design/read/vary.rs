@@ -1,5 +1,9 @@
 //! What a study varies, as its file says it: lists, ranges, variants.
 
+use std::collections::HashSet;
+
+use input::limits;
+
 use super::{Draft, Kind, Written};
 use crate::case::problem::{Place, Problem, Problems};
 use crate::case::section::{Names, Section};
@@ -9,7 +13,7 @@ use crate::design::factor::{Factor, Levels, Value};
 const RANGE_KEYS: [&str; 6] = ["from", "to", "values", "count", "scale", "also"];
 pub(super) const RANGE_HELP: &str = "write { from = 0.2, to = 0.6, count = 5 } (count in a full factorial study only), or a list of \
                           values; quantities stand in quotes with their unit";
-/// Values of a list that are tried out before anything runs; what is wrong with others their runs will tell.
+/// Values that are tried out before anything runs; what is wrong with others their runs will tell.
 pub(super) const TRIED: usize = 200;
 const SCALES: Names<bool> = &[("linear", false), ("logarithmic", true)];
 
@@ -111,8 +115,9 @@ fn listed(
         .iter()
         .map(|item| (value(path, item), item.place.clone()))
         .collect();
-    for (number, (value, place)) in written.iter().enumerate() {
-        if written[..number].iter().any(|(other, _)| other == value) {
+    let mut seen = HashSet::new();
+    for (value, place) in &written {
+        if !seen.insert(value.to_toml(path)) {
             let problem = Problem::new(format!("`{path}` has the value {} twice", value.shown())).at(place);
             problems.push(
                 problem
@@ -292,9 +297,16 @@ pub(super) fn variants(top: &Section<'_>, problems: &mut Problems) -> (Vec<Draft
         },
         None => problems.push(Problem::new("the list has no [[variants]]").help(HELP)),
     }
+    let mut seen = HashSet::new();
     for (path, written) in rows.iter().flatten() {
         let draft = match drafts.iter().position(|draft| draft.factor.name() == path) {
             Some(place) => &mut drafts[place],
+            None if drafts.len() == limits::FACTORS => {
+                let message = format!("the variants set more than {} parameters", limits::FACTORS);
+                let problem = Problem::new(message).at(&written.1).label("one too many");
+                problems.push(problem.help("put what all of them share below [set]"));
+                return (drafts, Vec::new());
+            }
             None => {
                 drafts.push(Draft {
                     factor: Factor {
@@ -308,12 +320,11 @@ pub(super) fn variants(top: &Section<'_>, problems: &mut Problems) -> (Vec<Draft
                 &mut drafts[last]
             }
         };
-        if draft.written.len() < TRIED && draft.written.iter().all(|(value, _)| *value != written.0) {
-            draft.written.push(written.clone());
+        if !seen.insert((path.as_str(), written.0.to_toml(path))) {
+            continue;
         }
-        if let Levels::Values(values) = &mut draft.factor.levels
-            && !values.contains(&written.0)
-        {
+        draft.written.push(written.clone());
+        if let Levels::Values(values) = &mut draft.factor.levels {
             values.push(written.0.clone());
         }
     }

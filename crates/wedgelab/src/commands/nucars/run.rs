@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use nucars::Severity;
 use nucars::together::{RunFiles, find, kind, load};
 use nucars::truck::{Choices, Yaw};
-use quantity::{Kind, Quantity, System as Units, nearest};
+use quantity::{Kind, Number, Quantity, System as Units, nearest};
 use report::files::Folder;
 use report::truck_files;
 use study::truck::catalog::{self, Entry, OUTPUT_INTERVAL, YawCase};
@@ -135,7 +135,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     truck_files::write(&folder, &case, &result, script_interval)?;
     let summary = &result.summary;
     let how = match &summary.stopped {
-        Some(stopped) => format!("stopped at {} s", stopped.time),
+        Some(stopped) => format!("stopped at {} s", Number(stopped.time)),
         None => format!("{wall:.2} s"),
     };
     progress.done(&case.name, &how);
@@ -161,7 +161,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     let message = format!(
         "the run {} stopped at {} s and is incomplete: {}",
-        summary.name, stopped.time, stopped.reason
+        summary.name,
+        Number(stopped.time),
+        stopped.reason
     );
     let advice = format!(
         "what was computed until then is in {}, marked as incomplete",
