@@ -33,6 +33,22 @@ pub enum FileType {
 pub const HEAD: usize = 1 << 16;
 
 impl FileType {
+    /// All of them.
+    pub const ALL: [Self; 12] = [
+        Self::Case,
+        Self::Study,
+        Self::Nucars,
+        Self::Results,
+        Self::Json,
+        Self::Page,
+        Self::Figure,
+        Self::MatFile,
+        Self::Archive,
+        Self::Parquet,
+        Self::Records,
+        Self::Binary,
+    ];
+
     /// Returns what the beginning of a file says it is; `None` if it says nothing.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Option<Self> {

@@ -17,6 +17,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use input::file::{Expected, ReadError, Reason, read, read_text};
+use input::{FileType, limits};
 use parquet::errors::ParquetError;
 use study::design::{Factor, Study, Value};
 use study::measures;
@@ -42,6 +44,30 @@ const PARTS: &str = "parts";
 const LOCK_FILE: &str = ".lock";
 /// How the hidden folders of files being written begin.
 const HIDDEN: &str = ".wedgelab-";
+
+/// What the file that says what a study is must be.
+const MANIFEST: Expected = Expected {
+    what: "description of the study",
+    types: &[FileType::Json],
+    most: limits::RECORD_FILE,
+};
+/// What a part must be. Damage at its beginning may look like anything.
+const RECORDS: Expected = Expected {
+    what: "part of the study",
+    types: &FileType::ALL,
+    most: limits::RECORD_FILE,
+};
+
+fn unreadable(file: &Path, error: ReadError) -> StudyFolderError {
+    let reason = match error.reason {
+        Reason::System(reason) => reason,
+        _ => io::Error::other(error.to_string()),
+    };
+    StudyFolderError::Unreadable {
+        file: file.to_owned(),
+        reason,
+    }
+}
 
 /// A study's folder, held by this program.
 #[derive(Debug)]
@@ -100,10 +126,7 @@ impl StudyFolder {
             });
         }
         if begun {
-            let found = fs::read_to_string(&manifest).map_err(|reason| StudyFolderError::Unreadable {
-                file: manifest.clone(),
-                reason,
-            })?;
+            let found = read_text(&manifest, &MANIFEST).map_err(|error| unreadable(&manifest, error))?;
             error::compare(path, &manifest, &found, &description)?;
         } else {
             folder.write(|files| files.add(STUDY_FILE, |out| out.write_all(description.as_bytes())))?;
@@ -149,10 +172,10 @@ impl StudyFolder {
     /// It cannot be read, has records of another study, or two that contradict each other.
     pub fn part(&self, part: u64) -> Result<Part, StudyFolderError> {
         let file = self.file_of(part);
-        let bytes = match fs::read(&file) {
+        let bytes = match read(&file, &RECORDS) {
             Ok(bytes) => bytes,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
-            Err(reason) => return Err(StudyFolderError::Unreadable { file, reason }),
+            Err(error) if matches!(error.reason, Reason::NotFound) => Vec::new(),
+            Err(error) => return Err(unreadable(&file, error)),
         };
         let found = records::read(self.fingerprint, &bytes);
         let numbers = self.numbers(part);

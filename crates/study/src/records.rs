@@ -25,6 +25,9 @@ const HEAD: usize = 12;
 const FIXED: usize = 8 + 8 + 1 + 8 * COUNT;
 /// A longer reason is cut.
 const LONGEST_REASON: usize = 1000;
+/// Longest body: a longer one is damage. Without this bound the time to find records among damage would grow with the square
+/// of its length.
+const LONGEST: usize = FIXED + LONGEST_REASON + '…'.len_utf8();
 
 /// How a variant ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -200,8 +203,11 @@ impl Record {
         let (length, rest) = rest.split_first_chunk::<4>()?;
         let (sum, rest) = rest.split_first_chunk::<4>()?;
         let length = u32::from_le_bytes(*length) as usize;
+        if !(FIXED..=LONGEST).contains(&length) {
+            return None;
+        }
         let body = rest.get(..length)?;
-        if length < FIXED || crc32fast::hash(body) != u32::from_le_bytes(*sum) {
+        if crc32fast::hash(body) != u32::from_le_bytes(*sum) {
             return None;
         }
         let (fingerprint, rest) = body.split_first_chunk::<8>()?;

@@ -193,7 +193,7 @@ fn values_out_of_range() {
     check(
         "friction",
         "slope = -0.1",
-        "`friction.slope` is -0.1; it must be zero or greater",
+        "`friction.slope` is -0.1; it must be between 0 and 10",
         "-0.1",
         "0.4",
     );

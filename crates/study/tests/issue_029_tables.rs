@@ -109,7 +109,7 @@ fn issue_029_messages_do_not_quote_files() {
     let root = folders();
     let case = root.path().join("case");
     let head = "time [s], travel [in]\n";
-    let long = "7".repeat(50);
+    let long = format!("7.{}", "7".repeat(50));
     for (text, told) in [
         (format!("{SECRET}\n"), "line 1, column 1: name [unit] is expected"),
         (

@@ -1,5 +1,6 @@
 //! From Python's values to TOML, and from TOML and JSON to Python's values.
 
+use input::{limits, shortened};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString};
 use toml::{Table, Value};
@@ -9,6 +10,10 @@ use crate::quantity::Quantity;
 
 /// A mapping as TOML; keys with the value `None` are left out. `path` is where it stands, for messages.
 pub fn table(mapping: &Bound<'_, PyAny>, path: &str) -> PyResult<Table> {
+    nested_table(mapping, path, 0)
+}
+
+fn nested_table(mapping: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Table> {
     let py = mapping.py();
     let Ok(mapping) = mapping.cast::<PyMapping>() else {
         let found = type_name(mapping);
@@ -39,13 +44,20 @@ pub fn table(mapping: &Bound<'_, PyAny>, path: &str) -> PyResult<Table> {
         } else {
             format!("{path}.{key}")
         };
-        table.insert(key, of(&value, &inner)?);
+        table.insert(key, of(&value, &inner, depth + 1)?);
     }
     Ok(table)
 }
 
-/// A value as TOML.
-fn of(value: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
+/// A value as TOML, `depth` values below the outermost: a list may hold itself.
+fn of(value: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Value> {
+    if depth > limits::NESTING {
+        return Err(case_message(
+            value.py(),
+            &format!("{} is nested more than {} deep", named(path), limits::NESTING),
+            "nothing in a case is nested so deeply; look whether a list or a dict holds itself",
+        ));
+    }
     if let Ok(quantity) = value.cast::<Quantity>() {
         return Ok(Value::String(quantity.get().text().to_owned()));
     }
@@ -65,20 +77,29 @@ fn of(value: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
         return Ok(Value::Float(value.extract()?));
     }
     if let Ok(to_values) = value.getattr("_to_values") {
-        return of(&to_values.call0()?, path);
+        return of(&to_values.call0()?, path, depth + 1);
     }
     if value.cast::<PyMapping>().is_ok() {
-        return Ok(Value::Table(table(value, path)?));
+        return Ok(Value::Table(nested_table(value, path, depth)?));
     }
     // NumPy's arrays and numbers.
     if let Ok(list) = value.getattr("tolist") {
-        return of(&list.call0()?, path);
+        return of(&list.call0()?, path, depth + 1);
     }
     if let (false, Ok(items)) = (value.hasattr("keys")?, value.try_iter()) {
-        let items = items
-            .enumerate()
-            .map(|(at, item)| of(&item?, &format!("{path}[{at}]")));
-        return Ok(Value::Array(items.collect::<PyResult<_>>()?));
+        let mut list = Vec::new();
+        for (at, item) in items.enumerate() {
+            // An iterator may never end.
+            if at == limits::VALUES {
+                return Err(case_message(
+                    value.py(),
+                    &format!("{} has more than {} values", named(path), limits::VALUES),
+                    "look whether the iterator ends; long tables belong into CSV files",
+                ));
+            }
+            list.push(of(&item?, &format!("{path}[{at}]"), depth + 1)?);
+        }
+        return Ok(Value::Array(list));
     }
     Err(case_message(
         value.py(),
@@ -95,7 +116,7 @@ fn named(path: &str) -> String {
     if path.is_empty() {
         "the case".to_owned()
     } else {
-        format!("`{path}`")
+        format!("`{}`", shortened(path))
     }
 }
 

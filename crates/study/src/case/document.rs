@@ -37,6 +37,18 @@ pub struct CaseDocument {
 }
 
 impl CaseDocument {
+    /// The sections of a case file.
+    pub(crate) const SECTIONS: [&str; 8] = [
+        "wedge",
+        "control_coil",
+        "contact",
+        "friction",
+        "side_frame",
+        "bolster",
+        "environment",
+        "simulation",
+    ];
+
     /// The rows of all its tables.
     pub(super) fn table_rows(&self) -> usize {
         let coil = match &self.control_coil.force {

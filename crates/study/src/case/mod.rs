@@ -101,6 +101,11 @@ impl Case {
     ) -> Result<Self, CaseError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut tree = tree::parse(&Source::new(source, text)).map_err(CaseError::new)?;
+        if let Some(study) = STUDY_KEYS.iter().find_map(|key| tree.entry(key)) {
+            let problem = Problem::new(format!("{source} is a study file; a case file is expected"));
+            let problem = problem.at(&study.key_place).label("only a study has this");
+            return Err(problem.help(FileType::Study.advice(source)).into());
+        }
         let problems = overrides::apply(&mut tree, overrides);
         Self::of_tree(tree, source, tables.into(), problems)
     }
@@ -156,10 +161,14 @@ impl Case {
     }
 }
 
+/// Keys that only a study has.
+const STUDY_KEYS: [&str; 4] = ["sampling", "vary", "variants", "case"];
+
 /// What a case file must be.
 pub(crate) const CASE_FILE: Expected = Expected {
     what: "case file",
-    types: &[FileType::Case],
+    // Which of the two it is, the keys of its tree say.
+    types: &[FileType::Case, FileType::Study],
     most: limits::TEXT_FILE,
 };
 

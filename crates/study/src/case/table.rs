@@ -345,22 +345,20 @@ fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Problems) -> Optio
         let mut read = |(at, cell): (usize, &str), unit: &str, kind: Kind| {
             let number = cell.trim();
             let quantity = match number.parse::<f64>() {
-                Ok(_) => Quantity::parse_as(&format!("{number} {unit}"), kind)
-                    .map_err(|e| e.to_string())
-                    .and_then(|quantity| match section::is_bounded(&quantity, kind) {
-                        true => Ok(quantity),
-                        false => Err(format!("{quantity} is not {}", bounds::words(kind))),
-                    }),
+                Ok(_) => Quantity::parse_as(&format!("{number} {unit}"), kind).map_err(|e| e.to_string()),
                 Err(_) => Err(format!("\"{}\" is not a number", shortened(number))),
             };
-            quantity
-                .map_err(|message| {
-                    let problem = Problem::new(message)
-                        .at(&place(at, cell))
-                        .label("a number is expected");
-                    problems.push(problem.help("write a finite number; the units stand in the first line"));
-                })
-                .ok()
+            let (message, label) = match quantity {
+                Ok(quantity) if section::is_bounded(&quantity, kind) => return Some(quantity),
+                Ok(quantity) => (
+                    format!("{quantity} is too large; it must be {}", bounds::words(kind)),
+                    "too large",
+                ),
+                Err(message) => (message, "a number is expected"),
+            };
+            let problem = Problem::new(message).at(&place(at, cell)).label(label);
+            problems.push(problem.help("write a finite number; the units stand in the first line"));
+            None
         };
         let values = [read(a, first, form.kinds[0])?, read(b, second, form.kinds[1])?];
         rows.push(Row {

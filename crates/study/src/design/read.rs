@@ -14,7 +14,7 @@ use crate::case::name;
 use crate::case::problem::{Place, Problem, Problems, Source};
 use crate::case::section::{Names, Section};
 use crate::case::tree::{self, Node, Table, Value as Toml};
-use crate::case::{CASE_FILE, Case, CaseError};
+use crate::case::{CASE_FILE, Case, CaseDocument, CaseError};
 use vary::{RANGE_HELP, TRIED, assignments, check_paths, factors, variants};
 
 const KEYS: [&str; 10] = [
@@ -51,7 +51,7 @@ struct Draft {
 pub(super) fn file(path: &Path) -> Result<Study, CaseError> {
     const STUDY: Expected = Expected {
         what: "study file",
-        types: &[FileType::Study],
+        types: &[FileType::Study, FileType::Case],
         most: limits::TEXT_FILE,
     };
     let text = read_text(path, &STUDY).map_err(|error| {
@@ -77,6 +77,15 @@ pub(super) fn text(
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let failed = |problems| CaseError::new(problems).of("study");
     let tree = tree::parse(&Source::new(file, text)).map_err(failed)?;
+    let sections = CaseDocument::SECTIONS.iter();
+    if let Some(case) = sections
+        .filter(|_| tree.entry("case").is_none())
+        .find_map(|key| tree.entry(key))
+    {
+        let problem = Problem::new(format!("{file} is a case file; a study file is expected"));
+        let problem = problem.at(&case.key_place).label("only a case has this");
+        return Err(failed(problem.help(FileType::Case.advice(file)).into()));
+    }
     let mut problems = Problems::new();
     let top = Section {
         path: String::new(),

@@ -91,6 +91,11 @@ impl From<FitError> for Failure {
             FitError::TooFew { .. } => {
                 Message::new(error.to_string(), "free fewer parameters, or lower --from").into()
             }
+            FitError::NotFinite => Message::new(
+                error.to_string(),
+                "look for wrong units or damage in the measured values",
+            )
+            .into(),
             FitError::Model(_) => Self::Failed(
                 Message::new(
                     format!("the case cannot be fitted: {error}"),
