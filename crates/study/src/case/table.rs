@@ -3,7 +3,7 @@
 //! A CSV file has a line of names with units, `time [s], value [in]`, then one line of numbers a
 //! point. Empty lines and lines that begin with `#` do not count.
 
-use super::problem::{Place, Problem, Source};
+use super::problem::{CaseError, Place, Problem, Source};
 use super::section::{self, Range, Section};
 use super::tree::{Node, Value};
 use super::units::in_system;
@@ -21,6 +21,39 @@ pub struct QuantityTable {
 }
 
 impl QuantityTable {
+    /// Reads the text of a CSV file with times and values of this kind, as a motion takes it. Messages call it `name`.
+    ///
+    /// # Errors
+    /// The text is no such table.
+    pub fn parse_motion(name: &str, text: &str, kind: Kind) -> Result<Self, CaseError> {
+        Self::parse(name, text, &Form::motion(kind))
+    }
+
+    /// Reads the text of a CSV file with compressions and forces, as a coil takes it. Messages call it `name`.
+    ///
+    /// # Errors
+    /// The text is no such table.
+    pub fn parse_coil(name: &str, text: &str) -> Result<Self, CaseError> {
+        Self::parse(name, text, &Form::coil())
+    }
+
+    fn parse(name: &str, text: &str, form: &Form) -> Result<Self, CaseError> {
+        let source = Source::new(name, text.strip_prefix('\u{feff}').unwrap_or(text));
+        let begin = Place {
+            source: Arc::clone(&source),
+            span: 0..0,
+        };
+        let mut problems = Vec::new();
+        let rows = read_csv(&source, form, &mut problems);
+        match rows {
+            Some(rows) if check(&rows, &begin, name, form, &mut problems).is_some() => Ok(Self {
+                file: Some(name.to_owned()),
+                rows: rows.into_iter().map(|row| row.values).collect(),
+            }),
+            _ => Err(CaseError::new(problems)),
+        }
+    }
+
     /// The same points in the units of a system; `kinds` are those of the columns.
     #[must_use]
     pub(super) fn in_system(&self, kinds: [Kind; 2], system: System) -> Self {
