@@ -23,6 +23,7 @@ const FLOORS: &[(&str, &[&str])] = &[
             "wedgelab-py",
             "wedgelab-fmu",
             "benchmarks",
+            "fuzz",
             "race",
             "xtask",
         ],
