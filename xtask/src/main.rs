@@ -4,6 +4,7 @@
 
 mod bench;
 mod debian;
+mod fuzz;
 mod race;
 mod shell;
 mod test;
@@ -33,6 +34,11 @@ const COMMANDS: &[Command] = &[
         name: "bench",
         about: "run the benchmarks (`cargo bench --workspace`)",
         run: bench::run,
+    },
+    Command {
+        name: "fuzz",
+        about: "give broken inputs to every reader, for a minute or as long as asked",
+        run: fuzz::run,
     },
     Command {
         name: "race",

@@ -69,6 +69,12 @@ const CHECKS: &[Check] = &[
         "the tests of libraries, programs and examples pass",
         tests,
     ),
+    // Compiles in the dev profile, in which overflows are seen.
+    Check::new(
+        "fuzz",
+        "a minute of broken inputs breaks no reader",
+        broken_inputs,
+    ),
     Check::new(
         "octave",
         "Octave and SciPy read the results, the plotting scripts draw them",
@@ -130,6 +136,11 @@ fn tests(workspace: &Workspace) -> Outcome {
             .cargo(["test", "--workspace", "--release", "--no-fail-fast"])
             .args(targets),
     )?;
+    Ok(None)
+}
+
+fn broken_inputs(workspace: &Workspace) -> Outcome {
+    crate::fuzz::check(workspace)?;
     Ok(None)
 }
 

@@ -24,6 +24,7 @@ const FLOORS: &[(&str, &[&str])] = &[
             "wedgelab-py",
             "wedgelab-fmu",
             "benchmarks",
+            "fuzz",
             "race",
             "xtask",
         ],

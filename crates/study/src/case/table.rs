@@ -4,7 +4,7 @@
 //! point. Empty lines and lines that begin with `#` do not count.
 
 use super::bounds;
-use super::problem::{Place, Problem, Problems, Source};
+use super::problem::{CaseError, Place, Problem, Problems, Source};
 use super::section::{self, Range, Section};
 use super::tables::Tables;
 use super::tree::{Node, Value};
@@ -24,6 +24,39 @@ pub struct QuantityTable {
 }
 
 impl QuantityTable {
+    /// Reads the text of a CSV file with times and values of this kind, as a motion takes it. Messages call it `name`.
+    ///
+    /// # Errors
+    /// The text is no such table.
+    pub fn parse_motion(name: &str, text: &str, kind: Kind) -> Result<Self, CaseError> {
+        Self::parse(name, text, &Form::motion(kind))
+    }
+
+    /// Reads the text of a CSV file with compressions and forces, as a coil takes it. Messages call it `name`.
+    ///
+    /// # Errors
+    /// The text is no such table.
+    pub fn parse_coil(name: &str, text: &str) -> Result<Self, CaseError> {
+        Self::parse(name, text, &Form::coil())
+    }
+
+    fn parse(name: &str, text: &str, form: &Form) -> Result<Self, CaseError> {
+        let source = Source::new(name, text.strip_prefix('\u{feff}').unwrap_or(text));
+        let begin = Place {
+            source: Arc::clone(&source),
+            span: 0..0,
+        };
+        let mut problems = Problems::new();
+        let rows = read_csv(&source, form, &mut problems);
+        match rows {
+            Some(rows) if check(&rows, &begin, name, form, &mut problems).is_some() => Ok(Self {
+                file: Some(name.to_owned()),
+                rows: rows.into_iter().map(|row| row.values).collect(),
+            }),
+            _ => Err(CaseError::new(problems)),
+        }
+    }
+
     /// The same points in the units of a system; `kinds` are those of the columns.
     #[must_use]
     pub(super) fn in_system(&self, kinds: [Kind; 2], system: System) -> Self {
@@ -254,17 +287,7 @@ fn read_file(
             return None;
         }
     };
-    let source = Source::new(shown, text);
-    if let Err(excess) = structure::lines(source.text()) {
-        let place = Place {
-            span: excess.span(),
-            source,
-        };
-        let problem = Problem::new(format!("`{path}`: {excess}")).at(&place);
-        problems.push(problem.label("too long").help(excess.help()));
-        return None;
-    }
-    read_csv(&source, form, problems)
+    read_csv(&Source::new(shown, text), form, problems)
 }
 
 /// What the file of a table must be.
@@ -275,6 +298,15 @@ const TABLE_FILE: Expected = Expected {
 };
 
 fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Problems) -> Option<Vec<Row>> {
+    if let Err(excess) = structure::lines(source.text()) {
+        let place = Place {
+            source: Arc::clone(source),
+            span: excess.span(),
+        };
+        let problem = Problem::new(format!("the table is not read: {excess}")).at(&place);
+        problems.push(problem.label("too long").help(excess.help()));
+        return None;
+    }
     let mut start = 0;
     let mut lines = source.text().split_inclusive('\n').filter_map(|line| {
         let at = start;

@@ -1,0 +1,24 @@
+//! What readers promise, in numbers.
+
+use std::time::Duration;
+
+/// Bytes of the longest input that is made.
+pub const LONGEST_INPUT: usize = 1 << 20;
+
+/// Bytes of the longest text in which a refusal may be told.
+pub const LONGEST_MESSAGE: usize = 64 << 10;
+
+/// How many mistakes of one input may be told at most; `None`: any number.
+pub const MOST_MISTAKES: Option<usize> = Some(input::limits::MISTAKES);
+
+/// Whether numbers that a comparison gives must be finite.
+pub const FINITE_COMPARISONS: bool = true;
+
+/// Processor time of the longest execution. In the dev profile, which is what the program is compiled with.
+pub const LONGEST_EXECUTION: Duration = Duration::from_secs(1);
+
+/// Bytes of memory that a process with one reader may hold at a time.
+pub const MOST_MEMORY: usize = 1 << 30;
+
+/// Bytes of the stack: what threads of the standard library have, on which the explorer reads.
+pub const STACK: usize = 2 << 20;

@@ -1,0 +1,322 @@
+//! The parent: starts workers, watches them, and goes on behind the inputs that break them.
+
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use fuzz::inputs::Inputs;
+use fuzz::readers::Reader;
+use tempfile::TempDir;
+
+use crate::finding::{self, Finding, Groups, beginning, without_numbers};
+use crate::tally::Tally;
+use crate::worker::{FINDINGS, TALLY};
+
+/// A worker that reads one input for longer is ended. Wall time, of which other programs may take a part.
+const HANGS: Duration = Duration::from_secs(10);
+/// How often workers are looked at.
+const LOOK: Duration = Duration::from_millis(10);
+
+/// What is to be done.
+pub struct Plan {
+    /// The readers.
+    pub readers: Vec<&'static Reader>,
+    /// Which inputs.
+    pub seed: u64,
+    /// How many readers work at a time.
+    pub jobs: usize,
+    /// Time of each reader.
+    pub time: Option<Duration>,
+    /// Executions of each reader.
+    pub executions: Option<u64>,
+}
+
+/// What came out for a reader.
+pub struct ReaderResult {
+    /// The reader.
+    pub reader: &'static Reader,
+    /// Its counts.
+    pub tally: Tally,
+    /// What was found.
+    pub found: Groups,
+}
+
+/// Runs all readers, some at a time.
+///
+/// # Errors
+/// Workers cannot be started, or their files not be read.
+pub fn run(plan: &Plan) -> Result<Vec<ReaderResult>, String> {
+    let results = Mutex::new(Vec::new());
+    let next = AtomicUsize::new(0);
+    thread::scope(|scope| {
+        for _ in 0..plan.jobs.min(plan.readers.len()) {
+            scope.spawn(|| {
+                while let Some(reader) = plan.readers.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let result = run_reader(reader, plan);
+                    if let Ok(result) = &result {
+                        tell(result);
+                    }
+                    let mut results = results.lock().unwrap_or_else(|lock| lock.into_inner());
+                    results.push(result.map_err(|error| format!("{}: {error}", reader.name)));
+                }
+            });
+        }
+    });
+    let results = results.into_inner().unwrap_or_else(|lock| lock.into_inner());
+    let mut results = results.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let place = |result: &ReaderResult| {
+        plan.readers
+            .iter()
+            .position(|reader| reader.name == result.reader.name)
+    };
+    results.sort_by_key(place);
+    Ok(results)
+}
+
+fn tell(result: &ReaderResult) {
+    eprintln!(
+        "{}: {} executions, {} findings",
+        result.reader.name,
+        result.tally.executions,
+        result.found.len()
+    );
+}
+
+fn run_reader(reader: &'static Reader, plan: &Plan) -> io::Result<ReaderResult> {
+    let folder = memory_folder()?;
+    let begin = Instant::now();
+    let mut result = ReaderResult {
+        reader,
+        tally: Tally::default(),
+        found: Groups::new(),
+    };
+    let inputs = Inputs::of(reader);
+    let mut from = 0;
+    loop {
+        let left = plan.time.map(|time| time.saturating_sub(begin.elapsed()));
+        let until = plan.executions.unwrap_or(u64::MAX);
+        if left.is_some_and(|left| left.is_zero()) || from >= until {
+            break;
+        }
+        let ended = Worker::start(reader, folder.path())
+            .numbers(plan.seed, from, until)
+            .seconds(left)
+            .watch()?;
+        result.tally.add(&ended.tally);
+        for found in ended.findings {
+            finding::add(&mut result.found, found);
+        }
+        let number = ended.tally.number;
+        from = number + 1;
+        let broken = match ended.end {
+            End::Done => break,
+            End::Failed(text) => return Err(io::Error::other(text)),
+            End::Broke { what, detail } => Some((what, detail)),
+            End::Hung => {
+                let again = Worker::start(reader, folder.path())
+                    .numbers(plan.seed, number, from)
+                    .watch()?;
+                match again.end {
+                    End::Hung => Some(hung()),
+                    End::Broke { what, detail } => Some((what, detail)),
+                    End::Done | End::Failed(_) => None,
+                }
+            }
+        };
+        result.tally.executions += 1;
+        if let Some((what, detail)) = broken {
+            let length = inputs.input(plan.seed, number).len();
+            let found = Finding {
+                what,
+                detail,
+                number,
+                length,
+            };
+            finding::add(&mut result.found, found);
+        }
+    }
+    Ok(result)
+}
+
+/// What is said of an input that takes too long to wait for.
+fn hung() -> (String, String) {
+    let detail = format!("not done after {} s, twice", HANGS.as_secs());
+    ("hangs".to_owned(), detail)
+}
+
+/// A folder for files that are written often: in memory, where there is such a place.
+///
+/// # Errors
+/// It cannot be made.
+pub fn memory_folder() -> io::Result<TempDir> {
+    let memory = Path::new("/dev/shm");
+    let mut builder = tempfile::Builder::new();
+    let builder = builder.prefix("wedgelab-fuzz-");
+    match memory.is_dir() {
+        true => builder.tempdir_in(memory).or_else(|_| builder.tempdir()),
+        false => builder.tempdir(),
+    }
+}
+
+/// How a worker ended.
+pub enum End {
+    /// As it should.
+    Done,
+    /// It could not begin.
+    Failed(String),
+    /// The input broke it.
+    Broke {
+        /// What it is.
+        what: String,
+        /// What is said of it.
+        detail: String,
+    },
+    /// It was ended, because one input took too long.
+    Hung,
+}
+
+/// What a worker leaves.
+pub struct Ended {
+    /// Its counts.
+    pub tally: Tally,
+    /// Its findings.
+    pub findings: Vec<Finding>,
+    /// How it ended.
+    pub end: End,
+}
+
+/// A worker that is to be started.
+pub struct Worker {
+    folder: PathBuf,
+    command: io::Result<Command>,
+}
+
+impl Worker {
+    /// One of a reader, with its files in a folder.
+    pub fn start(reader: &Reader, folder: &Path) -> Self {
+        let command = std::env::current_exe().map(|program| {
+            let mut command = Command::new(program);
+            command
+                .args(["worker", "--reader", reader.name, "--folder"])
+                .arg(folder);
+            // Readers that need a folder make it there.
+            command.env("TMPDIR", folder);
+            command
+        });
+        Self {
+            folder: folder.to_owned(),
+            command,
+        }
+    }
+
+    fn with(mut self, name: &str, value: &str) -> Self {
+        if let Ok(command) = &mut self.command {
+            command.args([name, value]);
+        }
+        self
+    }
+
+    /// Which inputs it reads.
+    #[must_use]
+    pub fn numbers(self, seed: u64, from: u64, until: u64) -> Self {
+        self.with("--seed", &seed.to_string())
+            .with("--from", &from.to_string())
+            .with("--until", &until.to_string())
+    }
+
+    /// For how long.
+    #[must_use]
+    pub fn seconds(self, time: Option<Duration>) -> Self {
+        match time {
+            Some(time) => self.with("--seconds", &time.as_secs_f64().to_string()),
+            None => self,
+        }
+    }
+
+    /// Reads this file only.
+    #[must_use]
+    pub fn input(self, file: &Path) -> Self {
+        self.with("--input", &file.display().to_string())
+    }
+
+    /// Starts it, and waits for its end.
+    ///
+    /// # Errors
+    /// It cannot be started, or its files cannot be read.
+    pub fn watch(self) -> io::Result<Ended> {
+        let said = self.folder.join("said");
+        let (tally, findings) = (self.folder.join(TALLY), self.folder.join(FINDINGS));
+        for file in [&tally, &findings, &said] {
+            File::create(file)?;
+        }
+        let mut command = self.command?;
+        command
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(File::create(&said)?);
+        let status = wait(&mut command.spawn()?, &tally)?;
+        let counted = Tally::read(&tally)?;
+        let end = match status {
+            None => End::Hung,
+            Some(status) if status.success() => End::Done,
+            Some(status) => {
+                let said = fs::read(&said)?;
+                let said = String::from_utf8_lossy(&said);
+                match counted {
+                    None => End::Failed(format!("{status}: {}", beginning(said.trim()))),
+                    Some(_) => broke(status, said.trim()),
+                }
+            }
+        };
+        Ok(Ended {
+            tally: counted.unwrap_or_default(),
+            findings: read_findings(&findings)?,
+            end,
+        })
+    }
+}
+
+/// What is said of an input that ended the process.
+fn broke(status: ExitStatus, said: &str) -> End {
+    let first = said.lines().next().unwrap_or("nothing was said");
+    // Names of threads and processes differ.
+    let words = ["overflowed its stack", "memory allocation of"];
+    let known = words.iter().find(|words| said.contains(**words));
+    let what = known.map_or_else(|| without_numbers(first), |words| (*words).to_owned());
+    End::Broke {
+        what: format!("abort: {what}"),
+        detail: format!("{status}: {}", beginning(said)),
+    }
+}
+
+/// Waits until a worker ends; ends it if it reads one input for too long.
+fn wait(child: &mut Child, tally: &Path) -> io::Result<Option<ExitStatus>> {
+    let mut seen = None;
+    let mut since = Instant::now();
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(Some(status));
+        }
+        let now = Tally::read(tally)?.map(|tally| (tally.number, tally.attempt, tally.executions));
+        if now != seen {
+            (seen, since) = (now, Instant::now());
+        } else if since.elapsed() > HANGS {
+            child.kill()?;
+            child.wait()?;
+            return Ok(None);
+        }
+        thread::sleep(LOOK);
+    }
+}
+
+fn read_findings(path: &Path) -> io::Result<Vec<Finding>> {
+    let lines = BufReader::new(File::open(path)?).lines();
+    // The last line may be one that was cut off.
+    let read = |line: io::Result<String>| line.map(|line| serde_json::from_str(&line).ok());
+    lines.filter_map(|line| read(line).transpose()).collect()
+}

@@ -1,0 +1,158 @@
+//! The readers: each with a name, a corpus, a dictionary, and what it must keep to.
+
+mod cases;
+mod nucars;
+mod small;
+mod states;
+mod studies;
+mod tables;
+
+use std::path::Path;
+
+use miette::Diagnostic;
+
+use crate::shown;
+
+/// A reader.
+pub struct Reader {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What it reads.
+    pub about: &'static str,
+    /// Inputs that it accepts.
+    pub corpus: fn() -> Vec<Vec<u8>>,
+    /// Pieces that mean something to it.
+    pub dictionary: &'static [&'static [u8]],
+    /// Reads any bytes. It panics if a promise is broken.
+    pub read: fn(&[u8]) -> Outcome,
+}
+
+/// All readers.
+pub const ALL: [Reader; 18] = [
+    cases::CASES,
+    cases::VALUES,
+    cases::OVERRIDES,
+    studies::STUDIES,
+    studies::MANIFESTS,
+    studies::RECORDS,
+    small::UNITS,
+    small::FREE,
+    small::OPTIONS,
+    nucars::SYSTEMS,
+    nucars::INPUTS,
+    nucars::DATA,
+    nucars::RUNS,
+    tables::RESULTS,
+    tables::TABLES,
+    states::DRIVEN,
+    states::RUN_STATES,
+    states::INSTANCES,
+];
+
+/// The reader of this name.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Reader> {
+    static READERS: [Reader; ALL.len()] = ALL;
+    READERS.iter().find(|reader| reader.name == name)
+}
+
+/// What became of an input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// Whether it was accepted.
+    pub accepted: bool,
+    /// Bytes of the longest text in which it was refused; zero, if it was accepted.
+    pub message: usize,
+}
+
+impl Outcome {
+    /// Accepted.
+    const ACCEPTED: Self = Self {
+        accepted: true,
+        message: 0,
+    };
+    /// No UTF-8, which readers of text refuse before they read.
+    const NO_TEXT: Self = Self {
+        accepted: false,
+        message: 0,
+    };
+
+    /// Refused with this error.
+    fn refused(error: &dyn Diagnostic) -> Self {
+        Self::told(shown::check(error))
+    }
+
+    /// Refused with this text.
+    fn refused_with(text: &str) -> Self {
+        Self::told(shown::check_text(text))
+    }
+
+    fn told(message: usize) -> Self {
+        Self {
+            accepted: false,
+            message,
+        }
+    }
+
+    /// Both of two readings of one input: accepted if one is.
+    fn or(self, other: Self) -> Self {
+        Self {
+            accepted: self.accepted || other.accepted,
+            message: self.message.max(other.message),
+        }
+    }
+}
+
+/// A folder that is not there, so that inputs find no files.
+fn nowhere() -> &'static Path {
+    Path::new("no-such-folder")
+}
+
+/// The files of a folder of the corpus.
+macro_rules! corpus {
+    ($folder:literal: $($name:literal),* $(,)?) => {
+        || vec![$(include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/corpus/", $folder, "/", $name)).to_vec()),*]
+    };
+}
+use corpus;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_reader_accepts_its_corpus() {
+        for reader in &ALL {
+            let corpus = (reader.corpus)();
+            assert!(!corpus.is_empty(), "{}", reader.name);
+            for (number, entry) in corpus.iter().enumerate() {
+                let outcome = (reader.read)(entry);
+                assert!(outcome.accepted, "{} {number}: {outcome:?}", reader.name);
+            }
+        }
+    }
+
+    #[test]
+    fn every_file_of_the_corpus_belongs_to_a_reader() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
+        let mut bytes = 0;
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let folder = entry.unwrap();
+            let name = folder.file_name().into_string().unwrap();
+            let corpus = (find(&name).expect(&name).corpus)();
+            for file in std::fs::read_dir(folder.path()).unwrap() {
+                let content = std::fs::read(file.unwrap().path()).unwrap();
+                bytes += content.len();
+                assert!(corpus.contains(&content), "{name}");
+            }
+        }
+        assert!(bytes < 300_000, "{bytes} bytes");
+    }
+
+    #[test]
+    fn names_differ() {
+        for (place, reader) in ALL.iter().enumerate() {
+            assert!(ALL[..place].iter().all(|other| other.name != reader.name));
+        }
+    }
+}

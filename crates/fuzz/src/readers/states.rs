@@ -1,0 +1,268 @@
+//! Saved states: of driven wedges, of runs, of instances of FMUs. What is accepted goes on for a few steps.
+
+use std::sync::LazyLock;
+
+use fmi::description::{Model, Version};
+use fmi::element::Interface;
+use fmi::instance::{Instance, Saved};
+use study::case::{Case, builtin};
+use study::driven::{DrivenState, DrivenWedge, Neighbours};
+use study::run::{Run, RunState};
+
+use super::{Outcome, Reader};
+
+/// States of driven wedges.
+pub const DRIVEN: Reader = Reader {
+    name: "driven_states",
+    about: "saved states of driven wedges, and three steps from there",
+    corpus: driven_corpus,
+    dictionary: DICTIONARY,
+    read: driven,
+};
+
+/// States of runs.
+pub const RUN_STATES: Reader = Reader {
+    name: "run_states",
+    about: "saved states of runs, and three steps of the integrator from there",
+    corpus: run_corpus,
+    dictionary: DICTIONARY,
+    read: run_state,
+};
+
+/// States of instances of FMUs.
+pub const INSTANCES: Reader = Reader {
+    name: "instances",
+    about: "saved states of FMUs, and three steps from there",
+    corpus: instance_corpus,
+    dictionary: DICTIONARY,
+    read: instance,
+};
+
+const DICTIONARY: &[&[u8]] = &[
+    b"null",
+    b"true",
+    b"false",
+    b"[]",
+    b"{}",
+    b"\"version\":1",
+    b"\"time\":",
+    b"\"x\":",
+    b"\"modes\":",
+    b"\"proposed_step\":",
+    b"\"segment_start\":",
+    b"\"next_row\":",
+    b"\"statistics\":",
+    b"18446744073709551615",
+    b"-1",
+    b"1e308",
+    b"5e-324",
+    b"0.0",
+    b"255",
+    b"\"Passage\"",
+    b"\\ud800",
+];
+
+/// Steps that are made from a state.
+const STEPS: usize = 3;
+/// Length of a driven step, s.
+const STEP: f64 = 1e-3;
+
+/// A short run of a yawed wedge.
+static CASE: LazyLock<Option<Case>> = LazyLock::new(|| {
+    let set = ["simulation.duration=0.02 s", "simulation.output_interval=0.002 s"];
+    builtin::case_with("cdrun_toe_-0.2_psi_0.012", &set.map(str::to_owned)).ok()
+});
+
+fn driven_corpus() -> Vec<Vec<u8>> {
+    let Some(case) = CASE.as_ref() else {
+        return Vec::new();
+    };
+    let mut states = Vec::new();
+    let Ok(mut wedge) = DrivenWedge::new(case) else {
+        return states;
+    };
+    for number in 0..=STEPS {
+        let time = number as f64 * STEP;
+        if number > 0
+            && wedge
+                .step_to(&Neighbours::of(&case.parameters, time), time)
+                .is_err()
+        {
+            break;
+        }
+        states.extend(wedge.state().to_bytes());
+    }
+    states
+}
+
+fn driven(input: &[u8]) -> Outcome {
+    let Some(case) = CASE.as_ref() else {
+        return Outcome::NO_TEXT;
+    };
+    let Ok(mut wedge) = DrivenWedge::new(case) else {
+        return Outcome::NO_TEXT;
+    };
+    let before = wedge.state();
+    let restored = DrivenState::from_bytes(input).and_then(|state| {
+        let restored = wedge.restore(&state);
+        assert!(
+            restored.is_ok() || wedge.state() == before,
+            "changed although refused: {restored:?}"
+        );
+        restored
+    });
+    if let Err(error) = restored {
+        return Outcome::refused_with(&error.to_string());
+    }
+    let mut all = Outcome::ACCEPTED;
+    for _ in 0..STEPS {
+        let time = wedge.time() + STEP;
+        let stepped = wedge.step_to(&Neighbours::of(&case.parameters, time), time);
+        if let Err(error) = stepped {
+            all = all.or(Outcome::refused_with(&error.to_string()));
+            break;
+        }
+        let _ = wedge.reading();
+        let _ = wedge.row();
+    }
+    assert!(wedge.state().to_bytes().is_ok(), "no bytes: of a state");
+    all
+}
+
+fn run_corpus() -> Vec<Vec<u8>> {
+    let Some(mut run) = CASE.as_ref().and_then(|case| Run::new(case).ok()) else {
+        return Vec::new();
+    };
+    let mut states = Vec::new();
+    for _ in 0..=STEPS {
+        states.extend(serde_json::to_vec(&run.state()));
+        for _ in 0..10 {
+            if run.is_finished() || run.advance().is_err() {
+                return states;
+            }
+        }
+    }
+    states
+}
+
+fn run_state(input: &[u8]) -> Outcome {
+    let Some(case) = CASE.as_ref() else {
+        return Outcome::NO_TEXT;
+    };
+    let state: RunState = match serde_json::from_slice(input) {
+        Ok(state) => state,
+        Err(error) => return Outcome::refused_with(&error.to_string()),
+    };
+    let mut run = match Run::resume(case, state) {
+        Ok(run) => run,
+        Err(error) => return Outcome::refused_with(&error.to_string()),
+    };
+    let mut all = Outcome::ACCEPTED;
+    for _ in 0..STEPS {
+        if run.is_finished() {
+            break;
+        }
+        if let Err(error) = run.advance() {
+            all = all.or(Outcome::refused_with(&error.to_string()));
+            break;
+        }
+    }
+    let _ = run.state();
+    let _ = run.result(None);
+    all
+}
+
+/// The FMUs whose states are read.
+const MODELS: [(Model, Version, Interface); 4] = [
+    (Model::Wedge, Version::Two, Interface::CoSimulation),
+    (Model::Wedge, Version::Three, Interface::ModelExchange),
+    (Model::QuasiStatic, Version::Two, Interface::CoSimulation),
+    (Model::Truck, Version::Two, Interface::CoSimulation),
+];
+
+/// A new instance.
+fn new_instance(place: usize) -> Option<Instance> {
+    let (model, version, interface) = MODELS[place];
+    let case = CASE.as_ref()?.clone();
+    Instance::of_case("fuzz", None, model, case, version, interface).ok()
+}
+
+/// One that has begun.
+fn begun(place: usize) -> Option<Instance> {
+    let mut instance = new_instance(place)?;
+    instance.set_experiment(0.0, None, None).ok()?;
+    instance.enter_initialization().ok()?;
+    instance.exit_initialization().ok()?;
+    Some(instance)
+}
+
+fn instance_corpus() -> Vec<Vec<u8>> {
+    let mut states = Vec::new();
+    for place in 0..MODELS.len() {
+        let fresh = new_instance(place);
+        states.extend(fresh.and_then(|instance| instance.save().to_bytes().ok()));
+        let Some(mut instance) = begun(place) else {
+            continue;
+        };
+        states.extend(instance.save().to_bytes());
+        if instance.interface() == Interface::CoSimulation && instance.do_step(0.0, STEP).is_ok() {
+            states.extend(instance.save().to_bytes());
+        }
+    }
+    states
+}
+
+fn instance(input: &[u8]) -> Outcome {
+    let saved = match Saved::from_bytes(input) {
+        Ok(saved) => saved,
+        Err(error) => return Outcome::refused_with(&error.to_string()),
+    };
+    let mut all = None;
+    for place in 0..MODELS.len() {
+        let Some(instance) = new_instance(place) else {
+            continue;
+        };
+        let outcome = restore(instance, &saved);
+        all = Some(all.map_or(outcome, |all: Outcome| all.or(outcome)));
+    }
+    all.unwrap_or(Outcome::NO_TEXT)
+}
+
+fn restore(mut instance: Instance, saved: &Saved) -> Outcome {
+    let before = instance.save();
+    if let Err(error) = instance.restore(saved) {
+        assert!(instance.save() == before, "changed although refused: {error}");
+        return Outcome::refused_with(&error.to_string());
+    }
+    let mut all = Outcome::ACCEPTED;
+    for _ in 0..STEPS {
+        if let Err(error) = go_on(&mut instance) {
+            all = all.or(Outcome::refused_with(&error));
+            break;
+        }
+    }
+    for reference in 0..instance.description().variables.len() {
+        let _ = instance.get_float(reference as u32);
+    }
+    assert!(instance.save().to_bytes().is_ok(), "no bytes: of a state");
+    all
+}
+
+/// A step, or what a solver of the caller's asks for.
+fn go_on(instance: &mut Instance) -> Result<(), String> {
+    let text = |error: fmi::Error| error.to_string();
+    let time = instance.time();
+    if instance.interface() == Interface::CoSimulation {
+        return instance.do_step(time, STEP).map_err(text);
+    }
+    let mut states = vec![0.0; instance.description().entries.states.len()];
+    let mut rates = states.clone();
+    instance.enter_continuous_time_mode().map_err(text)?;
+    instance.states(&mut states).map_err(text)?;
+    instance.rates(&mut rates).map_err(text)?;
+    instance.set_time(time + STEP).map_err(text)?;
+    instance.set_states(&states).map_err(text)?;
+    instance.enter_event_mode().map_err(text)?;
+    instance.update_discrete_states().map_err(text)?;
+    Ok(())
+}

@@ -1,0 +1,207 @@
+//! Studies: their files, the folder's `study.json`, and records of runs.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use report::study_folder::{STUDY_FILE, StudyFolder};
+use study::design::Study;
+use study::measures::Measures;
+use study::records::{self, Record, Status};
+
+use super::cases::refused;
+use super::{Outcome, Reader, corpus, nowhere};
+
+/// Study files.
+pub const STUDIES: Reader = Reader {
+    name: "studies",
+    about: "study files, and the values of their variants",
+    corpus: corpus!("studies": "factorial.toml", "hypercube.toml", "list.toml", "sobol.toml"),
+    dictionary: &[
+        b"[vary]",
+        b"[set]",
+        b"[[variants]]",
+        b"sampling = \"full_factorial\"",
+        b"sampling = \"latin_hypercube\"",
+        b"sampling = \"sobol\"",
+        b"sampling = \"list\"",
+        b"runs = 4503599627370496",
+        b"seed = 7",
+        b"accuracy = \"engineering\"",
+        b"case = \"cdrun_toe_-0.2_psi_0.012\"",
+        b"{ from = 0.2, to = 0.6, count = 5 }",
+        b"{ from = \"1e5 lbf/in\", to = \"1e6 lbf/in\", count = 3, scale = \"logarithmic\" }",
+        b", also = [\"friction.slope\"]",
+        b"side_frame.toe = ",
+        b"wedge.angle = ",
+        b"count = 4503599627370496",
+    ],
+    read: study_file,
+};
+
+/// The description in a study's folder.
+pub const MANIFESTS: Reader = Reader {
+    name: "manifests",
+    about: "study.json in the folder of a study",
+    corpus: || vec![manifest()],
+    dictionary: &[
+        b"\"version\":",
+        b"\"runs\":",
+        b"\"factors\":",
+        b"\"case\":",
+        b"null",
+        b"1e999",
+        b"\\u0000",
+        b"\\ud800",
+    ],
+    read: manifest_file,
+};
+
+/// Records of runs.
+pub const RECORDS: Reader = Reader {
+    name: "records",
+    about: "records of a study's runs, and bodies of records",
+    corpus: record_corpus,
+    dictionary: &[
+        b"WLR1",
+        b"WLR1\xff\xff\xff\xff",
+        b"WLR1\x00\x10\x00\x00\x00\x00\x00\x00",
+        b"\xff\xff\xff\xff",
+        b"\x00\x00\x00\x00",
+    ],
+    read: record_bytes,
+};
+
+/// Some variants of a study, the first and the last among them.
+fn some(count: u64) -> Vec<u64> {
+    let mut numbers = vec![0, 1, count / 2, count - 1];
+    numbers.retain(|number| *number < count);
+    numbers.dedup();
+    numbers
+}
+
+fn study_file(input: &[u8]) -> Outcome {
+    let Ok(text) = std::str::from_utf8(input) else {
+        return Outcome::NO_TEXT;
+    };
+    let study = match Study::parse("study.toml", text, nowhere()) {
+        Ok(study) => study,
+        Err(error) => return refused(&error),
+    };
+    assert!(study.count() > 0, "no variants: {}", study.name);
+    let mut outcome = Outcome::ACCEPTED;
+    for number in some(study.count()) {
+        let values = study.values(number);
+        assert!(
+            values.len() == study.factors.len(),
+            "a value missing: variant {number}"
+        );
+        if let Err(error) = study.case(number) {
+            outcome = outcome.or(refused(&error));
+        }
+    }
+    match Study::of_source(study.source().clone()) {
+        Ok(again) => assert!(
+            again.fingerprint() == study.fingerprint(),
+            "another study: of its own source"
+        ),
+        Err(error) => assert!(false, "refused as written: {error}"),
+    }
+    outcome
+}
+
+/// A study of a few variants.
+static SMALL: LazyLock<Option<Study>> = LazyLock::new(|| {
+    let text = include_str!("../../corpus/studies/factorial.toml");
+    Study::parse("study.toml", text, nowhere()).ok()
+});
+
+/// What its folder holds.
+fn manifest() -> Vec<u8> {
+    let description = SMALL.as_ref().map(Study::description);
+    serde_json::to_vec_pretty(&description).unwrap_or_default()
+}
+
+fn manifest_file(input: &[u8]) -> Outcome {
+    let Some(study) = SMALL.as_ref() else {
+        return Outcome::NO_TEXT;
+    };
+    let Ok(folder) = tempfile::tempdir() else {
+        return Outcome::NO_TEXT;
+    };
+    let write = |path: &Path| std::fs::write(path.join(STUDY_FILE), input);
+    if write(folder.path()).is_err() {
+        return Outcome::NO_TEXT;
+    }
+    match StudyFolder::open(folder.path(), study) {
+        Ok(_) => Outcome::ACCEPTED,
+        Err(error) => Outcome::refused(&error),
+    }
+}
+
+const FINGERPRINT: u64 = 42;
+
+fn record(number: u64, status: Status, reason: &str) -> Record {
+    let mut measures = Measures::NONE;
+    measures.0[3] = number as f64 / 7.0;
+    Record {
+        number,
+        status,
+        reason: reason.to_owned(),
+        measures,
+    }
+}
+
+fn record_corpus() -> Vec<Vec<u8>> {
+    let all = [
+        record(0, Status::Complete, ""),
+        record(1, Status::Refused, "its values make no wedge: é"),
+        record(u64::MAX, Status::Stopped, &"long ".repeat(200)),
+    ];
+    let written = |fingerprint: u64, records: &[Record]| {
+        let mut bytes = Vec::new();
+        records
+            .iter()
+            .for_each(|record| record.write(fingerprint, &mut bytes));
+        bytes
+    };
+    vec![
+        written(FINGERPRINT, &all[..1]),
+        written(FINGERPRINT, &all),
+        [
+            written(FINGERPRINT, &all[1..]),
+            written(7, &all),
+            written(FINGERPRINT, &all),
+        ]
+        .concat(),
+    ]
+}
+
+fn record_bytes(input: &[u8]) -> Outcome {
+    let found = records::read(FINGERPRINT, input);
+    assert!(found.lost <= input.len(), "too much lost: {}", found.lost);
+    let mut bytes = Vec::new();
+    for record in &found.records {
+        record.write(FINGERPRINT, &mut bytes);
+    }
+    assert!(
+        bytes.len() + found.lost <= input.len(),
+        "more than there was: {} records",
+        found.records.len()
+    );
+    let again = records::read(FINGERPRINT, &bytes);
+    assert!(
+        again.records == found.records && again.lost == 0,
+        "other records: written and read again"
+    );
+    // As the body of a record whose checksum is right.
+    let mut framed = b"WLR1".to_vec();
+    framed.extend((input.len() as u32).to_le_bytes());
+    framed.extend(crc32fast::hash(input).to_le_bytes());
+    framed.extend(input);
+    let framed = records::read(FINGERPRINT, &framed);
+    assert!(framed.records.len() <= 1 + found.records.len(), "records made up");
+    Outcome {
+        accepted: !found.records.is_empty(),
+        message: 0,
+    }
+}

@@ -1,0 +1,221 @@
+//! A worker: one reader, one input after the other, until its time is over or it breaks.
+
+use std::cell::RefCell;
+use std::fs::{File, OpenOptions};
+use std::io::{self, Write};
+use std::panic::{self, PanicHookInfo};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use fuzz::inputs::Inputs;
+use fuzz::limits::{LONGEST_EXECUTION, MOST_MEMORY, STACK};
+use fuzz::readers::{self, Outcome, Reader};
+use rustix::time::{ClockId, clock_gettime};
+
+use crate::MEMORY;
+use crate::finding::{Finding, beginning, without_numbers};
+use crate::tally::{Tally, TallyFile};
+
+/// The file of counts in a worker's folder.
+pub const TALLY: &str = "tally";
+/// The file of findings, one a line.
+pub const FINDINGS: &str = "findings";
+
+/// What the parent asks of a worker.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The reader
+    #[arg(long)]
+    reader: String,
+    /// Which inputs
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// The first number
+    #[arg(long, default_value_t = 0)]
+    from: u64,
+    /// One behind the last number
+    #[arg(long, default_value_t = u64::MAX)]
+    until: u64,
+    /// For how long
+    #[arg(long)]
+    seconds: Option<f64>,
+    /// Where counts and findings go
+    #[arg(long)]
+    folder: PathBuf,
+    /// This file's content is the only input
+    #[arg(long)]
+    input: Option<PathBuf>,
+}
+
+/// Does it. On a thread with the stack that readers must do with.
+pub fn work(arguments: &Arguments) -> ExitCode {
+    let done = std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK);
+        let handle = thread.spawn_scoped(scope, || begin(arguments))?;
+        handle
+            .join()
+            .unwrap_or_else(|_| Err(io::Error::other("the worker itself panicked")))
+    });
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("the worker cannot work: {error}");
+            ExitCode::from(crate::WRONG)
+        }
+    }
+}
+
+fn begin(arguments: &Arguments) -> io::Result<()> {
+    let reader =
+        readers::find(&arguments.reader).ok_or_else(|| io::Error::other("there is no such reader"))?;
+    let mut worker = Worker::new(reader, &arguments.folder)?;
+    panic::set_hook(Box::new(note_panic));
+    if let Some(file) = &arguments.input {
+        worker.execute(0, &std::fs::read(file)?)?;
+        return worker.note();
+    }
+    let inputs = Inputs::of(reader);
+    // What is made once does not belong to the first input.
+    let first = inputs.input(arguments.seed, 0);
+    let _ = panic::catch_unwind(|| (reader.read)(&first));
+    let _ = MEMORY.set_limit(MOST_MEMORY);
+    let end = arguments
+        .seconds
+        .map(|seconds| Instant::now() + Duration::try_from_secs_f64(seconds).unwrap_or_default());
+    for number in arguments.from..arguments.until {
+        if end.is_some_and(|end| Instant::now() >= end) {
+            break;
+        }
+        worker.execute(number, &inputs.input(arguments.seed, number))?;
+    }
+    worker.note()
+}
+
+struct Worker {
+    reader: &'static Reader,
+    tally: Tally,
+    file: TallyFile,
+    findings: File,
+}
+
+impl Worker {
+    fn new(reader: &'static Reader, folder: &Path) -> io::Result<Self> {
+        Ok(Self {
+            reader,
+            tally: Tally::default(),
+            file: TallyFile::create(&folder.join(TALLY))?,
+            findings: OpenOptions::new()
+                .append(true)
+                .create(true)
+                .open(folder.join(FINDINGS))?,
+        })
+    }
+
+    fn note(&mut self) -> io::Result<()> {
+        self.tally.memory = MEMORY.max_allocated() as u64;
+        self.file.write(&self.tally)
+    }
+
+    /// Reads an input; what breaks a promise is written down.
+    fn execute(&mut self, number: u64, input: &[u8]) -> io::Result<()> {
+        self.tally.number = number;
+        self.tally.attempt = 0;
+        self.note()?;
+        let (mut time, outcome) = self.measured(input);
+        if time > LONGEST_EXECUTION {
+            // Whatever else the machine does at the moment may have been in its way.
+            self.tally.attempt = 1;
+            self.note()?;
+            time = time.min(self.measured(input).0);
+        }
+        self.tally.executions += 1;
+        self.tally.slowest = self.tally.slowest.max(time.as_nanos() as u64);
+        match outcome {
+            Ok(outcome) => {
+                self.tally.accepted += u64::from(outcome.accepted);
+                self.tally.refused += u64::from(!outcome.accepted);
+                self.tally.message = self.tally.message.max(outcome.message as u64);
+            }
+            Err(panic) => self.write(Finding {
+                what: panic.what,
+                detail: panic.detail,
+                number,
+                length: input.len(),
+            })?,
+        }
+        if time > LONGEST_EXECUTION {
+            self.write(Finding {
+                what: "too slow".to_owned(),
+                detail: format!("{:.2} s of processor time", time.as_secs_f64()),
+                number,
+                length: input.len(),
+            })?;
+        }
+        Ok(())
+    }
+
+    fn measured(&self, input: &[u8]) -> (Duration, Result<Outcome, Panic>) {
+        let start = processor_time();
+        let outcome = panic::catch_unwind(|| (self.reader.read)(input));
+        let time = processor_time().saturating_sub(start);
+        (time, outcome.map_err(|_| last_panic()))
+    }
+
+    fn write(&mut self, finding: Finding) -> io::Result<()> {
+        let mut line = serde_json::to_vec(&finding)?;
+        line.push(b'\n');
+        self.findings.write_all(&line)
+    }
+}
+
+/// Time that this thread has computed.
+fn processor_time() -> Duration {
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    Duration::new(
+        time.tv_sec.try_into().unwrap_or_default(),
+        time.tv_nsec.try_into().unwrap_or_default(),
+    )
+}
+
+/// A panic.
+#[derive(Default)]
+struct Panic {
+    what: String,
+    detail: String,
+}
+
+thread_local! {
+    static LAST: RefCell<Panic> = RefCell::default();
+}
+
+fn last_panic() -> Panic {
+    LAST.with_borrow_mut(std::mem::take)
+}
+
+fn note_panic(info: &PanicHookInfo<'_>) {
+    let place = info.location().map_or_else(String::new, ToString::to_string);
+    let message = info.payload_as_str().unwrap_or("no message");
+    // A broken promise is told by the words before the colon; a mistake of the code by its place.
+    let own = place.contains("crates/fuzz/");
+    let kind = if own {
+        message.split(':').next().unwrap_or_default()
+    } else {
+        message
+    };
+    LAST.set(Panic {
+        what: match own {
+            true => without_numbers(kind),
+            false => format!("panic at {}: {}", shorter(&place), without_numbers(kind)),
+        },
+        detail: format!("{}: {}", shorter(&place), beginning(message)),
+    });
+}
+
+/// A place without the folders in front of the crate.
+fn shorter(place: &str) -> &str {
+    let marks = ["crates/", "registry/src/", "library/"];
+    let found = marks.iter().find_map(|mark| place.find(mark));
+    found.map_or(place, |at| &place[at..])
+}
