@@ -5,10 +5,11 @@
 use quantity::{Kind, System};
 
 /// Largest coefficient of friction. Dry metals have 0.1 to 1, rubber up to 4.
-pub(super) const FRICTION: f64 = 10.0;
+pub const FRICTION: f64 = 10.0;
 
 /// Returns the largest size of a quantity of this kind, SI, either sign.
-pub(super) fn largest(kind: Kind) -> f64 {
+#[must_use]
+pub fn largest(kind: Kind) -> f64 {
     match kind {
         // Eleven days of simulated time.
         Kind::Time => 1e6,
@@ -31,6 +32,7 @@ pub(super) fn largest(kind: Kind) -> f64 {
 }
 
 /// Returns the bound in words: `at most 1000 m`.
-pub(super) fn words(kind: Kind) -> String {
+#[must_use]
+pub fn words(kind: Kind) -> String {
     format!("at most {:e} {}", largest(kind), kind.label(System::Si))
 }

@@ -7,7 +7,7 @@
 //! keeps what was typed, and that is turned into [`wedge::parameters::Parameters`] and
 //! [`Simulation`].
 
-mod bounds;
+pub mod bounds;
 pub mod builtin;
 mod defaults;
 mod document;

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
 use quantity::{Kind, Quantity, System as Units};
+use study::case::bounds;
 
 use crate::failure::Failure;
 use crate::table::Table;
@@ -186,17 +187,19 @@ fn toe(text: &str) -> Result<Toe, String> {
 
 fn friction(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
-        _ => Err(
-            "a coefficient of friction is a number, 0 or more, without unit; write for example 0.4"
-                .to_owned(),
-        ),
+        Ok(value) if (0.0..=bounds::FRICTION).contains(&value) => Ok(value),
+        _ => Err(format!(
+            "a coefficient of friction is a number from 0 to {}, without unit; write for example 0.4",
+            bounds::FRICTION
+        )),
     }
 }
 
 fn force(text: &str) -> Result<Quantity, String> {
     let force = quantity(text, Kind::Force)?;
-    if force.to_si() > 0.0 {
+    if force.to_si() > bounds::largest(Kind::Force) {
+        Err(format!("the coil's force must be {}", bounds::words(Kind::Force)))
+    } else if force.to_si() > 0.0 {
         Ok(force)
     } else {
         Err("the coil pushes, its force is positive; write for example \"3000 lbf\"".to_owned())
