@@ -140,11 +140,14 @@ fn files_that_are_no_tables() {
         (&b""[..], "empty"),
         (b"\n \n# nothing\n", "empty"),
         (b"{\"schema\": \"wedgelab.summary/1\"}", "JSON"),
-        (b"[wedge]\ndamping = \"constant\"\n", "TOML"),
-        (b"<svg></svg>", "drawing"),
+        (b"[wedge]\ndamping = \"constant\"\n", "a case file"),
+        (b"[other]\nkey = 1\n", "TOML"),
+        (b"<svg></svg>", "a figure"),
+        (b"<other/>", "drawing"),
         (b"MATLAB 5.0 MAT-file, Wedgelab\0\0", "a MAT-file"),
-        (b"\x89PNG\r\n\x1a\n\0\0", "no text"),
-        (b"time_s,a\n0,\0\n", "no text"),
+        (b"\x89PNG\r\n\x1a\n\0\0", "a figure"),
+        (b"time_s,a\n0,\0\n", "not text"),
+        (b"time_s,a\n0,\xe4\n", "no text"),
     ] {
         let error = Table::parse(Path::new("x"), bytes).unwrap_err();
         assert!(matches!(error, TableError::Foreign { .. }), "{error}");
