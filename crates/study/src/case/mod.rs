@@ -19,6 +19,7 @@ mod read;
 mod resolve;
 pub(crate) mod section;
 mod table;
+mod tables;
 pub(crate) mod tree;
 mod units;
 mod values;
@@ -33,6 +34,7 @@ pub use field::{Field, FieldSection, Input, Measured};
 pub use motion::{Motion, Profile};
 pub use problem::{CaseError, Problem};
 pub use table::QuantityTable;
+pub use tables::Tables;
 
 use integrate::Method;
 use problem::Source;
@@ -83,23 +85,28 @@ impl Case {
         Self::parse(&path.display().to_string(), &text, folder, overrides)
     }
 
-    /// As [`Case::read`], from a text. `source` names it in messages; tables are looked for in
-    /// `folder`.
+    /// As [`Case::read`], from a text. `source` names it in messages; `tables` says where tables
+    /// are looked for: a folder, or [`Tables`] that restrict which files are read.
     ///
     /// # Errors
     /// As [`Case::read`].
-    pub fn parse(source: &str, text: &str, folder: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+    pub fn parse<'t>(
+        source: &str,
+        text: &str,
+        tables: impl Into<Tables<'t>>,
+        overrides: &[String],
+    ) -> Result<Self, CaseError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut tree = tree::parse(&Source::new(source, text)).map_err(CaseError::new)?;
         let problems = overrides::apply(&mut tree, overrides);
-        Self::of_tree(tree, source, folder, problems)
+        Self::of_tree(tree, source, tables.into(), problems)
     }
 
     /// Completes, reads and checks a tree; `problems` are those found on the way to it.
     fn of_tree(
         mut tree: tree::Table,
         source: &str,
-        folder: &Path,
+        tables: Tables<'_>,
         mut problems: Vec<Problem>,
     ) -> Result<Self, CaseError> {
         let stem = Path::new(source)
@@ -111,7 +118,7 @@ impl Case {
         } else {
             "case"
         };
-        let document = read::document(&mut tree, default_name, folder, &mut problems);
+        let document = read::document(&mut tree, default_name, tables, &mut problems);
         let Some(document) = document.filter(|_| problems.is_empty()) else {
             return Err(CaseError::new(problems));
         };
@@ -140,7 +147,7 @@ impl Case {
     /// As [`Case::read`].
     pub fn from_document(document: &CaseDocument) -> Result<Self, CaseError> {
         let text = document.clone().with_tables_embedded().to_toml();
-        let mut case = Self::parse("case.toml", &text, Path::new(""), &[])?;
+        let mut case = Self::parse("case.toml", &text, Tables::nowhere(), &[])?;
         case.document = document.clone();
         Ok(case)
     }

@@ -4,11 +4,11 @@ use super::document::PROFILES;
 use super::problem::Problem;
 use super::section::{self, Range, Section, name_of};
 use super::table::{self, QuantityTable};
+use super::tables::Tables;
 use super::tree::{Node, Value};
 use super::units::in_system;
 use quantity::{Kind, Quantity, System, nearest};
 use std::fmt::Write;
-use std::path::Path;
 
 /// How one coordinate of a neighbour moves, as typed. Lengths or angles, by the coordinate.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,12 +72,12 @@ const SHAPES: [&str; 6] = ["constant", "sine", "triangle", "swept_sine", "ramp",
 const EXAMPLE: &str = "write for example { shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\" }, \
                        or one held value";
 
-/// Reads a motion whose values measure `kind`. Tables in files lie in `folder`.
+/// Reads a motion whose values measure `kind`. `tables` says where those in files lie.
 pub(super) fn read(
     node: &Node,
     path: &str,
     kind: Kind,
-    folder: &Path,
+    tables: Tables<'_>,
     problems: &mut Vec<Problem>,
 ) -> Option<Motion> {
     match &node.value {
@@ -94,7 +94,7 @@ pub(super) fn read(
                     let problem = Problem::new(format!("`{path}` is a list; a motion is expected"));
                     problems.push(problem.at(&item.place).label("a sum within a sum").help(EXAMPLE));
                 } else {
-                    parts.push(read(item, &path, kind, folder, problems));
+                    parts.push(read(item, &path, kind, tables, problems));
                 }
             }
             Some(Motion::Sum(parts.into_iter().collect::<Option<_>>()?))
@@ -106,7 +106,7 @@ pub(super) fn read(
                 table,
                 place,
             };
-            read_shape(&section, kind, folder, problems)
+            read_shape(&section, kind, tables, problems)
         }
         _ => section::quantity(node, path, kind, Range::Any, problems).map(Motion::Constant),
     }
@@ -115,7 +115,7 @@ pub(super) fn read(
 fn read_shape(
     section: &Section<'_>,
     kind: Kind,
-    folder: &Path,
+    tables: Tables<'_>,
     problems: &mut Vec<Problem>,
 ) -> Option<Motion> {
     section.require("shape", EXAMPLE, problems)?;
@@ -197,7 +197,7 @@ fn read_shape(
         }
         _ => {
             let form = table::Form::motion(kind);
-            table::read_either(section, "file", "points", &form, folder, problems).map(Motion::Table)
+            table::read_either(section, "file", "points", &form, tables, problems).map(Motion::Table)
         }
     }
 }

@@ -96,6 +96,26 @@ impl Problem {
         self
     }
 
+    /// The same mistake in a file that must not be quoted: its place there and its kind, shown where the file was named.
+    /// Labels, which tell the kind, never quote a text.
+    pub(crate) fn without_quoting(self, file: &str, path: &str, named: &Place) -> Self {
+        let inside = (self.place.as_ref()).is_some_and(|place| !Arc::ptr_eq(&place.source, &named.source));
+        if !inside {
+            return self;
+        }
+        let (line, column) = self.line_and_column().unwrap_or((1, 1));
+        let kind = match self.label.as_str() {
+            "" => "not a table",
+            label => label,
+        };
+        Problem::new(format!("`{path}`: {file}, line {line}, column {column}: {kind}"))
+            .at(named)
+            .label("this file")
+            .help(
+                "the file is not quoted here; open it at that place, or see `wedgelab run`, which quotes it",
+            )
+    }
+
     /// Whether it is the key in front of `=` that is wrong in what was given to `--set`.
     pub(crate) fn is_about_key(&self) -> bool {
         let place = self.place.as_ref().filter(|_| self.set_path().is_some());

@@ -5,10 +5,10 @@ use super::motion;
 use super::problem::{Place, Problem};
 use super::section::{self, Range, Section, inner_place, unit_problem};
 use super::table::{self, Form};
+use super::tables::Tables;
 use super::tree::{Node, Table, Value};
 use super::{defaults, name};
 use quantity::{Kind, Quantity, System};
-use std::path::Path;
 
 /// The keys of every table.
 const KEYS: &[(&str, &[&str])] = &[
@@ -104,7 +104,7 @@ const MOST_OUTPUTS: f64 = 1e7;
 pub(super) fn document(
     tree: &mut Table,
     default_name: &str,
-    folder: &Path,
+    tables: Tables<'_>,
     problems: &mut Vec<Problem>,
 ) -> Option<CaseDocument> {
     complete(tree, problems);
@@ -145,7 +145,7 @@ pub(super) fn document(
     let simulation = section("simulation");
 
     let wedge = wedge.and_then(|s| read_wedge(&s, problems));
-    let control_coil = coil.and_then(|s| read_coil(&s, folder, problems));
+    let control_coil = coil.and_then(|s| read_coil(&s, tables, problems));
     let contact = contact.and_then(|s| {
         let stiffness = s.quantity("stiffness", Kind::Stiffness, Range::Positive, problems);
         let damping = s.quantity("damping", Kind::Damping, Range::NotNegative, problems);
@@ -156,8 +156,8 @@ pub(super) fn document(
     });
     let friction = friction.and_then(|s| read_friction(&s, problems));
     let toe = side_frame.as_ref().and_then(|s| read_toe(s, problems));
-    let side_frame = side_frame.and_then(|s| read_neighbour(&s, folder, problems));
-    let bolster = bolster.and_then(|s| read_neighbour(&s, folder, problems));
+    let side_frame = side_frame.and_then(|s| read_neighbour(&s, tables, problems));
+    let bolster = bolster.and_then(|s| read_neighbour(&s, tables, problems));
     let environment = environment.and_then(|s| {
         Some(EnvironmentSection {
             gravity: s.quantity("gravity", Kind::Acceleration, Range::NotNegative, problems)?,
@@ -167,7 +167,7 @@ pub(super) fn document(
     if let Some(simulation) = &simulation {
         for (key, neighbour) in [("side_frame", &side_frame), ("bolster", &bolster)] {
             if let Some(neighbour) = neighbour {
-                check_cover(key, neighbour, &simulation.duration, tree, problems);
+                check_cover(key, neighbour, &simulation.duration, tree, tables, problems);
             }
         }
     }
@@ -264,7 +264,7 @@ fn read_free_coordinates(s: &Section<'_>, problems: &mut Vec<Problem>) -> Option
     Some(coordinates)
 }
 
-fn read_coil(s: &Section<'_>, folder: &Path, problems: &mut Vec<Problem>) -> Option<CoilSection> {
+fn read_coil(s: &Section<'_>, tables: Tables<'_>, problems: &mut Vec<Problem>) -> Option<CoilSection> {
     let force = match (s.table.entry("stiffness"), s.table.entry("table")) {
         (Some(_), Some(table)) => {
             let problem =
@@ -276,7 +276,7 @@ fn read_coil(s: &Section<'_>, folder: &Path, problems: &mut Vec<Problem>) -> Opt
             );
             None
         }
-        (_, Some(table)) => table::read(&table.node, &s.path_of("table"), &Form::coil(), folder, problems)
+        (_, Some(table)) => table::read(&table.node, &s.path_of("table"), &Form::coil(), tables, problems)
             .map(CoilForce::Table),
         _ => s
             .quantity("stiffness", Kind::Stiffness, Range::Positive, problems)
@@ -428,7 +428,11 @@ fn signed_toe(angle: f64, node: &Node, path: &str, problems: &mut Vec<Problem>) 
     })
 }
 
-fn read_neighbour(s: &Section<'_>, folder: &Path, problems: &mut Vec<Problem>) -> Option<NeighbourSection> {
+fn read_neighbour(
+    s: &Section<'_>,
+    tables: Tables<'_>,
+    problems: &mut Vec<Problem>,
+) -> Option<NeighbourSection> {
     let center = match s.table.get("center") {
         Some(_) => Some(s.triple("center", Kind::Length, Range::Any, problems)?),
         None => None,
@@ -437,7 +441,7 @@ fn read_neighbour(s: &Section<'_>, folder: &Path, problems: &mut Vec<Problem>) -
     for (at, key) in NeighbourSection::COORDINATES.into_iter().enumerate() {
         let kind = if at < 3 { Kind::Length } else { Kind::Angle };
         let node: Option<&Node> = s.require(key, "write a motion", problems);
-        motions.push(node.and_then(|node| motion::read(node, &s.path_of(key), kind, folder, problems)));
+        motions.push(node.and_then(|node| motion::read(node, &s.path_of(key), kind, tables, problems)));
     }
     let motions: Vec<_> = motions.into_iter().collect::<Option<_>>()?;
     Some(NeighbourSection {
@@ -492,6 +496,7 @@ fn check_cover(
     neighbour: &NeighbourSection,
     duration: &Quantity,
     tree: &Table,
+    tables: Tables<'_>,
     problems: &mut Vec<Problem>,
 ) {
     for (key, motion) in NeighbourSection::COORDINATES.iter().zip(&neighbour.coordinates) {
@@ -503,8 +508,14 @@ fn check_cover(
                 continue;
             }
             let path = format!("{section}.{key}");
-            let message =
-                format!("`{path}` is given from {first} to {last}, but the run lasts from 0 to {duration}");
+            let message = match &table.file {
+                Some(file) if !tables.may_quote() => {
+                    format!("`{path}`: {file} does not last from 0 to {duration}, as the run does")
+                }
+                _ => format!(
+                    "`{path}` is given from {first} to {last}, but the run lasts from 0 to {duration}"
+                ),
+            };
             let help = "add rows to the table, or shorten simulation.duration";
             let problem = Problem::new(message).label("does not cover the run").help(help);
             problems.push(match tree.place_of(&path) {

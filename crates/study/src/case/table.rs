@@ -5,10 +5,10 @@
 
 use super::problem::{Place, Problem, Source};
 use super::section::{self, Range, Section};
+use super::tables::Tables;
 use super::tree::{Node, Value};
 use super::units::in_system;
 use quantity::{Kind, Quantity, System};
-use std::path::Path;
 use std::sync::Arc;
 
 /// Two columns of quantities, the first one increasing.
@@ -100,7 +100,7 @@ pub(super) fn read_either(
     file: &str,
     points: &str,
     form: &Form,
-    folder: &Path,
+    tables: Tables<'_>,
     problems: &mut Vec<Problem>,
 ) -> Option<QuantityTable> {
     match (section.table.get(file), section.table.entry(points)) {
@@ -120,23 +120,43 @@ pub(super) fn read_either(
             section.require(file, &help, problems);
             None
         }
-        (Some(node), None) => read(node, &section.path_of(file), form, folder, problems),
-        (None, Some(entry)) => read(&entry.node, &section.path_of(points), form, folder, problems),
+        (Some(node), None) => read(node, &section.path_of(file), form, tables, problems),
+        (None, Some(entry)) => read(&entry.node, &section.path_of(points), form, tables, problems),
     }
 }
 
-/// Reads a table from the name of a file or from points.
+/// Reads a table from the name of a file or from points. Of a file that must not be quoted, messages tell the place and
+/// the kind of a mistake.
 pub(super) fn read(
     node: &Node,
     path: &str,
     form: &Form,
-    folder: &Path,
+    tables: Tables<'_>,
+    problems: &mut Vec<Problem>,
+) -> Option<QuantityTable> {
+    match &node.value {
+        Value::Text(file) if !tables.may_quote() => {
+            let mut found = Vec::new();
+            let table = read_quoting(node, path, form, tables, &mut found);
+            let told = |problem: Problem| problem.without_quoting(file, path, &node.place);
+            problems.extend(found.into_iter().map(told));
+            table
+        }
+        _ => read_quoting(node, path, form, tables, problems),
+    }
+}
+
+fn read_quoting(
+    node: &Node,
+    path: &str,
+    form: &Form,
+    tables: Tables<'_>,
     problems: &mut Vec<Problem>,
 ) -> Option<QuantityTable> {
     let (file, rows) = match &node.value {
         Value::Text(file) => (
             Some(file.clone()),
-            read_file(node, file, path, form, folder, problems)?,
+            read_file(node, file, path, form, tables, problems)?,
         ),
         Value::List(items) => (None, read_points(items, path, form, problems)?),
         other => {
@@ -197,19 +217,27 @@ fn read_file(
     file: &str,
     path: &str,
     form: &Form,
-    folder: &Path,
+    tables: Tables<'_>,
     problems: &mut Vec<Problem>,
 ) -> Option<Vec<Row>> {
-    let full = folder.join(file);
+    let shown = tables.shown(file);
+    let full = match tables.locate(file) {
+        Ok(full) => full,
+        Err(refused) => {
+            let problem = Problem::new(format!("`{path}`: {shown} {}", refused.reason)).at(&node.place);
+            problems.push(problem.label("this file").help(refused.help));
+            return None;
+        }
+    };
     let text = match std::fs::read_to_string(&full) {
         Ok(text) => text,
         Err(error) => {
             let (message, help) = if error.kind() == std::io::ErrorKind::NotFound {
                 let help = "files are looked for from the folder of the case file; check the name";
-                (format!("`{path}`: there is no file {}", full.display()), help)
+                (format!("`{path}`: there is no file {shown}"), help)
             } else {
                 (
-                    format!("`{path}`: {} cannot be read: {error}", full.display()),
+                    format!("`{path}`: {shown} cannot be read: {error}"),
                     "name a CSV text file",
                 )
             };
@@ -223,7 +251,7 @@ fn read_file(
         }
     };
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_string();
-    read_csv(&Source::new(full.display().to_string(), text), form, problems)
+    read_csv(&Source::new(shown, text), form, problems)
 }
 
 fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Vec<Problem>) -> Option<Vec<Row>> {
@@ -243,7 +271,8 @@ fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Vec<Problem>) -> O
             source: Arc::clone(source),
             span: 0..0,
         };
-        problems.push(Problem::new("the table is empty").at(&place).help(help));
+        let problem = Problem::new("the table is empty").at(&place).label("empty");
+        problems.push(problem.help(help));
         return None;
     };
     let place = |at: usize, cell: &str| {

@@ -37,7 +37,7 @@ impl Case {
             tree.complete_from(&below);
             source = name;
         }
-        Self::of_tree(tree, source, folder, Vec::new())
+        Self::of_tree(tree, source, folder.into(), Vec::new())
     }
 }
 
