@@ -95,8 +95,14 @@ export type Outcome =
   | { is: "replaced" }
   | { is: "failed"; why: string };
 
+/** The secret of the address that the terminal shows; the server answers only who sends it. It stays in the address, so that the page can be loaded again. */
+function authorization(): Record<string, string> {
+  return { authorization: `Bearer ${new URLSearchParams(location.search).get("token") ?? ""}` };
+}
+
 async function post(path: string, wanted: Wanted): Promise<Response> {
-  return fetch(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(wanted) });
+  const headers = { ...authorization(), "content-type": "application/json" };
+  return fetch(path, { method: "POST", headers, body: JSON.stringify(wanted) });
 }
 
 const GONE = "The server does not answer: `wedgelab explore` has been stopped. Start it again and open the address it prints.";
@@ -106,23 +112,22 @@ async function refused(response: Response): Promise<Outcome> {
     return { is: "replaced" };
   }
   const text = await response.text();
-  if (response.status === 422) {
-    try {
-      const { errors } = JSON.parse(text) as { errors?: Mistake[] };
-      if (errors) {
-        return { is: "mistakes", mistakes: errors };
-      }
-    } catch {
-      // Told as it is.
+  try {
+    const { errors, message } = JSON.parse(text) as { errors?: Mistake[]; message?: string };
+    if (errors) {
+      return { is: "mistakes", mistakes: errors };
     }
+    return { is: "failed", why: message ?? text };
+  } catch {
+    return { is: "failed", why: text };
   }
-  return { is: "failed", why: text };
 }
 
 export async function opening(): Promise<Opening> {
-  const response = await fetch("/api/case");
+  const response = await fetch("/api/case", { headers: authorization() });
   if (!response.ok) {
-    throw new Error(await response.text());
+    const outcome = await refused(response);
+    throw new Error(outcome.is === "mistakes" ? outcome.mistakes.map(({ message }) => message).join("; ") : outcome.is === "failed" ? outcome.why : "");
   }
   return (await response.json()) as Opening;
 }

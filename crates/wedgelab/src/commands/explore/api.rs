@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::Instant;
 
 use report::view::View;
@@ -15,6 +15,7 @@ use study::run::Run;
 use study::summary::{Stopped, Summary};
 
 use super::base::Base;
+use super::limits;
 
 /// The name and version of the answers.
 pub const SCHEMA: &str = "wedgelab.explore/1";
@@ -88,12 +89,52 @@ pub struct Mistake {
 pub enum Refused {
     /// What was typed is wrong.
     Mistakes(Vec<Mistake>),
-    /// A later request took its place.
+    /// A later request took its place, or its client has gone.
     Replaced,
     /// There is no such file.
     Unknown(String),
     /// Files could not be made.
     Failed(String),
+}
+
+impl Refused {
+    /// One mistake.
+    fn mistake(path: &str, message: String, help: &str) -> Self {
+        Self::Mistakes(vec![Mistake {
+            path: path.to_owned(),
+            message,
+            help: help.to_owned(),
+        }])
+    }
+}
+
+impl Wanted {
+    /// Refuses more than is looked at.
+    fn check(&self) -> Result<(), Refused> {
+        let names = self.set.keys().chain(&self.preset);
+        if self.set.len() > limits::CHANGES {
+            let message = format!("{} changes are too many", self.set.len());
+            let help = format!(
+                "at most {} are laid over a case; write them into a case file",
+                limits::CHANGES
+            );
+            return Err(Refused::mistake("", message, &help));
+        }
+        if let Some(long) = names.into_iter().find(|name| name.len() > limits::NAME) {
+            let message = format!("a name of {} bytes is too long", long.len());
+            let help = format!("paths and presets have at most {} bytes", limits::NAME);
+            return Err(Refused::mistake("", message, &help));
+        }
+        if let Some((path, text)) = self.set.iter().find(|(_, text)| text.len() > limits::TEXT) {
+            let message = format!("a text of {} bytes is too long", text.len());
+            let help = format!(
+                "at most {} bytes are read; put a long table into a CSV file",
+                limits::TEXT
+            );
+            return Err(Refused::mistake(path, message, &help));
+        }
+        Ok(())
+    }
 }
 
 /// A file to be kept.
@@ -114,6 +155,28 @@ pub struct Explorer {
     kept: Mutex<Option<Kept>>,
 }
 
+/// Whoever waits for an answer. When it is dropped, what was begun for it ends at its next step.
+#[derive(Debug, Default)]
+pub struct Client(Arc<()>);
+
+impl Client {
+    /// What tells whether the client still waits.
+    pub fn watch(&self) -> Watch {
+        Watch(Arc::downgrade(&self.0))
+    }
+}
+
+/// Tells whether a [`Client`] still waits.
+#[derive(Clone, Debug)]
+pub struct Watch(Weak<()>);
+
+/// A run that has begun: it goes on while no later one begins and its client waits.
+#[derive(Debug)]
+pub struct Turn {
+    number: u64,
+    client: Watch,
+}
+
 struct Kept {
     wanted: Wanted,
     outcome: Arc<(Case, RunResult)>,
@@ -129,9 +192,21 @@ impl Explorer {
         }
     }
 
-    /// Ends whatever runs; gives the number of a run that begins now.
-    pub fn begin(&self) -> u64 {
-        self.latest.fetch_add(1, Ordering::SeqCst) + 1
+    /// Ends whatever runs; gives the turn of a run that begins now.
+    pub fn begin(&self, client: Watch) -> Turn {
+        Turn {
+            number: self.latest.fetch_add(1, Ordering::SeqCst) + 1,
+            client,
+        }
+    }
+
+    /// Ends whatever runs.
+    pub fn end(&self) {
+        self.latest.fetch_add(1, Ordering::SeqCst);
+    }
+
+    fn goes_on(&self, turn: &Turn) -> bool {
+        self.latest.load(Ordering::Relaxed) == turn.number && turn.client.0.strong_count() > 0
     }
 
     /// What the page needs to begin.
@@ -162,13 +237,13 @@ impl Explorer {
         })
     }
 
-    /// Runs what is wanted, unless a later request comes.
+    /// Runs what is wanted, unless a later request comes or the client goes.
     ///
     /// # Errors
-    /// What was typed is wrong, or a later request came.
-    pub fn run(&self, wanted: &Wanted, number: u64) -> Result<Answer, Refused> {
+    /// What was typed is wrong, a later request came, or the client has gone.
+    pub fn run(&self, wanted: &Wanted, turn: &Turn) -> Result<Answer, Refused> {
         let begun = Instant::now();
-        let outcome = self.outcome(wanted, number)?;
+        let outcome = self.outcome(wanted, turn)?;
         let seconds = begun.elapsed().as_secs_f64();
         let (case, result) = &*outcome;
         let recording = Recording::of_wedge(&outcome, Detail::Full);
@@ -188,7 +263,7 @@ impl Explorer {
     ///
     /// # Errors
     /// As [`Explorer::run`], or there is no such file.
-    pub fn export(&self, wanted: &Wanted, file: &str, number: impl Fn() -> u64) -> Result<Export, Refused> {
+    pub fn export(&self, wanted: &Wanted, file: &str, client: Watch) -> Result<Export, Refused> {
         let failed = |error: std::io::Error| Refused::Failed(error.to_string());
         let mut bytes = Vec::new();
         let (name, media) = if file == run_files::CASE_FILE_NAME {
@@ -202,7 +277,7 @@ impl Explorer {
                     "There is no file {file}; there are {names}."
                 )));
             }
-            let outcome = self.outcome(wanted, number())?;
+            let outcome = self.outcome(wanted, &self.begin(client))?;
             let (case, result) = &*outcome;
             let media = match file {
                 csv::FILE_NAME => csv::write(result, &mut bytes).map(|()| "text/csv"),
@@ -219,6 +294,7 @@ impl Explorer {
     }
 
     fn case(&self, wanted: &Wanted) -> Result<Case, Refused> {
+        wanted.check()?;
         let overrides: Vec<String> = wanted
             .set
             .iter()
@@ -226,14 +302,20 @@ impl Explorer {
             .collect();
         let built_in = wanted.preset.clone().map(Base::BuiltIn);
         let base = built_in.as_ref().unwrap_or(&self.base);
-        base.with(&overrides).map_err(|error| {
+        let case = base.with(&overrides).map_err(|error| {
             let known = base.with(&[]).map_or(Vec::new(), |case| case.document.fields());
             Refused::Mistakes(mistakes(&error, &wanted.set, &known))
-        })
+        })?;
+        limits::rows(&case.simulation).map_err(|refused| {
+            let typed = ["simulation.output_interval", "simulation.duration"];
+            let path = typed.iter().find(|path| wanted.set.contains_key(**path));
+            Refused::mistake(path.unwrap_or(&typed[0]), refused.message, &refused.help)
+        })?;
+        Ok(case)
     }
 
     /// What comes out; that of the latest run if it is what was wanted then.
-    fn outcome(&self, wanted: &Wanted, number: u64) -> Result<Arc<(Case, RunResult)>, Refused> {
+    fn outcome(&self, wanted: &Wanted, turn: &Turn) -> Result<Arc<(Case, RunResult)>, Refused> {
         let case = self.case(wanted)?;
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         // Tables in files may have changed: the case must be the same, too.
@@ -244,7 +326,8 @@ impl Explorer {
             return Ok(Arc::clone(&kept.outcome));
         }
         drop(kept);
-        let result = self.compute(&case, number)?;
+        let result = self.compute(&case, turn)?;
+        finite(&result)?;
         let outcome = Arc::new((case, result));
         *self.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(Kept {
             wanted: wanted.clone(),
@@ -253,16 +336,12 @@ impl Explorer {
         Ok(outcome)
     }
 
-    fn compute(&self, case: &Case, number: u64) -> Result<RunResult, Refused> {
+    fn compute(&self, case: &Case, turn: &Turn) -> Result<RunResult, Refused> {
         let mut run = Run::new(case).map_err(|error| {
-            Refused::Mistakes(vec![Mistake {
-                path: String::new(),
-                message: format!("the run cannot begin: {error}"),
-                help: "look for values that are out of proportion".to_owned(),
-            }])
+            Refused::mistake("", format!("the run cannot begin: {error}"), OUT_OF_PROPORTION)
         })?;
         while !run.is_finished() {
-            if self.latest.load(Ordering::Relaxed) != number {
+            if !self.goes_on(turn) {
                 return Err(Refused::Replaced);
             }
             if let Err(error) = run.advance() {
@@ -275,6 +354,40 @@ impl Explorer {
             }
         }
         Ok(run.result(None))
+    }
+}
+
+const OUT_OF_PROPORTION: &str = "look for values that are out of proportion";
+
+/// Refuses results that are not finite: no number can be shown for them.
+fn finite(result: &RunResult) -> Result<(), Refused> {
+    let bad = |message: String| Err(Refused::mistake("", message, OUT_OF_PROPORTION));
+    for (column, values) in result.columns.iter().zip(&result.values) {
+        if let Some(row) = values.iter().position(|value| !value.is_finite()) {
+            let time = result.column("time").and_then(|times| times.get(row));
+            // Shown in few digits.
+            let time = time.map_or(0.0, |time| *time as f32);
+            let name = column.name.replace('_', " ");
+            return bad(format!(
+                "the results are not finite: {name} is {} at {time} s",
+                values[row]
+            ));
+        }
+    }
+    let averages = &result.summary.averages;
+    let single = [
+        &averages.equivalent_damping,
+        &averages.equivalent_stiffness,
+        &averages.equivalent_damping_on_bolster,
+    ];
+    let groups = [&averages.energy_per_cycle, &averages.up, &averages.down];
+    let measures = groups.into_iter().flat_map(|group| group.values());
+    match measures
+        .chain(single.into_iter().flatten())
+        .find(|measure| !measure.value.is_finite())
+    {
+        Some(measure) => bad(format!("the averages are not finite: one is {}", measure.value)),
+        None => Ok(()),
     }
 }
 
@@ -304,4 +417,57 @@ fn mistakes(error: &CaseError, set: &BTreeMap<String, String>, known: &[FieldSec
             }
         })
         .collect()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn explorer() -> Explorer {
+        Explorer::new(Base::BuiltIn("vdrun_toe_0_psi_0".to_owned()))
+    }
+
+    #[test]
+    fn issue_029_a_run_ends_with_its_client() {
+        let (explorer, wanted) = (explorer(), Wanted::default());
+        let client = Client::default();
+        let turn = explorer.begin(client.watch());
+        assert!(explorer.run(&wanted, &turn).is_ok());
+        let other = Wanted {
+            set: [("friction.column".to_owned(), "0.3".to_owned())].into(),
+            ..wanted
+        };
+        drop(client);
+        assert_eq!(explorer.run(&other, &turn).err(), Some(Refused::Replaced));
+        let client = Client::default();
+        let turn = explorer.begin(client.watch());
+        explorer.begin(client.watch());
+        assert_eq!(explorer.run(&other, &turn).err(), Some(Refused::Replaced));
+    }
+
+    #[test]
+    fn issue_029_results_that_are_not_finite_are_refused() {
+        let explorer = explorer();
+        let client = Client::default();
+        let turn = explorer.begin(client.watch());
+        let outcome = explorer.outcome(&Wanted::default(), &turn).unwrap();
+        assert_eq!(finite(&outcome.1), Ok(()));
+        let mut result = outcome.1.clone();
+        result.values[2][7] = f64::NEG_INFINITY;
+        let Err(Refused::Mistakes(told)) = finite(&result) else {
+            unreachable!("it is not finite");
+        };
+        assert!(told[0].message.contains("is -inf at 0.07 s"), "{told:?}");
+        let mut result = outcome.1.clone();
+        result
+            .summary
+            .averages
+            .energy_per_cycle
+            .values_mut()
+            .next()
+            .unwrap()
+            .value = f64::NAN;
+        assert!(finite(&result).is_err());
+    }
 }

@@ -1,11 +1,14 @@
 //! The case that changes are laid over: a file as it was when the program started, or a built-in case.
+//!
+//! Changes come from a page, so tables in files are read below the folder of the case file only, and none at all for a
+//! built-in case.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use study::case::{Case, CaseError, builtin};
+use study::case::{Case, CaseError, Tables, builtin, text_of};
 
 use super::super::run;
+use super::limits;
 use crate::failure::{Failure, Message};
 
 /// A case without changes.
@@ -28,20 +31,18 @@ impl Base {
     /// The case of `wedgelab run PATH`, checked.
     pub fn open(path: &Path) -> Result<Self, Failure> {
         run::read(path, &[])?;
-        if run::is_built_in(path) {
-            return Ok(Self::BuiltIn(path.display().to_string()));
-        }
-        let text = fs::read_to_string(path).map_err(|error| {
-            Message::new(
-                format!("the case file {} cannot be read: {error}", path.display()),
-                "",
-            )
-        })?;
-        Ok(Self::File {
-            name: path.display().to_string(),
-            text,
-            folder: path.parent().unwrap_or(Path::new("")).to_owned(),
-        })
+        let base = if run::is_built_in(path) {
+            Self::BuiltIn(path.display().to_string())
+        } else {
+            Self::File {
+                name: path.display().to_string(),
+                text: text_of(path)?,
+                folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+            }
+        };
+        let case = base.with(&[])?;
+        limits::rows(&case.simulation).map_err(|refused| Message::new(refused.message, refused.help))?;
+        Ok(base)
     }
 
     /// The case with changes, each as `--set` takes it.
@@ -50,8 +51,11 @@ impl Base {
     /// A change is wrong, or the built-in case does not exist.
     pub fn with(&self, overrides: &[String]) -> Result<Case, CaseError> {
         match self {
-            Self::BuiltIn(name) => builtin::case_with(name, overrides),
-            Self::File { name, text, folder } => Case::parse(name, text, folder, overrides),
+            Self::BuiltIn(name) => {
+                let text = builtin::text(name)?;
+                Case::parse(&format!("{name}.toml"), text, Tables::nowhere(), overrides)
+            }
+            Self::File { name, text, folder } => Case::parse(name, text, Tables::below(folder), overrides),
         }
     }
 

@@ -1,14 +1,21 @@
 //! `wedgelab explore`: a page on which every value of a case can be changed, and each change runs it again.
 //!
-//! - [`guard`]: which requests are answered.
+//! - [`guard`], [`token`]: which requests are answered.
 //! - [`base`]: the case that changes are laid over.
 //! - [`api`]: requests and answers, `wedgelab.explore/1`, described in `docs/explore.md`.
-//! - [`server`]: routes, start and stop.
+//! - [`limits`]: what a request, a connection, and all of them may take.
+//! - [`routes`]: reading requests, work on other threads, answering.
+//! - [`connections`]: taking connections, within time limits.
+//! - [`server`]: start and stop.
 
 mod api;
 mod base;
+mod connections;
 mod guard;
+mod limits;
+mod routes;
 mod server;
+mod token;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -25,7 +32,7 @@ const FIRST: &str = "vdrun_toe_0_psi_0";
 ///
 /// Serves a page on this machine only (127.0.0.1) with a control for every value of the case; each change runs the case again
 /// and shows the new hysteresis loop over the earlier ones, with plots and the 3D view. Prints the address to open in a
-/// browser; Ctrl-C stops it.
+/// browser, with a secret that only you are shown; Ctrl-C stops it.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

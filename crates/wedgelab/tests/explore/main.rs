@@ -2,135 +2,19 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+mod issue_029_random;
+mod issue_029_safety;
+
 use std::fs;
-use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use common::{Server, endless, post, temporary};
 use serde_json::{Value, json};
-use tempfile::TempDir;
-
-/// A server, ended with the test.
-struct Server {
-    child: Child,
-    host: String,
-}
-
-struct Answer {
-    status: u16,
-    head: String,
-    body: Vec<u8>,
-}
-
-impl Answer {
-    fn json(&self) -> Value {
-        serde_json::from_slice(&self.body).unwrap()
-    }
-
-    fn text(&self) -> String {
-        String::from_utf8_lossy(&self.body).into_owned()
-    }
-}
-
-impl Server {
-    fn start(folder: &Path, arguments: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
-            .current_dir(folder)
-            .arg("explore")
-            .args(arguments)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let mut line = String::new();
-        BufReader::new(child.stdout.take().unwrap())
-            .read_line(&mut line)
-            .unwrap();
-        let host = line
-            .split("http://")
-            .nth(1)
-            .unwrap()
-            .split(' ')
-            .next()
-            .unwrap()
-            .to_owned();
-        Self { child, host }
-    }
-
-    fn send(&self, method: &str, path: &str, headers: &[(&str, &str)], body: &str) -> Answer {
-        ask(&self.host, method, path, headers, body)
-    }
-
-    fn get(&self, path: &str) -> Answer {
-        self.send("GET", path, &[("Host", &self.host)], "")
-    }
-
-    fn post(&self, path: &str, body: &Value) -> Answer {
-        post(&self.host, path, body)
-    }
-
-    /// Ends it with a signal; gives the exit code.
-    #[cfg(unix)]
-    fn end(&mut self, signal: &str) -> Option<i32> {
-        let pid = self.child.id().to_string();
-        assert!(
-            Command::new("kill")
-                .args([signal, &pid])
-                .status()
-                .unwrap()
-                .success()
-        );
-        let begun = Instant::now();
-        while begun.elapsed() < Duration::from_secs(20) {
-            if let Some(status) = self.child.try_wait().unwrap() {
-                return status.code();
-            }
-            thread::sleep(Duration::from_millis(20));
-        }
-        None
-    }
-}
-
-impl Drop for Server {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
-fn post(host: &str, path: &str, body: &Value) -> Answer {
-    let headers = [("Host", host), ("Content-Type", "application/json")];
-    ask(host, "POST", path, &headers, &body.to_string())
-}
-
-fn ask(host: &str, method: &str, path: &str, headers: &[(&str, &str)], body: &str) -> Answer {
-    let mut stream = TcpStream::connect(host).unwrap();
-    let lines: String = headers
-        .iter()
-        .map(|(name, value)| format!("{name}: {value}\r\n"))
-        .collect();
-    let length = body.len();
-    let request = format!(
-        "{method} {path} HTTP/1.1\r\n{lines}Content-Length: {length}\r\nConnection: close\r\n\r\n{body}"
-    );
-    stream.write_all(request.as_bytes()).unwrap();
-    let mut bytes = Vec::new();
-    stream.read_to_end(&mut bytes).unwrap();
-    let end = bytes.windows(4).position(|four| four == b"\r\n\r\n").unwrap();
-    let head = String::from_utf8(bytes[..end].to_vec()).unwrap();
-    Answer {
-        status: head.split(' ').nth(1).unwrap().parse().unwrap(),
-        head,
-        body: bytes[end + 4..].to_vec(),
-    }
-}
-
-fn temporary() -> TempDir {
-    tempfile::tempdir().unwrap()
-}
 
 /// What `wedgelab run` writes.
 fn run(folder: &Path, case: &str, set: &[(&str, &str)]) -> std::path::PathBuf {
@@ -157,11 +41,6 @@ fn fields(answer: &Value) -> Vec<Value> {
         .iter()
         .flat_map(|section| section["fields"].as_array().unwrap().clone())
         .collect()
-}
-
-/// A run that would take minutes.
-fn endless() -> Value {
-    json!({ "set": { "simulation.duration": "20000 s", "simulation.output_interval": "1 s" } })
 }
 
 #[test]
@@ -285,7 +164,12 @@ fn mistakes_are_told_where_they_were_typed() {
     // What is no request at all.
     assert_eq!(server.post("/api/run", &json!({ "sets": {} })).status, 422);
     assert_eq!(server.post("/api/run", &json!(3)).status, 422);
-    let text = [("Host", server.host.as_str()), ("Content-Type", "text/plain")];
+    let authorization = server.authorization();
+    let text = [
+        ("Host", server.host.as_str()),
+        ("Content-Type", "text/plain"),
+        ("Authorization", &authorization),
+    ];
     assert_eq!(server.send("POST", "/api/run", &text, "{}").status, 415);
     let unknown = server.post("/api/run", &json!({ "preset": "nothing", "set": {} }));
     assert_eq!(unknown.status, 422);
@@ -301,7 +185,15 @@ fn only_its_own_page_is_answered() {
     let local = format!("localhost:{port}");
     let evil = format!("evil.example:{port}");
     let origin = format!("http://{host}");
-    let get = |headers: &[(&str, &str)]| server.send("GET", "/api/case", headers, "").status;
+    let authorization = server.authorization();
+    let get = |headers: &[(&str, &str)]| {
+        let all: Vec<_> = headers
+            .iter()
+            .copied()
+            .chain([("Authorization", authorization.as_str())])
+            .collect();
+        server.send("GET", "/api/case", &all, "").status
+    };
     assert_eq!(get(&[("Host", host)]), 200);
     assert_eq!(get(&[("Host", &local)]), 200);
     assert_eq!(get(&[("Host", host), ("Origin", &origin)]), 200);
@@ -340,8 +232,8 @@ fn only_its_own_page_is_answered() {
 fn a_second_run_replaces_the_first() {
     let folder = temporary();
     let server = Server::start(folder.path(), &[]);
-    let host = server.host.clone();
-    let first = thread::spawn(move || post(&host, "/api/run", &endless()));
+    let (host, authorization) = (server.host.clone(), server.authorization());
+    let first = thread::spawn(move || post(&host, &authorization, "/api/run", &endless().to_string()));
     thread::sleep(Duration::from_millis(700));
     assert!(!first.is_finished());
     let begun = Instant::now();
@@ -357,8 +249,8 @@ fn it_stops_cleanly_even_while_it_runs() {
     let folder = temporary();
     for signal in ["-TERM", "-INT"] {
         let mut server = Server::start(folder.path(), &[]);
-        let host = server.host.clone();
-        let running = thread::spawn(move || post(&host, "/api/run", &endless()));
+        let (host, authorization) = (server.host.clone(), server.authorization());
+        let running = thread::spawn(move || post(&host, &authorization, "/api/run", &endless().to_string()));
         // A connection on which nothing is ever said must not hold it.
         let _idle = TcpStream::connect(&server.host).unwrap();
         thread::sleep(Duration::from_millis(700));

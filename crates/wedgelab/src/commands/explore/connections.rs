@@ -1,0 +1,225 @@
+//! Connections: taken one by one, served within time limits, ended in peace.
+
+use std::pin::pin;
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::Router;
+use hyper::server::conn::http1;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::server::graceful::GracefulShutdown;
+use hyper_util::service::TowerToHyperService;
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::Semaphore;
+use tokio_io_timeout::TimeoutStream;
+
+use super::limits::{self, Patience};
+
+/// The wait after a connection could not be taken, such as for want of file descriptors.
+const BREATH: Duration = Duration::from_millis(200);
+
+/// Serves every connection until `stop`, then waits for those that are open, but not for long.
+pub async fn serve(listener: TcpListener, app: Router, patience: Patience, stop: impl Future<Output = ()>) {
+    let mut http = http1::Builder::new();
+    http.timer(TokioTimer::new())
+        .header_read_timeout(patience.head)
+        .max_header_size(limits::HEAD);
+    let open = GracefulShutdown::new();
+    let seats = Arc::new(Semaphore::new(limits::CONNECTIONS));
+    let mut stop = pin!(stop);
+    loop {
+        let next = async {
+            let seat = Arc::clone(&seats).acquire_owned().await;
+            (seat, next(&listener).await)
+        };
+        let (seat, stream) = tokio::select! {
+            next = next => next,
+            () = &mut stop => break,
+        };
+        // Small answers go at once.
+        let _ = stream.set_nodelay(true);
+        let mut stream = TimeoutStream::new(stream);
+        stream.set_write_timeout(Some(patience.write));
+        let service = TowerToHyperService::new(app.clone());
+        let connection = open.watch(http.serve_connection(TokioIo::new(Box::pin(stream)), service));
+        tokio::spawn(async move {
+            // What goes wrong on a connection concerns its client, who sees it end.
+            let _ = connection.await;
+            drop(seat);
+        });
+    }
+    drop(listener);
+    let _ = tokio::time::timeout(patience.end, open.shutdown()).await;
+}
+
+async fn next(listener: &TcpListener) -> TcpStream {
+    loop {
+        match listener.accept().await {
+            Ok((stream, _)) => return stream,
+            Err(_) => tokio::time::sleep(BREATH).await,
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use axum::body::Bytes;
+    use axum::extract::Request;
+    use axum::routing::{get, post};
+    use std::future::pending;
+    use std::net::SocketAddr;
+    use tokio::io::{AsyncReadExt, AsyncWriteExt};
+    use tokio::sync::mpsc;
+    use tokio::task::JoinHandle;
+
+    const BRIEF: Patience = Patience {
+        head: Duration::from_millis(150),
+        body: Duration::from_millis(150),
+        write: Duration::from_millis(150),
+        end: Duration::from_millis(150),
+    };
+    /// How long tests wait for what takes [`BRIEF`] time.
+    const LONG: Duration = Duration::from_secs(20);
+
+    /// Tells when it is dropped.
+    struct Told(mpsc::Sender<()>);
+
+    impl Drop for Told {
+        fn drop(&mut self) {
+            let _ = self.0.try_send(());
+        }
+    }
+
+    async fn start(
+        app: Router,
+        stop: impl Future<Output = ()> + Send + 'static,
+    ) -> (SocketAddr, JoinHandle<()>) {
+        let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+        let address = listener.local_addr().unwrap();
+        (address, tokio::spawn(serve(listener, app, BRIEF, stop)))
+    }
+
+    /// What a server answers until it ends the connection.
+    async fn answered(stream: &mut TcpStream) -> String {
+        let mut bytes = Vec::new();
+        let read = tokio::time::timeout(LONG, stream.read_to_end(&mut bytes));
+        // A connection that is cut may end with an error.
+        let _ = read.await.unwrap();
+        String::from_utf8_lossy(&bytes).into_owned()
+    }
+
+    #[tokio::test]
+    async fn issue_029_a_client_that_sends_no_headers_is_sent_away() {
+        let (address, _) = start(Router::new().route("/", get(async || "here")), pending()).await;
+        for text in ["", "GET / HT", "GET / HTTP/1.1\r\nHost: a\r\n"] {
+            let mut stream = TcpStream::connect(address).await.unwrap();
+            stream.write_all(text.as_bytes()).await.unwrap();
+            assert!(!answered(&mut stream).await.contains("here"), "{text:?}");
+        }
+        let mut stream = TcpStream::connect(address).await.unwrap();
+        stream
+            .write_all(b"GET / HTTP/1.1\r\nHost: a\r\n\r\n")
+            .await
+            .unwrap();
+        assert!(
+            answered(&mut stream).await.ends_with("here"),
+            "then the idle connection is ended"
+        );
+    }
+
+    #[tokio::test]
+    async fn issue_029_too_long_headers_are_refused() {
+        let (address, _) = start(Router::new().route("/", get(async || "here")), pending()).await;
+        let mut stream = TcpStream::connect(address).await.unwrap();
+        let long = "a".repeat(limits::HEAD);
+        let _ = stream
+            .write_all(format!("GET / HTTP/1.1\r\nHost: {long}\r\n\r\n").as_bytes())
+            .await;
+        let answer = answered(&mut stream).await;
+        assert!(answer.starts_with("HTTP/1.1 431"), "{answer}");
+    }
+
+    #[tokio::test]
+    async fn issue_029_a_client_that_does_not_read_is_sent_away() {
+        struct Owner {
+            bytes: Vec<u8>,
+            _told: Told,
+        }
+        impl AsRef<[u8]> for Owner {
+            fn as_ref(&self) -> &[u8] {
+                &self.bytes
+            }
+        }
+        const LARGE: usize = 32 << 20;
+        let (tell, mut told) = mpsc::channel(4);
+        let large = async move || {
+            Bytes::from_owner(Owner {
+                bytes: vec![0; LARGE],
+                _told: Told(tell.clone()),
+            })
+        };
+        let (address, _) = start(Router::new().route("/", get(large)), pending()).await;
+        let mut stream = TcpStream::connect(address).await.unwrap();
+        stream
+            .write_all(b"GET / HTTP/1.1\r\nHost: a\r\n\r\n")
+            .await
+            .unwrap();
+        tokio::time::timeout(LONG, told.recv()).await.unwrap().unwrap();
+        let taken = answered(&mut stream).await.len();
+        assert!(taken < LARGE, "{taken} bytes");
+    }
+
+    #[tokio::test]
+    async fn issue_029_work_ends_when_its_client_goes() {
+        let (tell, mut told) = mpsc::channel(4);
+        let (begin, mut begun) = mpsc::channel(4);
+        let endless = move |_: Request| {
+            let (told, begin) = (Told(tell.clone()), begin.clone());
+            async move {
+                let _told = told;
+                let _ = begin.send(()).await;
+                pending::<&'static str>().await
+            }
+        };
+        let (address, _) = start(Router::new().route("/", post(endless)), pending()).await;
+        let mut stream = TcpStream::connect(address).await.unwrap();
+        let request = b"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n";
+        stream.write_all(request).await.unwrap();
+        begun.recv().await.unwrap();
+        assert!(told.try_recv().is_err(), "it goes on while the client waits");
+        drop(stream);
+        tokio::time::timeout(LONG, told.recv()).await.unwrap().unwrap();
+    }
+
+    #[tokio::test]
+    async fn issue_029_more_connections_wait_until_there_is_room() {
+        let (address, _) = start(Router::new().route("/", get(async || "here")), pending()).await;
+        let mut silent = Vec::new();
+        for _ in 0..2 * limits::CONNECTIONS {
+            silent.push(TcpStream::connect(address).await.unwrap());
+        }
+        let mut stream = TcpStream::connect(address).await.unwrap();
+        stream
+            .write_all(b"GET / HTTP/1.1\r\nHost: a\r\n\r\n")
+            .await
+            .unwrap();
+        assert!(answered(&mut stream).await.ends_with("here"));
+    }
+
+    #[tokio::test]
+    async fn it_ends_although_a_client_waits() {
+        let (stop, stopped) = tokio::sync::oneshot::channel::<()>();
+        let app = Router::new().route("/", get(async || pending::<&'static str>().await));
+        let (address, server) = start(app, async move { drop(stopped.await) }).await;
+        let mut stream = TcpStream::connect(address).await.unwrap();
+        stream
+            .write_all(b"GET / HTTP/1.1\r\nHost: a\r\n\r\n")
+            .await
+            .unwrap();
+        stop.send(()).unwrap();
+        tokio::time::timeout(LONG, server).await.unwrap().unwrap();
+        assert!(TcpStream::connect(address).await.is_err());
+    }
+}
