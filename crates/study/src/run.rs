@@ -11,7 +11,7 @@ use wedge::outputs::{CORNERS, FACES, Outputs};
 use wedge::{BuildError, Wedge};
 
 use crate::case::Case;
-use crate::finite::{first_not_finite, is_finite};
+use crate::finite::is_finite;
 use crate::metrics::Cycle;
 use crate::result::{ContactEvent, RunResult};
 use crate::rows::Rows;
@@ -257,7 +257,7 @@ impl Run {
     #[must_use]
     pub fn result(mut self, stopped: Option<Stopped>) -> RunResult {
         let mut summary = summarize::summary(&mut self, stopped);
-        if let Some(what) = first_not_finite(&summary).filter(|_| summary.stopped.is_none()) {
+        if let Some(what) = summary.not_finite().filter(|_| summary.stopped.is_none()) {
             summary.complete = false;
             summary.stopped = Some(Stopped {
                 time: self.time(),

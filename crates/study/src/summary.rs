@@ -10,6 +10,8 @@ use integrate::Statistics;
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
+use crate::finite::{find, is_finite};
+use crate::metrics::Extremes;
 use crate::result::ContactEvent;
 
 /// The schema's name and version.
@@ -71,6 +73,35 @@ pub struct Summary {
     pub solver: Solver,
     /// What the numbers rest on.
     pub assumptions: Vec<String>,
+}
+
+impl Summary {
+    /// Returns what is not finite among averages, extremes and ledger, in words: the first of them.
+    #[must_use]
+    pub fn not_finite(&self) -> Option<String> {
+        let averages = &self.averages;
+        let energies =
+            find(&averages.energy_per_cycle).map(|place| format!("the energy per cycle at the {place}"));
+        let means = find(&averages.up).or_else(|| find(&averages.down));
+        let means = means.map(|column| format!("the mean of `{column}`"));
+        let single = [
+            ("the equivalent damping", &averages.equivalent_damping),
+            ("the equivalent stiffness", &averages.equivalent_stiffness),
+            (
+                "the equivalent damping on the bolster",
+                &averages.equivalent_damping_on_bolster,
+            ),
+        ];
+        let single = single
+            .into_iter()
+            .find(|(_, measure)| measure.as_ref().is_some_and(|measure| !is_finite(measure.value)))
+            .map(|(name, _)| name.to_owned());
+        let extreme = |found: &Extremes| !(is_finite(found.minimum) && is_finite(found.maximum));
+        let extremes = self.extremes.iter().find(|(_, found)| extreme(found));
+        let extremes = extremes.map(|(column, _)| format!("an extreme of `{column}`"));
+        let ledger = find(&self.ledger.entries).map(|entry| format!("the ledger's `{entry}`"));
+        energies.or(means).or(single).or(extremes).or(ledger)
+    }
 }
 
 /// Where and why a run stopped.
