@@ -30,8 +30,14 @@ pub fn bounded(message: String) -> String {
     cut.chars().map(printable).collect()
 }
 
+/// Whether a character is a control character, or turns the direction of writing.
+pub(crate) fn is_hidden(letter: char) -> bool {
+    letter.is_control()
+        || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
 fn is_unprintable(letter: char) -> bool {
-    letter.is_control() && letter != '\n'
+    is_hidden(letter) && letter != '\n'
 }
 
 fn printable(letter: char) -> char {

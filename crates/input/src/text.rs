@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
 use crate::limits;
+use crate::shorten::is_hidden;
 
 /// A text with a name. As a [`SourceCode`] it shows at most [`limits::EXCERPT`] bytes on either side of a place, so that
 /// messages about long lines stay short; the printer of messages cannot place a mark beyond column 65,535.
@@ -14,6 +15,8 @@ pub struct Text {
     name: String,
     text: String,
     lines: OnceLock<Vec<usize>>,
+    /// The same bytes without what would move a terminal's cursor; nothing if there is no such thing.
+    printable: OnceLock<Option<String>>,
 }
 
 impl Text {
@@ -24,6 +27,7 @@ impl Text {
             name: name.into(),
             text: text.into(),
             lines: OnceLock::new(),
+            printable: OnceLock::new(),
         }
     }
 
@@ -60,6 +64,29 @@ impl Text {
         let end = range.end.clamp(start, self.text.len());
         let end = self.text.floor_char_boundary(end.min(start + limits::EXCERPT));
         (start, end - start).into()
+    }
+
+    /// The text as it may be shown: control characters and those that turn the direction of writing replaced, byte by byte, so
+    /// that places stay.
+    fn printable(&self) -> &str {
+        let printable = self.printable.get_or_init(|| {
+            let hidden = |(at, letter): (usize, char)| match letter {
+                '\n' | '\t' => false,
+                '\r' => !self.text[at + 1..].starts_with('\n'),
+                letter => is_hidden(letter),
+            };
+            self.text.char_indices().any(hidden).then(|| {
+                let mut text = String::with_capacity(self.text.len());
+                for (at, letter) in self.text.char_indices() {
+                    match hidden((at, letter)) {
+                        true => text.extend(std::iter::repeat_n('?', letter.len_utf8())),
+                        false => text.push(letter),
+                    }
+                }
+                text
+            })
+        });
+        printable.as_deref().unwrap_or(&self.text)
     }
 
     /// Where lines start, in bytes.
@@ -110,7 +137,7 @@ impl SourceCode for Text {
         let (line, own) = self.line_of(start);
         let contents = MietteSpanContents::new_named(
             self.name.clone(),
-            &self.text.as_bytes()[start..stop],
+            &self.printable().as_bytes()[start..stop],
             (start, stop - start).into(),
             line,
             self.slice(own..start).chars().count(),
@@ -133,6 +160,15 @@ mod tests {
         assert_eq!(text.line_and_column(7), (3, 1));
         assert_eq!(text.line_and_column(1000), (3, 2));
         assert_eq!(text.slice(0..1), "");
+    }
+
+    #[test]
+    #[allow(clippy::unwrap_used)]
+    fn limits_excerpts_hold_nothing_that_moves_the_cursor() {
+        let text = Text::new("name", "a = \"\u{1b}[31m\u{202e}é\u{9b}\"\tb\rc\r\n");
+        let seen = text.read_span(&(0, 1).into(), 1, 1).unwrap();
+        assert_eq!(seen.data(), "a = \"?[31m???é??\"\tb?c\r\n".as_bytes());
+        assert_eq!(text.slice(5..6), "\u{1b}");
     }
 
     #[test]

@@ -17,7 +17,7 @@ fn wrong(text: &str) -> CaseError {
 }
 
 fn set(path: &str) -> Result<Case, CaseError> {
-    case_with(NAME, &[path.to_owned(), "simulation.duration=0.05 s".to_owned()])
+    case_with(NAME, &["simulation.duration=0.05 s".to_owned(), path.to_owned()])
 }
 
 /// As the program shows it.
@@ -95,7 +95,7 @@ fn issue_029_at_most_20_mistakes_are_told_and_the_others_counted() {
     assert_eq!((error.problems().len(), error.more()), (20, 4980));
     assert_eq!(error.to_string(), "the case has 5000 mistakes; the first 20 are");
     let text = shown(&error);
-    assert!(text.contains("key_0") && text.contains("key_19") && !text.contains("key_20"));
+    assert!(text.contains("`key_0`") && text.contains("`key_19`") && !text.contains("`key_20`"));
     let syntax = wrong(&"= =\n".repeat(5000));
     assert!(syntax.problems().len() == 20 && syntax.more() > 0);
     let study = Study::parse("some.toml", &many, Path::new("")).unwrap_err();

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use input::bounded;
 use miette::Diagnostic;
 use serde_json::Value;
 use thiserror::Error;
@@ -167,7 +168,7 @@ pub(super) fn compare(folder: &Path, file: &Path, found: &str, wanted: &str) -> 
     }
     Err(StudyFolderError::Changed {
         folder: folder.to_owned(),
-        changed: changed.join("; "),
+        changed: bounded(changed.join("; ")),
     })
 }
 

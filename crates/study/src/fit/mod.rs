@@ -8,6 +8,7 @@
 pub mod least_squares;
 mod student;
 
+use input::bounded;
 use quantity::{Number, Quantity};
 use thiserror::Error;
 
@@ -49,7 +50,7 @@ impl Free {
     pub fn parse(text: &str) -> Result<Self, FreeError> {
         let error = |problem: String| {
             FreeError {
-            problem,
+            problem: bounded(problem),
             advice: "write for example --free friction.column=0.2..0.6 --free 'control_coil.stiffness=1500 lbf/in..2500 lbf/in'"
                 .to_owned(),
         }

@@ -1,5 +1,6 @@
 //! The choices as typed: `NAME=VALUE`.
 
+use input::shortened;
 use mechanics::small::{Branch, GapTension, NegativeRise};
 use nucars::truck::{Bend, Choices};
 use quantity::{Kind, Quantity, nearest};
@@ -63,20 +64,20 @@ pub fn set(choices: &mut Choices, typed: &str) -> Result<(), OptionError> {
     let (name, value) = typed
         .split_once('=')
         .map(|(name, value)| (name.trim(), value.trim().trim_matches('"')))
-        .ok_or_else(|| OptionError::Form(typed.to_owned()))?;
+        .ok_or_else(|| OptionError::Form(shortened(typed)))?;
     let Some((name, expected)) = OPTIONS.into_iter().find(|(own, _)| *own == name) else {
         let hint = match nearest(name, OPTIONS.iter().map(|(name, _)| *name)) {
             Some(near) => format!("did you mean {near}?"),
             None => format!("names are {}", names()),
         };
         return Err(OptionError::Unknown {
-            name: name.to_owned(),
+            name: shortened(name),
             hint,
         });
     };
     let wrong = || OptionError::Value {
         name,
-        value: value.to_owned(),
+        value: shortened(value),
         expected,
     };
     let measure = |kind: Kind| -> Result<f64, OptionError> {
