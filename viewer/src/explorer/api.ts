@@ -95,7 +95,10 @@ export type Outcome =
   | { is: "replaced" }
   | { is: "failed"; why: string };
 
-/** The secret of the address that the terminal shows; the server answers only who sends it. It stays in the address, so that the page can be loaded again. */
+/**
+ * The secret of the address that the terminal shows; the server answers only who sends it. It stays in the address, so
+ * that the page can be loaded again.
+ */
 function authorization(): Record<string, string> {
   return { authorization: `Bearer ${new URLSearchParams(location.search).get("token") ?? ""}` };
 }
@@ -107,7 +110,7 @@ async function post(path: string, wanted: Wanted): Promise<Response> {
 
 const GONE = "The server does not answer: `wedgelab explore` has been stopped. Start it again and open the address it prints.";
 
-async function refused(response: Response): Promise<Outcome> {
+async function refused(response: Response): Promise<Exclude<Outcome, { is: "answer" }>> {
   if (response.status === 409) {
     return { is: "replaced" };
   }
@@ -123,11 +126,23 @@ async function refused(response: Response): Promise<Outcome> {
   }
 }
 
+/** Why nothing can be shown, in words. */
+export function why(outcome: Exclude<Outcome, { is: "answer" }>): string {
+  switch (outcome.is) {
+    case "mistakes":
+      return outcome.mistakes.map(({ message }) => message).join("; ");
+    case "failed":
+      return outcome.why;
+    case "replaced":
+      return "replaced by another window: reload the page";
+  }
+}
+
 export async function opening(): Promise<Opening> {
   const response = await fetch("/api/case", { headers: authorization() });
   if (!response.ok) {
     const outcome = await refused(response);
-    throw new Error(outcome.is === "mistakes" ? outcome.mistakes.map(({ message }) => message).join("; ") : outcome.is === "failed" ? outcome.why : "");
+    throw new Error(why(outcome));
   }
   return (await response.json()) as Opening;
 }

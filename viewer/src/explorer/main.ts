@@ -10,7 +10,7 @@ import { element } from "../dom.js";
 import { RunView } from "../run.js";
 import { Store } from "../store.js";
 import { Units } from "../units.js";
-import { keep, opening, run, type Answer, type Mistake, type Opening, type Outcome, type Wanted } from "./api.js";
+import { keep, opening, run, why, type Answer, type Mistake, type Opening, type Outcome, type Wanted } from "./api.js";
 import { Form } from "./form.js";
 import { joules, loopOf, Loops } from "./loops.js";
 
@@ -288,7 +288,7 @@ async function begin(root: HTMLElement): Promise<void> {
     const start = await opening();
     const outcome = await run({ preset: start.preset, set: {} });
     if (outcome.is !== "answer") {
-      throw new Error(outcome.is === "mistakes" ? outcome.mistakes.map(({ message }) => message).join("; ") : outcome.is === "failed" ? outcome.why : "replaced by another window: reload the page");
+      throw new Error(why(outcome));
     }
     new Explorer(start, outcome.answer, root);
     root.dataset.explorer = "ready";

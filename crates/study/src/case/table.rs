@@ -161,8 +161,8 @@ pub(super) fn read_either(
     }
 }
 
-/// Reads a table from the name of a file or from points. Of a file that must not be quoted, messages tell the place and
-/// the kind of a mistake.
+/// Reads a table from the name of a file or from points. Of a file that must not be quoted, messages tell the place
+/// and the kind of a mistake.
 pub(super) fn read(
     node: &Node,
     path: &str,

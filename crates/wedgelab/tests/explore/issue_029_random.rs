@@ -1,7 +1,7 @@
 //! Two thousand requests as nobody sensible sends them, to one server.
 //!
-//! The requests follow from a seed. What they are answered with is counted and printed: `cargo test --release -p wedgelab
-//! --test explore issue_029_random -- --nocapture`.
+//! The requests follow from a seed. What they are answered with is counted and printed: `cargo test --release
+//! -p wedgelab --test explore issue_029_random -- --nocapture`.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -408,7 +408,8 @@ fn issue_029_random_requests_break_nothing() {
     let root = temporary();
     fill(root.path());
     let mut server = Server::start(&root.path().join("case"), &["my.toml"]);
-    let good = json!({ "set": { "friction.column": "0.3", "bolster.vertical": "{ shape = \"table\", file = \"own.csv\" }" } });
+    let motion = "{ shape = \"table\", file = \"own.csv\" }";
+    let good = json!({ "set": { "friction.column": "0.3", "bolster.vertical": motion } });
     let energy = |server: &Server| {
         let answer = server.post("/api/run", &good);
         assert_eq!(answer.status, 200, "{}", answer.text());
@@ -480,6 +481,7 @@ fn issue_029_random_requests_break_nothing() {
         let [[most, now], [most_before, before]] = memories;
         println!("memory: {most} MB at most, {now} MB at the end; halfway {most_before} MB and {before} MB");
         assert!(most < MOST_MEMORY, "{most} MB");
-        assert!(now < before + 40, "from {before} MB to {now} MB");
+        // Four threads whose stacks have been used once keep what they used.
+        assert!(now < before + 70, "from {before} MB to {now} MB");
     }
 }

@@ -1,4 +1,5 @@
-//! What anyone who can reach the server can do: nothing without the token, and nothing that the owner would rue with it.
+//! What anyone who can reach the server can do: nothing without the token, and with it nothing that the owner would
+//! rue.
 
 use std::fs;
 use std::io::{Read, Write};
@@ -114,7 +115,10 @@ fn issue_029_tables_come_from_the_folder_of_the_case_only() {
         .display()
         .to_string()
         .replace('\\', "/");
-    let with = |file: &str| json!({ "set": { "bolster.vertical": format!("{{ shape = \"table\", file = \"{file}\" }}") } });
+    let with = |file: &str| {
+        let motion = format!("{{ shape = \"table\", file = \"{file}\" }}");
+        json!({ "set": { "bolster.vertical": motion } })
+    };
     let message = |answer: &Value| answer["errors"][0]["message"].as_str().unwrap().to_owned();
     let server = Server::start(&case, &["my.toml"]);
     assert_eq!(server.post("/api/run", &with("own.csv")).status, 200);
@@ -277,8 +281,8 @@ fn issue_029_a_run_ends_when_its_client_goes() {
     let body = endless().to_string();
     let mut stream = TcpStream::connect(&server.host).unwrap();
     let request = format!(
-        "POST /api/run HTTP/1.1\r\nHost: {}\r\nAuthorization: {}\r\nContent-Type: application/json\r\nContent-Length: \
-         {}\r\n\r\n{body}",
+        "POST /api/run HTTP/1.1\r\nHost: {}\r\nAuthorization: {}\r\nContent-Type: application/json\r\n\
+         Content-Length: {}\r\n\r\n{body}",
         server.host,
         server.authorization(),
         body.len()

@@ -1,4 +1,4 @@
-//! What one request, one connection and all of them together may take. `docs/explore.md` states the same numbers.
+//! What one request, one connection and all of them together may take. `docs/explore.md` states the same.
 
 use std::time::Duration;
 
@@ -20,8 +20,8 @@ pub const HEAD: usize = 16 * 1024;
 pub const CONNECTIONS: usize = 64;
 /// Runs and files being made or sent at once; further ones wait.
 pub const ANSWERS: usize = 4;
-/// Stack of a thread that makes an answer, bytes: a reader that goes one level down for every byte of a text of [`TEXT`]
-/// bytes still finds room.
+/// Stack of a thread that makes an answer, bytes: a reader that goes one level down for every byte of a text of
+/// [`TEXT`] bytes still finds room.
 pub const STACK: usize = 32 * 1024 * 1024;
 
 /// How long clients are waited for.
@@ -70,7 +70,7 @@ pub fn rows(simulation: &Simulation) -> Result<(), TooManyRows> {
     }
     Err(TooManyRows {
         message: format!(
-            "{duration} s in steps of {interval} s are more than {ROWS} rows of output, the most that the explorer makes"
+            "{duration} s in steps of {interval} s are more than {ROWS} rows of output, which is the most here"
         ),
         help: format!(
             "write {} s or more for simulation.output_interval, or run the case with `wedgelab run`",

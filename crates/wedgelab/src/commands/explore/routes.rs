@@ -20,8 +20,9 @@ use super::guard::{self, Guard};
 use super::limits::{self, Patience};
 
 /// What a mistake of the program is answered with.
-const MISTAKE_OF_THE_PROGRAM: &str = "This request met a mistake of the program, which goes on. Change a value and try \
-                                      again; please report it with the message in the terminal and with what was typed.";
+const MISTAKE_OF_THE_PROGRAM: &str = "This request met a mistake of the program, which goes on. Change a value and \
+                                      try again; please report it with the message in the terminal and with what \
+                                      was typed.";
 
 /// What all requests share.
 pub struct Server {
@@ -155,8 +156,8 @@ impl Server {
         })
     }
 
-    /// Does what takes time on another thread, so that the server goes on answering. There is room for some answers at
-    /// once, each until it is sent.
+    /// Does what takes time on another thread, so that the server goes on answering. There is room for some
+    /// answers at once, each until it is sent.
     async fn away(&self, work: impl FnOnce() -> Made + Send + 'static) -> Response {
         let Ok(room) = Arc::clone(&self.room).acquire_owned().await else {
             return text(StatusCode::SERVICE_UNAVAILABLE, "The server ends.");

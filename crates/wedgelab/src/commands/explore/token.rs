@@ -5,7 +5,7 @@ use subtle::ConstantTimeEq;
 /// Random bytes of a token: 256 bits.
 const BYTES: usize = 32;
 
-/// A secret of this start of the server. It is printed once, as part of the address, and never shown otherwise.
+/// A secret of this start of the server. It is printed once, as part of the address, and not shown otherwise.
 #[derive(Clone)]
 pub struct Token(String);
 
