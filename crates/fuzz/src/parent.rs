@@ -11,14 +11,12 @@ use std::time::{Duration, Instant};
 
 use fuzz::inputs::Inputs;
 use fuzz::readers::Reader;
-use tempfile::TempDir;
 
 use crate::finding::{self, Finding, Groups, beginning, without_numbers};
+use crate::folder::Folder;
 use crate::tally::Tally;
 use crate::worker::{FINDINGS, TALLY};
 
-/// A worker that reads one input for longer is ended. Wall time, of which other programs may take a part.
-const HANGS: Duration = Duration::from_secs(10);
 /// How often workers are looked at.
 const LOOK: Duration = Duration::from_millis(10);
 
@@ -30,6 +28,8 @@ pub struct Plan {
     pub seed: u64,
     /// How many readers work at a time.
     pub jobs: usize,
+    /// A worker that reads one input for longer is ended. Wall time, of which other programs may take a part.
+    pub patience: Duration,
     /// Time of each reader.
     pub time: Option<Duration>,
     /// Executions of each reader.
@@ -51,13 +51,14 @@ pub struct ReaderResult {
 /// # Errors
 /// Workers cannot be started, or their files not be read.
 pub fn run(plan: &Plan) -> Result<Vec<ReaderResult>, String> {
+    let folder = Folder::make().map_err(|error| format!("no folder for workers: {error}"))?;
     let results = Mutex::new(Vec::new());
     let next = AtomicUsize::new(0);
     thread::scope(|scope| {
         for _ in 0..plan.jobs.min(plan.readers.len()) {
             scope.spawn(|| {
                 while let Some(reader) = plan.readers.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let result = run_reader(reader, plan);
+                    let result = run_reader(reader, plan, folder.path());
                     if let Ok(result) = &result {
                         tell(result);
                     }
@@ -87,8 +88,8 @@ fn tell(result: &ReaderResult) {
     );
 }
 
-fn run_reader(reader: &'static Reader, plan: &Plan) -> io::Result<ReaderResult> {
-    let folder = memory_folder()?;
+fn run_reader(reader: &'static Reader, plan: &Plan, folder: &Path) -> io::Result<ReaderResult> {
+    let folder = tempfile::tempdir_in(folder)?;
     let begin = Instant::now();
     let mut result = ReaderResult {
         reader,
@@ -106,7 +107,7 @@ fn run_reader(reader: &'static Reader, plan: &Plan) -> io::Result<ReaderResult> 
         let ended = Worker::start(reader, folder.path())
             .numbers(plan.seed, from, until)
             .seconds(left)
-            .watch()?;
+            .watch(plan.patience)?;
         result.tally.add(&ended.tally);
         for found in ended.findings {
             finding::add(&mut result.found, found);
@@ -120,9 +121,9 @@ fn run_reader(reader: &'static Reader, plan: &Plan) -> io::Result<ReaderResult> 
             End::Hung => {
                 let again = Worker::start(reader, folder.path())
                     .numbers(plan.seed, number, from)
-                    .watch()?;
+                    .watch(plan.patience)?;
                 match again.end {
-                    End::Hung => Some(hung()),
+                    End::Hung => Some(hung(plan.patience)),
                     End::Broke { what, detail } => Some((what, detail)),
                     End::Done | End::Failed(_) => None,
                 }
@@ -144,23 +145,9 @@ fn run_reader(reader: &'static Reader, plan: &Plan) -> io::Result<ReaderResult> 
 }
 
 /// What is said of an input that takes too long to wait for.
-fn hung() -> (String, String) {
-    let detail = format!("not done after {} s, twice", HANGS.as_secs());
+fn hung(patience: Duration) -> (String, String) {
+    let detail = format!("not done after {} s, twice", patience.as_secs_f64());
     ("hangs".to_owned(), detail)
-}
-
-/// A folder for files that are written often: in memory, where there is such a place.
-///
-/// # Errors
-/// It cannot be made.
-pub fn memory_folder() -> io::Result<TempDir> {
-    let memory = Path::new("/dev/shm");
-    let mut builder = tempfile::Builder::new();
-    let builder = builder.prefix("wedgelab-fuzz-");
-    match memory.is_dir() {
-        true => builder.tempdir_in(memory).or_else(|_| builder.tempdir()),
-        false => builder.tempdir(),
-    }
 }
 
 /// How a worker ended.
@@ -244,22 +231,23 @@ impl Worker {
         self.with("--input", &file.display().to_string())
     }
 
-    /// Starts it, and waits for its end.
+    /// Starts it, and waits for its end, for as long as one input may take.
     ///
     /// # Errors
     /// It cannot be started, or its files cannot be read.
-    pub fn watch(self) -> io::Result<Ended> {
+    pub fn watch(self, patience: Duration) -> io::Result<Ended> {
         let said = self.folder.join("said");
         let (tally, findings) = (self.folder.join(TALLY), self.folder.join(FINDINGS));
         for file in [&tally, &findings, &said] {
             File::create(file)?;
         }
         let mut command = self.command?;
+        // The worker ends when this end of its input is gone.
         command
-            .stdin(Stdio::null())
+            .stdin(Stdio::piped())
             .stdout(Stdio::null())
             .stderr(File::create(&said)?);
-        let status = wait(&mut command.spawn()?, &tally)?;
+        let status = wait(&mut command.spawn()?, &tally, patience)?;
         let counted = Tally::read(&tally)?;
         let end = match status {
             None => End::Hung,
@@ -295,7 +283,7 @@ fn broke(status: ExitStatus, said: &str) -> End {
 }
 
 /// Waits until a worker ends; ends it if it reads one input for too long.
-fn wait(child: &mut Child, tally: &Path) -> io::Result<Option<ExitStatus>> {
+fn wait(child: &mut Child, tally: &Path, patience: Duration) -> io::Result<Option<ExitStatus>> {
     let mut seen = None;
     let mut since = Instant::now();
     loop {
@@ -305,7 +293,7 @@ fn wait(child: &mut Child, tally: &Path) -> io::Result<Option<ExitStatus>> {
         let now = Tally::read(tally)?.map(|tally| (tally.number, tally.attempt, tally.executions));
         if now != seen {
             (seen, since) = (now, Instant::now());
-        } else if since.elapsed() > HANGS {
+        } else if since.elapsed() > patience {
             child.kill()?;
             child.wait()?;
             return Ok(None);

@@ -12,6 +12,7 @@ use clap::Args;
 use fuzz::inputs::Inputs;
 use fuzz::limits::{LONGEST_EXECUTION, MOST_MEMORY, STACK};
 use fuzz::readers::{self, Outcome, Reader};
+use fuzz::shown;
 use rustix::time::{ClockId, clock_gettime};
 
 use crate::MEMORY;
@@ -22,6 +23,9 @@ use crate::tally::{Tally, TallyFile};
 pub const TALLY: &str = "tally";
 /// The file of findings, one a line.
 pub const FINDINGS: &str = "findings";
+
+/// The file of what was told of a single input.
+pub const TOLD: &str = "told";
 
 /// What the parent asks of a worker.
 #[derive(Debug, Args)]
@@ -49,8 +53,17 @@ pub struct Arguments {
     input: Option<PathBuf>,
 }
 
+/// Ends this process with its parent, whose end closes the standard input.
+fn end_with_parent() {
+    std::thread::spawn(|| {
+        let _ = io::copy(&mut io::stdin(), &mut io::sink());
+        std::process::exit(i32::from(crate::WRONG));
+    });
+}
+
 /// Does it. On a thread with the stack that readers must do with.
 pub fn work(arguments: &Arguments) -> ExitCode {
+    end_with_parent();
     let done = std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK);
         let handle = thread.spawn_scoped(scope, || begin(arguments))?;
@@ -73,7 +86,9 @@ fn begin(arguments: &Arguments) -> io::Result<()> {
     let mut worker = Worker::new(reader, &arguments.folder)?;
     panic::set_hook(Box::new(note_panic));
     if let Some(file) = &arguments.input {
+        shown::listen();
         worker.execute(0, &std::fs::read(file)?)?;
+        std::fs::write(arguments.folder.join(TOLD), shown::heard().join("\n"))?;
         return worker.note();
     }
     let inputs = Inputs::of(reader);
