@@ -61,7 +61,7 @@ struct Cli {
     /// Readers that work at a time [default: one a processor]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZero<usize>>,
-    /// Seconds after which an input is given up; other programs may take a part of them
+    /// Seconds of processor time after which an input is given up
     #[arg(long, value_name = "N", default_value_t = 10.0)]
     patience: f64,
     /// Folder for the inputs of findings

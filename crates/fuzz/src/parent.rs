@@ -15,8 +15,10 @@ use fuzz::readers::Reader;
 use crate::finding::{self, Finding, Groups, beginning, without_numbers};
 use crate::folder::Folder;
 use crate::tally::Tally;
-use crate::worker::{FINDINGS, TALLY};
+use crate::worker::{FINDINGS, GIVEN_UP, TALLY};
 
+/// How much longer than the processor time of an input its wall time may be, where other programs compute beside it.
+const WALL: u32 = 20;
 /// How often workers are looked at.
 const LOOK: Duration = Duration::from_millis(10);
 
@@ -28,7 +30,7 @@ pub struct Plan {
     pub seed: u64,
     /// How many readers work at a time.
     pub jobs: usize,
-    /// A worker that reads one input for longer is ended. Wall time, of which other programs may take a part.
+    /// Processor time after which an input is given up.
     pub patience: Duration,
     /// Time of each reader.
     pub time: Option<Duration>,
@@ -114,40 +116,29 @@ fn run_reader(reader: &'static Reader, plan: &Plan, folder: &Path) -> io::Result
         }
         let number = ended.tally.number;
         from = number + 1;
-        let broken = match ended.end {
+        let (what, detail) = match ended.end {
             End::Done => break,
             End::Failed(text) => return Err(io::Error::other(text)),
-            End::Broke { what, detail } => Some((what, detail)),
-            End::Hung => {
-                let again = Worker::start(reader, folder.path())
-                    .numbers(plan.seed, number, from)
-                    .watch(plan.patience)?;
-                match again.end {
-                    End::Hung => Some(hung(plan.patience)),
-                    End::Broke { what, detail } => Some((what, detail)),
-                    End::Done | End::Failed(_) => None,
-                }
-            }
+            End::Broke { what, detail } => (what, detail),
+            End::Hung => (
+                "hangs".to_owned(),
+                format!(
+                    "not done after {} s of processor time",
+                    plan.patience.as_secs_f64()
+                ),
+            ),
         };
         result.tally.executions += 1;
-        if let Some((what, detail)) = broken {
-            let length = inputs.input(plan.seed, number).len();
-            let found = Finding {
-                what,
-                detail,
-                number,
-                length,
-            };
-            finding::add(&mut result.found, found);
-        }
+        let length = inputs.input(plan.seed, number).len();
+        let found = Finding {
+            what,
+            detail,
+            number,
+            length,
+        };
+        finding::add(&mut result.found, found);
     }
     Ok(result)
-}
-
-/// What is said of an input that takes too long to wait for.
-fn hung(patience: Duration) -> (String, String) {
-    let detail = format!("not done after {} s, twice", patience.as_secs_f64());
-    ("hangs".to_owned(), detail)
 }
 
 /// How a worker ended.
@@ -163,7 +154,7 @@ pub enum End {
         /// What is said of it.
         detail: String,
     },
-    /// It was ended, because one input took too long.
+    /// One input took too long.
     Hung,
 }
 
@@ -242,6 +233,7 @@ impl Worker {
             File::create(file)?;
         }
         let mut command = self.command?;
+        command.args(["--patience", &patience.as_secs_f64().to_string()]);
         // The worker ends when this end of its input is gone.
         command
             .stdin(Stdio::piped())
@@ -251,6 +243,7 @@ impl Worker {
         let counted = Tally::read(&tally)?;
         let end = match status {
             None => End::Hung,
+            Some(status) if status.code() == Some(i32::from(GIVEN_UP)) => End::Hung,
             Some(status) if status.success() => End::Done,
             Some(status) => {
                 let said = fs::read(&said)?;
@@ -282,7 +275,7 @@ fn broke(status: ExitStatus, said: &str) -> End {
     }
 }
 
-/// Waits until a worker ends; ends it if it reads one input for too long.
+/// Waits until a worker ends. A worker ends itself when it computes for too long; one that waits without computing is ended here.
 fn wait(child: &mut Child, tally: &Path, patience: Duration) -> io::Result<Option<ExitStatus>> {
     let mut seen = None;
     let mut since = Instant::now();
@@ -293,7 +286,7 @@ fn wait(child: &mut Child, tally: &Path, patience: Duration) -> io::Result<Optio
         let now = Tally::read(tally)?.map(|tally| (tally.number, tally.attempt, tally.executions));
         if now != seen {
             (seen, since) = (now, Instant::now());
-        } else if since.elapsed() > patience {
+        } else if since.elapsed() > patience.saturating_mul(WALL) {
             child.kill()?;
             child.wait()?;
             return Ok(None);
