@@ -2,7 +2,9 @@
 //!
 //! `cargo xtask fuzz --help` explains it.
 
+mod corpus;
 mod finding;
+mod folder;
 mod parent;
 mod repeat;
 mod report;
@@ -59,9 +61,15 @@ struct Cli {
     /// Readers that work at a time [default: one a processor]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZero<usize>>,
+    /// Seconds of processor time after which an input is given up
+    #[arg(long, value_name = "N", default_value_t = 10.0)]
+    patience: f64,
     /// Folder for the inputs of findings
     #[arg(long, value_name = "DIR")]
     save: Option<PathBuf>,
+    /// Write the corpora of the readers and their dictionaries into a folder, as libFuzzer takes them, and stop
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["seconds", "executions", "repeat"])]
+    corpus: Option<PathBuf>,
     /// Show one input and run it
     #[arg(long, value_name = "READER:SEED:NUMBER", conflicts_with_all = ["seconds", "executions", "reader"])]
     repeat: Option<Address>,
@@ -93,6 +101,11 @@ impl Cli {
         names.into_iter().map(find).collect()
     }
 
+    fn patience(&self) -> Result<Duration, String> {
+        Duration::try_from_secs_f64(self.patience)
+            .map_err(|_| "--patience wants a positive number.".to_owned())
+    }
+
     fn plan(&self) -> Result<Plan, String> {
         let readers = self.readers()?;
         let jobs = self.jobs.or(available_parallelism().ok()).map_or(1, NonZero::get);
@@ -111,12 +124,19 @@ impl Cli {
             readers,
             seed: self.seed,
             jobs,
+            patience: self.patience()?,
         })
     }
 
     fn execute(self) -> Result<bool, String> {
         if let Some(address) = &self.repeat {
-            return repeat::repeat(address, self.shorten, self.save.as_deref());
+            return repeat::repeat(address, self.patience()?, self.shorten, self.save.as_deref());
+        }
+        if let Some(folder) = &self.corpus {
+            let written = corpus::write(&self.readers()?, folder);
+            return written
+                .map(|()| true)
+                .map_err(|error| format!("{} cannot be written to: {error}", folder.display()));
         }
         let plan = self.plan()?;
         let results = parent::run(&plan)?;

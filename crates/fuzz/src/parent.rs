@@ -11,14 +11,14 @@ use std::time::{Duration, Instant};
 
 use fuzz::inputs::Inputs;
 use fuzz::readers::Reader;
-use tempfile::TempDir;
 
 use crate::finding::{self, Finding, Groups, beginning, without_numbers};
+use crate::folder::Folder;
 use crate::tally::Tally;
-use crate::worker::{FINDINGS, TALLY};
+use crate::worker::{FINDINGS, GIVEN_UP, TALLY};
 
-/// A worker that reads one input for longer is ended. Wall time, of which other programs may take a part.
-const HANGS: Duration = Duration::from_secs(10);
+/// How much longer than the processor time of an input its wall time may be, where other programs compute beside it.
+const WALL: u32 = 20;
 /// How often workers are looked at.
 const LOOK: Duration = Duration::from_millis(10);
 
@@ -30,6 +30,8 @@ pub struct Plan {
     pub seed: u64,
     /// How many readers work at a time.
     pub jobs: usize,
+    /// Processor time after which an input is given up.
+    pub patience: Duration,
     /// Time of each reader.
     pub time: Option<Duration>,
     /// Executions of each reader.
@@ -51,13 +53,14 @@ pub struct ReaderResult {
 /// # Errors
 /// Workers cannot be started, or their files not be read.
 pub fn run(plan: &Plan) -> Result<Vec<ReaderResult>, String> {
+    let folder = Folder::make().map_err(|error| format!("no folder for workers: {error}"))?;
     let results = Mutex::new(Vec::new());
     let next = AtomicUsize::new(0);
     thread::scope(|scope| {
         for _ in 0..plan.jobs.min(plan.readers.len()) {
             scope.spawn(|| {
                 while let Some(reader) = plan.readers.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let result = run_reader(reader, plan);
+                    let result = run_reader(reader, plan, folder.path());
                     if let Ok(result) = &result {
                         tell(result);
                     }
@@ -87,8 +90,8 @@ fn tell(result: &ReaderResult) {
     );
 }
 
-fn run_reader(reader: &'static Reader, plan: &Plan) -> io::Result<ReaderResult> {
-    let folder = memory_folder()?;
+fn run_reader(reader: &'static Reader, plan: &Plan, folder: &Path) -> io::Result<ReaderResult> {
+    let folder = tempfile::tempdir_in(folder)?;
     let begin = Instant::now();
     let mut result = ReaderResult {
         reader,
@@ -106,61 +109,36 @@ fn run_reader(reader: &'static Reader, plan: &Plan) -> io::Result<ReaderResult> 
         let ended = Worker::start(reader, folder.path())
             .numbers(plan.seed, from, until)
             .seconds(left)
-            .watch()?;
+            .watch(plan.patience)?;
         result.tally.add(&ended.tally);
         for found in ended.findings {
             finding::add(&mut result.found, found);
         }
         let number = ended.tally.number;
         from = number + 1;
-        let broken = match ended.end {
+        let (what, detail) = match ended.end {
             End::Done => break,
             End::Failed(text) => return Err(io::Error::other(text)),
-            End::Broke { what, detail } => Some((what, detail)),
-            End::Hung => {
-                let again = Worker::start(reader, folder.path())
-                    .numbers(plan.seed, number, from)
-                    .watch()?;
-                match again.end {
-                    End::Hung => Some(hung()),
-                    End::Broke { what, detail } => Some((what, detail)),
-                    End::Done | End::Failed(_) => None,
-                }
-            }
+            End::Broke { what, detail } => (what, detail),
+            End::Hung => (
+                "hangs".to_owned(),
+                format!(
+                    "not done after {} s of processor time",
+                    plan.patience.as_secs_f64()
+                ),
+            ),
         };
         result.tally.executions += 1;
-        if let Some((what, detail)) = broken {
-            let length = inputs.input(plan.seed, number).len();
-            let found = Finding {
-                what,
-                detail,
-                number,
-                length,
-            };
-            finding::add(&mut result.found, found);
-        }
+        let length = inputs.input(plan.seed, number).len();
+        let found = Finding {
+            what,
+            detail,
+            number,
+            length,
+        };
+        finding::add(&mut result.found, found);
     }
     Ok(result)
-}
-
-/// What is said of an input that takes too long to wait for.
-fn hung() -> (String, String) {
-    let detail = format!("not done after {} s, twice", HANGS.as_secs());
-    ("hangs".to_owned(), detail)
-}
-
-/// A folder for files that are written often: in memory, where there is such a place.
-///
-/// # Errors
-/// It cannot be made.
-pub fn memory_folder() -> io::Result<TempDir> {
-    let memory = Path::new("/dev/shm");
-    let mut builder = tempfile::Builder::new();
-    let builder = builder.prefix("wedgelab-fuzz-");
-    match memory.is_dir() {
-        true => builder.tempdir_in(memory).or_else(|_| builder.tempdir()),
-        false => builder.tempdir(),
-    }
 }
 
 /// How a worker ended.
@@ -176,7 +154,7 @@ pub enum End {
         /// What is said of it.
         detail: String,
     },
-    /// It was ended, because one input took too long.
+    /// One input took too long.
     Hung,
 }
 
@@ -244,25 +222,28 @@ impl Worker {
         self.with("--input", &file.display().to_string())
     }
 
-    /// Starts it, and waits for its end.
+    /// Starts it, and waits for its end, for as long as one input may take.
     ///
     /// # Errors
     /// It cannot be started, or its files cannot be read.
-    pub fn watch(self) -> io::Result<Ended> {
+    pub fn watch(self, patience: Duration) -> io::Result<Ended> {
         let said = self.folder.join("said");
         let (tally, findings) = (self.folder.join(TALLY), self.folder.join(FINDINGS));
         for file in [&tally, &findings, &said] {
             File::create(file)?;
         }
         let mut command = self.command?;
+        command.args(["--patience", &patience.as_secs_f64().to_string()]);
+        // The worker ends when this end of its input is gone.
         command
-            .stdin(Stdio::null())
+            .stdin(Stdio::piped())
             .stdout(Stdio::null())
             .stderr(File::create(&said)?);
-        let status = wait(&mut command.spawn()?, &tally)?;
+        let status = wait(&mut command.spawn()?, &tally, patience)?;
         let counted = Tally::read(&tally)?;
         let end = match status {
             None => End::Hung,
+            Some(status) if status.code() == Some(i32::from(GIVEN_UP)) => End::Hung,
             Some(status) if status.success() => End::Done,
             Some(status) => {
                 let said = fs::read(&said)?;
@@ -294,8 +275,8 @@ fn broke(status: ExitStatus, said: &str) -> End {
     }
 }
 
-/// Waits until a worker ends; ends it if it reads one input for too long.
-fn wait(child: &mut Child, tally: &Path) -> io::Result<Option<ExitStatus>> {
+/// Waits until a worker ends. A worker ends itself when it computes for too long; one that waits without computing is ended here.
+fn wait(child: &mut Child, tally: &Path, patience: Duration) -> io::Result<Option<ExitStatus>> {
     let mut seen = None;
     let mut since = Instant::now();
     loop {
@@ -305,7 +286,7 @@ fn wait(child: &mut Child, tally: &Path) -> io::Result<Option<ExitStatus>> {
         let now = Tally::read(tally)?.map(|tally| (tally.number, tally.attempt, tally.executions));
         if now != seen {
             (seen, since) = (now, Instant::now());
-        } else if since.elapsed() > HANGS {
+        } else if since.elapsed() > patience.saturating_mul(WALL) {
             child.kill()?;
             child.wait()?;
             return Ok(None);

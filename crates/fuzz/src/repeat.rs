@@ -9,7 +9,9 @@ use std::time::{Duration, Instant};
 use fuzz::inputs::Inputs;
 use fuzz::readers::{self, Reader};
 
-use crate::parent::{End, Worker, memory_folder};
+use crate::folder::Folder;
+use crate::parent::{End, Worker};
+use crate::worker::TOLD;
 
 /// An input: reader, seed, number.
 #[derive(Clone, Debug)]
@@ -41,7 +43,12 @@ impl FromStr for Address {
 ///
 /// # Errors
 /// Workers cannot be started, or files not be written.
-pub fn repeat(address: &Address, shorten: Option<f64>, save: Option<&Path>) -> Result<bool, String> {
+pub fn repeat(
+    address: &Address,
+    patience: Duration,
+    shorten: Option<f64>,
+    save: Option<&Path>,
+) -> Result<bool, String> {
     let Some(reader) = readers::find(address.reader) else {
         return Err(format!("There is no reader `{}`.", address.reader));
     };
@@ -50,15 +57,15 @@ pub fn repeat(address: &Address, shorten: Option<f64>, save: Option<&Path>) -> R
     let made = inputs.mutations(address.seed, address.number);
     println!("{} bytes, by {made:?}:\n{}\n", input.len(), shown(&input));
     let failed = |error: io::Error| error.to_string();
-    let (what, detail) = run(reader, &input).map_err(failed)?;
+    let (what, detail) = run(reader, &input, patience).map_err(failed)?;
     println!("{detail}");
     let Some(what) = what else { return Ok(true) };
     let mut least = input;
     if let Some(time) = shorten.map(Duration::try_from_secs_f64) {
         let end = Instant::now() + time.map_err(|_| "--shorten wants a positive number.")?;
-        least = shortened(reader, least, &what, end).map_err(failed)?;
+        least = shortened(reader, least, &what, patience, end).map_err(failed)?;
         println!("\n{} bytes do the same:\n{}", least.len(), shown(&least));
-        println!("{}", run(reader, &least).map_err(failed)?.1);
+        println!("{}", run(reader, &least, patience).map_err(failed)?.1);
     }
     if let Some(folder) = save {
         let name = format!("{}-{}-{}.input", address.reader, address.seed, address.number);
@@ -69,11 +76,13 @@ pub fn repeat(address: &Address, shorten: Option<f64>, save: Option<&Path>) -> R
 }
 
 /// Runs one input in a process of its own: what was found, if anything, and what to say.
-fn run(reader: &Reader, input: &[u8]) -> io::Result<(Option<String>, String)> {
-    let folder = memory_folder()?;
+fn run(reader: &Reader, input: &[u8], patience: Duration) -> io::Result<(Option<String>, String)> {
+    let folder = Folder::make()?;
     let file = folder.path().join("input");
     fs::write(&file, input)?;
-    let ended = Worker::start(reader, folder.path()).input(&file).watch()?;
+    let ended = Worker::start(reader, folder.path())
+        .input(&file)
+        .watch(patience)?;
     Ok(match (ended.end, ended.findings.into_iter().next()) {
         (End::Failed(text), _) => return Err(io::Error::other(text)),
         (End::Hung, _) => (Some("hangs".to_owned()), "hangs".to_owned()),
@@ -92,20 +101,27 @@ fn run(reader: &Reader, input: &[u8]) -> io::Result<(Option<String>, String)> {
                 "refused"
             };
             let time = ended.tally.slowest as f64 / 1e6;
-            (None, format!("{end} in {time:.1} ms"))
+            let told = fs::read_to_string(folder.path().join(TOLD)).unwrap_or_default();
+            (None, format!("{end} in {time:.1} ms\n{told}"))
         }
     })
 }
 
 /// Takes pieces out, larger ones first, as long as the same is found.
-fn shortened(reader: &Reader, mut input: Vec<u8>, what: &str, end: Instant) -> io::Result<Vec<u8>> {
+fn shortened(
+    reader: &Reader,
+    mut input: Vec<u8>,
+    what: &str,
+    patience: Duration,
+    end: Instant,
+) -> io::Result<Vec<u8>> {
     let mut piece = input.len().div_ceil(2);
     while piece > 0 && Instant::now() < end {
         let (mut at, before) = (0, input.len());
         while at < input.len() && Instant::now() < end {
             let mut less = input.clone();
             less.drain(at..input.len().min(at + piece));
-            match run(reader, &less)?.0 {
+            match run(reader, &less, patience)?.0 {
                 Some(found) if found == what => input = less,
                 _ => at += piece,
             }

@@ -1,5 +1,6 @@
 //! Errors as the program shows them, and what they must keep to.
 
+use std::cell::RefCell;
 use std::fmt;
 
 use miette::{
@@ -9,6 +10,8 @@ use miette::{
 use crate::limits::{LONGEST_MESSAGE, MOST_MISTAKES};
 
 thread_local! {
+    /// What was told, where somebody listens.
+    static TOLD: RefCell<Option<Vec<String>>> = const { RefCell::new(None) };
     /// As into a file or a pipe.
     static PLAIN: MietteHandler = options().color(false).wrap_lines(false).build();
     /// As on a terminal.
@@ -32,10 +35,38 @@ impl fmt::Debug for Shown<'_> {
     }
 }
 
+/// From now on what is told on this thread is kept for [`heard`].
+pub fn listen() {
+    TOLD.set(Some(Vec::new()));
+}
+
+/// Returns what was told on this thread since [`listen`], and stops listening.
+#[must_use]
+pub fn heard() -> Vec<String> {
+    TOLD.take().unwrap_or_default()
+}
+
+fn keep(text: &str) {
+    TOLD.with_borrow_mut(|told| {
+        if let Some(told) = told {
+            told.push(text.to_owned());
+        }
+    });
+}
+
 /// How an error is printed into a file or a pipe.
 #[must_use]
 pub fn plain(error: &dyn Diagnostic) -> String {
     PLAIN.with(|handler| format!("{:?}", Shown(error, handler)))
+}
+
+/// Returns an error as it may be printed: as into a file or a pipe first.
+fn every_way(error: &dyn Diagnostic) -> [String; 3] {
+    [
+        plain(error),
+        TERMINAL.with(|handler| format!("{:?}", Shown(error, handler))),
+        format!("{:?}", Shown(error, &NarratableReportHandler::new())),
+    ]
 }
 
 /// Prints an error in every way in which it may be printed, and checks places, lengths and the number of mistakes. Returns the
@@ -47,14 +78,10 @@ pub fn check(error: &dyn Diagnostic) -> usize {
     let told = error.related().map_or(1, Iterator::count);
     check_count(told);
     check_places(error);
-    let texts = [
-        plain(error),
-        TERMINAL.with(|handler| format!("{:?}", Shown(error, handler))),
-        format!("{:?}", Shown(error, &NarratableReportHandler::new())),
-    ];
-    let bytes = texts.iter().map(String::len).max().unwrap_or(0);
-    check_length(bytes, told);
-    bytes
+    let texts = every_way(error);
+    keep(&texts[0]);
+    let lengths = texts.iter().map(|text| check_length(text.len(), told, text));
+    lengths.max().unwrap_or(0)
 }
 
 /// As [`check`] for mistakes that are told one after the other; the texts count together. All of them are printed as into a
@@ -64,18 +91,24 @@ pub fn check(error: &dyn Diagnostic) -> usize {
 /// As [`check`].
 pub fn check_all<'e>(errors: impl Iterator<Item = &'e (dyn Diagnostic + 'e)>) -> usize {
     const EVERY_WAY: usize = 3;
-    let (mut told, mut bytes) = (0, 0);
+    let (mut told, mut bytes, mut longest) = (0, 0, String::new());
     for (place, error) in errors.enumerate() {
         told += usize::from(error.severity() == Some(Severity::Error));
         check_places(error);
-        bytes += plain(error).len();
         if place < EVERY_WAY {
-            check(error);
+            for text in every_way(error) {
+                check_length(text.len(), 1, &text);
+            }
+        }
+        let text = plain(error);
+        bytes += text.len();
+        keep(&text);
+        if text.len() > longest.len() {
+            longest = text;
         }
     }
     check_count(told);
-    check_length(bytes, told);
-    bytes
+    check_length(bytes, told, &longest)
 }
 
 /// Checks a text that is told as it is, and returns its bytes.
@@ -83,21 +116,25 @@ pub fn check_all<'e>(errors: impl Iterator<Item = &'e (dyn Diagnostic + 'e)>) ->
 /// # Panics
 /// It is too long.
 pub fn check_text(text: &str) -> usize {
-    check_length(text.len(), 1);
-    text.len()
+    keep(text);
+    check_length(text.len(), 1, text)
 }
 
-fn check_length(bytes: usize, told: usize) {
-    if told > 1 {
+/// Checks how much is told, and returns it; `text` is a part of it.
+fn check_length(bytes: usize, told: usize, text: &str) -> usize {
+    const SHOWN: usize = 300;
+    if bytes > LONGEST_MESSAGE {
+        let begin: String = text.chars().take(SHOWN).collect();
         assert!(
-            bytes <= LONGEST_MESSAGE,
-            "messages too long: {bytes} bytes for {told} mistakes"
+            told > 1,
+            "message too long: {bytes} bytes for one mistake: {begin}"
+        );
+        assert!(
+            told <= 1,
+            "messages too long: {bytes} bytes for {told} mistakes, one of them: {begin}"
         );
     }
-    assert!(
-        bytes <= LONGEST_MESSAGE,
-        "message too long: {bytes} bytes for one mistake"
-    );
+    bytes
 }
 
 fn check_count(told: usize) {

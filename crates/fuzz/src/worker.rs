@@ -6,12 +6,14 @@ use std::io::{self, Write};
 use std::panic::{self, PanicHookInfo};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::Args;
 use fuzz::inputs::Inputs;
 use fuzz::limits::{LONGEST_EXECUTION, MOST_MEMORY, STACK};
 use fuzz::readers::{self, Outcome, Reader};
+use fuzz::shown;
 use rustix::time::{ClockId, clock_gettime};
 
 use crate::MEMORY;
@@ -22,6 +24,9 @@ use crate::tally::{Tally, TallyFile};
 pub const TALLY: &str = "tally";
 /// The file of findings, one a line.
 pub const FINDINGS: &str = "findings";
+
+/// The file of what was told of a single input.
+pub const TOLD: &str = "told";
 
 /// What the parent asks of a worker.
 #[derive(Debug, Args)]
@@ -41,6 +46,9 @@ pub struct Arguments {
     /// For how long
     #[arg(long)]
     seconds: Option<f64>,
+    /// Seconds of processor time after which an input is given up
+    #[arg(long)]
+    patience: f64,
     /// Where counts and findings go
     #[arg(long)]
     folder: PathBuf,
@@ -49,8 +57,40 @@ pub struct Arguments {
     input: Option<PathBuf>,
 }
 
+/// Exit code: an input took too long.
+pub const GIVEN_UP: u8 = 3;
+
+/// Processor time of this process when it began the input that it reads, ns.
+static BEGUN: AtomicU64 = AtomicU64::new(u64::MAX);
+
+/// Ends this process when it has computed for too long on one input.
+fn end_when_patience_ends(patience: Duration) {
+    const LOOK: Duration = Duration::from_millis(50);
+    let patience = patience.as_nanos() as u64;
+    std::thread::spawn(move || {
+        loop {
+            std::thread::sleep(LOOK);
+            // Begun later than now: nothing is read.
+            let since = nanoseconds(ClockId::ProcessCPUTime).checked_sub(BEGUN.load(Ordering::Relaxed));
+            if since.is_some_and(|since| since > patience) {
+                std::process::exit(i32::from(GIVEN_UP));
+            }
+        }
+    });
+}
+
+/// Ends this process with its parent, whose end closes the standard input.
+fn end_with_parent() {
+    std::thread::spawn(|| {
+        let _ = io::copy(&mut io::stdin(), &mut io::sink());
+        std::process::exit(i32::from(crate::WRONG));
+    });
+}
+
 /// Does it. On a thread with the stack that readers must do with.
 pub fn work(arguments: &Arguments) -> ExitCode {
+    end_with_parent();
+    end_when_patience_ends(Duration::try_from_secs_f64(arguments.patience).unwrap_or(Duration::MAX));
     let done = std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK);
         let handle = thread.spawn_scoped(scope, || begin(arguments))?;
@@ -73,7 +113,9 @@ fn begin(arguments: &Arguments) -> io::Result<()> {
     let mut worker = Worker::new(reader, &arguments.folder)?;
     panic::set_hook(Box::new(note_panic));
     if let Some(file) = &arguments.input {
+        shown::listen();
         worker.execute(0, &std::fs::read(file)?)?;
+        std::fs::write(arguments.folder.join(TOLD), shown::heard().join("\n"))?;
         return worker.note();
     }
     let inputs = Inputs::of(reader);
@@ -157,10 +199,11 @@ impl Worker {
     }
 
     fn measured(&self, input: &[u8]) -> (Duration, Result<Outcome, Panic>) {
-        let start = processor_time();
+        BEGUN.store(nanoseconds(ClockId::ProcessCPUTime), Ordering::Relaxed);
+        let start = nanoseconds(ClockId::ThreadCPUTime);
         let outcome = panic::catch_unwind(|| (self.reader.read)(input));
-        let time = processor_time().saturating_sub(start);
-        (time, outcome.map_err(|_| last_panic()))
+        let time = nanoseconds(ClockId::ThreadCPUTime).saturating_sub(start);
+        (Duration::from_nanos(time), outcome.map_err(|_| last_panic()))
     }
 
     fn write(&mut self, finding: Finding) -> io::Result<()> {
@@ -170,13 +213,11 @@ impl Worker {
     }
 }
 
-/// Time that this thread has computed.
-fn processor_time() -> Duration {
-    let time = clock_gettime(ClockId::ThreadCPUTime);
-    Duration::new(
-        time.tv_sec.try_into().unwrap_or_default(),
-        time.tv_nsec.try_into().unwrap_or_default(),
-    )
+/// What a clock shows, ns.
+fn nanoseconds(clock: ClockId) -> u64 {
+    let time = clock_gettime(clock);
+    let part = |number: i64| u64::try_from(number).unwrap_or_default();
+    part(time.tv_sec) * 1_000_000_000 + part(time.tv_nsec)
 }
 
 /// A panic.

@@ -26,7 +26,7 @@ pub fn replace(bytes: &mut [u8], random: &mut Random) {
     let at = random.below(bytes.len());
     let length = [1, 1, 1, 2, 4, 8][random.below(6)];
     let end = bytes.len().min(at + length);
-    let (any, how) = (random.next().to_le_bytes(), random.below(5));
+    let (any, how) = (random.any().to_le_bytes(), random.below(5));
     for (place, byte) in bytes[at..end].iter_mut().enumerate() {
         *byte = match how {
             0 => 0,

@@ -22,13 +22,13 @@ impl Random {
     }
 
     /// Any number.
-    pub fn next(&mut self) -> u64 {
+    pub fn any(&mut self) -> u64 {
         self.0.next_u64()
     }
 
     /// A number from zero and below `most`; zero, if that is zero.
     pub fn below(&mut self, most: usize) -> usize {
-        let product = u128::from(self.next()) * most as u128;
+        let product = u128::from(self.any()) * most as u128;
         (product >> 64) as usize
     }
 

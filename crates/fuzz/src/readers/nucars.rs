@@ -10,7 +10,7 @@ use nucars::tree::{DataFile, InputFile, RunFile, SystemFile};
 use nucars::{Findings, builtin, check, show, write};
 use study::truck::files::{self, Files, Settings};
 
-use super::{Outcome, Reader};
+use super::{Outcome, Reader, refused_as_written};
 use crate::shown;
 
 /// System files.
@@ -159,7 +159,7 @@ fn check_again<T: PartialEq>(own: &T, again: Option<Read<T>>) {
     let Some(again) = again else { return };
     match again.strict() {
         Ok(tree) => assert!(tree == *own, "another tree: written and read again"),
-        Err(errors) => assert!(false, "refused as written: {errors}"),
+        Err(errors) => refused_as_written(&errors),
     }
 }
 
@@ -222,8 +222,9 @@ fn data(mut read: Read<DataFile>, with: &Partners) -> Findings {
         check_again(&read.tree, again.map(|source| read_data(&source)));
     }
     read.add(check::data(&read));
-    read.add(check::data_of_system(&read, &with.system.tree));
-    if !read.findings.has_errors() {
+    let together = check::data_of_system(&read, &with.system.tree);
+    told(&together);
+    if !read.findings.has_errors() && !together.has_errors() {
         build(Files {
             system: &with.system.tree,
             input: Some(&with.input.tree),

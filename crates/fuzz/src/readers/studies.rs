@@ -8,8 +8,8 @@ use study::design::Study;
 use study::measures::Measures;
 use study::records::{self, Record, Status};
 
-use super::cases::refused;
-use super::{Outcome, Reader, corpus, nowhere};
+use super::cases::{messages, refused};
+use super::{Outcome, Reader, corpus, nowhere, refused_as_written};
 
 /// Study files.
 pub const STUDIES: Reader = Reader {
@@ -104,7 +104,7 @@ fn study_file(input: &[u8]) -> Outcome {
             again.fingerprint() == study.fingerprint(),
             "another study: of its own source"
         ),
-        Err(error) => assert!(false, "refused as written: {error}"),
+        Err(error) => refused_as_written(&messages(&error)),
     }
     outcome
 }

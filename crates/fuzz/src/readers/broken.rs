@@ -1,0 +1,71 @@
+//! A reader that breaks as its input says, by which the program itself is tested.
+
+use std::hint::black_box;
+
+use rustix::time::{ClockId, clock_gettime};
+
+use super::{Outcome, Reader};
+
+/// The reader.
+pub const BROKEN: Reader = Reader {
+    name: "broken",
+    about: "breaks as its input says",
+    corpus: || WORDS.map(|word| word.as_bytes().to_vec()).to_vec(),
+    dictionary: &[],
+    read,
+};
+
+const WORDS: [&str; 7] = [
+    "sound",
+    "panic",
+    "recursion",
+    "memory",
+    "slow",
+    "endless",
+    "promise",
+];
+
+fn read(input: &[u8]) -> Outcome {
+    match std::str::from_utf8(input) {
+        Ok("sound") => Outcome::ACCEPTED,
+        #[allow(clippy::panic)]
+        Ok("panic") => panic!("promise broken: on purpose"),
+        Ok("promise") => Outcome::refused_with(&"long ".repeat(100_000)),
+        Ok("recursion") => {
+            black_box(down(u64::MAX));
+            Outcome::ACCEPTED
+        }
+        Ok("memory") => {
+            black_box(vec![1_u8; 2 << 30]);
+            Outcome::ACCEPTED
+        }
+        Ok("slow") => {
+            compute(2);
+            Outcome::ACCEPTED
+        }
+        Ok("endless") => {
+            compute(i64::MAX);
+            Outcome::ACCEPTED
+        }
+        _ => Outcome::NO_TEXT,
+    }
+}
+
+/// Recursion that no compiler turns into a loop.
+fn down(depth: u64) -> u64 {
+    let here = black_box([depth; 16]);
+    match depth {
+        0 => 0,
+        _ => down(depth - 1).wrapping_add(black_box(here)[3]),
+    }
+}
+
+/// Computes for a time of the processor, whatever else it does.
+fn compute(seconds: i64) {
+    let end = clock_gettime(ClockId::ThreadCPUTime)
+        .tv_sec
+        .saturating_add(seconds);
+    while clock_gettime(ClockId::ThreadCPUTime).tv_sec < end {
+        black_box(0);
+    }
+}
