@@ -126,6 +126,7 @@ impl Running {
     }
 
     /// Waits until the command catches a signal with this number. Only where the system tells.
+    #[cfg(target_os = "linux")]
     pub fn wait_until_it_listens(&mut self, number: u32) {
         let status = PathBuf::from(format!("/proc/{}/status", self.id()));
         self.wait_until(|| {

@@ -134,7 +134,7 @@ fn issue_029_signals_that_are_ignored_from_the_start_stay_so() {
         let mut running = start_by_shell(path, &line);
         running.wait_for_work();
         running.send(ignored);
-        // Signals that a program has to be told of come in the order in which they were sent, but for those that came at once.
+        // Long enough for a program that does not ignore it.
         std::thread::sleep(std::time::Duration::from_millis(300));
         assert!(running.is_working());
         running.send(other);
