@@ -1,7 +1,7 @@
-//! Writing a whole FMU: description, library, case, documentation, licences; all of it or nothing.
+//! A whole FMU as bytes: description, library, case, documentation, licences.
 
 use std::fs;
-use std::io::{Read, Write};
+use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 
 use study::case::Case;
@@ -79,18 +79,17 @@ impl Platform {
     }
 }
 
-/// Writes the FMU of a case's element, with the library for one platform.
+/// Returns the FMU of a case's element, with the library for one platform, as the bytes of its file, and its description.
 ///
 /// # Errors
-/// The case makes no such element, the library cannot be read, or the file cannot be written; there is no file then.
-pub fn write(
-    path: &Path,
+/// The case makes no such element, or the library cannot be read.
+pub fn fmu(
     model: Model,
     version: Version,
     case: &Case,
     library: &Path,
     platform: Platform,
-) -> Result<Description, Error> {
+) -> Result<(Vec<u8>, Description), Error> {
     let description = Description::new(model, case)?;
     let binary = fs::read(library).map_err(|error| {
         Error::new(format!(
@@ -126,15 +125,15 @@ pub fn write(
             text.as_bytes().to_vec(),
         ));
     }
-    pack(path, &files)?;
-    Ok(description)
+    Ok((pack(&files)?, description))
 }
 
-/// Joins FMUs that differ only in their libraries into one that holds them all.
+/// Joins FMUs that differ only in their libraries into one that holds them all; returns the bytes of its file and the number of
+/// libraries.
 ///
 /// # Errors
-/// They differ otherwise, hold two libraries for one platform, or cannot be read; there is no file then.
-pub fn merge(path: &Path, parts: &[PathBuf]) -> Result<usize, Error> {
+/// They differ otherwise, hold two libraries for one platform, or cannot be read.
+pub fn merged(parts: &[PathBuf]) -> Result<(Vec<u8>, usize), Error> {
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
     for part in parts {
         for (name, bytes) in unpack(part)? {
@@ -160,11 +159,9 @@ pub fn merge(path: &Path, parts: &[PathBuf]) -> Result<usize, Error> {
             }
         }
     }
-    pack(path, &files)?;
-    Ok(files
-        .iter()
-        .filter(|(name, _)| name.starts_with("binaries/"))
-        .count())
+    let libraries = files.iter().filter(|(name, _)| name.starts_with("binaries/"));
+    let count = libraries.count();
+    Ok((pack(&files)?, count))
 }
 
 fn unpack(path: &Path) -> Result<Vec<(String, Vec<u8>)>, Error> {
@@ -189,20 +186,10 @@ fn unpack(path: &Path) -> Result<Vec<(String, Vec<u8>)>, Error> {
     Ok(files)
 }
 
-/// Writes an archive beside its place, and moves it there when it is whole.
-pub(crate) fn pack(path: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Error> {
-    let failed =
-        |error: &dyn std::fmt::Display| Error::new(format!("{} cannot be written: {error}", path.display()));
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let file = tempfile::Builder::new()
-        .prefix(".wedgelab-")
-        .suffix(".tmp")
-        .tempfile_in(folder)
-        .map_err(|error| failed(&error))?;
-    let mut archive = ZipWriter::new(file);
+/// Returns the archive of these files as bytes.
+pub(crate) fn pack(files: &[(String, Vec<u8>)]) -> Result<Vec<u8>, Error> {
+    let failed = |error: &dyn std::fmt::Display| Error::new(format!("the archive cannot be made: {error}"));
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     // No times: the same FMU has the same bytes.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
@@ -219,21 +206,8 @@ pub(crate) fn pack(path: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Error
             .map_err(|error| failed(&error))?;
         archive.write_all(bytes).map_err(|error| failed(&error))?;
     }
-    let file = archive.finish().map_err(|error| failed(&error))?;
-    let kept = file.persist(path).map_err(|error| failed(&error.error))?;
-    readable(&kept).map_err(|error| failed(&error))
-}
-
-/// Temporary files are for their owner alone; an FMU is an ordinary file.
-#[cfg(unix)]
-fn readable(file: &fs::File) -> std::io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.set_permissions(fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-fn readable(_: &fs::File) -> std::io::Result<()> {
-    Ok(())
+    let archive = archive.finish().map_err(|error| failed(&error))?;
+    Ok(archive.into_inner())
 }
 
 /// The page that documents an FMU.

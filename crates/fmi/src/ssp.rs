@@ -46,19 +46,16 @@ pub struct Connection {
     pub to: (String, String),
 }
 
-/// Writes the truck with four wedges of a case, with the library for one platform.
+/// Returns the truck with four wedges of a case, with the library for one platform, as the bytes of its file, and the
+/// connections.
 ///
 /// # Errors
-/// As [`package::write`]; there is no file then.
-pub fn write(path: &Path, case: &Case, library: &Path, platform: Platform) -> Result<Vec<Connection>, Error> {
-    let folder = tempfile::tempdir().map_err(|error| Error::new(format!("no temporary folder: {error}")))?;
+/// As [`package::fmu`].
+pub fn truck(case: &Case, library: &Path, platform: Platform) -> Result<(Vec<u8>, Vec<Connection>), Error> {
     let mut files = Vec::new();
     let mut fmu = |model: Model| -> Result<Description, Error> {
-        let name = format!("{}.fmu", model.name());
-        let place = folder.path().join(&name);
-        let description = package::write(&place, model, Version::Two, case, library, platform)?;
-        let bytes = std::fs::read(&place).map_err(|error| Error::new(format!("{name}: {error}")))?;
-        files.push((format!("resources/{name}"), bytes));
+        let (bytes, description) = package::fmu(model, Version::Two, case, library, platform)?;
+        files.push((format!("resources/{}.fmu", model.name()), bytes));
         Ok(description)
     };
     let (truck, wedge) = (fmu(Model::Truck)?, fmu(Model::Wedge)?);
@@ -71,8 +68,7 @@ pub fn write(path: &Path, case: &Case, library: &Path, platform: Platform) -> Re
         ),
     );
     files.push((PARAMETERS.to_owned(), values(&wedge)?.into_bytes()));
-    package::pack(path, &files)?;
-    Ok(connections)
+    Ok((package::pack(&files)?, connections))
 }
 
 fn find<'d>(description: &'d Description, name: &str) -> Option<&'d Variable> {

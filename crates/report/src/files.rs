@@ -3,14 +3,21 @@
 //! Files of one result are written and synchronised in a hidden folder beside their destination. If the destination is new,
 //! this folder is renamed to it in one step. If it exists, its files are renamed into it one by one, each in one step;
 //! between two of them a crash of the machine may leave files of two results side by side, but never half a file.
+//!
+//! A program that is told to end calls [`abandon`]; what a killed one left over is found by [`remove_left_over`].
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use miette::Diagnostic;
-use tempfile::TempDir;
 use thiserror::Error;
+
+mod staging;
+
+pub(crate) use staging::PREFIX as HIDDEN;
+use staging::Staging;
+pub use staging::{Abandoned, abandon, remove_left_over};
 
 /// Why files cannot be written.
 #[derive(Debug, Error, Diagnostic)]
@@ -91,7 +98,7 @@ impl Folder {
     pub fn check(path: impl Into<PathBuf>, names: &[&str], force: bool) -> Result<Self, FileError> {
         let path = path.into();
         let existing = nearest_existing(&path)?;
-        hidden_folder(&existing)?;
+        drop(Staging::new(&existing, None)?);
         let folder = Self {
             path,
             force,
@@ -136,10 +143,8 @@ impl Folder {
             folder: beside.to_owned(),
             reason,
         })?;
-        let hidden = hidden_folder(beside)?;
-        // A folder of its own inside: the hidden one is private to the user, results are not.
-        let stage = hidden.path().join("result");
-        fs::create_dir(&stage).map_err(|reason| FileError::Unwritable {
+        let hidden = Staging::new(beside, Some(self))?;
+        let stage = hidden.result().map_err(|reason| FileError::Unwritable {
             folder: beside.to_owned(),
             reason,
         })?;
@@ -150,16 +155,18 @@ impl Folder {
         };
         write(&mut files)?;
         let names = files.names;
-        if !exists && fs::rename(&stage, &self.path).is_ok() {
-            return Ok(());
-        }
-        // The folder exists, perhaps since a moment ago.
-        self.refuse(names.iter().map(String::as_str))?;
-        for name in &names {
-            let file = self.path.join(name);
-            fs::rename(stage.join(name), &file).map_err(|reason| FileError::Write { file, reason })?;
-        }
-        Ok(())
+        Staging::place(&self.path, || {
+            if !exists && fs::rename(&stage, &self.path).is_ok() {
+                return Ok(());
+            }
+            // The folder exists, perhaps since a moment ago.
+            self.refuse(names.iter().map(String::as_str))?;
+            for name in &names {
+                let file = self.path.join(name);
+                fs::rename(stage.join(name), &file).map_err(|reason| FileError::Write { file, reason })?;
+            }
+            Ok(())
+        })
     }
 
     fn refuse<'n>(&self, names: impl Iterator<Item = &'n str>) -> Result<(), FileError> {
@@ -284,22 +291,4 @@ fn nearest_existing(path: &Path) -> Result<PathBuf, FileError> {
         }
     }
     Ok(PathBuf::from("."))
-}
-
-/// A new hidden folder, removed when it is dropped.
-fn hidden_folder(beside: &Path) -> Result<TempDir, FileError> {
-    tempfile::Builder::new()
-        .prefix(".wedgelab-")
-        .tempdir_in(beside)
-        .map_err(|error| FileError::Unwritable {
-            folder: beside.to_owned(),
-            reason: plain(&error),
-        })
-}
-
-/// The system's error without the name of the hidden folder, which means nothing to anybody.
-fn plain(error: &io::Error) -> io::Error {
-    let text = error.to_string();
-    let own = text.split(" at path ").next().unwrap_or_default();
-    io::Error::new(error.kind(), own.to_owned())
 }

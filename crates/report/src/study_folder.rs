@@ -24,7 +24,7 @@ use study::design::{Factor, Study, Value};
 use study::measures;
 use study::records::{self, Record};
 
-use crate::files::{FileError, Folder};
+use crate::files::{self, FileError, Folder};
 use crate::page::study as page;
 use crate::parquet::{Cell, Column, Content, TableWriter};
 
@@ -42,8 +42,6 @@ pub const STUDY_KEY: &str = "wedgelab.study";
 pub const SERIES: &str = "series";
 const PARTS: &str = "parts";
 const LOCK_FILE: &str = ".lock";
-/// How the hidden folders of files being written begin.
-const HIDDEN: &str = ".wedgelab-";
 
 /// What the file that says what a study is must be.
 const MANIFEST: Expected = Expected {
@@ -77,6 +75,7 @@ pub struct StudyFolder {
     description: String,
     count: u64,
     part_size: u64,
+    removed: Vec<PathBuf>,
     /// Kept locked; the system unlocks it when the program ends, however it ends.
     _lock: File,
     /// One record at a time.
@@ -131,8 +130,8 @@ impl StudyFolder {
         } else {
             folder.write(|files| files.add(STUDY_FILE, |out| out.write_all(description.as_bytes())))?;
         }
-        remove_left_over(path);
         Ok(Self {
+            removed: files::remove_left_over([&folder]),
             path: path.to_owned(),
             fingerprint: study.fingerprint(),
             description,
@@ -147,6 +146,12 @@ impl StudyFolder {
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Returns the hidden folders that killed programs had left here and that were removed.
+    #[must_use]
+    pub fn removed(&self) -> &[PathBuf] {
+        &self.removed
     }
 
     /// Number of parts.
@@ -317,8 +322,9 @@ fn refuse_foreign(path: &Path) -> Result<(), StudyFolderError> {
         true => &[TABLE_FILE, page::FILE_NAME, SERIES],
         false => &[SERIES],
     };
-    let own =
-        |name: &str| name == LOCK_FILE || name == PARTS || name.starts_with(HIDDEN) || made.contains(&name);
+    let own = |name: &str| {
+        name == LOCK_FILE || name == PARTS || name.starts_with(files::HIDDEN) || made.contains(&name)
+    };
     let mut names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     match names.find(|name| !own(name)) {
         Some(name) => Err(StudyFolderError::NotAStudy {
@@ -326,20 +332,6 @@ fn refuse_foreign(path: &Path) -> Result<(), StudyFolderError> {
             name,
         }),
         None => Ok(()),
-    }
-}
-
-/// Removes what a killed program was writing. While the folder is locked nobody else writes there.
-fn remove_left_over(path: &Path) {
-    let Ok(entries) = fs::read_dir(path) else { return };
-    for entry in entries.flatten() {
-        if entry
-            .file_name()
-            .to_str()
-            .is_some_and(|name| name.starts_with(HIDDEN))
-        {
-            let _ = fs::remove_dir_all(entry.path());
-        }
     }
 }
 

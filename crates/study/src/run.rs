@@ -1,6 +1,7 @@
 //! A run: a case being integrated, row by row, with a state that can be saved and continued.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 use integrate::{Family, Integrator, Options, SetupError, State, StepError};
 use mechanics::output::Column;
@@ -237,19 +238,31 @@ impl Run {
 
     /// Runs to the end and gives the result; a run that cannot go on gives an incomplete result with the reason.
     #[must_use]
-    pub fn finish(mut self, mut progress: impl FnMut(f64)) -> RunResult {
-        let mut stopped = None;
-        while !self.is_finished() {
-            if let Err(error) = self.advance() {
-                stopped = Some(Stopped {
-                    time: self.time(),
-                    reason: error.to_string(),
-                    contacts: self.contact_states(),
-                });
-                break;
-            }
-            progress(self.time());
+    pub fn finish(self, mut progress: impl FnMut(f64)) -> RunResult {
+        self.finish_while(|time| {
+            progress(time);
+            ControlFlow::Continue(())
+        })
+    }
+
+    /// As [`Run::finish`], but asks after each step, with the time reached, whether to go on. When not, it is told why, and the
+    /// result is incomplete for that reason.
+    #[must_use]
+    pub fn finish_while(mut self, mut progress: impl FnMut(f64) -> ControlFlow<String>) -> RunResult {
+        let mut reason = None;
+        while reason.is_none() && !self.is_finished() {
+            reason = match self.advance() {
+                Ok(()) => progress(self.time())
+                    .break_value()
+                    .filter(|_| !self.is_finished()),
+                Err(error) => Some(error.to_string()),
+            };
         }
+        let stopped = reason.map(|reason| Stopped {
+            time: self.time(),
+            reason,
+            contacts: self.contact_states(),
+        });
         self.result(stopped)
     }
 

@@ -9,7 +9,6 @@ use pyo3::prelude::*;
 use study::case::Case;
 use study::result::RunResult;
 use study::run::{Run, RunError};
-use study::summary::Stopped;
 
 use crate::errors::{internal, panic_text, simple};
 use crate::outcome::{NativeResult, Table};
@@ -99,6 +98,9 @@ impl Failure {
     }
 }
 
+/// Why a run is incomplete that the caller stopped.
+pub const STOPPED: &str = "it was stopped from outside";
+
 /// Runs a case until its end, or until it is told to stop; panics become failures.
 pub fn outcome(case: &Case, progress: impl FnMut(f64) -> ControlFlow<()>) -> Result<RunResult, Failure> {
     let run = AssertUnwindSafe(|| drive(case, progress));
@@ -110,21 +112,7 @@ pub fn outcome(case: &Case, progress: impl FnMut(f64) -> ControlFlow<()>) -> Res
 }
 
 fn drive(case: &Case, mut progress: impl FnMut(f64) -> ControlFlow<()>) -> Result<RunResult, RunError> {
-    let mut run = Run::new(case)?;
-    let mut reason = None;
-    while reason.is_none() && !run.is_finished() {
-        if let Err(error) = run.advance() {
-            reason = Some(error.to_string());
-        } else if progress(run.time()).is_break() {
-            reason = Some("it was stopped from outside".to_owned());
-        }
-    }
-    let stopped = reason.map(|reason| Stopped {
-        time: run.time(),
-        reason,
-        contacts: run.contact_states(),
-    });
-    Ok(run.result(stopped))
+    Ok(Run::new(case)?.finish_while(|time| progress(time).map_break(|()| STOPPED.to_owned())))
 }
 
 /// Runs a case for Python.

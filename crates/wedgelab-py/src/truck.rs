@@ -19,7 +19,7 @@ use study::truck::{TruckCase, TruckStart, options};
 use crate::errors::{findings, guarded, raise, simple};
 use crate::nucars::load_error;
 use crate::outcome::{NativeResult, Table};
-use crate::run::{Failure, Progress};
+use crate::run::{Failure, Progress, STOPPED};
 
 /// Where a case comes from, and what is needed to make it again elsewhere.
 #[derive(Clone, Serialize, Deserialize)]
@@ -271,8 +271,9 @@ impl NativeTruckCase {
 pub fn outcome(
     case: &TruckCase,
     columns: Option<&[String]>,
-    progress: impl FnMut(f64) -> ControlFlow<()>,
+    mut progress: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Table, Failure> {
+    let progress = |time| progress(time).map_break(|()| STOPPED.to_owned());
     match catch_unwind(AssertUnwindSafe(|| run_while(case, progress))) {
         Ok(Ok(result)) => {
             let mut table = Table::of_truck(result);

@@ -2,20 +2,20 @@
 
 use std::time::{Duration, Instant};
 
-use miette::Report;
 use quantity::Number;
 use report::files::Folder;
 use report::run_files;
 use study::case::Case;
 use study::result::RunResult;
 use study::run::{Run, RunError};
-use study::summary::{Measure, Summary};
+use study::summary::{Measure, Stopped, Summary};
 
 use crate::failure::{Failure, Message, say};
+use crate::interrupt;
 use crate::progress::Progress;
 use crate::table::Table;
 
-/// A run that has ended, perhaps before its time, and whose files are written.
+/// A run that has ended, perhaps before its time.
 #[derive(Debug)]
 pub struct Done {
     /// What came out.
@@ -24,22 +24,47 @@ pub struct Done {
     pub wall: Duration,
 }
 
-/// Runs a case and writes its files.
-pub fn execute(case: &Case, folder: &Folder, progress: &Progress) -> Result<Done, Failure> {
+/// Runs a case until it ends or is interrupted.
+pub fn compute(case: &Case, progress: &Progress) -> Result<Done, Failure> {
     let start = Instant::now();
     let run = Run::new(case).map_err(|error| cannot_begin(case, &error))?;
-    let result = run.finish(progress.of_run(case.simulation.duration));
-    let wall = start.elapsed();
-    run_files::write(folder, case, &result)?;
-    let how = match &result.summary.stopped {
+    let mut reached = progress.of_run(case.simulation.duration);
+    let result = run.finish_while(|time| {
+        reached(time);
+        interrupt::go_on()
+    });
+    Ok(Done {
+        result,
+        wall: start.elapsed(),
+    })
+}
+
+/// Writes the files of a run.
+pub fn write(done: &Done, case: &Case, folder: &Folder, progress: &Progress) -> Result<(), Failure> {
+    run_files::write(folder, case, &done.result)?;
+    let summary = &done.result.summary;
+    let how = match &summary.stopped {
         Some(stopped) => format!("stopped at {} s", Number(stopped.time)),
-        None => format!("{:.2} s", wall.as_secs_f64()),
+        None => format!("{:.2} s", done.wall.as_secs_f64()),
     };
     progress.done(&case.name, &how);
-    for warning in &result.summary.warnings {
+    for warning in &summary.warnings {
         say(&format!("warning: {}: {warning}", case.name));
     }
-    Ok(Done { result, wall })
+    Ok(())
+}
+
+/// Runs a case and writes its files; `None` if it was interrupted, of which nothing is written then.
+pub fn execute_whole(case: &Case, folder: &Folder, progress: &Progress) -> Result<Option<Done>, Failure> {
+    if interrupt::wanted() {
+        return Ok(None);
+    }
+    let done = compute(case, progress)?;
+    if interrupt::is_reason(done.result.summary.stopped.as_ref()) {
+        return Ok(None);
+    }
+    write(&done, case, folder, progress)?;
+    Ok(Some(done))
 }
 
 /// Nothing could be computed at all, so that the input is at fault.
@@ -50,21 +75,30 @@ fn cannot_begin(case: &Case, error: &RunError) -> Failure {
 }
 
 /// Why a run is incomplete, for its user; `None` if it is complete.
-pub fn incomplete(summary: &Summary, folder: &Folder) -> Option<Report> {
+pub fn incomplete(summary: &Summary, folder: &Folder) -> Option<Failure> {
+    const SUSPECTS: &str = "values far from the thesis's are the first suspects: try a softer contact.stiffness, a larger \
+         friction.reference_speed, a looser simulation.relative_tolerance";
     let stopped = summary.stopped.as_ref()?;
+    Some(stopped_run(&summary.name, stopped, folder, SUSPECTS))
+}
+
+/// A run that stopped and whose files are written; `suspects` says what to try if it could not go on.
+pub fn stopped_run(name: &str, stopped: &Stopped, folder: &Folder, suspects: &str) -> Failure {
     let message = format!(
-        "the run {} stopped at {} s and is incomplete: {}",
-        summary.name,
+        "the run {name} stopped at {} s and is incomplete: {}",
         Number(stopped.time),
         stopped.reason
     );
-    let advice = format!(
-        "what was computed until then is in {}, marked as incomplete; values far from the thesis's are the first \
-         suspects: try a softer contact.stiffness, a larger friction.reference_speed, a looser \
-         simulation.relative_tolerance",
+    let kept = format!(
+        "what was computed until then is in {}, marked as incomplete",
         folder.path().display()
     );
-    Some(Message::new(message, advice).into())
+    if interrupt::is_reason(Some(stopped)) {
+        let advice = format!("{kept}; the same command with --force computes the whole run, from its start");
+        return Failure::Interrupted(Message::new(message, advice).into());
+    }
+    let advice = [kept.as_str(), suspects].join(if suspects.is_empty() { "" } else { "; " });
+    Failure::Failed(Message::new(message, advice).into())
 }
 
 /// The table of runs; all of them in the same units.

@@ -11,6 +11,8 @@ use report::table::TableError;
 use study::case::CaseError;
 use thiserror::Error;
 
+use crate::interrupt;
+
 /// Exit code: a run could not finish, or something could not be written.
 pub const FAILED: u8 = 1;
 /// Exit code: the input is wrong.
@@ -23,6 +25,8 @@ pub enum Failure {
     Input(Report),
     /// A run could not finish, or something could not be written.
     Failed(Report),
+    /// A signal ended the command; this is what it leaves.
+    Interrupted(Report),
     /// Nobody reads the output any more.
     NobodyReads,
 }
@@ -33,7 +37,8 @@ impl Failure {
         let (report, code) = match self {
             Self::Input(report) => (report, INPUT),
             Self::Failed(report) => (report, FAILED),
-            Self::NobodyReads => return ExitCode::SUCCESS,
+            Self::Interrupted(report) => (report, interrupt::code().unwrap_or(FAILED)),
+            Self::NobodyReads => return ExitCode::from(interrupt::code().unwrap_or(0)),
         };
         say(&format!("{report:?}"));
         ExitCode::from(code)
@@ -80,7 +85,8 @@ impl From<Message> for Failure {
 impl From<io::Error> for Failure {
     /// Errors of the standard output.
     fn from(error: io::Error) -> Self {
-        if error.kind() == io::ErrorKind::BrokenPipe {
+        // A terminal that hung up cannot be written to.
+        if error.kind() == io::ErrorKind::BrokenPipe || interrupt::code().is_some() {
             Self::NobodyReads
         } else {
             Self::Failed(Message::new(format!("cannot write the output: {error}"), "").into())

@@ -3,6 +3,8 @@
 mod commands;
 mod execute;
 mod failure;
+mod folders;
+mod interrupt;
 mod progress;
 mod select;
 mod table;
@@ -35,7 +37,9 @@ Begin with:
   wedgelab study STUDY.toml          many variants of a case, into one table
   wedgelab compare RESULT RESULT     differences and overlay figures
 
-Exit codes: 0 done; 1 a run could not finish or files could not be written; 2 the input is wrong."
+Exit codes: 0 done; 1 a run could not finish or files could not be written; 2 the input is wrong; 129, 130, 143 ended by
+SIGHUP, SIGINT (Ctrl-C), SIGTERM. A first signal stops runs at their next step: what was computed is written, marked
+incomplete. A second one ends the program at once. Neither leaves half a file."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -97,6 +101,13 @@ fn start() -> ExitCode {
         }
     };
     let flushed = std::io::stdout().flush();
-    done.and_then(|code| Ok(flushed.map(|()| code)?))
-        .unwrap_or_else(|failure| failure.report())
+    let done = done.and_then(|code| Ok(flushed.map(|()| code)?));
+    match (done, interrupt::code()) {
+        (Ok(_), Some(code)) => {
+            failure::say("interrupted when everything was done: what was written is whole");
+            ExitCode::from(code)
+        }
+        (Ok(code), None) => code,
+        (Err(failure), _) => failure.report(),
+    }
 }

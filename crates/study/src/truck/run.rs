@@ -65,13 +65,14 @@ pub fn run(case: &TruckCase, mut progress: impl FnMut(f64)) -> Result<TruckResul
     run_while(case, keep_on)
 }
 
-/// As [`run`], but asks after each step, with the time reached, whether to go on; when not, the result is incomplete.
+/// As [`run`], but asks after each step, with the time reached, whether to go on. When not, it is told why, and the result is
+/// incomplete for that reason.
 ///
 /// # Errors
 /// The run cannot begin.
 pub fn run_while(
     case: &TruckCase,
-    mut progress: impl FnMut(f64) -> ControlFlow<()>,
+    mut progress: impl FnMut(f64) -> ControlFlow<String>,
 ) -> Result<TruckResult, TruckError> {
     let mut system = System::new(case.truck.model.clone())?;
     let x = start(&mut system, case.start)?;
@@ -123,8 +124,10 @@ pub fn run_while(
             }
             row += 1;
         }
-        if progress(integrator.time()).is_break() {
-            stopped = stop(integrator.time(), "it was stopped from outside".to_owned());
+        if let ControlFlow::Break(reason) = progress(integrator.time())
+            && row <= count
+        {
+            stopped = stop(integrator.time(), reason);
             break;
         }
     }

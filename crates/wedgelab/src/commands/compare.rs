@@ -6,10 +6,11 @@ use std::process::ExitCode;
 
 use clap::Args;
 use report::comparison::{Comparison, Entry, FILE_NAME};
-use report::files::Folder;
 use report::table::Table as Results;
 
 use crate::failure::{Failure, Message};
+use crate::folders;
+use crate::interrupt;
 use crate::table::Table;
 
 /// Compare results: overlay figures and a table of differences
@@ -41,13 +42,13 @@ pub struct Arguments {
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    interrupt::listen();
     let entries = read(&arguments.results)?;
     let comparison = Comparison::of(&entries, &arguments.columns)?;
     let figures = comparison.figures(&entries)?;
     let mut names: Vec<&str> = vec![FILE_NAME];
     names.extend(figures.iter().map(|(name, _)| name.as_str()));
-    let folder = Folder::check(&arguments.out, &names, arguments.force)
-        .map_err(|error| Failure::Input(error.into()))?;
+    let folder = folders::check(&arguments.out, &names, arguments.force)?;
     folder.write(|files| {
         files.add(FILE_NAME, |out| comparison.write(&entries, out))?;
         for (name, figure) in &figures {

@@ -7,7 +7,6 @@ use std::process::ExitCode;
 
 use clap::Args;
 use rayon::prelude::*;
-use report::files::Folder;
 use report::fit_files::{self, Shown};
 use report::run_files;
 use report::table::{Column, Table as Measurements};
@@ -17,6 +16,8 @@ use study::metrics::Cycle;
 
 use super::run::{is_built_in, read};
 use crate::failure::{Failure, Message, say};
+use crate::folders;
+use crate::interrupt;
 use crate::table::Table;
 
 /// Columns that may hold the measured force, the first one found being taken.
@@ -109,6 +110,7 @@ impl From<FitError> for Failure {
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    interrupt::listen();
     if !(arguments.confidence > 0.0 && arguments.confidence < 1.0) {
         let message = format!("--confidence is {}", arguments.confidence);
         return Err(Message::new(message, "it lies between 0 and 1: 0.95 is usual").into());
@@ -169,8 +171,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         fit_files::PICTURE,
         run_files::CASE_FILE_NAME,
     ];
-    let folder = Folder::check(&arguments.out, &names, arguments.force)
-        .map_err(|error| Failure::Input(error.into()))?;
+    let folder = folders::check(&arguments.out, &names, arguments.force)?;
     let case = |more: &[String]| case_with(arguments, &[&set, more].concat());
     let found = fit(&case, &measured, &free, arguments.confidence, &|count, one| {
         (0..count).into_par_iter().map(one).collect()

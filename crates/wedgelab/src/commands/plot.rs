@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use report::files::Folder;
 use report::plot;
 use report::table::Table;
 
 use super::compare::label;
 use crate::failure::{Failure, Message};
+use crate::folders;
+use crate::interrupt;
 
 /// Draw any column of a result over any other
 ///
@@ -41,6 +42,7 @@ pub struct Arguments {
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    interrupt::listen();
     let table = Table::read(&arguments.result)?;
     let x = table.column(&arguments.x)?.name.clone();
     let mut y: Vec<String> = Vec::new();
@@ -70,8 +72,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    let folder =
-        Folder::check(folder, &[name], arguments.force).map_err(|error| Failure::Input(error.into()))?;
+    let folder = folders::check(folder, &[name], arguments.force)?;
     let bytes = if picture {
         let png = figure.to_png();
         png.map_err(|reason| Failure::Failed(Message::new(format!("cannot draw: {reason}"), "").into()))?

@@ -1,5 +1,6 @@
 //! `wedgelab reproduce`: all built-in cases, told in a report.
 
+mod interrupted;
 mod trucks;
 
 use std::io::{self, Write};
@@ -13,17 +14,23 @@ use rayon::prelude::*;
 use report::agreement::{self, TruckOutcome};
 use report::claims::{self, Claims, Evidence};
 use report::figures::{Exhibit, Outcome};
-use report::files::{FileError, Folder, check_all};
+use report::files::{FileError, Folder};
 use report::page::{self, Contents, Viewer};
 use report::view::View;
 use report::view::run::{Detail, Recording};
 use report::{beyond, run_files, sections};
 use study::case::{Case, builtin};
 
-use crate::execute::{TABLE_NOTE, execute as execute_case, incomplete, table};
-use crate::failure::{FAILED, Failure, Message};
+use crate::execute::{TABLE_NOTE, execute_whole, incomplete, table};
+use crate::failure::{Failure, Message};
+use crate::folders;
+use crate::interrupt;
 use crate::progress::Progress;
 use crate::select::select;
+use interrupted::Planned;
+
+/// The folder unless another is named.
+const USUAL: &str = "reproduction";
 
 /// Run all built-in cases and tell them in a report
 ///
@@ -40,7 +47,7 @@ Examples:
   wedgelab reproduce --only 'vdrun*' cdrun_toe_0_psi_0 --force")]
 pub struct Arguments {
     /// Folder to write into
-    #[arg(long, value_name = "DIR", default_value = "reproduction")]
+    #[arg(long, value_name = "DIR", default_value = USUAL)]
     out: PathBuf,
     /// Run only these: names, beginnings that only one name has, or patterns such as 'vdrun*'
     #[arg(long, value_name = "NAME", num_args = 1..)]
@@ -66,6 +73,7 @@ struct Kept {
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    interrupt::listen();
     let cases = select(&arguments.only, builtin::names())?
         .into_iter()
         .map(builtin::case)
@@ -79,18 +87,34 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
 
     let progress = Progress::new(cases.len() + half_trucks.len(), arguments.quiet);
+    let planned = Planned::of(arguments, &cases, &half_trucks);
+    interrupt::stops(
+        "stopping: the runs under way are not written (once more: ends at once)",
+        &format!(
+            "the runs that were written before are whole, in {}",
+            planned.runs.display()
+        ),
+    );
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(arguments.jobs.map_or(0, usize::from))
         .build()
         .map_err(|error| Failure::Failed(Message::new(error.to_string(), "try --jobs 1").into()))?;
-    let (kept, half_trucks): (Vec<Result<Kept, Failure>>, _) = pool.install(|| {
+    let (kept, half_trucks): (Vec<Result<Option<Kept>, Failure>>, _) = pool.install(|| {
         let work = cases.into_par_iter().zip(&places.runs).with_max_len(1);
         let work = work.map(|(case, folder)| keep(case, folder, &progress));
         rayon::join(|| work.collect(), || trucks::trucks(half_trucks, &progress))
     });
     progress.finish();
-    let (half_trucks, of_trucks): (Vec<TruckOutcome>, Vec<_>) = half_trucks?.into_iter().unzip();
-    let kept = kept.into_iter().collect::<Result<Vec<Kept>, Failure>>()?;
+    let half_trucks: Vec<Option<trucks::Kept>> = half_trucks?;
+    let kept = kept.into_iter().collect::<Result<Vec<Option<Kept>>, Failure>>()?;
+    interrupt::ends(&planned.without_report());
+    if interrupt::wanted() {
+        let wedges = kept.iter().map(Option::is_some);
+        let trucks = half_trucks.iter().map(Option::is_some);
+        return Err(planned.interrupted(wedges, trucks));
+    }
+    let (half_trucks, of_trucks): (Vec<TruckOutcome>, Vec<_>) = half_trucks.into_iter().flatten().unzip();
+    let kept: Vec<Kept> = kept.into_iter().flatten().collect();
     let walls: Vec<Duration> = kept.iter().map(|kept| kept.wall).collect();
     let (outcomes, recordings): (Vec<Outcome>, Vec<_>) = kept
         .into_iter()
@@ -119,16 +143,18 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     out.flush()?;
     let mut code = ExitCode::SUCCESS;
     for ((_, result), folder) in outcomes.iter().zip(&places.runs) {
-        if let Some(report) = incomplete(&result.summary, folder) {
-            code = ExitCode::from(FAILED);
-            Failure::Failed(report).report();
+        if let Some(failure) = incomplete(&result.summary, folder) {
+            code = failure.report();
         }
     }
     Ok(code)
 }
 
-fn keep(case: Case, folder: &Folder, progress: &Progress) -> Result<Kept, Failure> {
-    let done = execute_case(&case, folder, progress)?;
+/// Runs a case and writes its files; `None` if it was interrupted.
+fn keep(case: Case, folder: &Folder, progress: &Progress) -> Result<Option<Kept>, Failure> {
+    let Some(done) = execute_whole(&case, folder, progress)? else {
+        return Ok(None);
+    };
     let mut outcome = (case, done.result);
     let of_thesis = is_of_thesis(&outcome.0);
     let detail = if of_thesis { Detail::Full } else { Detail::Thinned };
@@ -136,11 +162,11 @@ fn keep(case: Case, folder: &Folder, progress: &Progress) -> Result<Kept, Failur
     if !of_thesis {
         outcome.1.keep_columns(beyond::needs);
     }
-    Ok(Kept {
+    Ok(Some(Kept {
         outcome,
         recording,
         wall: done.wall,
-    })
+    }))
 }
 
 fn is_of_thesis(case: &Case) -> bool {
@@ -263,8 +289,7 @@ fn check(out: &Path, cases: &[Case], force: bool) -> Result<Places, Failure> {
     let runs = cases
         .iter()
         .map(|case| (out.join("runs").join(&case.name), run_files::NAMES.as_slice()));
-    let mut folders =
-        check_all(folders.into_iter().chain(runs), force).map_err(|error| Failure::Input(error.into()))?;
+    let mut folders = folders::check_all(folders.into_iter().chain(runs), force)?;
     let runs = folders.split_off(2);
     let mut folders = folders.into_iter();
     match (folders.next(), folders.next()) {

@@ -7,12 +7,13 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::nearest;
-use report::files::Folder;
 use report::run_files;
 use study::case::{Case, builtin};
 
-use crate::execute::{TABLE_NOTE, execute as execute_case, incomplete, table};
+use crate::execute::{TABLE_NOTE, compute, incomplete, table, write};
 use crate::failure::{Failure, Message};
+use crate::folders;
+use crate::interrupt;
 use crate::progress::Progress;
 
 /// Run one case
@@ -45,12 +46,14 @@ pub struct Arguments {
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    interrupt::listen();
     let case = read(&arguments.case, &arguments.set)?;
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
-    let folder = Folder::check(path, &run_files::NAMES, arguments.force)
-        .map_err(|error| Failure::Input(error.into()))?;
+    let folder = folders::check(path, &run_files::NAMES, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
-    let done = execute_case(&case, &folder, &progress);
+    interrupt::stops_run();
+    let done =
+        compute(&case, &progress).and_then(|done| write(&done, &case, &folder, &progress).map(|()| done));
     progress.finish();
     let done = done?;
     let summary = &done.result.summary;
@@ -63,7 +66,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         run_files::NAMES.join(", ")
     )?;
     match incomplete(summary, &folder) {
-        Some(report) => Err(Failure::Failed(report)),
+        Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
     }
 }

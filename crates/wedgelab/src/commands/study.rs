@@ -14,7 +14,9 @@ use report::study_folder::{StudyFolder, StudyFolderError, TABLE_FILE};
 use report::study_work;
 use study::design::{MANY, Study};
 
-use crate::failure::{FAILED, Failure, Message, say};
+use crate::failure::{Failure, Message, say};
+use crate::folders;
+use crate::interrupt;
 
 /// Run many variants of a case
 ///
@@ -69,6 +71,7 @@ impl From<StudyFolderError> for Failure {
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    interrupt::listen();
     let study = Study::read(&arguments.study)?;
     if let Some(number) = arguments.series.iter().find(|number| **number >= study.count()) {
         let message = format!("there is no run {number}: the study has {} runs", study.count());
@@ -92,6 +95,14 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Err(Message::new(message, advice).into());
     }
     let folder = StudyFolder::open(&path, &study)?;
+    folders::tell_removed(folder.removed());
+    interrupt::stops(
+        "stopping: the runs under way are finished and kept (once more: ends at once)",
+        &format!(
+            "the runs that ended are kept in {}. The same command goes on from there.",
+            path.display()
+        ),
+    );
     let clock = Instant::now();
     let jobs = arguments.jobs.map_or_else(
         || std::thread::available_parallelism().map_or(1, usize::from),
@@ -104,14 +115,18 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             done.lost
         ));
     }
-    if done.interrupted {
-        say(&format!(
-            "stopped: {} of {} runs are kept in {}. The same command goes on from there.",
-            done.before + done.now,
-            study.count(),
-            path.display()
+    let kept = format!(
+        "{} of {} runs are kept in {}",
+        done.before + done.now,
+        study.count(),
+        path.display()
+    );
+    interrupt::ends(&format!("{kept}. The same command makes the table of them."));
+    if done.interrupted || interrupt::wanted() {
+        let message = format!("{}: {kept}", interrupt::REASON);
+        return Err(Failure::Interrupted(
+            Message::new(message, "the same command goes on from there").into(),
         ));
-        return Ok(ExitCode::from(FAILED));
     }
     let wall = clock.elapsed().as_secs_f64();
     let digest = study_work::finish(&study, &folder)?;

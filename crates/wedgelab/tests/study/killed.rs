@@ -206,7 +206,7 @@ fn limits_interrupted_it_says_so_and_goes_on() {
     assert!(interrupt.unwrap().success());
     let ended = child.wait_with_output().unwrap();
     let err = String::from_utf8(ended.stderr).unwrap();
-    assert_eq!(ended.status.code(), Some(1), "{err}");
+    assert_eq!(ended.status.code(), Some(130), "{err}");
     assert!(err.contains("of 120 runs are kept in a"), "{err}");
     assert!(kept(&path.join("a")) > 0 && !path.join("a/table.parquet").exists());
 }

@@ -1,5 +1,6 @@
 //! `wedgelab fmu export`: one case as an FMU.
 
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -7,6 +8,7 @@ use clap::Args;
 use fmi::description::{Model, Version};
 use fmi::package::{self, Platform};
 
+use super::write;
 use crate::commands::run;
 use crate::failure::{Failure, Message};
 
@@ -66,9 +68,11 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     } else {
         Model::Wedge
     };
-    let description = package::write(&arguments.out, model, arguments.fmi, &case, &library, platform)
+    let (bytes, description) = package::fmu(model, arguments.fmi, &case, &library, platform)
         .map_err(|error| Failure::from(Message::new(error.to_string(), "nothing was written")))?;
-    println!(
+    write(&arguments.out, arguments.force, &bytes)?;
+    writeln!(
+        io::stdout().lock(),
         "Written {}: {} of the case {}, FMI {}, model exchange and co-simulation, {} variables, {} states, for {}.",
         arguments.out.display(),
         model.name(),
@@ -80,7 +84,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         description.variables.len(),
         description.entries.states.len(),
         platform.folder(arguments.fmi),
-    );
+    )?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -1,5 +1,6 @@
 //! `wedgelab fmu merge`: FMUs for several platforms in one file.
 
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -7,6 +8,7 @@ use clap::Args;
 use fmi::package;
 
 use super::export::may_write;
+use super::write;
 use crate::failure::{Failure, Message};
 
 /// Join FMUs of the same case for several platforms into one
@@ -31,11 +33,13 @@ pub struct Arguments {
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     may_write(&arguments.out, arguments.force)?;
-    let count = package::merge(&arguments.out, &arguments.parts)
+    let (bytes, count) = package::merged(&arguments.parts)
         .map_err(|error| Failure::from(Message::new(error.to_string(), "nothing was written")))?;
-    println!(
+    write(&arguments.out, arguments.force, &bytes)?;
+    writeln!(
+        io::stdout().lock(),
         "Written {}: libraries for {count} platforms.",
         arguments.out.display()
-    );
+    )?;
     Ok(ExitCode::SUCCESS)
 }

@@ -4,11 +4,14 @@ mod export;
 mod merge;
 mod ssp;
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Message};
+use crate::folders;
+use crate::interrupt;
 
 /// Write wedges as functional mock-up units (FMI 2.0 and 3.0)
 ///
@@ -29,9 +32,24 @@ enum Command {
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    interrupt::listen();
     match &arguments.command {
         Command::Export(arguments) => export::execute(arguments),
         Command::Merge(arguments) => merge::execute(arguments),
         Command::Ssp(arguments) => ssp::execute(arguments),
     }
+}
+
+/// Writes a file, whole or not at all.
+fn write(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
+    let Some(name) = path.file_name().and_then(|name| name.to_str()) else {
+        let message = format!("`{}` is no name for a file", path.display());
+        return Err(Message::new(message, "name a file, such as wedge.fmu").into());
+    };
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let folder = folders::check(folder, &[name], force)?;
+    Ok(folder.write(|files| files.add(name, |out| out.write_all(bytes)))?)
 }

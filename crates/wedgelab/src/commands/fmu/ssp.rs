@@ -1,5 +1,6 @@
 //! `wedgelab fmu ssp`: a truck with four wedges as a system structure.
 
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -7,6 +8,7 @@ use clap::Args;
 use fmi::ssp;
 
 use super::export::{may_write, parts};
+use super::write;
 use crate::commands::run;
 use crate::failure::{Failure, Message};
 
@@ -40,13 +42,15 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let case = run::read(&arguments.case, &arguments.set)?;
     may_write(&arguments.out, arguments.force)?;
     let (platform, library) = parts(arguments.library.as_deref())?;
-    let connections = ssp::write(&arguments.out, &case, &library, platform)
+    let (bytes, connections) = ssp::truck(&case, &library, platform)
         .map_err(|error| Failure::from(Message::new(error.to_string(), "nothing was written")))?;
-    println!(
+    write(&arguments.out, arguments.force, &bytes)?;
+    writeln!(
+        io::stdout().lock(),
         "Written {}: the truck and four wedges of the case {}, {} connections.",
         arguments.out.display(),
         case.name,
         connections.len()
-    );
+    )?;
     Ok(ExitCode::SUCCESS)
 }

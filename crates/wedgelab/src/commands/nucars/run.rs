@@ -10,16 +10,18 @@ use nucars::Severity;
 use nucars::together::{RunFiles, find, kind, load};
 use nucars::truck::{Choices, Yaw};
 use quantity::{Kind, Number, Quantity, System as Units, nearest};
-use report::files::Folder;
 use report::truck_files;
 use study::truck::catalog::{self, Entry, OUTPUT_INTERVAL, YawCase};
 use study::truck::files::{Settings, case_of_run};
-use study::truck::run::run;
+use study::truck::run::run_while;
 use study::truck::{TruckCase, TruckStart, TruckSummary, options};
 
 use super::files::Instead;
 use super::load::tell;
+use crate::execute::stopped_run;
 use crate::failure::{Failure, Message, say};
+use crate::folders;
+use crate::interrupt;
 use crate::progress::Progress;
 use crate::table::Table;
 
@@ -42,7 +44,8 @@ Examples:
   wedgelab nucars run half_truck.run --option branch=\"0.1 in/s\" --option gap_tension=allowed --out other
   wedgelab nucars run nucars_69_constant_toe_out_yaw
 
-Exit codes: 0 done; 1 the run could not finish or files could not be written; 2 the input is wrong.")]
+Exit codes: 0 done; 1 the run could not finish or files could not be written; 2 the input is wrong; 129, 130, 143 ended by
+SIGHUP, SIGINT (Ctrl-C), SIGTERM: what was computed is written, marked incomplete.")]
 pub struct Arguments {
     /// Run file (.RUN), or, if there is no such file, the name of a built-in run
     #[arg(value_name = "FILE", required_unless_present = "list")]
@@ -113,17 +116,22 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (false, Some(file)) = (arguments.list, &arguments.file) else {
         return list();
     };
+    interrupt::listen();
     let settings = arguments.settings()?;
     let (case, script_interval) = match built_in(file)? {
         Some(entry) => (arguments.built_in(entry, settings)?, OUTPUT_INTERVAL),
         None => arguments.of_files(file, &settings)?,
     };
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
-    let folder = Folder::check(path, &truck_files::NAMES, arguments.force)
-        .map_err(|error| Failure::Input(error.into()))?;
+    let folder = folders::check(path, &truck_files::NAMES, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
+    interrupt::stops_run();
     let start = Instant::now();
-    let done = run(&case, progress.of_run(case.duration));
+    let mut reached = progress.of_run(case.duration);
+    let done = run_while(&case, |time| {
+        reached(time);
+        interrupt::go_on()
+    });
     let wall = start.elapsed().as_secs_f64();
     let result = done.map_err(|error| {
         progress.finish();
@@ -159,17 +167,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let Some(stopped) = &summary.stopped else {
         return Ok(ExitCode::SUCCESS);
     };
-    let message = format!(
-        "the run {} stopped at {} s and is incomplete: {}",
-        summary.name,
-        Number(stopped.time),
-        stopped.reason
-    );
-    let advice = format!(
-        "what was computed until then is in {}, marked as incomplete",
-        folder.path().display()
-    );
-    Err(Failure::Failed(Message::new(message, advice).into()))
+    Err(stopped_run(&summary.name, stopped, &folder, ""))
 }
 
 impl Arguments {

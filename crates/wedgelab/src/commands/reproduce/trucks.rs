@@ -6,14 +6,17 @@ use std::time::Instant;
 use nucars::truck::Choices;
 use rayon::prelude::*;
 use report::agreement::TruckOutcome;
-use report::files::{Folder, check_all};
+use report::files::Folder;
 use report::page::Viewer;
 use report::truck_files;
 use report::view::run::{Detail, Recording};
+use study::truck::TruckCase;
 use study::truck::catalog::{self, Entry};
-use study::truck::{TruckCase, run};
+use study::truck::run::run_while;
 
 use crate::failure::{Failure, Message};
+use crate::folders;
+use crate::interrupt;
 use crate::progress::Progress;
 
 /// The length of the runs, s: that of the thesis's.
@@ -23,6 +26,13 @@ pub struct Planned {
     entry: Entry,
     case: TruckCase,
     folder: Folder,
+}
+
+impl Planned {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.case.name
+    }
 }
 
 /// All runs of the half-truck, in folders found fit.
@@ -40,7 +50,7 @@ pub fn plan(out: &Path, force: bool) -> Result<Vec<Planned>, Failure> {
     let wanted = cases
         .iter()
         .map(|(_, case)| (out.join("runs").join(&case.name), truck_files::NAMES.as_slice()));
-    let folders = check_all(wanted, force).map_err(|error| Failure::Input(error.into()))?;
+    let folders = folders::check_all(wanted, force)?;
     let planned = cases.into_iter().zip(folders);
     Ok(planned
         .map(|((entry, case), folder)| Planned { entry, case, folder })
@@ -50,8 +60,8 @@ pub fn plan(out: &Path, force: bool) -> Result<Vec<Planned>, Failure> {
 /// A run with what the page shows of it, if it is interactive.
 pub type Kept = (TruckOutcome, Option<Recording>);
 
-/// Runs them and writes their files, as many at a time as the pool has threads.
-pub fn trucks(planned: Vec<Planned>, progress: &Progress) -> Result<Vec<Kept>, Failure> {
+/// Runs them and writes their files, as many at a time as the pool has threads; `None` for those that were interrupted.
+pub fn trucks(planned: Vec<Planned>, progress: &Progress) -> Result<Vec<Option<Kept>>, Failure> {
     planned
         .into_par_iter()
         .with_max_len(1)
@@ -59,13 +69,24 @@ pub fn trucks(planned: Vec<Planned>, progress: &Progress) -> Result<Vec<Kept>, F
         .collect()
 }
 
-fn one(planned: Planned, progress: &Progress) -> Result<Kept, Failure> {
+fn one(planned: Planned, progress: &Progress) -> Result<Option<Kept>, Failure> {
+    if interrupt::wanted() {
+        return Ok(None);
+    }
     let Planned { entry, case, folder } = planned;
     let start = Instant::now();
-    let result = run::run(&case, progress.of_run(case.duration)).map_err(|error| {
+    let mut reached = progress.of_run(case.duration);
+    let done = run_while(&case, |time| {
+        reached(time);
+        interrupt::go_on()
+    });
+    let result = done.map_err(|error| {
         let message = format!("the run {} cannot begin: {error}", case.name);
         Failure::Failed(Message::new(message, "").into())
     })?;
+    if interrupt::is_reason(result.summary.stopped.as_ref()) {
+        return Ok(None);
+    }
     truck_files::write(&folder, &case, &result, catalog::OUTPUT_INTERVAL)?;
     let how = match &result.summary.stopped {
         Some(stopped) => format!("stopped at {} s", stopped.time),
@@ -73,5 +94,5 @@ fn one(planned: Planned, progress: &Progress) -> Result<Kept, Failure> {
     };
     progress.done(&case.name, &how);
     let recording = Viewer::embedded().map(|_| Recording::of_truck(&case, &result, Detail::Thinned));
-    Ok(((entry, result), recording))
+    Ok(Some(((entry, result), recording)))
 }

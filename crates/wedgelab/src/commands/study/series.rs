@@ -4,18 +4,23 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use report::files::Folder;
 use report::run_files;
 use report::study_folder::SERIES;
 use study::design::Study;
 
-use crate::execute::execute as execute_case;
-use crate::failure::Failure;
+use crate::execute::execute_whole;
+use crate::failure::{Failure, Message};
+use crate::folders;
+use crate::interrupt;
 use crate::progress::Progress;
 
 /// Runs these variants and writes their files.
 pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<ExitCode, Failure> {
     let progress = Progress::new(numbers.len(), quiet);
+    interrupt::stops(
+        "stopping: the run under way is not written (once more: ends at once)",
+        "the runs that were written before are whole; the same command computes all of them again",
+    );
     let mut written = Vec::new();
     for number in numbers {
         let mut case = study.case(*number)?;
@@ -23,8 +28,11 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         case.document.name.clone_from(&case.name);
         let path = out.join(SERIES).join(number.to_string());
         // The same run gives the same files.
-        let folder = Folder::check(&path, &run_files::NAMES, true)?;
-        execute_case(&case, &folder, &progress)?;
+        let folder = folders::check(&path, &run_files::NAMES, true)?;
+        if execute_whole(&case, &folder, &progress)?.is_none() {
+            progress.finish();
+            return Err(interrupted(numbers, written.len()));
+        }
         written.push(path.display().to_string());
     }
     progress.finish();
@@ -35,4 +43,19 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         run_files::NAMES.join(", ")
     )?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// What is kept of these runs, of which so many are written.
+fn interrupted(numbers: &[u64], written: usize) -> Failure {
+    let missing: Vec<String> = numbers[written..].iter().map(u64::to_string).collect();
+    let message = format!(
+        "{}: {written} of {} runs are written, and whole",
+        interrupt::REASON,
+        numbers.len()
+    );
+    let advice = format!(
+        "the same command with --series {} computes those that are missing",
+        missing.join(" ")
+    );
+    Failure::Interrupted(Message::new(message, advice).into())
 }

@@ -1,8 +1,7 @@
 //! Computing what a study lacks, several runs at a time.
 
 use std::io::{self, IsTerminal};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -11,6 +10,7 @@ use report::study_work;
 use study::design::Study;
 
 use crate::failure::say;
+use crate::interrupt;
 
 /// What was done.
 #[derive(Debug)]
@@ -29,8 +29,7 @@ pub struct Done {
 pub fn all(study: &Study, folder: &StudyFolder, jobs: usize, quiet: bool) -> Result<Done, StudyFolderError> {
     let begun = study_work::begun(folder)?;
     let progress = Progress::new(study.count(), begun.runs, quiet);
-    let stop = on_interrupt();
-    let computed = study_work::compute(study, folder, jobs, &stop, &|| progress.done());
+    let computed = study_work::compute(study, folder, jobs, interrupt::flag(), &|| progress.done());
     let now = progress.finish();
     computed?;
     Ok(Done {
@@ -39,25 +38,6 @@ pub fn all(study: &Study, folder: &StudyFolder, jobs: usize, quiet: bool) -> Res
         interrupted: begun.runs + now < study.count(),
         lost: begun.lost,
     })
-}
-
-/// Becomes true when the user presses Ctrl-C: runs under way are finished then. Pressed again, it ends the program at once, as
-/// safe for the study as any other end.
-fn on_interrupt() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let seen = Arc::clone(&stop);
-    std::thread::spawn(move || {
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build();
-        let Ok(runtime) = runtime else { return };
-        if runtime.block_on(tokio::signal::ctrl_c()).is_ok() {
-            say("stopping: the runs under way are finished and kept (Ctrl-C again: at once)");
-            seen.store(true, Ordering::Relaxed);
-        }
-        if runtime.block_on(tokio::signal::ctrl_c()).is_ok() {
-            std::process::exit(i32::from(crate::failure::FAILED));
-        }
-    });
-    stop
 }
 
 /// Lines on others than terminals are not closer than this.

@@ -1,0 +1,11 @@
+//! Issue 29: signals and kills leave no hidden folder and no half file, say what was kept, and the next start goes on.
+
+#![cfg(unix)]
+#![allow(clippy::unwrap_used)]
+
+mod brief;
+mod common;
+mod left_over;
+mod reproduction;
+mod runs;
+mod studies;
