@@ -79,7 +79,8 @@ impl Platform {
     }
 }
 
-/// Returns the FMU of a case's element, with the library for one platform, as the bytes of its file, and its description.
+/// Returns the FMU of a case's element, with the library for one platform, as the bytes of its file, and its
+/// description.
 ///
 /// # Errors
 /// The case makes no such element, or the library cannot be read.
@@ -128,8 +129,8 @@ pub fn fmu(
     Ok((pack(&files)?, description))
 }
 
-/// Joins FMUs that differ only in their libraries into one that holds them all; returns the bytes of its file and the number of
-/// libraries.
+/// Joins FMUs that differ only in their libraries into one that holds them all; returns the bytes of its file
+/// and the number of libraries.
 ///
 /// # Errors
 /// They differ otherwise, hold two libraries for one platform, or cannot be read.

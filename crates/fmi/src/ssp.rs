@@ -46,8 +46,8 @@ pub struct Connection {
     pub to: (String, String),
 }
 
-/// Returns the truck with four wedges of a case, with the library for one platform, as the bytes of its file, and the
-/// connections.
+/// Returns the truck with four wedges of a case, with the library for one platform, as the bytes of its file,
+/// and the connections.
 ///
 /// # Errors
 /// As [`package::fmu`].

@@ -4,7 +4,7 @@
 //! this folder is renamed to it in one step. If it exists, its files are renamed into it one by one, each in one step;
 //! between two of them a crash of the machine may leave files of two results side by side, but never half a file.
 //!
-//! A program that is told to end calls [`abandon`]; what a killed one left over is found by [`remove_left_over`].
+//! A program that is told to end calls [`abandon`]; [`remove_left_over`] finds what a killed one left.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};

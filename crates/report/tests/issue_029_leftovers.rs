@@ -1,5 +1,5 @@
-//! Issue 29: hidden folders of killed programs are removed, those of living ones are not; a program that is told to end leaves
-//! none.
+//! Issue 29: hidden folders of killed programs are removed, those of living ones are not; a program that is
+//! told to end leaves none.
 
 #![allow(clippy::unwrap_used)]
 

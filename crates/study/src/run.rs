@@ -245,8 +245,8 @@ impl Run {
         })
     }
 
-    /// As [`Run::finish`], but asks after each step, with the time reached, whether to go on. When not, it is told why, and the
-    /// result is incomplete for that reason.
+    /// As [`Run::finish`], but asks after each step, with the time reached, whether to go on. When not, it is
+    /// told why, and the result is incomplete for that reason.
     #[must_use]
     pub fn finish_while(mut self, mut progress: impl FnMut(f64) -> ControlFlow<String>) -> RunResult {
         let mut reason = None;

@@ -76,8 +76,8 @@ fn cannot_begin(case: &Case, error: &RunError) -> Failure {
 
 /// Why a run is incomplete, for its user; `None` if it is complete.
 pub fn incomplete(summary: &Summary, folder: &Folder) -> Option<Failure> {
-    const SUSPECTS: &str = "values far from the thesis's are the first suspects: try a softer contact.stiffness, a larger \
-         friction.reference_speed, a looser simulation.relative_tolerance";
+    const SUSPECTS: &str = "values far from the thesis's are the first suspects: try a softer \
+         contact.stiffness, a larger friction.reference_speed, a looser simulation.relative_tolerance";
     let stopped = summary.stopped.as_ref()?;
     Some(stopped_run(&summary.name, stopped, folder, SUSPECTS))
 }

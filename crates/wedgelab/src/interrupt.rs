@@ -1,8 +1,9 @@
 //! What commands do when they are told to end: by SIGINT (Ctrl-C), SIGTERM or SIGHUP, on Windows by Ctrl-C.
 //!
-//! A command that writes calls [`listen`] before it does anything. From then on a signal ends the program at once, without
-//! leaving a hidden folder, unless the command has said by [`stops`] that it ends by itself what it is doing when [`wanted`] says
-//! so. A second signal always ends the program at once. The exit code is 128 and the signal's number, as shells have it.
+//! A command that writes calls [`listen`] before it does anything. From then on a signal ends the program at
+//! once, without leaving a hidden folder, unless the command has said by [`stops`] that it ends by itself
+//! what it is doing when [`wanted`] says so. A second signal always ends the program at once. The exit code
+//! is 128 and the signal's number, as shells have it.
 //!
 //! Signals come by tokio, which is there for the explorer, knows which signal came, and works on Windows too.
 
@@ -24,7 +25,8 @@ pub const REASON: &str = "interrupted";
 struct Answer {
     /// What a first signal says if the command ends by itself.
     stop: Option<String>,
-    /// What is kept when the program ends at once. Without it, all files that are in their place are whole results.
+    /// What is kept when the program ends at once. Without it, all files that are in their place are whole
+    /// results.
     kept: Option<String>,
 }
 
@@ -37,14 +39,16 @@ static WANTED: AtomicBool = AtomicBool::new(false);
 /// The exit code of the signal that came; 0 if none did.
 static CODE: AtomicU8 = AtomicU8::new(0);
 
-/// From now on a first signal asks the command to end by itself, and says `first`; a second one ends it and says `kept`.
+/// From now on a first signal asks the command to end by itself, and says `first`; a second one ends it and
+/// says `kept`.
 pub fn stops(first: &str, kept: &str) {
     set(Some(first), Some(kept));
 }
 
 /// As [`stops`], for a command whose single run stops and is written.
 pub fn stops_run() {
-    let first = "stopping: what was computed is written, marked as incomplete (once more: ends at once and writes nothing)";
+    let first = "stopping: what was computed is written, marked as incomplete \
+                 (once more: ends at once and writes nothing)";
     set(Some(first), None);
 }
 
@@ -191,9 +195,9 @@ mod signals {
     #[allow(unsafe_code)]
     fn is_ignored(signal: i32) -> bool {
         let mut action = MaybeUninit::<libc::sigaction>::zeroed();
-        // SAFETY: without a new action `sigaction` changes nothing; it writes the present one into memory that is large enough. Its
-        // fields are numbers and addresses, for which zeros are values. No safe function of the standard library or of a crate in
-        // use asks this.
+        // SAFETY: without a new action `sigaction` changes nothing; it writes the present one into memory
+        // that is large enough. Its fields are numbers and addresses, for which zeros are values. No safe
+        // function of the standard library or of a crate in use asks this.
         let action = unsafe {
             let asked = libc::sigaction(signal, ptr::null(), action.as_mut_ptr());
             (asked == 0).then(|| action.assume_init())

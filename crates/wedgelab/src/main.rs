@@ -37,9 +37,10 @@ Begin with:
   wedgelab study STUDY.toml          many variants of a case, into one table
   wedgelab compare RESULT RESULT     differences and overlay figures
 
-Exit codes: 0 done; 1 a run could not finish or files could not be written; 2 the input is wrong; 129, 130, 143 ended by
-SIGHUP, SIGINT (Ctrl-C), SIGTERM. A first signal stops runs at their next step: what was computed is written, marked
-incomplete. A second one ends the program at once. Neither leaves half a file."
+Exit codes: 0 done; 1 a run could not finish or files could not be written; 2 the input is wrong;
+129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM.
+A first signal stops runs at their next step: what was computed is written, marked incomplete.
+A second one ends the program at once. Neither leaves half a file."
 )]
 struct Cli {
     #[command(subcommand)]

@@ -1,8 +1,9 @@
 //! The hidden folders in which files are written until all of them are whole.
 //!
-//! A program holds a lock on a file inside its hidden folder. The system releases the lock when the program ends, however it
-//! ends: a hidden folder whose lock can be taken belongs to nobody and may be removed. This module knows all hidden folders of
-//! this program, so that [`abandon`] can remove them when the program is told to end.
+//! A program holds a lock on a file inside its hidden folder. The system releases the lock when the program
+//! ends, however it ends: a hidden folder whose lock can be taken belongs to nobody and may be removed. This
+//! module knows all hidden folders of this program, so that [`abandon`] can remove them when the program is
+//! told to end.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -54,7 +55,8 @@ pub(super) struct Staging {
 }
 
 impl Staging {
-    /// Makes a hidden folder in the folder `beside`, for the files of `folder`, or only to try whether it can be made.
+    /// Makes a hidden folder in the folder `beside`, for the files of `folder`, or only to try whether it can
+    /// be made.
     pub fn new(beside: &Path, folder: Option<&Folder>) -> Result<Self, FileError> {
         let failed = |reason: io::Error| FileError::Unwritable {
             folder: beside.to_owned(),
@@ -109,7 +111,8 @@ impl Drop for Staging {
     }
 }
 
-/// Locks the file in a new hidden folder; `None` if another program has taken the folder for a leftover meanwhile.
+/// Locks the file in a new hidden folder; `None` if another program has taken the folder for a leftover
+/// meanwhile.
 fn hold(hidden: &Path) -> io::Result<Option<File>> {
     let path = hidden.join(LOCK);
     let lock = match File::create_new(&path) {
@@ -134,7 +137,8 @@ fn remove(hidden: &Path) {
     }
 }
 
-/// Removes a hidden folder with all that is in it, the lock last: when this is cut short, what is there belongs to nobody.
+/// Removes a hidden folder with all that is in it, the lock last: when this is cut short, what is there
+/// belongs to nobody.
 fn remove_all(hidden: &Path) -> io::Result<()> {
     match fs::remove_dir_all(hidden.join(RESULT)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
@@ -156,8 +160,8 @@ impl Abandoned {
     }
 }
 
-/// Gives up all files that are not in their place yet and removes their hidden folders. For a program that ends at once: it
-/// keeps what is returned until then.
+/// Gives up all files that are not in their place yet and removes their hidden folders. For a program that
+/// ends at once: it keeps what is returned until then.
 #[must_use = "files may be written again when this is dropped"]
 pub fn abandon() -> Abandoned {
     let mut register = register();
@@ -170,8 +174,8 @@ pub fn abandon() -> Abandoned {
     Abandoned { register }
 }
 
-/// Removes the hidden folders that killed programs left where the files of these folders are written, and returns their paths.
-/// What a living program holds is not touched.
+/// Removes the hidden folders that killed programs left where the files of these folders are written, and
+/// returns their paths. What a living program holds is not touched.
 #[must_use = "the user should know what was removed"]
 pub fn remove_left_over<'f>(folders: impl IntoIterator<Item = &'f Folder>) -> Vec<PathBuf> {
     let places: BTreeSet<PathBuf> = folders
@@ -192,7 +196,8 @@ pub fn remove_left_over<'f>(folders: impl IntoIterator<Item = &'f Folder>) -> Ve
     removed
 }
 
-/// Whether a name is one of those that hidden folders have, or the files of earlier versions, which end with `.tmp`.
+/// Whether a name is one of those that hidden folders have, or the files of earlier versions, which end with
+/// `.tmp`.
 fn is_hidden(name: &str) -> bool {
     let random = name.strip_prefix(PREFIX);
     let random = random.map(|rest| rest.strip_suffix(".tmp").unwrap_or(rest));

@@ -65,8 +65,8 @@ pub fn run(case: &TruckCase, mut progress: impl FnMut(f64)) -> Result<TruckResul
     run_while(case, keep_on)
 }
 
-/// As [`run`], but asks after each step, with the time reached, whether to go on. When not, it is told why, and the result is
-/// incomplete for that reason.
+/// As [`run`], but asks after each step, with the time reached, whether to go on. When not, it is told why,
+/// and the result is incomplete for that reason.
 ///
 /// # Errors
 /// The run cannot begin.

@@ -12,8 +12,8 @@ use tempfile::tempdir;
 
 use crate::common::{SIGNALS, done, hidden, names, start};
 
-/// Sends signals to a command at many moments. It leaves `made` as a whole (as `whole` says) or nothing, and is caught before
-/// its end at least once.
+/// Sends signals to a command at many moments. It leaves `made` as a whole (as `whole` says) or nothing, and
+/// is caught before its end at least once.
 fn at_all_moments(path: &Path, arguments: &[&str], made: &str, whole: impl Fn(&Path)) {
     let before = names(path);
     let made = path.join(made);

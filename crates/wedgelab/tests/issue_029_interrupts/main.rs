@@ -1,4 +1,5 @@
-//! Issue 29: signals and kills leave no hidden folder and no half file, say what was kept, and the next start goes on.
+//! Issue 29: signals and kills leave no hidden folder and no half file, say what was kept, and the next start
+//! goes on.
 
 #![cfg(unix)]
 #![allow(clippy::unwrap_used)]

@@ -44,8 +44,8 @@ Examples:
   wedgelab nucars run half_truck.run --option branch=\"0.1 in/s\" --option gap_tension=allowed --out other
   wedgelab nucars run nucars_69_constant_toe_out_yaw
 
-Exit codes: 0 done; 1 the run could not finish or files could not be written; 2 the input is wrong; 129, 130, 143 ended by
-SIGHUP, SIGINT (Ctrl-C), SIGTERM: what was computed is written, marked incomplete.")]
+Exit codes: 0 done; 1 the run could not finish or files could not be written; 2 the input is wrong;
+129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM: what was computed is written.")]
 pub struct Arguments {
     /// Run file (.RUN), or, if there is no such file, the name of a built-in run
     #[arg(value_name = "FILE", required_unless_present = "list")]

@@ -39,13 +39,15 @@ impl Planned {
     /// What is there when all runs are, and the report is not.
     pub fn without_report(&self) -> String {
         format!(
-            "all {} runs are whole, in {}; the report and its figures are not written. The same command with --force begins anew.",
+            "all {} runs are whole, in {}; the report and its figures are not written. \
+             The same command with --force begins anew.",
             self.count(),
             self.runs.display()
         )
     }
 
-    /// Tells what is missing and how to go on, when those runs of the wedge and of the half-truck are there for which true comes.
+    /// Tells what is missing and how to go on, when those runs of the wedge and of the half-truck are there
+    /// for which true comes.
     pub fn interrupted(
         &self,
         wedges: impl Iterator<Item = bool>,
@@ -59,7 +61,8 @@ impl Planned {
         if !wedges.is_empty() {
             let force = if self.force { " --force" } else { "" };
             advice += &format!(
-                "The missing runs of the wedge alone are computed by\n  wedgelab reproduce{}{force} --only {}\n",
+                "The missing runs of the wedge alone are computed by\n  \
+                 wedgelab reproduce{}{force} --only {}\n",
                 self.place(),
                 wedges.join(" ")
             );
@@ -75,7 +78,8 @@ impl Planned {
             names => format!(" --only '{}'", names.join("' '")),
         };
         advice += &format!(
-            "The report of all of them is written by this, which computes them anew:\n  wedgelab reproduce{} --force{only}",
+            "The report of all of them is written by this, which computes them anew:\n  \
+             wedgelab reproduce{} --force{only}",
             self.place()
         );
         say(&advice);

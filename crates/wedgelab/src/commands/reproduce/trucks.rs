@@ -60,7 +60,8 @@ pub fn plan(out: &Path, force: bool) -> Result<Vec<Planned>, Failure> {
 /// A run with what the page shows of it, if it is interactive.
 pub type Kept = (TruckOutcome, Option<Recording>);
 
-/// Runs them and writes their files, as many at a time as the pool has threads; `None` for those that were interrupted.
+/// Runs them and writes their files, as many at a time as the pool has threads; `None` for those that were
+/// interrupted.
 pub fn trucks(planned: Vec<Planned>, progress: &Progress) -> Result<Vec<Option<Kept>>, Failure> {
     planned
         .into_par_iter()
