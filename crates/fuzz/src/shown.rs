@@ -80,6 +80,7 @@ pub fn check(error: &dyn Diagnostic) -> usize {
     check_places(error);
     let texts = every_way(error);
     keep(&texts[0]);
+    check_letters(&texts[0]);
     let lengths = texts.iter().map(|text| check_length(text.len(), told, text));
     lengths.max().unwrap_or(0)
 }
@@ -103,6 +104,7 @@ pub fn check_all<'e>(errors: impl Iterator<Item = &'e (dyn Diagnostic + 'e)>) ->
         let text = plain(error);
         bytes += text.len();
         keep(&text);
+        check_letters(&text);
         if text.len() > longest.len() {
             longest = text;
         }
@@ -117,14 +119,14 @@ pub fn check_all<'e>(errors: impl Iterator<Item = &'e (dyn Diagnostic + 'e)>) ->
 /// It is too long.
 pub fn check_text(text: &str) -> usize {
     keep(text);
+    check_letters(text);
     check_length(text.len(), 1, text)
 }
 
 /// Checks how much is told, and returns it; `text` is a part of it.
 fn check_length(bytes: usize, told: usize, text: &str) -> usize {
-    const SHOWN: usize = 300;
     if bytes > LONGEST_MESSAGE {
-        let begin: String = text.chars().take(SHOWN).collect();
+        let begin = beginning(text);
         assert!(
             told > 1,
             "message too long: {bytes} bytes for one mistake: {begin}"
@@ -135,6 +137,25 @@ fn check_length(bytes: usize, told: usize, text: &str) -> usize {
         );
     }
     bytes
+}
+
+/// Nothing of the input moves the cursor or colors the terminal.
+fn check_letters(text: &str) {
+    let hidden = |letter: &char| {
+        (letter.is_control() && *letter != '\n')
+            || matches!(letter, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    let found = text.chars().find(hidden);
+    assert!(
+        found.is_none(),
+        "control character told: {found:?} in {:?}",
+        beginning(text)
+    );
+}
+
+fn beginning(text: &str) -> String {
+    const SHOWN: usize = 300;
+    text.chars().take(SHOWN).collect()
 }
 
 fn check_count(told: usize) {

@@ -2,6 +2,7 @@
 
 mod broken;
 mod cases;
+mod files;
 mod nucars;
 mod small;
 mod states;
@@ -29,7 +30,7 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 18] = [
+pub const ALL: [Reader; 19] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,
@@ -48,6 +49,7 @@ pub const ALL: [Reader; 18] = [
     states::DRIVEN,
     states::RUN_STATES,
     states::INSTANCES,
+    files::FILES,
 ];
 
 /// The reader of this name; `broken` is one that breaks, for trying out the program.
@@ -178,6 +180,27 @@ mod tests {
             }
         }
         assert!(bytes < 300_000, "{bytes} bytes");
+    }
+
+    #[test]
+    fn every_reader_has_its_target() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz");
+        let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+        for reader in &ALL {
+            assert!(
+                manifest.contains(&format!("name = \"{}\"\n", reader.name)),
+                "{}",
+                reader.name
+            );
+            let target = folder.join("fuzz_targets").join(format!("{}.rs", reader.name));
+            let text = std::fs::read_to_string(target).unwrap();
+            assert!(
+                text.contains(&format!("read(\"{}\", input)", reader.name)),
+                "{}",
+                reader.name
+            );
+        }
+        assert_eq!(manifest.matches("[[bin]]").count(), ALL.len());
     }
 
     #[test]
