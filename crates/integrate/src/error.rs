@@ -74,7 +74,9 @@ pub enum SetupError {
         found: u32,
     },
     /// A saved state has a member that cannot be.
-    #[error("the saved state is damaged: `{name}` is {value}; continue from the state as it was saved, or begin anew")]
+    #[error(
+        "the saved state is damaged: `{name}` is {value}; continue from the state as it was saved, or begin anew"
+    )]
     Damaged {
         /// The member.
         name: &'static str,

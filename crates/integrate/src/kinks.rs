@@ -11,8 +11,8 @@ use crate::error::SetupError;
 use crate::lanes::LANES;
 use crate::problem::Problem;
 use crate::search::Search;
-use crate::state::check_length;
 use crate::stages::{Dense, leading_states};
+use crate::state::check_length;
 use crate::tableau::Family;
 
 /// How far the dense output is continued at most, in lengths of its step.
@@ -120,7 +120,10 @@ impl Ahead {
 impl Layer {
     fn check(&self, directions: usize) -> Result<(), SetupError> {
         if self.direction >= directions {
-            let (what, found) = ("directions, of which a layer names one by its number,", self.direction);
+            let (what, found) = (
+                "directions, of which a layer names one by its number,",
+                self.direction,
+            );
             return Err(SetupError::Dimension {
                 what,
                 expected: directions,

@@ -73,7 +73,10 @@ impl State {
         self.passage.map_or(Ok(()), |passage| passage.check(directions))?;
         if self.matrices.len() > MOST_MATRICES {
             let value = self.matrices.len() as f64;
-            return Err(SetupError::Damaged { name: "matrices", value });
+            return Err(SetupError::Damaged {
+                name: "matrices",
+                value,
+            });
         }
         let slopes = if self.slope.is_empty() { 0 } else { dimension };
         let mut places = self.matrices.iter().map(|place| place.x.len());

@@ -68,7 +68,11 @@ fn states(method: Method) -> Vec<Value> {
 fn issue_029_every_member_edited_by_hand_is_refused_or_goes_on() {
     for (method, kinds) in [(Method::Rodas5P, 3), (Method::TrBdf2, 1)] {
         let states = states(method);
-        assert!(states.len() >= kinds, "{method}: {} kinds of states", states.len());
+        assert!(
+            states.len() >= kinds,
+            "{method}: {} kinds of states",
+            states.len()
+        );
         let (mut refused, mut stopped, mut went_on) = (0, 0, 0);
         for (what, state) in states.iter().flat_map(damage::damaged) {
             let mut integrator = match resume(method, state) {
@@ -95,21 +99,39 @@ fn issue_029_every_member_edited_by_hand_is_refused_or_goes_on() {
 #[test]
 fn issue_029_counters_at_their_end_are_refused_by_name() {
     let good = &states(Method::Rodas5P)[0];
-    for counter in ["steps", "rejected_error", "derivatives", "events_unresolved", "restarts"] {
+    for counter in [
+        "steps",
+        "rejected_error",
+        "derivatives",
+        "events_unresolved",
+        "restarts",
+    ] {
         let mut state = good.clone();
         state["statistics"][counter] = json!(MOST_COUNTED);
-        resume(Method::Rodas5P, state.clone()).unwrap().step_to(5.0).unwrap();
+        resume(Method::Rodas5P, state.clone())
+            .unwrap()
+            .step_to(5.0)
+            .unwrap();
         for found in [MOST_COUNTED + 1, u64::MAX] {
             state["statistics"][counter] = json!(found);
             let reason = resume(Method::Rodas5P, state.clone()).unwrap_err();
-            assert!(reason.contains(&format!("`statistics.{counter}` is {found}")), "{reason}");
-            assert!(reason.contains("continue from the state as it was saved"), "{reason}");
+            assert!(
+                reason.contains(&format!("`statistics.{counter}` is {found}")),
+                "{reason}"
+            );
+            assert!(
+                reason.contains("continue from the state as it was saved"),
+                "{reason}"
+            );
         }
     }
     let mut state = good.clone();
     state["controller"]["rejections"] = json!(u32::MAX);
     let reason = resume(Method::Rodas5P, state).unwrap_err();
-    assert!(reason.contains("`controller.rejections` is 4294967295"), "{reason}");
+    assert!(
+        reason.contains("`controller.rejections` is 4294967295"),
+        "{reason}"
+    );
 }
 
 #[test]
@@ -121,7 +143,14 @@ fn issue_029_a_layer_of_a_direction_that_is_not_there_is_refused() {
     let state: State = serde_json::from_value(state).unwrap();
     let error = Integrator::resume(rough(), options(Method::Rodas5P), state).unwrap_err();
     assert!(
-        matches!(error, SetupError::Dimension { expected: 1, found: 1, .. }),
+        matches!(
+            error,
+            SetupError::Dimension {
+                expected: 1,
+                found: 1,
+                ..
+            }
+        ),
         "{error}"
     );
     for (member, value) in [("length", json!(0.0)), ("length", json!(-1.0))] {

@@ -26,6 +26,9 @@ const FIXED: usize = 8 + 8 + 1 + 8 * COUNT;
 /// A longer reason is cut.
 const LONGEST_REASON: usize = 1000;
 
+/// The longest body: that of a reason that was cut, with its ellipsis.
+const LONGEST_BODY: usize = FIXED + LONGEST_REASON + '…'.len_utf8();
+
 /// How a variant ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
@@ -194,8 +197,12 @@ impl Record {
         let (length, rest) = rest.split_first_chunk::<4>()?;
         let (sum, rest) = rest.split_first_chunk::<4>()?;
         let length = u32::from_le_bytes(*length) as usize;
+        // Looked at before the sum is: else many heads that claim much would each be summed over the rest.
+        if !(FIXED..=LONGEST_BODY).contains(&length) {
+            return None;
+        }
         let body = rest.get(..length)?;
-        if length < FIXED || crc32fast::hash(body) != u32::from_le_bytes(*sum) {
+        if crc32fast::hash(body) != u32::from_le_bytes(*sum) {
             return None;
         }
         let (fingerprint, rest) = body.split_first_chunk::<8>()?;

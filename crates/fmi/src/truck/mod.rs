@@ -147,14 +147,18 @@ impl Element for TruckElement {
         put_loads(integrator.problem_mut(), end);
         integrator.renew();
         let before = self.states[..speeds].to_vec();
-        let mut attempts = 0;
+        let length = time - integrator.time();
+        let (mut attempts, limit) = (0, study::driven::most_steps(length));
         while integrator.time() < time {
             integrator
                 .step_to(time)
                 .map_err(|error| Error::new(error.to_string()))?;
             attempts += 1;
-            if attempts > study::driven::MAXIMUM_STEPS {
-                return Err(Error::new("the step takes too many steps of the integrator"));
+            if attempts > limit {
+                return Err(Error::new(format!(
+                    "a step of {length} s to {time} s is not finished after {limit} steps of the integrator; make it shorter, or look for \
+                     inputs that are far out"
+                )));
             }
         }
         self.time = time;

@@ -76,7 +76,10 @@ impl Calm {
         let [least, most] = SMOOTH;
         if !(least..=most).contains(&self.needed) {
             let value = f64::from(self.needed);
-            return Err(SetupError::Damaged { name: "calm.needed", value });
+            return Err(SetupError::Damaged {
+                name: "calm.needed",
+                value,
+            });
         }
         // Any rate serves: see `rate_of`.
         check_size("calm.rate_step", self.rate_step)

@@ -23,7 +23,7 @@ pub fn nasty_values() -> Vec<Value> {
         json!([]),
         json!({}),
         json!([1.0]),
-        json!(vec![0; 10_000]),
+        json!(vec![0; 1000]),
         nested(100),
     ]
 }
