@@ -186,8 +186,8 @@ pub(crate) unsafe fn instantiate(
 /// # Safety
 /// Nobody uses the instance at the same time.
 pub(crate) unsafe fn free(pointer: *mut c_void) {
-    // SAFETY: by this function's contract; instances are components.
     guard(|| {
+        // SAFETY: by this function's contract; instances are components.
         let _ = unsafe { take_back::<Component>(pointer, Kind::Instance) };
     });
 }
