@@ -135,6 +135,37 @@ pub enum ElementState {
     Truck(Box<TruckState>),
 }
 
+/// The time of a saved element.
+pub(crate) struct ElementTime {
+    /// Its own, s.
+    pub own: f64,
+    /// The time of the experiment at which it is zero, s.
+    zero: f64,
+}
+
+impl ElementTime {
+    /// What it must be at a time of the experiment.
+    pub fn of(&self, time: f64) -> f64 {
+        time - self.zero
+    }
+}
+
+impl ElementState {
+    /// Its time, in an experiment with this start.
+    pub(crate) fn time(&self, start: f64) -> ElementTime {
+        let (own, zero) = match self {
+            Self::Wedge(state) => match &**state {
+                // It counts from the start; the others have the time of the experiment.
+                WedgeState::Driven(state) => (state.integrator.time, start),
+                WedgeState::Equations { time, .. } => (*time, 0.0),
+            },
+            Self::QuasiStatic(state) => (state.time, 0.0),
+            Self::Truck(state) => (state.time, 0.0),
+        };
+        ElementTime { own, zero }
+    }
+}
+
 /// Derivatives of rates and outputs along a direction.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Slopes {

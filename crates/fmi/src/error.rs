@@ -7,6 +7,8 @@ use thiserror::Error;
 pub enum Severity {
     /// Done, with a remark.
     Warning,
+    /// Not done, because it cannot be answered; all is as before.
+    Discard,
     /// Not done; nothing has changed, the instance goes on.
     Error,
 }
@@ -16,6 +18,8 @@ pub enum Severity {
 pub enum Category {
     /// Something was refused or failed.
     Error,
+    /// Something was asked for that there is not.
+    Discard,
     /// Something is doubtful.
     Warning,
     /// A corner opened, closed, stuck or slipped.
@@ -24,13 +28,19 @@ pub enum Category {
 
 impl Category {
     /// All categories.
-    pub const ALL: [Category; 3] = [Category::Error, Category::Warning, Category::Events];
+    pub const ALL: [Category; 4] = [
+        Category::Error,
+        Category::Discard,
+        Category::Warning,
+        Category::Events,
+    ];
 
     /// Its name in the description.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Category::Error => "logStatusError",
+            Category::Discard => "logStatusDiscard",
             Category::Warning => "logStatusWarning",
             Category::Events => "logEvents",
         }
@@ -41,6 +51,7 @@ impl Category {
     pub fn text(self) -> &'static str {
         match self {
             Category::Error => "calls that are refused, and steps that fail",
+            Category::Discard => "questions that the instance has no answer to",
             Category::Warning => "what is doubtful",
             Category::Events => "which corner opens, closes, sticks or slips, and when",
         }

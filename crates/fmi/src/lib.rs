@@ -4,7 +4,7 @@
 //! - [`element`]: what stands behind the variables: the wedge ([`wedge`]), the quasi-static wedge ([`quasi_static`]), and a truck
 //!   without wedges ([`truck`]).
 //! - [`instance`]: one instance, with the states of the standard's state machine, for both versions and both kinds of interface.
-//! - [`package`], [`resources`]: writing a whole FMU, and finding the case again in an unpacked one.
+//! - [`package`], [`resources`]: writing a whole FMU, and finding the case again in an unpacked one; [`limits`]: how much is read.
 //! - [`ssp`]: the truck with four wedges as a system structure.
 
 pub mod description;
@@ -12,6 +12,7 @@ pub mod element;
 mod error;
 mod extrapolate;
 pub mod instance;
+pub mod limits;
 pub mod package;
 pub mod quasi_static;
 pub mod resources;

@@ -1,6 +1,5 @@
 //! A whole FMU as bytes: description, library, case, documentation, licences.
 
-use std::fs;
 use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -8,9 +7,9 @@ use study::case::Case;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
-use crate::Error;
 use crate::description::{Description, Model, Version};
 use crate::resources::{CASE, MODEL};
+use crate::{Error, limits};
 
 const LICENSES: [(&str, &str); 2] = [
     ("LICENSE-MIT", include_str!("../../../LICENSE-MIT")),
@@ -69,6 +68,23 @@ impl Platform {
         PLATFORMS.into_iter().find(|platform| platform.three == name)
     }
 
+    /// Whether bytes begin as a library of this platform does.
+    fn check(self, path: &Path, bytes: &[u8]) -> Result<(), Error> {
+        let (kind, beginnings): (_, &[&[u8]]) = match self.ending {
+            "dll" => ("PE", &[b"MZ"]),
+            "dylib" => ("Mach-O", &[b"\xcf\xfa\xed\xfe", b"\xca\xfe\xba\xbe"]),
+            _ => ("ELF", &[b"\x7fELF"]),
+        };
+        if beginnings.iter().any(|beginning| bytes.starts_with(beginning)) {
+            return Ok(());
+        }
+        Err(Error::new(format!(
+            "{} is no library for {}: it does not begin as a file of the kind {kind}; name the library wedgelab_fmu that was built there",
+            path.display(),
+            self.three
+        )))
+    }
+
     /// Its folder in an FMU of a version.
     #[must_use]
     pub fn folder(self, version: Version) -> &'static str {
@@ -92,12 +108,9 @@ pub fn fmu(
     platform: Platform,
 ) -> Result<(Vec<u8>, Description), Error> {
     let description = Description::new(model, case)?;
-    let binary = fs::read(library).map_err(|error| {
-        Error::new(format!(
-            "the library {} cannot be read: {error}",
-            library.display()
-        ))
-    })?;
+    let binary = limits::read(library, limits::LIBRARY_BYTES)
+        .map_err(|error| Error::new(format!("the library {error}")))?;
+    platform.check(library, &binary)?;
     let library = format!(
         "binaries/{}/{}.{}",
         platform.folder(version),
@@ -137,7 +150,8 @@ pub fn fmu(
 pub fn merged(parts: &[PathBuf]) -> Result<(Vec<u8>, usize), Error> {
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
     for part in parts {
-        for (name, bytes) in unpack(part)? {
+        let taken: u64 = files.iter().map(|(_, bytes)| bytes.len() as u64).sum();
+        for (name, bytes) in unpack(part, limits::UNPACKED_BYTES.saturating_sub(taken))? {
             match files.iter().find(|(known, _)| *known == name) {
                 None if files.is_empty() || name.starts_with("binaries/") || *part == parts[0] => {
                     files.push((name, bytes));
@@ -165,20 +179,47 @@ pub fn merged(parts: &[PathBuf]) -> Result<(Vec<u8>, usize), Error> {
     Ok((pack(&files)?, count))
 }
 
-fn unpack(path: &Path) -> Result<Vec<(String, Vec<u8>)>, Error> {
+/// The files in an FMU, which must have no more bytes than these in all.
+fn unpack(path: &Path, most: u64) -> Result<Vec<(String, Vec<u8>)>, Error> {
     let failed = |error: &dyn std::fmt::Display| Error::new(format!("{} is no FMU: {error}", path.display()));
-    let file = fs::File::open(path)
-        .map_err(|error| Error::new(format!("{} cannot be opened: {error}", path.display())))?;
+    let file = limits::open(path, limits::FMU_BYTES)?;
     let mut archive = ZipArchive::new(file).map_err(|error| failed(&error))?;
+    if archive.len() > limits::FMU_FILES {
+        let (own, most) = (archive.len(), limits::FMU_FILES);
+        return Err(failed(&format!(
+            "it holds {own} files, and at most {most} are read"
+        )));
+    }
+    let mut left = most;
     let mut files = Vec::new();
     for index in 0..archive.len() {
         let mut entry = archive.by_index(index).map_err(|error| failed(&error))?;
         if entry.is_dir() {
             continue;
         }
-        let mut bytes = Vec::new();
-        entry.read_to_end(&mut bytes).map_err(|error| failed(&error))?;
         let name = entry.name().map_err(|error| failed(&error))?.into_owned();
+        if entry.enclosed_name().is_none() {
+            return Err(failed(&format!(
+                "the name {name:?} in it leads out of its folder"
+            )));
+        }
+        let size = entry.size();
+        let too_much = || {
+            let most = limits::shown(limits::UNPACKED_BYTES);
+            failed(&format!(
+                "unpacked it has more than the {most} that are read, at {name}"
+            ))
+        };
+        left = left.checked_sub(size).ok_or_else(too_much)?;
+        // What is packed may be more than it says.
+        let mut bytes = Vec::new();
+        let read = entry
+            .by_ref()
+            .take(size.saturating_add(1))
+            .read_to_end(&mut bytes);
+        if read.map_err(|error| failed(&error))? as u64 > size {
+            return Err(failed(&format!("{name} in it is longer than it says")));
+        }
         files.push((name, bytes));
     }
     if files.iter().all(|(name, _)| name != "modelDescription.xml") {

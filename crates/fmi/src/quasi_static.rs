@@ -12,6 +12,7 @@ use wedge::quasi_static::{PlanePlace, PlaneReading, read};
 
 use crate::Error;
 use crate::element::{Element, ElementState, Entries, Entry, Setting, Slopes};
+use crate::instance::damaged;
 use crate::unit::Unit;
 use crate::wedge::entries::NEIGHBOURS;
 use crate::wedge::parameters;
@@ -28,7 +29,7 @@ const STATES: usize = 3;
 /// The saved state of a quasi-static wedge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct QuasiStaticState {
-    time: f64,
+    pub(crate) time: f64,
     states: Vec<f64>,
     inputs: Vec<f64>,
     friction: [f64; 2],
@@ -259,6 +260,24 @@ impl QuasiStaticElement {
         Ok(())
     }
 
+    /// Sets the coefficients of friction of column and slope, if the wedge slides with them.
+    fn set_friction(&mut self, friction: [f64; 2]) -> Result<(), Error> {
+        let before = self.parameters.clone();
+        [
+            self.parameters.column_friction.coefficient,
+            self.parameters.slope_friction.coefficient,
+        ] = friction;
+        let valid = self
+            .parameters
+            .validate()
+            .map_err(|error| Error::new(error.to_string()))
+            .and_then(|()| self.check_slides());
+        if valid.is_err() {
+            self.parameters = before;
+        }
+        valid
+    }
+
     fn coil(&self, inputs: &[f64]) -> CoilDrive {
         let input = |index: usize| inputs.get(index).copied().unwrap_or(0.0);
         match self.coil_mode {
@@ -334,23 +353,10 @@ impl Element for QuasiStaticElement {
     }
 
     fn tune(&mut self, parameters: &[f64]) -> Result<(), Error> {
-        let before = self.parameters.clone();
         let value = |place: Option<usize>| place.and_then(|place| parameters.get(place)).copied();
-        if let Some(column) = value(self.friction[0]) {
-            self.parameters.column_friction.coefficient = column;
-        }
-        if let Some(slope) = value(self.friction[1]) {
-            self.parameters.slope_friction.coefficient = slope;
-        }
-        let valid = self
-            .parameters
-            .validate()
-            .map_err(|error| Error::new(error.to_string()))
-            .and_then(|()| self.check_slides());
-        if valid.is_err() {
-            self.parameters = before;
-        }
-        valid
+        let own = &self.parameters;
+        let own = [own.column_friction.coefficient, own.slope_friction.coefficient];
+        self.set_friction(std::array::from_fn(|k| value(self.friction[k]).unwrap_or(own[k])))
     }
 
     fn step(&mut self, end: &[f64], time: f64) -> Result<(), Error> {
@@ -461,14 +467,16 @@ impl Element for QuasiStaticElement {
             return Err(Error::new("the saved state belongs to another model"));
         };
         if state.inputs.len() != self.inputs.len() {
-            return Err(Error::new("the saved state is damaged"));
+            let (found, own) = (state.inputs.len(), self.inputs.len());
+            let (found, own) = (format!("a list of {found}"), format!("a list of {own}"));
+            return Err(damaged("the element's inputs", found, own));
         }
-        self.set_states(state.time, &state.states)?;
-        self.set_inputs(&state.inputs)?;
-        [
-            self.parameters.column_friction.coefficient,
-            self.parameters.slope_friction.coefficient,
-        ] = state.friction;
+        let mut fresh = self.clone();
+        let wrong = |error: Error| Error::new(format!("the saved state is damaged: {error}"));
+        fresh.set_states(state.time, &state.states).map_err(wrong)?;
+        fresh.set_inputs(&state.inputs).map_err(wrong)?;
+        fresh.set_friction(state.friction).map_err(wrong)?;
+        *self = fresh;
         Ok(())
     }
 }

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use study::case::Case;
 
-use crate::Error;
 use crate::description::Model;
+use crate::{Error, limits};
 
 /// The file with the case.
 pub const CASE: &str = "case.toml";
@@ -17,20 +17,22 @@ pub const MODEL: &str = "model.txt";
 /// # Errors
 /// The folder is not one of an FMU of this program, or its case is damaged.
 pub fn read(folder: &Path) -> Result<(Model, Case), Error> {
-    let missing = |file: &str, error: &dyn std::fmt::Display| {
-        Error::new(format!(
-            "{} cannot be read ({error}): the folder given to the instance must be the FMU's unpacked `resources`",
-            folder.join(file).display()
-        ))
+    let text = |file: &str, most: u64| {
+        limits::read_text(&folder.join(file), most).map_err(|error| {
+            Error::new(format!(
+                "{error}; the folder given to the instance must be the FMU's unpacked `resources`"
+            ))
+        })
     };
-    let name = std::fs::read_to_string(folder.join(MODEL)).map_err(|error| missing(MODEL, &error))?;
+    let name = text(MODEL, limits::MODEL_BYTES)?;
     let model = Model::of(name.trim()).ok_or_else(|| {
+        let shown: String = name.trim().chars().take(40).collect();
         Error::new(format!(
-            "`{}` in {MODEL} is no model of this library",
-            name.trim()
+            "`{shown}` in {} is no model of this library: take the FMU's `resources` as they were unpacked",
+            folder.join(MODEL).display()
         ))
     })?;
-    let text = std::fs::read_to_string(folder.join(CASE)).map_err(|error| missing(CASE, &error))?;
+    let text = text(CASE, limits::CASE_BYTES)?;
     let case = Case::parse(CASE, &text, folder, &[])
         .map_err(|error| Error::new(format!("the FMU's {CASE} is damaged: {error}")))?;
     Ok((model, case))

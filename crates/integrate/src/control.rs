@@ -2,12 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::SetupError;
 use crate::options::Options;
+use crate::state::check_size;
 use crate::tableau::Family;
 
 /// By this factor steps may grow more than usual behind the first one after a restart, if that was explicit: its length was a guess, and nothing
 /// stiff is near that its error would not tell of. (CVODE lets its first step grow ten thousandfold.)
 const FIRST_GROWTH: f64 = 10.0;
+/// More rejections in a row are in no state that was saved.
+const MOST_REJECTIONS: u32 = 1_000_000;
 
 /// Proportional-integral control: K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit
 /// Runge-Kutta methods*, ACM TOMS 20 (1994), in the form of Hairer & Wanner (1996), section IV.8.
@@ -29,6 +33,19 @@ pub(crate) struct Controller {
 impl Controller {
     pub fn restart(&mut self) {
         *self = Self::default();
+    }
+
+    /// Whether a run can have been controlled so.
+    pub fn check(&self) -> Result<(), SetupError> {
+        check_size("controller.step", self.step)?;
+        check_size("controller.root", self.root)?;
+        // Each rejection shortens the step: a few thousand of them in a row lead from the longest step to none.
+        if self.rejections > MOST_REJECTIONS {
+            let value = f64::from(self.rejections);
+            let name = "controller.rejections";
+            return Err(SetupError::Damaged { name, value });
+        }
+        Ok(())
     }
 
     /// After an accepted step: the factor for the next step, and whether it is a genuine prediction (not cut off).

@@ -1,6 +1,6 @@
 //! What can go wrong.
 
-use crate::state::STATE_VERSION;
+use crate::state::{MOST_COUNTED, STATE_VERSION};
 
 /// An integration cannot begin.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -74,12 +74,26 @@ pub enum SetupError {
         found: u32,
     },
     /// A saved state has a member that cannot be.
-    #[error("the saved state is damaged: `{name}` is {value}")]
+    #[error(
+        "the saved state is damaged: `{name}` is {value}; continue from the state as it was saved, or begin anew"
+    )]
     Damaged {
         /// The member.
         name: &'static str,
         /// Its value.
         value: f64,
+    },
+    /// A counter of a saved state is beyond what any run can reach.
+    #[error(
+        "the saved state is damaged: the counter `{name}` is {found}, and no run counts beyond {most}; \
+         continue from the state as it was saved, or begin anew",
+        most = MOST_COUNTED
+    )]
+    Counter {
+        /// The counter.
+        name: &'static str,
+        /// Its value.
+        found: u64,
     },
 }
 
@@ -102,6 +116,8 @@ pub enum Reason {
         /// This number.
         maximum: u64,
     },
+    /// The step to be tried is so short that the time stays what it is.
+    Lost,
     /// The limit does not lie ahead.
     Limit {
         /// The limit.
@@ -181,6 +197,11 @@ impl std::fmt::Display for StepError {
                 state(f, ", the largest error being in")?;
                 f.write_str(": allow more steps, loosen the tolerance, or regularize the problem")
             }
+            Reason::Lost => write!(
+                f,
+                "at time {time:?} a step of {step:?} is lost against the time, which cannot tell its end from its start: \
+                 look for what makes steps so short, or begin anew at an earlier time"
+            ),
             Reason::Limit { limit } => write!(f, "a step from time {time:?} cannot end at {limit:?}"),
             Reason::Segment { end } => {
                 write!(

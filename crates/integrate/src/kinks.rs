@@ -7,10 +7,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::SetupError;
 use crate::lanes::LANES;
 use crate::problem::Problem;
 use crate::search::Search;
 use crate::stages::{Dense, leading_states};
+use crate::state::check_length;
 use crate::tableau::Family;
 
 /// How far the dense output is continued at most, in lengths of its step.
@@ -99,12 +101,59 @@ pub(crate) struct Layer {
     from: [f64; 2],
 }
 
+impl Ahead {
+    /// Whether this can lie ahead of a problem that tells so many directions.
+    pub fn check(&self, directions: usize) -> Result<(), SetupError> {
+        let (time, layer) = match self {
+            Self::Kink(time) => (*time, None),
+            Self::Layer(time, layer) => (*time, Some(layer)),
+            Self::InLayer(layer) => (0.0, Some(layer)),
+        };
+        if !time.is_finite() {
+            let name = "ahead";
+            return Err(SetupError::Damaged { name, value: time });
+        }
+        layer.map_or(Ok(()), |layer| layer.check(directions))
+    }
+}
+
+impl Layer {
+    fn check(&self, directions: usize) -> Result<(), SetupError> {
+        if self.direction >= directions {
+            let (what, found) = (
+                "directions, of which a layer names one by its number,",
+                self.direction,
+            );
+            return Err(SetupError::Dimension {
+                what,
+                expected: directions,
+                found,
+            });
+        }
+        check_length("layer.length", self.length)?;
+        let [x, y] = self.from;
+        let parts = [("layer.size", self.size), ("layer.from", x), ("layer.from", y)];
+        match parts.into_iter().find(|(_, value)| !value.is_finite()) {
+            Some((name, value)) => Err(SetupError::Damaged { name, value }),
+            None => Ok(()),
+        }
+    }
+}
+
 /// A layer on the way through.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Passage {
     pub layer: Layer,
     /// Length of the steps before it.
     pub planned: f64,
+}
+
+impl Passage {
+    /// Whether a problem that tells so many directions can be on this way.
+    pub fn check(&self, directions: usize) -> Result<(), SetupError> {
+        check_length("passage.planned", self.planned)?;
+        self.layer.check(directions)
+    }
 }
 
 /// Scratch memory.

@@ -45,7 +45,7 @@ pub use options::Options;
 pub use ordinary::Ordinary;
 pub use problem::{Problem, Singular};
 pub use rosenbrock::{Call, Integrator, Progress};
-pub use state::{STATE_VERSION, State};
+pub use state::{MOST_COUNTED, STATE_VERSION, State};
 pub use statistics::Statistics;
 pub use tableau::{Family, MAXIMUM_STAGES, Method, Tableau, UnknownMethod};
 pub use together::{MOST_PLACES, OneByOne, Team, Together};

@@ -171,7 +171,7 @@ impl<P: Problem> Integrator<P> {
         options.check()?;
         let n = problem.dimension();
         let stride = n.next_multiple_of(LANES);
-        check_state(&state, n, options.switches_of(&problem))?;
+        check_state(&state, &problem, options.switches_of(&problem))?;
         let scales = problem.scales();
         if scales.len() != n {
             return Err(SetupError::Dimension {
@@ -413,7 +413,7 @@ impl<P: Problem> Integrator<P> {
     /// # Errors
     /// The state does not fit to this program or to the problem.
     pub fn admits(&self, state: &State) -> Result<(), SetupError> {
-        check_state(state, self.dimension, self.switches.modes.len())
+        check_state(state, &self.problem, self.switches.modes.len())
     }
 
     /// Goes back to a saved state of the same problem and options, with the same bits as [`Integrator::resume`], in the memory that is
@@ -470,12 +470,13 @@ impl<P: Problem> Integrator<P> {
     }
 }
 
-/// Whether a state can belong to a problem of this size.
-fn check_state(state: &State, dimension: usize, switches: usize) -> Result<(), SetupError> {
+/// Whether a state can belong to a problem, of which so many switches are recorded.
+fn check_state<P: Problem>(state: &State, problem: &P, switches: usize) -> Result<(), SetupError> {
     if !state.time.is_finite() {
         return Err(SetupError::Time(state.time));
     }
-    state.check(dimension, switches)?;
+    let (_, directions) = problem.kink_counts();
+    state.check(problem.dimension(), switches, directions)?;
     match state.x.iter().enumerate().find(|(_, v)| !v.is_finite()) {
         Some((index, &value)) => Err(SetupError::NotFiniteState { index, value }),
         None => Ok(()),

@@ -10,6 +10,11 @@ use crate::statistics::Statistics;
 
 /// Version of [`State`].
 pub const STATE_VERSION: u32 = 12;
+/// The largest number in a counter of a saved state. A million steps a second count for thirty years up to it; from it on no run
+/// counts to the end of 64 bits.
+pub const MOST_COUNTED: u64 = 1_000_000_000_000_000;
+/// The largest number of matrices in a saved state; problems keep a few.
+const MOST_MATRICES: usize = 64;
 
 /// All that is needed to continue an integration with the same bits.
 ///
@@ -50,9 +55,28 @@ pub struct State {
 }
 
 impl State {
-    pub(crate) fn check(&self, dimension: usize, switches: usize) -> Result<(), SetupError> {
+    /// Whether a state can be one of a problem with so many states, switches and directions: all that could lead astray is looked at
+    /// here, once, and nowhere on the way.
+    pub(crate) fn check(
+        &self,
+        dimension: usize,
+        switches: usize,
+        directions: usize,
+    ) -> Result<(), SetupError> {
         if self.version != STATE_VERSION {
             return Err(SetupError::Version { found: self.version });
+        }
+        self.statistics.check()?;
+        self.controller.check()?;
+        self.calm.check()?;
+        self.ahead.map_or(Ok(()), |ahead| ahead.check(directions))?;
+        self.passage.map_or(Ok(()), |passage| passage.check(directions))?;
+        if self.matrices.len() > MOST_MATRICES {
+            let value = self.matrices.len() as f64;
+            return Err(SetupError::Damaged {
+                name: "matrices",
+                value,
+            });
         }
         let slopes = if self.slope.is_empty() { 0 } else { dimension };
         let mut places = self.matrices.iter().map(|place| place.x.len());
@@ -90,12 +114,31 @@ impl State {
         if let Some(value) = self.behind.as_ref().and_then(Behind::damage) {
             return damaged("behind", value);
         }
-        if !(self.reach >= 0.0 && self.reach.is_finite()) {
-            return damaged("reach", self.reach);
-        }
-        if !(self.proposed_step > 0.0 && self.proposed_step.is_finite()) {
-            return damaged("proposed_step", self.proposed_step);
-        }
-        Ok(())
+        check_size("reach", self.reach)?;
+        check_length("proposed_step", self.proposed_step)
     }
+}
+
+/// Whether a member of a saved state is a length: positive and finite.
+pub(crate) fn check_length(name: &'static str, value: f64) -> Result<(), SetupError> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(SetupError::Damaged { name, value })
+}
+
+/// Whether a member of a saved state is a size: not negative, and finite.
+pub(crate) fn check_size(name: &'static str, value: f64) -> Result<(), SetupError> {
+    if value >= 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(SetupError::Damaged { name, value })
+}
+
+/// Whether a counter of a saved state is one that a run can reach.
+pub(crate) fn check_count(name: &'static str, found: u64) -> Result<(), SetupError> {
+    if found <= MOST_COUNTED {
+        return Ok(());
+    }
+    Err(SetupError::Counter { name, found })
 }

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::SetupError;
+use crate::state::{check_count, check_size};
+
 /// What an integration has done so far for its steps. What states between their ends cost ([`crate::Integrator::interpolate`]) is not counted:
 /// it depends on how many are asked for.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -50,7 +53,36 @@ impl Statistics {
     /// Rejected steps, whatever the reason.
     #[must_use]
     pub fn rejected(&self) -> u64 {
-        self.rejected_error + self.rejected_not_finite + self.rejected_singular + self.rejected_unsolved
+        // Counts read from a file may be any numbers.
+        self.rejected_error
+            .saturating_add(self.rejected_not_finite)
+            .saturating_add(self.rejected_singular)
+            .saturating_add(self.rejected_unsolved)
+    }
+
+    /// Whether a run can have counted so.
+    pub(crate) fn check(&self) -> Result<(), SetupError> {
+        for (name, count) in [
+            ("statistics.steps", self.steps),
+            ("statistics.explicit_steps", self.explicit_steps),
+            ("statistics.collocation_steps", self.collocation_steps),
+            ("statistics.rejected_error", self.rejected_error),
+            ("statistics.rejected_not_finite", self.rejected_not_finite),
+            ("statistics.rejected_singular", self.rejected_singular),
+            ("statistics.rejected_unsolved", self.rejected_unsolved),
+            ("statistics.derivatives", self.derivatives),
+            ("statistics.jacobians", self.jacobians),
+            ("statistics.factorizations", self.factorizations),
+            ("statistics.solves", self.solves),
+            ("statistics.kinks_foreseen", self.kinks_foreseen),
+            ("statistics.events", self.events),
+            ("statistics.events_unresolved", self.events_unresolved),
+            ("statistics.restarts", self.restarts),
+        ] {
+            check_count(name, count)?;
+        }
+        check_size("statistics.smallest_step", self.smallest_step)?;
+        check_size("statistics.largest_step", self.largest_step)
     }
 
     pub(crate) fn accept(&mut self, step: f64) {

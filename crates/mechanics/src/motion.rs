@@ -106,6 +106,11 @@ pub enum RampProfile {
 /// Value, first and second derivative by time.
 pub type Jet<S> = [S; 3];
 
+/// Whether numbers of this size can still be counted one by one: so late that they cannot, breaks are not told any more.
+fn is_counted(n: f64) -> bool {
+    n.abs() < 1.0 / f64::EPSILON
+}
+
 impl Motion {
     /// The cubic that has a value (m or rad) and a rate at `start`, and another value and rate after `duration` (s, positive).
     #[must_use]
@@ -274,6 +279,9 @@ impl Motion {
                     if corner > time {
                         return Some(corner);
                     }
+                    if !is_counted(n) {
+                        return None;
+                    }
                 }
             }
             Self::SweptSine { duration, .. } => (*duration > time).then_some(*duration),
@@ -287,6 +295,9 @@ impl Motion {
                     let corner = 0.5 * n * spacing;
                     if corner > time {
                         return Some(corner);
+                    }
+                    if !is_counted(n) {
+                        return None;
                     }
                 }
             }

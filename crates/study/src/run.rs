@@ -18,6 +18,7 @@ use crate::result::{ContactEvent, RunResult};
 use crate::rows::Rows;
 use crate::summary::Stopped;
 
+mod check;
 mod summarize;
 
 /// Version of [`RunState`].
@@ -62,6 +63,19 @@ pub enum RunError {
     Version {
         /// The version found.
         found: u32,
+    },
+    /// A saved state has a member that no run of this case can have.
+    #[error(
+        "the saved run state is damaged: `{member}` is {found}; it must be {expected}. Continue from the state as it was saved, \
+         or run the case from its start"
+    )]
+    Damaged {
+        /// The member.
+        member: &'static str,
+        /// What it is.
+        found: String,
+        /// What it must be.
+        expected: String,
     },
 }
 
@@ -142,12 +156,13 @@ impl Run {
     /// A run that goes on from a saved state of the same case. Rows written before are not repeated.
     ///
     /// # Errors
-    /// The state belongs to another version or another case.
+    /// The state belongs to another version or another case, or is damaged.
     pub fn resume(case: &Case, state: RunState) -> Result<Self, RunError> {
         if state.version != RUN_STATE_VERSION {
             return Err(RunError::Version { found: state.version });
         }
         let wedge = Wedge::new(case.parameters.clone())?;
+        state.check(case, wedge.system.point_count())?;
         let integrator = Integrator::resume(wedge.system.clone(), options(case), state.integrator)?;
         Ok(Self::assemble(
             case,
@@ -166,10 +181,9 @@ impl Run {
         next_row: u64,
     ) -> Self {
         let outputs = Outputs::new(&wedge.parameters);
-        let window = Cycle::of(&case.parameters).and_then(|cycle| cycle.window(case.simulation.duration));
         let points = wedge.system.point_count();
         Self {
-            probe_times: window.map_or(Vec::new(), |(start, end, _)| vec![start, end]),
+            probe_times: probe_times(case),
             values: vec![Vec::new(); outputs.columns().len()],
             buffer: vec![0.0; wedge.initial_state.len()],
             row: Vec::with_capacity(outputs.columns().len()),
@@ -418,6 +432,12 @@ impl Run {
         }
         Ok(())
     }
+}
+
+/// The ends of the averaging window, s; none without one.
+fn probe_times(case: &Case) -> Vec<f64> {
+    let window = Cycle::of(&case.parameters).and_then(|cycle| cycle.window(case.simulation.duration));
+    window.map_or(Vec::new(), |(start, end, _)| vec![start, end])
 }
 
 /// Energy lost in friction so far, J, by face.

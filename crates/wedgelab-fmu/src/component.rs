@@ -4,8 +4,11 @@ use std::any::Any;
 use std::ffi::{CStr, CString, c_char, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use fmi::instance::{Instance, Message, Saved};
+use fmi::instance::{Instance, Message};
 use fmi::{Category, Error, Severity};
+
+use crate::handles::{Kind, hand_out, is_alive, take_back};
+use crate::pointers::string;
 
 /// Status codes, the same in both versions.
 pub(crate) type Status = i32;
@@ -44,13 +47,12 @@ pub(crate) struct Component {
     /// Whether anything is logged.
     pub logging: bool,
     /// Which categories are logged.
-    pub categories: [bool; 3],
+    pub categories: [bool; Category::ALL.len()],
+    /// What a call could not answer, to be told.
+    unanswered: Option<String>,
     /// A call has panicked: what is inside may be inconsistent.
     pub broken: bool,
 }
-
-/// A saved state behind a pointer.
-pub(crate) type SavedState = Saved;
 
 fn index(category: Category) -> usize {
     Category::ALL.iter().position(|one| *one == category).unwrap_or(0)
@@ -64,7 +66,8 @@ impl Component {
             // A name from C holds no zero byte.
             name: CString::new(name).unwrap_or_default(),
             logging,
-            categories: [true; 3],
+            categories: [true; Category::ALL.len()],
+            unanswered: None,
             broken: false,
         };
         component.follow_logging();
@@ -79,12 +82,13 @@ impl Component {
 
     /// Switches logging, of some categories or (with none named) of all.
     pub fn set_logging(&mut self, on: bool, names: &[&str]) -> Result<(), Error> {
-        let mut categories = [names.is_empty(); 3];
+        let mut categories = [names.is_empty(); Category::ALL.len()];
         for name in names {
             match Category::ALL.iter().position(|category| category.name() == *name) {
                 Some(place) => categories[place] = true,
                 None => {
                     let known = Category::ALL.map(Category::name).join(", ");
+                    let name: String = name.chars().take(40).collect();
                     return Err(Error::new(format!(
                         "there is no log category `{name}`; there are {known}"
                     )));
@@ -105,9 +109,16 @@ impl Component {
         Ok(())
     }
 
+    /// The answer to a question to which there is none, and why there is none.
+    pub fn discard(&mut self, why: &str) -> Result<Status, Error> {
+        self.unanswered = Some(why.to_owned());
+        Ok(DISCARD)
+    }
+
     fn wants(&self, message: &Message) -> bool {
         // What is refused or has failed is always said.
-        message.severity == Severity::Error || (self.logging && self.categories[index(message.category)])
+        matches!(message.severity, Severity::Error | Severity::Discard)
+            || (self.logging && self.categories[index(message.category)])
     }
 }
 
@@ -118,34 +129,91 @@ fn words(panic: &(dyn Any + Send)) -> String {
         .map(|text| (*text).to_owned())
         .or_else(|| panic.downcast_ref::<String>().cloned())
         .unwrap_or_else(|| "no message".to_owned());
-    format!("internal error, please report it: {text}; the instance cannot be used any more")
+    format!(
+        "internal error, please report it: {text}; no instance can be used after it: free it and make another one"
+    )
 }
 
-/// Runs something that belongs to no instance; what it throws is an error without a message.
-pub(crate) fn guard<T>(otherwise: T, run: impl FnOnce() -> T) -> T {
-    catch_unwind(AssertUnwindSafe(run)).unwrap_or(otherwise)
+/// Runs something that belongs to no instance and tells nothing; nothing that it throws leaves the library.
+pub(crate) fn guard(run: impl FnOnce()) {
+    drop(catch_unwind(AssertUnwindSafe(run)));
 }
 
-/// Runs a call on the instance behind a pointer.
+/// A message of what was refused, with the name of the function that was called.
+fn refusal(function: &str, severity: Severity, why: &str) -> Message {
+    let category = match severity {
+        Severity::Discard => Category::Discard,
+        Severity::Warning | Severity::Error => Category::Error,
+    };
+    Message {
+        severity,
+        category,
+        text: format!("{function}: {why}"),
+    }
+}
+
+/// Makes an instance behind a pointer; null, with a message for the importer's logger, if it cannot be made.
 ///
 /// # Safety
-/// `pointer` is null or comes from [`hand_out`], has not been freed, and is used by no other thread at the same time: the standard asks
-/// importers for that.
+/// As [`string`] for the name, and as [`log`] for the logger.
+pub(crate) unsafe fn instantiate(
+    function: &'static str,
+    logger: Logger,
+    name: *const c_char,
+    logging: bool,
+    make: impl FnOnce(&str) -> Result<Instance, Error>,
+) -> *mut c_void {
+    // SAFETY: by this function's contract.
+    let name = unsafe { string(name, "the instance's name") };
+    let made = catch_unwind(AssertUnwindSafe(|| {
+        let name = name.clone()?;
+        Ok(Component::new(make(name)?, logger, name, logging))
+    }));
+    let error = match made {
+        Ok(Ok(component)) => return hand_out(component, Kind::Instance),
+        Ok(Err(error)) => error,
+        Err(panic) => Error::new(words(&*panic)),
+    };
+    let name = CString::new(name.unwrap_or_default()).unwrap_or_default();
+    let message = refusal(function, Severity::Error, &error.message);
+    // SAFETY: by this function's contract.
+    unsafe { log(logger, &name, &message) };
+    std::ptr::null_mut()
+}
+
+/// Frees an instance; what is none is left alone.
+///
+/// # Safety
+/// Nobody uses the instance at the same time.
+pub(crate) unsafe fn free(pointer: *mut c_void) {
+    guard(|| {
+        // SAFETY: by this function's contract; instances are components.
+        let _ = unsafe { take_back::<Component>(pointer, Kind::Instance) };
+    });
+}
+
+/// Runs a call of a function on the instance behind a pointer. Without an instance there is no logger to tell that to: it is an error, and
+/// nothing else.
+///
+/// # Safety
+/// The instance behind `pointer` is used by no other thread at the same time: the standard asks importers for that.
 pub(crate) unsafe fn call(
+    function: &'static str,
     pointer: *mut c_void,
     run: impl FnOnce(&mut Component) -> Result<Status, Error>,
 ) -> Status {
-    if pointer.is_null() {
+    if !is_alive(pointer, Kind::Instance) {
         return ERROR;
     }
     let component = pointer.cast::<Component>();
     let (status, messages, logger, name) = {
-        // SAFETY: by this function's contract the pointer is one of a living component that nobody else uses now; the reference ends with
-        // this block, before the importer's logger runs, which may call the instance again.
+        // SAFETY: the component is alive, and by this function's contract nobody else uses it now; the reference ends with this block, before the importer's logger runs, which may call the instance again.
         let component = unsafe { &mut *component };
         let mut failure = None;
         let status = if component.broken {
-            failure = Some("the instance has failed inside and cannot be used any more".to_owned());
+            let why =
+                "the instance has failed inside and cannot be used any more: free it and make another one";
+            failure = Some(why.to_owned());
             ERROR
         } else {
             match catch_unwind(AssertUnwindSafe(|| run(component))) {
@@ -162,11 +230,9 @@ pub(crate) unsafe fn call(
             }
         };
         let mut messages = component.instance.take_log();
-        messages.extend(failure.map(|text| Message {
-            severity: Severity::Error,
-            category: Category::Error,
-            text,
-        }));
+        let unanswered = component.unanswered.take();
+        messages.extend(unanswered.map(|why| refusal(function, Severity::Discard, &why)));
+        messages.extend(failure.map(|why| refusal(function, Severity::Error, &why)));
         messages.retain(|message| component.wants(message));
         if messages.is_empty() {
             return status;
@@ -180,6 +246,19 @@ pub(crate) unsafe fn call(
     status
 }
 
+/// Importers may have room for a thousand bytes only: the rest of longer texts is left out.
+const LONGEST_TEXT: usize = 960;
+
+/// A text as C takes it: without zero bytes, and not longer than importers can bear.
+fn text_of(text: &str) -> CString {
+    let mut text = text.replace('\0', "");
+    if text.len() > LONGEST_TEXT {
+        text.truncate(text.floor_char_boundary(LONGEST_TEXT));
+        text.push_str(" ... (cut off)");
+    }
+    CString::new(text).unwrap_or_default()
+}
+
 /// Gives a message to an importer.
 ///
 /// # Safety
@@ -187,129 +266,35 @@ pub(crate) unsafe fn call(
 pub(crate) unsafe fn log(logger: Logger, name: &CStr, message: &Message) {
     let status = match message.severity {
         Severity::Error => ERROR,
+        Severity::Discard => DISCARD,
         Severity::Warning if message.category == Category::Events => OK,
         Severity::Warning => WARNING,
     };
     let category = CString::new(message.category.name()).unwrap_or_default();
-    let text = CString::new(message.text.replace('\0', "")).unwrap_or_default();
     match logger {
         Logger::None => {}
-        // SAFETY: by this function's contract; all pointers are of strings that outlive the call. The text is an argument of a format,
-        // since it may hold signs of per cent.
-        Logger::Two(logger, environment) => unsafe {
-            logger(
-                environment,
-                name.as_ptr(),
-                status,
-                category.as_ptr(),
-                c"%s".as_ptr(),
-                text.as_ptr(),
-            );
-        },
-        // SAFETY: as above; here the text is taken as it is.
-        Logger::Three(logger, environment) => unsafe {
-            logger(environment, status, category.as_ptr(), text.as_ptr());
-        },
+        Logger::Two(logger, environment) => {
+            // In FMI 2.0 a single # begins the reference of a variable.
+            let text = text_of(&message.text.replace('#', "##"));
+            // SAFETY: by this function's contract; all pointers are of strings that outlive the call. The text is an argument of a format,
+            // since it may hold signs of per cent.
+            unsafe {
+                logger(
+                    environment,
+                    name.as_ptr(),
+                    status,
+                    category.as_ptr(),
+                    c"%s".as_ptr(),
+                    text.as_ptr(),
+                );
+            }
+        }
+        Logger::Three(logger, environment) => {
+            let text = text_of(&message.text);
+            // SAFETY: as above; here the text is taken as it is.
+            unsafe { logger(environment, status, category.as_ptr(), text.as_ptr()) };
+        }
     }
-}
-
-/// A pointer for something that C keeps.
-pub(crate) fn hand_out<T>(thing: T) -> *mut c_void {
-    Box::into_raw(Box::new(thing)).cast()
-}
-
-/// Frees what [`hand_out`] gave.
-///
-/// # Safety
-/// `pointer` is null or comes from [`hand_out`] with the same type, and is not used again.
-pub(crate) unsafe fn take_back<T>(pointer: *mut c_void) {
-    if !pointer.is_null() {
-        // SAFETY: by this function's contract.
-        drop(unsafe { Box::from_raw(pointer.cast::<T>()) });
-    }
-}
-
-fn missing(what: &str) -> Error {
-    Error::new(format!("the pointer to {what} is null (or not aligned)"))
-}
-
-/// What C means by a pointer and a count.
-///
-/// # Safety
-/// A pointer that is not null points to so many values, which nobody changes while the slice lives.
-pub(crate) unsafe fn slice<'a, T>(pointer: *const T, count: usize, what: &str) -> Result<&'a [T], Error> {
-    if count == 0 {
-        return Ok(&[]);
-    }
-    if pointer.is_null() || !pointer.is_aligned() {
-        return Err(missing(what));
-    }
-    // SAFETY: by this function's contract, and neither null nor misaligned.
-    Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
-}
-
-/// The same to be written to.
-///
-/// # Safety
-/// A pointer that is not null points to so many values, which nobody else uses while the slice lives.
-pub(crate) unsafe fn slice_mut<'a, T>(
-    pointer: *mut T,
-    count: usize,
-    what: &str,
-) -> Result<&'a mut [T], Error> {
-    if count == 0 {
-        return Ok(&mut []);
-    }
-    if pointer.is_null() || !pointer.is_aligned() {
-        return Err(missing(what));
-    }
-    // SAFETY: by this function's contract, and neither null nor misaligned.
-    Ok(unsafe { std::slice::from_raw_parts_mut(pointer, count) })
-}
-
-/// Writes one value.
-///
-/// # Safety
-/// A pointer that is not null may be written to.
-pub(crate) unsafe fn put<T>(pointer: *mut T, value: T, what: &str) -> Result<(), Error> {
-    if pointer.is_null() || !pointer.is_aligned() {
-        return Err(missing(what));
-    }
-    // SAFETY: by this function's contract, and neither null nor misaligned.
-    unsafe { pointer.write(value) };
-    Ok(())
-}
-
-/// A string from C.
-///
-/// # Safety
-/// A pointer that is not null points to a string that ends with a zero byte and lives as long as the reference.
-pub(crate) unsafe fn string<'a>(pointer: *const c_char, what: &str) -> Result<&'a str, Error> {
-    if pointer.is_null() {
-        return Err(missing(what));
-    }
-    // SAFETY: by this function's contract.
-    let text = unsafe { CStr::from_ptr(pointer) };
-    text.to_str()
-        .map_err(|_| Error::new(format!("{what} is not UTF-8")))
-}
-
-/// Names of log categories from C.
-///
-/// # Safety
-/// As [`slice`] and [`string`].
-pub(crate) unsafe fn strings<'a>(
-    pointer: *const *const c_char,
-    count: usize,
-    what: &str,
-) -> Result<Vec<&'a str>, Error> {
-    // SAFETY: by this function's contract.
-    let pointers = unsafe { slice(pointer, count, what) }?;
-    pointers
-        .iter()
-        // SAFETY: by this function's contract.
-        .map(|pointer| unsafe { string(*pointer, what) })
-        .collect()
 }
 
 /// Reads as many variables as there are references.
@@ -346,94 +331,81 @@ pub(crate) fn none_of(count: usize, what: &str) -> Result<Status, Error> {
     if count == 0 {
         return Ok(OK);
     }
-    Err(Error::new(format!("the FMU has no variables of the type {what}")))
+    Err(Error::new(format!(
+        "the FMU has no variables of the type {what}: modelDescription.xml lists all there are"
+    )))
 }
 
-/// Saves the instance's state where `target` points to, into what is there already or anew.
-///
-/// # Safety
-/// `target` is null or points to null or to a state from here that has not been freed.
-pub(crate) unsafe fn save(component: &Component, target: *mut *mut c_void) -> Result<Status, Error> {
-    // SAFETY: by this function's contract.
-    let [place] = (unsafe { slice_mut(target, 1, "the state") })? else {
-        return Err(missing("the state"));
-    };
-    let saved: SavedState = component.instance.save();
-    if place.is_null() {
-        *place = hand_out(saved);
-    } else {
-        // SAFETY: by this function's contract it is a state from here.
-        unsafe { *place.cast::<SavedState>() = saved };
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::panic)]
+
+    use std::sync::Mutex;
+
+    use fmi::description::{Model, Version};
+    use fmi::element::Interface;
+    use study::case::builtin;
+
+    use super::*;
+
+    static SAID: Mutex<Vec<(Status, String)>> = Mutex::new(Vec::new());
+
+    unsafe extern "C" fn note(_: *mut c_void, status: Status, _: *const c_char, text: *const c_char) {
+        // SAFETY: texts of messages are strings.
+        let text = unsafe { CStr::from_ptr(text) }.to_str().unwrap().to_owned();
+        SAID.lock().unwrap().push((status, text));
     }
-    Ok(OK)
-}
 
-/// The saved state behind a pointer.
-///
-/// # Safety
-/// `pointer` is null or a state from [`save`] that has not been freed.
-pub(crate) unsafe fn saved<'a>(pointer: *mut c_void) -> Result<&'a SavedState, Error> {
-    // SAFETY: by this function's contract.
-    unsafe { pointer.cast::<SavedState>().as_ref() }.ok_or_else(|| missing("the state"))
-}
+    /// Neither out of a call nor out of the making of an instance.
+    #[test]
+    fn issue_029_panics_do_not_leave_the_library_and_are_told() {
+        let case = builtin::case("cdrun_toe_0_psi_0").unwrap();
+        let make = |name: &str| {
+            Instance::of_case(
+                name,
+                None,
+                Model::QuasiStatic,
+                case.clone(),
+                Version::Three,
+                Interface::CoSimulation,
+            )
+        };
+        let logger = Logger::Three(note, std::ptr::null_mut());
+        let said = || std::mem::take(&mut *SAID.lock().unwrap());
+        // SAFETY: the name is a string, and the logger is one; nobody else has the instance.
+        unsafe {
+            let none = instantiate("fmiMake", logger, c"wedge".as_ptr(), false, |_| {
+                panic!("on purpose")
+            });
+            assert!(none.is_null());
+            let [(ERROR, text)] = &said()[..] else {
+                panic!("no message")
+            };
+            assert!(
+                text.starts_with("fmiMake: internal error") && text.contains("on purpose"),
+                "{text}"
+            );
 
-/// Frees a saved state and sets its pointer to null.
-///
-/// # Safety
-/// As [`save`].
-pub(crate) unsafe fn free_saved(target: *mut *mut c_void) -> Result<Status, Error> {
-    if target.is_null() {
-        return Ok(OK);
-    }
-    // SAFETY: by this function's contract.
-    unsafe {
-        take_back::<SavedState>(*target);
-        *target = std::ptr::null_mut();
-    }
-    Ok(OK)
-}
-
-/// Writes a saved state as bytes.
-///
-/// # Safety
-/// As [`saved`] and [`slice_mut`].
-pub(crate) unsafe fn serialize(state: *mut c_void, target: *mut u8, size: usize) -> Result<Status, Error> {
-    // SAFETY: by this function's contract.
-    let bytes = unsafe { saved(state) }?.to_bytes()?;
-    if size < bytes.len() {
-        return Err(Error::new(format!(
-            "room for {size} bytes of a state that takes {}",
-            bytes.len()
-        )));
-    }
-    // SAFETY: by this function's contract.
-    let target = unsafe { slice_mut(target, size, "the bytes") }?;
-    let (head, tail) = target.split_at_mut(bytes.len());
-    head.copy_from_slice(&bytes);
-    // Blanks after JSON mean nothing.
-    tail.fill(b' ');
-    Ok(OK)
-}
-
-/// Reads a saved state from bytes.
-///
-/// # Safety
-/// As [`slice`] and [`save`].
-pub(crate) unsafe fn deserialize(
-    bytes: *const u8,
-    size: usize,
-    target: *mut *mut c_void,
-) -> Result<Status, Error> {
-    // SAFETY: by this function's contract.
-    let bytes = unsafe { slice(bytes, size, "the bytes") }?;
-    let state = SavedState::from_bytes(bytes)?;
-    // SAFETY: by this function's contract. What the place held before is not freed: it may be uninitialized.
-    unsafe {
-        let state = hand_out(state);
-        if let Err(error) = put(target, state, "the state") {
-            take_back::<SavedState>(state);
-            return Err(error);
+            let instance = instantiate("fmiMake", logger, c"wedge".as_ptr(), false, make);
+            assert_eq!(call("fmiDo", instance, |_| Ok(OK)), OK);
+            assert!(said().is_empty());
+            assert_eq!(call("fmiDo", instance, |_| panic!("{} purpose", "on")), ERROR);
+            let [(ERROR, text)] = &said()[..] else {
+                panic!("no message")
+            };
+            assert!(
+                text.starts_with("fmiDo: internal error") && text.contains("on purpose"),
+                "{text}"
+            );
+            // From then on it refuses everything, and says so.
+            assert_eq!(call("fmiDo", instance, |_| Ok(OK)), ERROR);
+            let [(ERROR, text)] = &said()[..] else {
+                panic!("no message")
+            };
+            assert!(text.contains("free it and make another one"), "{text}");
+            free(instance);
+            assert_eq!(call("fmiDo", instance, |_| Ok(OK)), ERROR);
+            assert!(said().is_empty());
         }
     }
-    Ok(OK)
 }

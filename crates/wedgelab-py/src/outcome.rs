@@ -80,6 +80,23 @@ struct Header {
 
 const HEADER_VERSION: u32 = 1;
 
+/// More bytes than these are neither a saved case nor the head of a saved result, and are not read.
+const MOST_SAVED_BYTES: usize = 64 << 20;
+
+/// Reads what was saved as MessagePack. What the bytes claim to hold takes no memory before it is there.
+///
+/// # Errors
+/// There are too many bytes, or they are none of this kind.
+pub fn from_saved<T: serde::de::DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
+    if bytes.len() > MOST_SAVED_BYTES {
+        return Err(format!(
+            "it has {} bytes, more than the {MOST_SAVED_BYTES} that are read",
+            bytes.len()
+        ));
+    }
+    rmp_serde::from_slice(bytes).map_err(|error| error.to_string())
+}
+
 /// A result.
 #[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeResult")]
 pub struct NativeResult {
@@ -136,7 +153,7 @@ impl NativeResult {
         values: &PyReadonlyArray2<'_, f64>,
     ) -> PyResult<Self> {
         let wrong = |text: String| {
-            let help = "it was saved by another version of wedgelab; run the case again";
+            let help = "it is damaged, or was saved by another version of wedgelab; run the case again";
             simple(
                 py,
                 "WedgelabError",
@@ -144,7 +161,7 @@ impl NativeResult {
                 help,
             )
         };
-        let header: Header = rmp_serde::from_slice(header).map_err(|error| wrong(error.to_string()))?;
+        let header: Header = guarded(py, || from_saved(header).map_err(&wrong))?;
         if header.version != HEADER_VERSION {
             return Err(wrong(format!(
                 "it has version {}, not {HEADER_VERSION}",

@@ -18,7 +18,7 @@ use study::truck::{TruckCase, TruckStart, options};
 
 use crate::errors::{findings, guarded, raise, simple};
 use crate::nucars::load_error;
-use crate::outcome::{NativeResult, Table};
+use crate::outcome::{NativeResult, Table, from_saved};
 use crate::run::{Failure, Progress, STOPPED};
 
 /// Where a case comes from, and what is needed to make it again elsewhere.
@@ -214,11 +214,13 @@ impl NativeTruckCase {
     /// The reverse of `saved`.
     #[staticmethod]
     fn load(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
-        let origin = rmp_serde::from_slice(bytes).map_err(|error| {
-            let help = "it was saved by another version of wedgelab; read the files again";
-            refused(py, &format!("this saved case cannot be read: {error}"), help)
-        })?;
-        guarded(py, || make(py, origin))
+        guarded(py, || {
+            let origin = from_saved(bytes).map_err(|error| {
+                let help = "it is damaged, or was saved by another version of wedgelab; read the files again";
+                refused(py, &format!("this saved case cannot be read: {error}"), help)
+            })?;
+            make(py, origin)
+        })
     }
 
     /// All that is needed to make the case again, the texts of its files included.

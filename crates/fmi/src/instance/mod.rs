@@ -9,6 +9,7 @@ mod step;
 
 pub use phase::Phase;
 pub use save::Saved;
+pub(crate) use save::{check_finite, damaged};
 pub use step::EventUpdate;
 
 use std::path::Path;
@@ -203,21 +204,10 @@ impl Instance {
         tolerance: Option<f64>,
     ) -> Result<(), Error> {
         self.require("the experiment is set up", &[Phase::Instantiated])?;
-        if !start.is_finite() {
-            return Err(Error::new(format!(
-                "the start time is {start}; it must be finite"
-            )));
-        }
-        if let Some(stop) = stop.filter(|stop| stop.is_nan() || *stop < start) {
-            return Err(Error::new(format!(
-                "the stop time is {stop}; it must not be before the start time {start}"
-            )));
-        }
-        if let Some(tolerance) = tolerance.filter(|tolerance| !(*tolerance > 0.0 && *tolerance < 1.0)) {
-            return Err(Error::new(format!(
-                "the tolerance is {tolerance}; it must lie between 0 and 1"
-            )));
-        }
+        check_experiment(start, stop, tolerance)?;
+        // One that was built to read its values has another start.
+        self.element = None;
+        self.changed();
         self.experiment = Experiment {
             start,
             stop,
@@ -327,6 +317,26 @@ impl Instance {
             text,
         });
     }
+}
+
+/// Whether times and tolerance can be those of an experiment.
+fn check_experiment(start: f64, stop: Option<f64>, tolerance: Option<f64>) -> Result<(), Error> {
+    if !start.is_finite() {
+        return Err(Error::new(format!(
+            "the start time is {start}; it must be finite"
+        )));
+    }
+    if let Some(stop) = stop.filter(|stop| stop.is_nan() || *stop < start) {
+        return Err(Error::new(format!(
+            "the stop time is {stop}; it must not be before the start time {start}"
+        )));
+    }
+    if let Some(tolerance) = tolerance.filter(|tolerance| !(*tolerance > 0.0 && *tolerance < 1.0)) {
+        return Err(Error::new(format!(
+            "the tolerance is {tolerance}; it must lie between 0 and 1"
+        )));
+    }
+    Ok(())
 }
 
 impl Values {

@@ -1,10 +1,15 @@
 //! Saving and restoring an instance.
 
+mod check;
+
 use serde::{Deserialize, Serialize};
+
+pub(crate) use check::{check_finite, damaged};
 
 use super::{Experiment, Instance, Phase};
 use crate::Error;
 use crate::element::{ElementState, Interface};
+use crate::limits;
 
 /// Version of [`Saved`].
 const VERSION: u32 = 1;
@@ -43,10 +48,17 @@ impl Saved {
     /// Reads what [`Saved::to_bytes`] wrote.
     ///
     /// # Errors
-    /// These are no bytes of such a state.
+    /// These are no bytes of such a state, or more than [`limits::STATE_BYTES`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        if bytes.len() > limits::STATE_BYTES {
+            return Err(Error::new(format!(
+                "{} bytes are no saved state; at most {} are read",
+                bytes.len(),
+                limits::STATE_BYTES
+            )));
+        }
         serde_json::from_slice(bytes)
-            .map_err(|error| Error::new(format!("these bytes are no saved state: {error}")))
+            .map_err(|error| Error::new(format!("these bytes are no saved state of an instance: {error}")))
     }
 }
 
@@ -85,32 +97,16 @@ impl Instance {
             )));
         }
         if saved.token != self.token {
-            return Err(Error::new("the saved state belongs to another FMU"));
+            return Err(Error::new(
+                "the saved state belongs to another FMU; restore one that this FMU has given",
+            ));
         }
         if saved.interface != self.interface {
             return Err(Error::new(
                 "the saved state belongs to the other kind of interface (model exchange or co-simulation)",
             ));
         }
-        let values = &self.values;
-        let same = [
-            (values.parameters.len(), saved.parameters.len()),
-            (values.options.len(), saved.options.len()),
-            (values.inputs.len(), saved.inputs.len()),
-            (values.slopes.len(), saved.slopes.len()),
-            (
-                values.inputs.len(),
-                saved
-                    .before
-                    .as_ref()
-                    .map_or(values.inputs.len(), |(before, _)| before.len()),
-            ),
-        ];
-        if same.iter().any(|(own, saved)| own != saved) {
-            return Err(Error::new(
-                "the saved state is damaged: it has other numbers of values",
-            ));
-        }
+        saved.check(self)?;
         // Parameters that were set before the start make another element.
         let keeps = saved.element.is_some()
             && self.element.is_some()

@@ -54,6 +54,12 @@ impl Instance {
             )));
         }
         let end = time + length;
+        if end <= self.time {
+            return Err(Error::new(format!(
+                "a communication step of {length} s from {time} s ends at {end} s, which is not after the time reached, {} s: make it longer",
+                self.time
+            )));
+        }
         if let Some(stop) = self.experiment.stop.filter(|stop| end > stop + slack) {
             return Err(Error::new(format!(
                 "the step ends at {end} s, beyond the stop time {stop} s of the experiment"

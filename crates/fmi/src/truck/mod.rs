@@ -7,11 +7,13 @@ mod body;
 mod entries;
 
 use integrate::{Integrator, Options, Problem, State};
+use mechanics::system::Mode;
 use serde::{Deserialize, Serialize};
 use study::case::Case;
 
 use crate::Error;
 use crate::element::{Element, ElementState, Entries, Interface, Setting, Slopes};
+use crate::instance::{check_finite, damaged};
 use body::{BODY, Loaded, Six};
 pub use body::{FILE, WEDGES};
 use entries::{LOADS, MOTIONS, START};
@@ -27,7 +29,7 @@ pub fn entries(case: &Case) -> Result<Entries, Error> {
 /// The saved state of a truck.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TruckState {
-    time: f64,
+    pub(crate) time: f64,
     states: Vec<f64>,
     inputs: Vec<f64>,
     start_energy: f64,
@@ -147,14 +149,18 @@ impl Element for TruckElement {
         put_loads(integrator.problem_mut(), end);
         integrator.renew();
         let before = self.states[..speeds].to_vec();
-        let mut attempts = 0;
+        let length = time - integrator.time();
+        let (mut attempts, limit) = (0, study::driven::most_steps(length));
         while integrator.time() < time {
             integrator
                 .step_to(time)
                 .map_err(|error| Error::new(error.to_string()))?;
             attempts += 1;
-            if attempts > study::driven::MAXIMUM_STEPS {
-                return Err(Error::new("the step takes too many steps of the integrator"));
+            if attempts > limit {
+                return Err(Error::new(format!(
+                    "a step of {length} s to {time} s is not finished after {limit} steps of the integrator; make it shorter, or look for \
+                     inputs that are far out"
+                )));
             }
         }
         self.time = time;
@@ -231,24 +237,32 @@ impl Element for TruckElement {
         let ElementState::Truck(state) = state else {
             return Err(Error::new("the saved state belongs to another model"));
         };
-        let sizes = [
-            (state.states.len(), self.states.len()),
-            (state.inputs.len(), self.inputs.len()),
-        ];
-        let finite = state
-            .inputs
-            .iter()
-            .chain(&state.states)
-            .all(|value| value.is_finite());
-        if sizes.iter().any(|(found, own)| found != own) || !finite {
-            return Err(Error::new("the saved state is damaged"));
+        for (member, found, own) in [
+            ("the truck's states", state.states.len(), self.states.len()),
+            ("the truck's inputs", state.inputs.len(), self.inputs.len()),
+        ] {
+            if found != own {
+                let (found, own) = (format!("a list of {found}"), format!("a list of {own}"));
+                return Err(damaged(member, found, own));
+            }
         }
+        check_finite("the truck's states", &state.states)?;
+        check_finite("the truck's inputs", &state.inputs)?;
+        check_finite(
+            "the truck's time and start energy",
+            [&state.time, &state.start_energy],
+        )?;
         match (&mut self.integrator, &state.integrator) {
             (None, None) => {}
             (Some(integrator), Some(saved)) => {
                 integrator
                     .admits(saved)
                     .map_err(|error| Error::new(error.to_string()))?;
+                let modes = &saved.modes;
+                if let Some(mode) = modes.iter().find(|mode| **mode > Mode::Slip as u8) {
+                    let expected = "0 (open), 1 (stick) or 2 (slip)";
+                    return Err(damaged("a contact state of the truck", mode, expected));
+                }
                 put_loads(integrator.problem_mut(), &state.inputs);
                 integrator
                     .restore(saved)

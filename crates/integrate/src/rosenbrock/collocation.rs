@@ -17,9 +17,11 @@ use serde::{Deserialize, Serialize};
 use super::Integrator;
 use super::attempt::{Advance, Failure, not_finite, stage_time, unsolved};
 use super::underway::Phase;
+use crate::error::SetupError;
 use crate::problem::Problem;
 use crate::radau::{ERROR, FROM_PARTS, NODES, PAIRS, PARTS_OF_A_LINE, POINTS, RADAU, REAL, TO_PARTS};
 use crate::stages::{all_finite, combine, largest};
+use crate::state::check_size;
 use crate::tableau::Family;
 
 /// So many steps of the linearly implicit method must have been smooth before; more where long steps were given up before, up to the
@@ -69,6 +71,20 @@ impl Default for Calm {
 }
 
 impl Calm {
+    /// Whether a run can have become so smooth.
+    pub fn check(&self) -> Result<(), SetupError> {
+        let [least, most] = SMOOTH;
+        if !(least..=most).contains(&self.needed) {
+            let value = f64::from(self.needed);
+            return Err(SetupError::Damaged {
+                name: "calm.needed",
+                value,
+            });
+        }
+        // Any rate serves: see `rate_of`.
+        check_size("calm.rate_step", self.rate_step)
+    }
+
     /// By which factor a second correction of a step of this length would be smaller than its first, going by what was seen: as the matrix changes
     /// along the step; one that cannot be relied on if none so long has been seen.
     fn rate_of(&self, step: f64) -> f64 {

@@ -76,6 +76,10 @@ impl<P: Problem> Integrator<P> {
                 (step, target, landing) = (distance, time, Some(ahead));
             }
         }
+        // Else the time would never go on.
+        if target <= self.time {
+            return Err(self.give_up(Reason::Lost, proposed, None, 0.0));
+        }
         self.underway = Underway {
             phase: Phase::Start,
             end,

@@ -57,7 +57,8 @@ pub enum DrivenError {
     },
     /// A communication step took more steps of the integrator than it may.
     #[error(
-        "a step of {step} s from time {time} s is not finished after {limit} steps of the integrator; make it shorter"
+        "a step of {step} s from time {time} s is not finished after {limit} steps of the integrator; make it shorter, or look \
+         for places or rates of the neighbours that are far out"
     )]
     TooLong {
         /// The step, s.
@@ -283,7 +284,7 @@ impl Equations {
     /// Sets the contact states.
     ///
     /// # Errors
-    /// Not one for each corner.
+    /// Not one for each corner, or one that is none.
     pub fn set_modes(&mut self, modes: &[u8]) -> Result<(), DrivenError> {
         if modes.len() != self.modes.len() {
             return Err(DrivenError::Length {
@@ -291,6 +292,7 @@ impl Equations {
                 found: modes.len(),
             });
         }
+        check_modes(modes)?;
         self.modes.copy_from_slice(modes);
         Ok(())
     }
@@ -510,6 +512,21 @@ pub(super) fn check_coil(coil: &CoilDrive) -> Result<(), DrivenError> {
         CoilDrive::Force(value) => finite("the coil's force", *value),
         _ => Ok(()),
     }
+}
+
+/// Whether numbers are those of contact states.
+pub(super) fn check_modes(modes: &[u8]) -> Result<(), DrivenError> {
+    let none = modes
+        .iter()
+        .enumerate()
+        .find(|(_, mode)| **mode > Mode::Slip as u8);
+    none.map_or(Ok(()), |(corner, mode)| {
+        Err(DrivenError::Value {
+            what: format!("the contact state of corner {corner} (counted from 0)"),
+            value: f64::from(*mode),
+            expected: "0 (open), 1 (stick) or 2 (slip)",
+        })
+    })
 }
 
 /// Whether coefficients of friction of column and slope are usable.

@@ -25,7 +25,7 @@ mod equations;
 mod state;
 
 pub use equations::{DrivenError, Equations};
-pub use state::{DRIVEN_STATE_VERSION, DrivenState};
+pub use state::{DRIVEN_STATE_VERSION, DrivenState, MOST_STATE_BYTES};
 pub use wedge::driven::{CoilDrive, Neighbours, Place, Reading};
 
 use integrate::{Integrator, Options, Statistics};
@@ -37,8 +37,20 @@ use wedge::Parameters;
 use wedge::driven::COIL;
 use wedge::outputs::Ledger;
 
-/// A step that needs more steps of the integrator than this is stopped: some seconds of computing.
+/// A step that needs more steps of the integrator than this is stopped, however long it is: half a minute of computing.
 pub const MAXIMUM_STEPS: u64 = 1_000_000;
+/// The same of a step without length, and for each second of it: what rattles takes some five thousand a second.
+const SURE_STEPS: u64 = 10_000;
+const STEPS_A_SECOND: f64 = 1e6;
+
+/// How many steps of the integrator a step of this length (s) may take; what needs more is nothing that moves as wedges do, such as
+/// neighbours that go on with the speed of light.
+#[must_use]
+pub fn most_steps(duration: f64) -> u64 {
+    SURE_STEPS
+        .saturating_add((STEPS_A_SECOND * duration) as u64)
+        .min(MAXIMUM_STEPS)
+}
 
 /// A step must be longer, s: below, times are rounding.
 const SHORTEST_STEP: f64 = 1e-15;
@@ -78,7 +90,7 @@ impl DrivenWedge {
         )
     }
 
-    /// The same of parameters, options of the integrator (the largest number of steps is [`MAXIMUM_STEPS`] a step of the
+    /// The same of parameters, options of the integrator (the largest number of steps is that of [`most_steps`] a step of the
     /// neighbours) and a coil that may be outside.
     ///
     /// # Errors
@@ -224,14 +236,14 @@ impl DrivenWedge {
         let from = *self.equations.neighbours();
         from.lead(self.integrator.problem_mut(), start, duration, end)?;
         self.integrator.renew();
-        let first = self.attempts();
+        let (first, limit) = (self.attempts(), most_steps(duration));
         while self.integrator.time() < time {
             self.integrator.step_to(time)?;
-            if self.attempts() - first > MAXIMUM_STEPS {
+            if self.attempts() - first > limit {
                 return Err(DrivenError::TooLong {
                     step: duration,
                     time: start,
-                    limit: MAXIMUM_STEPS,
+                    limit,
                 });
             }
         }
@@ -303,9 +315,7 @@ impl DrivenWedge {
         if state.fingerprint != state::fingerprint(self.equations.parameters(), &self.options) {
             return Err(DrivenError::OtherCase);
         }
-        equations::check_neighbours(&state.neighbours)?;
-        equations::check_coil(&state.coil)?;
-        equations::check_friction(state.friction)?;
+        state.check()?;
         // Refused before anything changes.
         self.integrator.admits(&state.integrator)?;
         let mut fresh = None;

@@ -7,9 +7,12 @@ use wedge::driven::{CoilDrive, Neighbours};
 use wedge::parameters::NeighbourMotion;
 
 use super::DrivenError;
+use super::equations::{check_coil, check_friction, check_modes, check_neighbours};
 
 /// Version of [`DrivenState`].
 pub const DRIVEN_STATE_VERSION: u32 = 1;
+/// More bytes than these are no saved state, and are not read: states take some kilobytes.
+pub const MOST_STATE_BYTES: usize = 64 << 20;
 
 /// All that is needed to continue a driven wedge with the same bits, also in another process and on another machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,12 +50,18 @@ impl DrivenState {
     /// Reads what [`DrivenState::to_bytes`] wrote.
     ///
     /// # Errors
-    /// These are no bytes of such a state, or of another version.
+    /// These are no bytes of such a state, or of another version, or more than [`MOST_STATE_BYTES`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, DrivenError> {
         /// All that is looked at first.
         #[derive(Deserialize)]
         struct Head {
             version: u32,
+        }
+        if bytes.len() > MOST_STATE_BYTES {
+            return Err(DrivenError::State(format!(
+                "it has {} bytes, more than the {MOST_STATE_BYTES} that are read",
+                bytes.len()
+            )));
         }
         let damaged = |error: serde_json::Error| DrivenError::State(error.to_string());
         let head: Head = serde_json::from_slice(bytes).map_err(damaged)?;
@@ -63,6 +72,23 @@ impl DrivenState {
             });
         }
         serde_json::from_slice(bytes).map_err(damaged)
+    }
+
+    /// Whether places, coil, friction, time and contact states can be those of a wedge; what else the integrator has is looked at by
+    /// the integrator.
+    pub(super) fn check(&self) -> Result<(), DrivenError> {
+        check_neighbours(&self.neighbours)?;
+        check_coil(&self.coil)?;
+        check_friction(self.friction)?;
+        check_modes(&self.integrator.modes)?;
+        if self.integrator.time < 0.0 {
+            return Err(DrivenError::Value {
+                what: "the time of the saved state".to_owned(),
+                value: self.integrator.time,
+                expected: "zero or positive: driven wedges begin at time zero",
+            });
+        }
+        Ok(())
     }
 }
 

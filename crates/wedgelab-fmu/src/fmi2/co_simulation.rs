@@ -6,7 +6,11 @@ use std::ffi::{c_char, c_int, c_void};
 use fmi::Error;
 
 use super::{References, simple};
-use crate::component::{DISCARD, OK, Status, call, put, slice};
+use crate::component::{OK, Status, call};
+use crate::pointers::{put, slice};
+
+/// Why there is no answer to a question about a step.
+const NO_STEP: &str = "no step is under way: steps are finished when fmi2DoStep returns, and its status is all there is to know";
 
 /// Sets derivatives of inputs for the next step.
 #[unsafe(no_mangle)]
@@ -19,7 +23,7 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        call(c, |component| {
+        call("fmi2SetRealInputDerivatives", c, |component| {
             let order = slice(order, n, "the orders")?;
             let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
             for ((vr, order), value) in vr.iter().zip(order).zip(value) {
@@ -41,9 +45,11 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        call(c, |_| match n {
+        call("fmi2GetRealOutputDerivatives", c, |_| match n {
             0 => Ok(OK),
-            _ => Err(Error::new("the FMU gives no derivatives of outputs")),
+            _ => Err(Error::new(
+                "the FMU gives no derivatives of outputs (maxOutputDerivativeOrder is 0)",
+            )),
         })
     }
 }
@@ -57,7 +63,7 @@ pub unsafe extern "C" fn fmi2DoStep(
     _no_set_state_prior: c_int,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { simple(c, |instance| instance.do_step(time, step)) }
+    unsafe { simple("fmi2DoStep", c, |instance| instance.do_step(time, step)) }
 }
 
 /// Steps are finished when they return: there is nothing to cancel.
@@ -65,7 +71,7 @@ pub unsafe extern "C" fn fmi2DoStep(
 pub unsafe extern "C" fn fmi2CancelStep(c: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        call(c, |_| {
+        call("fmi2CancelStep", c, |_| {
             Err(Error::new(
                 "no step is under way: steps are finished when they return",
             ))
@@ -77,7 +83,7 @@ pub unsafe extern "C" fn fmi2CancelStep(c: *mut c_void) -> Status {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetStatus(c: *mut c_void, _kind: c_int, _value: *mut c_int) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { call(c, |_| Ok(DISCARD)) }
+    unsafe { call("fmi2GetStatus", c, |component| component.discard(NO_STEP)) }
 }
 
 /// The last time that was reached (`fmi2LastSuccessfulTime`).
@@ -86,9 +92,11 @@ pub unsafe extern "C" fn fmi2GetRealStatus(c: *mut c_void, kind: c_int, value: *
     const LAST_SUCCESSFUL_TIME: c_int = 2;
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        call(c, |component| {
+        call("fmi2GetRealStatus", c, |component| {
             if kind != LAST_SUCCESSFUL_TIME {
-                return Ok(DISCARD);
+                return component.discard(&format!(
+                    "there is no real status of the kind {kind}; {LAST_SUCCESSFUL_TIME} is the last successful time"
+                ));
             }
             put(value, component.instance.time(), "the time")?;
             Ok(OK)
@@ -100,7 +108,7 @@ pub unsafe extern "C" fn fmi2GetRealStatus(c: *mut c_void, kind: c_int, value: *
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetIntegerStatus(c: *mut c_void, _kind: c_int, _value: *mut c_int) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { call(c, |_| Ok(DISCARD)) }
+    unsafe { call("fmi2GetIntegerStatus", c, |component| component.discard(NO_STEP)) }
 }
 
 /// Whether the FMU wants the simulation to end (`fmi2Terminated`): never.
@@ -109,9 +117,11 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(c: *mut c_void, kind: c_int, value
     const TERMINATED: c_int = 3;
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        call(c, |_| {
+        call("fmi2GetBooleanStatus", c, |component| {
             if kind != TERMINATED {
-                return Ok(DISCARD);
+                return component.discard(&format!(
+                    "there is no Boolean status of the kind {kind}; {TERMINATED} says whether the FMU wants to end"
+                ));
             }
             put(value, 0, "the value")?;
             Ok(OK)
@@ -127,5 +137,5 @@ pub unsafe extern "C" fn fmi2GetStringStatus(
     _value: *mut *const c_char,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { call(c, |_| Ok(DISCARD)) }
+    unsafe { call("fmi2GetStringStatus", c, |component| component.discard(NO_STEP)) }
 }

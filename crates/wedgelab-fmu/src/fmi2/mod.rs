@@ -11,17 +11,15 @@ pub mod co_simulation;
 pub mod model_exchange;
 
 use std::ffi::{c_char, c_int, c_void};
-use std::ptr::null_mut;
 
 use fmi::description::Version;
 use fmi::element::Interface;
-use fmi::instance::{Instance, Message};
-use fmi::{Category, Error, Severity, resources};
+use fmi::instance::Instance;
+use fmi::{Error, resources};
 
-use crate::component::{
-    Component, Logger, Logger2, OK, Status, call, deserialize, free_saved, guard, hand_out, log, none_of,
-    put, read, save, saved, serialize, slice, slice_mut, string, strings, take_back, write,
-};
+use crate::component::{Logger, Logger2, OK, Status, call, free, instantiate, none_of, read, write};
+use crate::pointers::{put, slice, slice_mut, string, strings};
+use crate::states::{deserialize, free_saved, save, saved, serialize};
 
 /// What an importer gives: `fmi2CallbackFunctions`.
 #[repr(C)]
@@ -64,7 +62,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(c, |component| {
+        call("fmi2SetDebugLogging", c, |component| {
             component.set_logging(on != 0, &strings(categories, count, "the log categories")?)?;
             Ok(OK)
         })
@@ -91,11 +89,10 @@ pub unsafe extern "C" fn fmi2Instantiate(
         }) => Logger::Two(*logger as Logger2, *component_environment),
         _ => Logger::None,
     };
-    let make = || -> Result<Component, Error> {
+    let make = |name: &str| -> Result<Instance, Error> {
         // SAFETY: as above.
-        let (name, guid, location) = unsafe {
+        let (guid, location) = unsafe {
             (
-                string(name, "the instance's name")?,
                 string(guid, "the GUID")?,
                 string(resource_location, "the location of the resources")?,
             )
@@ -103,36 +100,24 @@ pub unsafe extern "C" fn fmi2Instantiate(
         let interface = match kind {
             0 => Interface::ModelExchange,
             1 => Interface::CoSimulation,
-            other => return Err(Error::new(format!("{other} is no kind of FMU"))),
+            other => {
+                return Err(Error::new(format!(
+                    "there is no kind {other} of FMUs; 0 is model exchange, 1 is co-simulation"
+                )));
+            }
         };
         let folder = resources::folder_of_uri(location)?;
-        let instance = Instance::new(name, guid, &folder, Version::Two, interface)?;
-        Ok(Component::new(instance, logger, name, logging != 0))
+        Instance::new(name, guid, &folder, Version::Two, interface)
     };
-    let made = guard(
-        Err(Error::new("internal error while the instance was made")),
-        make,
-    );
-    match made {
-        Ok(component) => hand_out(component),
-        Err(error) => {
-            let message = Message {
-                severity: Severity::Error,
-                category: Category::Error,
-                text: error.message,
-            };
-            // SAFETY: the logger is the importer's.
-            unsafe { log(logger, c"", &message) };
-            null_mut()
-        }
-    }
+    // SAFETY: as above; the logger is the importer's.
+    unsafe { instantiate("fmi2Instantiate", logger, name, logging != 0, make) }
 }
 
 /// Frees an instance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: *mut c_void) {
     // SAFETY: the standard's contract, see the module.
-    guard((), || unsafe { take_back::<Component>(c) });
+    unsafe { free(c) };
 }
 
 /// Sets tolerance, start and stop time.
@@ -147,7 +132,7 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(c, |component| {
+        call("fmi2SetupExperiment", c, |component| {
             let stop = (stop_defined != 0).then_some(stop);
             let tolerance = (tolerance_defined != 0).then_some(tolerance);
             component.instance.set_experiment(start, stop, tolerance)?;
@@ -157,30 +142,34 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
 }
 
 /// Runs a call without results.
-unsafe fn simple(c: *mut c_void, run: impl FnOnce(&mut Instance) -> Result<(), Error>) -> Status {
+unsafe fn simple(
+    function: &'static str,
+    c: *mut c_void,
+    run: impl FnOnce(&mut Instance) -> Result<(), Error>,
+) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { call(c, |component| run(&mut component.instance).map(|()| OK)) }
+    unsafe { call(function, c, |component| run(&mut component.instance).map(|()| OK)) }
 }
 
 /// Begins the initialization.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterInitializationMode(c: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { simple(c, Instance::enter_initialization) }
+    unsafe { simple("fmi2EnterInitializationMode", c, Instance::enter_initialization) }
 }
 
 /// Ends the initialization.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2ExitInitializationMode(c: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { simple(c, Instance::exit_initialization) }
+    unsafe { simple("fmi2ExitInitializationMode", c, Instance::exit_initialization) }
 }
 
 /// Ends the simulation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Terminate(c: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { simple(c, Instance::terminate) }
+    unsafe { simple("fmi2Terminate", c, Instance::terminate) }
 }
 
 /// Goes back to the state after instantiation.
@@ -188,7 +177,7 @@ pub unsafe extern "C" fn fmi2Terminate(c: *mut c_void) -> Status {
 pub unsafe extern "C" fn fmi2Reset(c: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        simple(c, |instance| {
+        simple("fmi2Reset", c, |instance| {
             instance.reset();
             Ok(())
         })
@@ -200,7 +189,7 @@ pub unsafe extern "C" fn fmi2Reset(c: *mut c_void) -> Status {
 pub unsafe extern "C" fn fmi2GetReal(c: *mut c_void, vr: References, n: usize, value: *mut f64) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(c, |component| {
+        call("fmi2GetReal", c, |component| {
             let (vr, value) = (
                 slice(vr, n, "the references")?,
                 slice_mut(value, n, "the values")?,
@@ -220,7 +209,7 @@ pub unsafe extern "C" fn fmi2GetInteger(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(c, |component| {
+        call("fmi2GetInteger", c, |component| {
             let (vr, value) = (
                 slice(vr, n, "the references")?,
                 slice_mut(value, n, "the values")?,
@@ -240,7 +229,7 @@ pub unsafe extern "C" fn fmi2GetBoolean(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(c, |component| {
+        call("fmi2GetBoolean", c, |component| {
             let (vr, value) = (
                 slice(vr, n, "the references")?,
                 slice_mut(value, n, "the values")?,
@@ -261,7 +250,7 @@ pub unsafe extern "C" fn fmi2GetString(
     _value: *mut *const c_char,
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { call(c, |_| none_of(n, "string")) }
+    unsafe { call("fmi2GetString", c, |_| none_of(n, "string")) }
 }
 
 /// Sets real variables.
@@ -269,7 +258,7 @@ pub unsafe extern "C" fn fmi2GetString(
 pub unsafe extern "C" fn fmi2SetReal(c: *mut c_void, vr: References, n: usize, value: *const f64) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(c, |component| {
+        call("fmi2SetReal", c, |component| {
             let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
             let instance = &mut component.instance;
             write(instance, vr, value, Instance::may_set_float, Instance::set_float)
@@ -287,7 +276,7 @@ pub unsafe extern "C" fn fmi2SetInteger(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(c, |component| {
+        call("fmi2SetInteger", c, |component| {
             let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
             let instance = &mut component.instance;
             write(
@@ -311,7 +300,7 @@ pub unsafe extern "C" fn fmi2SetBoolean(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(c, |component| {
+        call("fmi2SetBoolean", c, |component| {
             let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
             write(
                 &mut component.instance,
@@ -333,14 +322,14 @@ pub unsafe extern "C" fn fmi2SetString(
     _value: *const *const c_char,
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { call(c, |_| none_of(n, "string")) }
+    unsafe { call("fmi2SetString", c, |_| none_of(n, "string")) }
 }
 
 /// Saves the state.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetFMUstate(c: *mut c_void, state: *mut *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { call(c, |component| save(component, state)) }
+    unsafe { call("fmi2GetFMUstate", c, |component| save(component, state)) }
 }
 
 /// Goes back to a saved state.
@@ -348,7 +337,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: *mut c_void, state: *mut *mut c_void
 pub unsafe extern "C" fn fmi2SetFMUstate(c: *mut c_void, state: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(c, |component| {
+        call("fmi2SetFMUstate", c, |component| {
             component.instance.restore(saved(state)?).map(|()| OK)
         })
     }
@@ -358,7 +347,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: *mut c_void, state: *mut c_void) -> 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeFMUstate(c: *mut c_void, state: *mut *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { call(c, |_| free_saved(state)) }
+    unsafe { call("fmi2FreeFMUstate", c, |_| free_saved(state)) }
 }
 
 /// How many bytes a saved state takes.
@@ -370,7 +359,7 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(c, |_| {
+        call("fmi2SerializedFMUstateSize", c, |_| {
             put(size, saved(state)?.to_bytes()?.len(), "the size")?;
             Ok(OK)
         })
@@ -386,7 +375,11 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
     size: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { call(c, |_| serialize(state, bytes.cast(), size)) }
+    unsafe {
+        call("fmi2SerializeFMUstate", c, |_| {
+            serialize(state, bytes.cast(), size)
+        })
+    }
 }
 
 /// Reads a saved state from bytes.
@@ -398,7 +391,11 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     state: *mut *mut c_void,
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { call(c, |_| deserialize(bytes.cast(), size, state)) }
+    unsafe {
+        call("fmi2DeSerializeFMUstate", c, |_| {
+            deserialize(bytes.cast(), size, state)
+        })
+    }
 }
 
 /// Derivatives along a direction.
@@ -414,7 +411,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(c, |component| {
+        call("fmi2GetDirectionalDerivative", c, |component| {
             let unknowns = slice(unknowns, unknown_count, "the unknowns")?;
             let knowns = slice(knowns, known_count, "the knowns")?;
             let seed = slice(seed, known_count, "the seed")?;

@@ -3,11 +3,11 @@
 
 use std::ffi::{c_int, c_void};
 
-use fmi::Error;
 use fmi::instance::Instance;
 
 use super::simple;
-use crate::component::{OK, Status, call, put, slice, slice_mut};
+use crate::component::{OK, Status, call};
+use crate::pointers::{put, slice, slice_mut};
 
 /// What event handling says: `fmi2EventInfo`.
 #[repr(C)]
@@ -30,7 +30,7 @@ pub struct EventInfo {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterEventMode(c: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { simple(c, Instance::enter_event_mode) }
+    unsafe { simple("fmi2EnterEventMode", c, Instance::enter_event_mode) }
 }
 
 /// Handles events.
@@ -38,20 +38,19 @@ pub unsafe extern "C" fn fmi2EnterEventMode(c: *mut c_void) -> Status {
 pub unsafe extern "C" fn fmi2NewDiscreteStates(c: *mut c_void, info: *mut EventInfo) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        call(c, |component| {
-            if info.is_null() {
-                return Err(Error::new("the pointer to the event info is null"));
-            }
-            let update = component.instance.update_discrete_states()?;
-            let found = EventInfo {
-                new_discrete_states_needed: c_int::from(update.again),
+        call("fmi2NewDiscreteStates", c, |component| {
+            let found = |again: bool| EventInfo {
+                new_discrete_states_needed: c_int::from(again),
                 terminate_simulation: 0,
                 nominals_of_continuous_states_changed: 0,
                 values_of_continuous_states_changed: 0,
                 next_event_time_defined: 0,
                 next_event_time: 0.0,
             };
-            put(info, found, "the event info")?;
+            // Before anything changes: a null pointer is refused as a whole.
+            put(info, found(false), "the event info")?;
+            let update = component.instance.update_discrete_states()?;
+            put(info, found(update.again), "the event info")?;
             Ok(OK)
         })
     }
@@ -61,7 +60,13 @@ pub unsafe extern "C" fn fmi2NewDiscreteStates(c: *mut c_void, info: *mut EventI
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(c: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { simple(c, Instance::enter_continuous_time_mode) }
+    unsafe {
+        simple(
+            "fmi2EnterContinuousTimeMode",
+            c,
+            Instance::enter_continuous_time_mode,
+        )
+    }
 }
 
 /// An integrator step is complete.
@@ -74,7 +79,7 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        call(c, |component| {
+        call("fmi2CompletedIntegratorStep", c, |component| {
             component.instance.completed_integrator_step()?;
             put(enter_event_mode, 0, "enterEventMode")?;
             put(terminate, 0, "terminateSimulation")?;
@@ -87,14 +92,18 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetTime(c: *mut c_void, time: f64) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { simple(c, |instance| instance.set_time(time)) }
+    unsafe { simple("fmi2SetTime", c, |instance| instance.set_time(time)) }
 }
 
 /// Sets the states.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetContinuousStates(c: *mut c_void, x: *const f64, n: usize) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { simple(c, |instance| instance.set_states(slice(x, n, "the states")?)) }
+    unsafe {
+        simple("fmi2SetContinuousStates", c, |instance| {
+            instance.set_states(slice(x, n, "the states")?)
+        })
+    }
 }
 
 /// Reads the rates of the states.
@@ -102,7 +111,7 @@ pub unsafe extern "C" fn fmi2SetContinuousStates(c: *mut c_void, x: *const f64, 
 pub unsafe extern "C" fn fmi2GetDerivatives(c: *mut c_void, out: *mut f64, n: usize) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        simple(c, |instance| {
+        simple("fmi2GetDerivatives", c, |instance| {
             instance.rates(slice_mut(out, n, "the derivatives")?)
         })
     }
@@ -113,7 +122,7 @@ pub unsafe extern "C" fn fmi2GetDerivatives(c: *mut c_void, out: *mut f64, n: us
 pub unsafe extern "C" fn fmi2GetEventIndicators(c: *mut c_void, out: *mut f64, n: usize) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        simple(c, |instance| {
+        simple("fmi2GetEventIndicators", c, |instance| {
             instance.indicators(slice_mut(out, n, "the event indicators")?)
         })
     }
@@ -123,7 +132,11 @@ pub unsafe extern "C" fn fmi2GetEventIndicators(c: *mut c_void, out: *mut f64, n
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetContinuousStates(c: *mut c_void, out: *mut f64, n: usize) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { simple(c, |instance| instance.states(slice_mut(out, n, "the states")?)) }
+    unsafe {
+        simple("fmi2GetContinuousStates", c, |instance| {
+            instance.states(slice_mut(out, n, "the states")?)
+        })
+    }
 }
 
 /// Reads the nominal values of the states.
@@ -135,7 +148,7 @@ pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        simple(c, |instance| {
+        simple("fmi2GetNominalsOfContinuousStates", c, |instance| {
             instance.nominals(slice_mut(out, n, "the nominal values")?)
         })
     }

@@ -12,17 +12,15 @@ pub mod others;
 
 use std::ffi::{c_char, c_void};
 use std::path::Path;
-use std::ptr::null_mut;
 
+use fmi::Error;
 use fmi::description::Version;
 use fmi::element::Interface;
-use fmi::instance::{Instance, Message};
-use fmi::{Category, Error, Severity};
+use fmi::instance::Instance;
 
-use crate::component::{
-    Component, Logger, Logger3, OK, Status, call, deserialize, free_saved, guard, hand_out, log, put, read,
-    save, saved, serialize, slice, slice_mut, string, strings, take_back, write,
-};
+use crate::component::{Logger, Logger3, OK, Status, call, free, instantiate, read, write};
+use crate::pointers::{put, slice, slice_mut, string, strings};
+use crate::states::{deserialize, free_saved, save, saved, serialize};
 
 pub(crate) type References = *const u32;
 /// The importer's logger; none is possible.
@@ -47,27 +45,16 @@ pub unsafe extern "C" fn fmi3SetDebugLogging(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(instance, |component| {
+        call("fmi3SetDebugLogging", instance, |component| {
             component.set_logging(on, &strings(categories, count, "the log categories")?)?;
             Ok(OK)
         })
     }
 }
 
-/// Says why there is no instance.
-fn refuse(logger: Logger, error: Error) -> *mut c_void {
-    let message = Message {
-        severity: Severity::Error,
-        category: Category::Error,
-        text: error.message,
-    };
-    // SAFETY: the logger is the importer's.
-    unsafe { log(logger, c"", &message) };
-    null_mut()
-}
-
 /// Makes an instance of one kind; `check` looks at what else was asked for.
-unsafe fn instantiate(
+unsafe fn make(
+    function: &'static str,
     [name, token, resources]: [*const c_char; 3],
     interface: Interface,
     logging: bool,
@@ -79,26 +66,19 @@ unsafe fn instantiate(
         Some(log_message) => Logger::Three(log_message as Logger3, environment),
         None => Logger::None,
     };
-    let make = || -> Result<Component, Error> {
+    let make = |name: &str| -> Result<Instance, Error> {
         check()?;
         // SAFETY: the standard's contract, see the module; null pointers are looked for.
-        let (name, token, resources) = unsafe {
+        let (token, resources) = unsafe {
             (
-                string(name, "the instance's name")?,
                 string(token, "the instantiation token")?,
                 string(resources, "the path of the resources")?,
             )
         };
-        let instance = Instance::new(name, token, Path::new(resources), Version::Three, interface)?;
-        Ok(Component::new(instance, logger, name, logging))
+        Instance::new(name, token, Path::new(resources), Version::Three, interface)
     };
-    match guard(
-        Err(Error::new("internal error while the instance was made")),
-        make,
-    ) {
-        Ok(component) => hand_out(component),
-        Err(error) => refuse(logger, error),
-    }
+    // SAFETY: as above; the logger is the importer's.
+    unsafe { instantiate(function, logger, name, logging, make) }
 }
 
 /// Makes an instance for model exchange; null, with a message, if it cannot be made.
@@ -115,7 +95,8 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     let texts = [name, token, resources];
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        instantiate(
+        make(
+            "fmi3InstantiateModelExchange",
             texts,
             Interface::ModelExchange,
             logging,
@@ -158,7 +139,8 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     let texts = [name, token, resources];
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        instantiate(
+        make(
+            "fmi3InstantiateCoSimulation",
             texts,
             Interface::CoSimulation,
             logging,
@@ -172,35 +154,51 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
 /// The FMU has no scheduled execution.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
-    _name: *const c_char,
-    _token: *const c_char,
-    _resources: *const c_char,
+    name: *const c_char,
+    token: *const c_char,
+    resources: *const c_char,
     _visible: bool,
-    _logging: bool,
+    logging: bool,
     environment: *mut c_void,
     log_message: LogMessage,
     _clock_update: Option<unsafe extern "C" fn(*mut c_void)>,
     _lock_preemption: Option<unsafe extern "C" fn()>,
     _unlock_preemption: Option<unsafe extern "C" fn()>,
 ) -> *mut c_void {
-    let logger = match log_message {
-        Some(log_message) => Logger::Three(log_message as Logger3, environment),
-        None => Logger::None,
-    };
-    refuse(logger, Error::new("the FMU has no scheduled execution"))
+    let why = "the FMU has no scheduled execution: make an instance for model exchange or co-simulation";
+    // SAFETY: the standard's contract, see the module.
+    unsafe {
+        make(
+            "fmi3InstantiateScheduledExecution",
+            [name, token, resources],
+            Interface::CoSimulation,
+            logging,
+            environment,
+            log_message,
+            || Err(Error::new(why)),
+        )
+    }
 }
 
 /// Frees an instance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3FreeInstance(instance: *mut c_void) {
     // SAFETY: the standard's contract, see the module.
-    guard((), || unsafe { take_back::<Component>(instance) });
+    unsafe { free(instance) };
 }
 
 /// Runs a call without results.
-unsafe fn simple(instance: *mut c_void, run: impl FnOnce(&mut Instance) -> Result<(), Error>) -> Status {
+unsafe fn simple(
+    function: &'static str,
+    instance: *mut c_void,
+    run: impl FnOnce(&mut Instance) -> Result<(), Error>,
+) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { call(instance, |component| run(&mut component.instance).map(|()| OK)) }
+    unsafe {
+        call(function, instance, |component| {
+            run(&mut component.instance).map(|()| OK)
+        })
+    }
 }
 
 /// Begins the initialization.
@@ -215,7 +213,7 @@ pub unsafe extern "C" fn fmi3EnterInitializationMode(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        simple(instance, |instance| {
+        simple("fmi3EnterInitializationMode", instance, |instance| {
             let tolerance = tolerance_defined.then_some(tolerance);
             instance.set_experiment(start, stop_defined.then_some(stop), tolerance)?;
             instance.enter_initialization()
@@ -227,21 +225,27 @@ pub unsafe extern "C" fn fmi3EnterInitializationMode(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3ExitInitializationMode(instance: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { simple(instance, Instance::exit_initialization) }
+    unsafe {
+        simple(
+            "fmi3ExitInitializationMode",
+            instance,
+            Instance::exit_initialization,
+        )
+    }
 }
 
 /// Begins event mode.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3EnterEventMode(instance: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { simple(instance, Instance::enter_event_mode) }
+    unsafe { simple("fmi3EnterEventMode", instance, Instance::enter_event_mode) }
 }
 
 /// Ends the simulation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3Terminate(instance: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { simple(instance, Instance::terminate) }
+    unsafe { simple("fmi3Terminate", instance, Instance::terminate) }
 }
 
 /// Goes back to the state after instantiation.
@@ -249,7 +253,7 @@ pub unsafe extern "C" fn fmi3Terminate(instance: *mut c_void) -> Status {
 pub unsafe extern "C" fn fmi3Reset(instance: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        simple(instance, |instance| {
+        simple("fmi3Reset", instance, |instance| {
             instance.reset();
             Ok(())
         })
@@ -267,7 +271,7 @@ pub unsafe extern "C" fn fmi3GetFloat64(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(instance, |component| {
+        call("fmi3GetFloat64", instance, |component| {
             same(n, count)?;
             let (vr, values) = (
                 slice(vr, n, "the references")?,
@@ -289,7 +293,7 @@ pub unsafe extern "C" fn fmi3SetFloat64(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(instance, |component| {
+        call("fmi3SetFloat64", instance, |component| {
             same(n, count)?;
             let (vr, values) = (slice(vr, n, "the references")?, slice(values, n, "the values")?);
             let instance = &mut component.instance;
@@ -309,7 +313,7 @@ pub unsafe extern "C" fn fmi3GetInt32(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(instance, |component| {
+        call("fmi3GetInt32", instance, |component| {
             same(n, count)?;
             let (vr, values) = (
                 slice(vr, n, "the references")?,
@@ -331,7 +335,7 @@ pub unsafe extern "C" fn fmi3SetInt32(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(instance, |component| {
+        call("fmi3SetInt32", instance, |component| {
             same(n, count)?;
             let (vr, values) = (slice(vr, n, "the references")?, slice(values, n, "the values")?);
             let instance = &mut component.instance;
@@ -357,7 +361,7 @@ pub unsafe extern "C" fn fmi3GetBoolean(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(instance, |component| {
+        call("fmi3GetBoolean", instance, |component| {
             same(n, count)?;
             let (vr, values) = (
                 slice(vr, n, "the references")?,
@@ -379,7 +383,7 @@ pub unsafe extern "C" fn fmi3SetBoolean(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(instance, |component| {
+        call("fmi3SetBoolean", instance, |component| {
             same(n, count)?;
             let (vr, values) = (slice(vr, n, "the references")?, slice(values, n, "the values")?);
             write(
@@ -399,7 +403,7 @@ fn same(references: usize, values: usize) -> Result<(), Error> {
         return Ok(());
     }
     Err(Error::new(format!(
-        "{references} references and {values} values: all variables are scalars"
+        "{references} references and {values} values: all variables are scalars, so give one value for each reference"
     )))
 }
 
@@ -407,7 +411,7 @@ fn same(references: usize, values: usize) -> Result<(), Error> {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetFMUState(instance: *mut c_void, state: *mut *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { call(instance, |component| save(component, state)) }
+    unsafe { call("fmi3GetFMUState", instance, |component| save(component, state)) }
 }
 
 /// Goes back to a saved state.
@@ -415,7 +419,7 @@ pub unsafe extern "C" fn fmi3GetFMUState(instance: *mut c_void, state: *mut *mut
 pub unsafe extern "C" fn fmi3SetFMUState(instance: *mut c_void, state: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(instance, |component| {
+        call("fmi3SetFMUState", instance, |component| {
             component.instance.restore(saved(state)?).map(|()| OK)
         })
     }
@@ -425,7 +429,7 @@ pub unsafe extern "C" fn fmi3SetFMUState(instance: *mut c_void, state: *mut c_vo
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3FreeFMUState(instance: *mut c_void, state: *mut *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { call(instance, |_| free_saved(state)) }
+    unsafe { call("fmi3FreeFMUState", instance, |_| free_saved(state)) }
 }
 
 /// How many bytes a saved state takes.
@@ -437,7 +441,7 @@ pub unsafe extern "C" fn fmi3SerializedFMUStateSize(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(instance, |_| {
+        call("fmi3SerializedFMUStateSize", instance, |_| {
             put(size, saved(state)?.to_bytes()?.len(), "the size")?;
             Ok(OK)
         })
@@ -453,7 +457,11 @@ pub unsafe extern "C" fn fmi3SerializeFMUState(
     size: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { call(instance, |_| serialize(state, bytes, size)) }
+    unsafe {
+        call("fmi3SerializeFMUState", instance, |_| {
+            serialize(state, bytes, size)
+        })
+    }
 }
 
 /// Reads a saved state from bytes.
@@ -465,7 +473,11 @@ pub unsafe extern "C" fn fmi3DeserializeFMUState(
     state: *mut *mut c_void,
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
-    unsafe { call(instance, |_| deserialize(bytes, size, state)) }
+    unsafe {
+        call("fmi3DeserializeFMUState", instance, |_| {
+            deserialize(bytes, size, state)
+        })
+    }
 }
 
 /// Derivatives along a direction.
@@ -483,7 +495,7 @@ pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(instance, |component| {
+        call("fmi3GetDirectionalDerivative", instance, |component| {
             let unknowns = slice(unknowns, unknown_count, "the unknowns")?;
             let knowns = slice(knowns, known_count, "the knowns")?;
             let seed = slice(seed, seed_count, "the seed")?;
@@ -510,7 +522,7 @@ pub unsafe extern "C" fn fmi3DoStep(
 ) -> Status {
     // SAFETY: the standard's contract, see the module.
     unsafe {
-        call(instance, |component| {
+        call("fmi3DoStep", instance, |component| {
             put(event_handling_needed, false, "eventHandlingNeeded")?;
             put(terminate, false, "terminateSimulation")?;
             put(early_return, false, "earlyReturn")?;

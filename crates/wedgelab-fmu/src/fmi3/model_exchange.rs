@@ -6,7 +6,8 @@ use std::ffi::c_void;
 use fmi::instance::Instance;
 
 use super::simple;
-use crate::component::{OK, Status, call, put, slice, slice_mut};
+use crate::component::{OK, Status, call};
+use crate::pointers::{put, slice, slice_mut};
 
 /// Handles events.
 #[unsafe(no_mangle)]
@@ -21,14 +22,16 @@ pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        call(instance, |component| {
-            let update = component.instance.update_discrete_states()?;
-            put(again, update.again, "discreteStatesNeedUpdate")?;
+        call("fmi3UpdateDiscreteStates", instance, |component| {
+            // Before anything changes: a null pointer is refused as a whole.
+            put(again, false, "discreteStatesNeedUpdate")?;
             put(terminate, false, "terminateSimulation")?;
             put(nominals_changed, false, "nominalsOfContinuousStatesChanged")?;
             put(values_changed, false, "valuesOfContinuousStatesChanged")?;
             put(next_time_defined, false, "nextEventTimeDefined")?;
             put(next_time, 0.0, "nextEventTime")?;
+            let update = component.instance.update_discrete_states()?;
+            put(again, update.again, "discreteStatesNeedUpdate")?;
             Ok(OK)
         })
     }
@@ -38,7 +41,13 @@ pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3EnterContinuousTimeMode(instance: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { simple(instance, Instance::enter_continuous_time_mode) }
+    unsafe {
+        simple(
+            "fmi3EnterContinuousTimeMode",
+            instance,
+            Instance::enter_continuous_time_mode,
+        )
+    }
 }
 
 /// An integrator step is complete.
@@ -51,7 +60,7 @@ pub unsafe extern "C" fn fmi3CompletedIntegratorStep(
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        call(instance, |component| {
+        call("fmi3CompletedIntegratorStep", instance, |component| {
             component.instance.completed_integrator_step()?;
             put(enter_event_mode, false, "enterEventMode")?;
             put(terminate, false, "terminateSimulation")?;
@@ -64,7 +73,7 @@ pub unsafe extern "C" fn fmi3CompletedIntegratorStep(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3SetTime(instance: *mut c_void, time: f64) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { simple(instance, |instance| instance.set_time(time)) }
+    unsafe { simple("fmi3SetTime", instance, |instance| instance.set_time(time)) }
 }
 
 /// Sets the states.
@@ -72,7 +81,7 @@ pub unsafe extern "C" fn fmi3SetTime(instance: *mut c_void, time: f64) -> Status
 pub unsafe extern "C" fn fmi3SetContinuousStates(instance: *mut c_void, x: *const f64, n: usize) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        simple(instance, |instance| {
+        simple("fmi3SetContinuousStates", instance, |instance| {
             instance.set_states(slice(x, n, "the states")?)
         })
     }
@@ -87,7 +96,7 @@ pub unsafe extern "C" fn fmi3GetContinuousStateDerivatives(
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        simple(instance, |instance| {
+        simple("fmi3GetContinuousStateDerivatives", instance, |instance| {
             instance.rates(slice_mut(out, n, "the derivatives")?)
         })
     }
@@ -98,7 +107,7 @@ pub unsafe extern "C" fn fmi3GetContinuousStateDerivatives(
 pub unsafe extern "C" fn fmi3GetEventIndicators(instance: *mut c_void, out: *mut f64, n: usize) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        simple(instance, |instance| {
+        simple("fmi3GetEventIndicators", instance, |instance| {
             instance.indicators(slice_mut(out, n, "the event indicators")?)
         })
     }
@@ -109,7 +118,7 @@ pub unsafe extern "C" fn fmi3GetEventIndicators(instance: *mut c_void, out: *mut
 pub unsafe extern "C" fn fmi3GetContinuousStates(instance: *mut c_void, out: *mut f64, n: usize) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        simple(instance, |instance| {
+        simple("fmi3GetContinuousStates", instance, |instance| {
             instance.states(slice_mut(out, n, "the states")?)
         })
     }
@@ -124,7 +133,7 @@ pub unsafe extern "C" fn fmi3GetNominalsOfContinuousStates(
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        simple(instance, |instance| {
+        simple("fmi3GetNominalsOfContinuousStates", instance, |instance| {
             instance.nominals(slice_mut(out, n, "the nominal values")?)
         })
     }
@@ -135,7 +144,7 @@ pub unsafe extern "C" fn fmi3GetNominalsOfContinuousStates(
 pub unsafe extern "C" fn fmi3GetNumberOfEventIndicators(instance: *mut c_void, count: *mut usize) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        simple(instance, |instance| {
+        simple("fmi3GetNumberOfEventIndicators", instance, |instance| {
             put(
                 count,
                 instance.description().entries.indicators.len(),
@@ -150,7 +159,7 @@ pub unsafe extern "C" fn fmi3GetNumberOfEventIndicators(instance: *mut c_void, c
 pub unsafe extern "C" fn fmi3GetNumberOfContinuousStates(instance: *mut c_void, count: *mut usize) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
-        simple(instance, |instance| {
+        simple("fmi3GetNumberOfContinuousStates", instance, |instance| {
             put(count, instance.description().entries.states.len(), "the number")
         })
     }

@@ -10,15 +10,15 @@ use super::References;
 use crate::component::{OK, Status, call, none_of};
 
 /// Refuses a call.
-unsafe fn refuse(instance: *mut c_void, why: &str) -> Status {
+unsafe fn refuse(function: &'static str, instance: *mut c_void, why: &str) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { call(instance, |_| Err(Error::new(why))) }
+    unsafe { call(function, instance, |_| Err(Error::new(why))) }
 }
 
 /// Refuses a call for anything.
-unsafe fn nothing(instance: *mut c_void, count: usize, what: &str) -> Status {
+unsafe fn nothing(function: &'static str, instance: *mut c_void, count: usize, what: &str) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { call(instance, |_| none_of(count, what)) }
+    unsafe { call(function, instance, |_| none_of(count, what)) }
 }
 
 /// There are no variables of the type Float32.
@@ -31,7 +31,7 @@ pub unsafe extern "C" fn fmi3GetFloat32(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Float32") }
+    unsafe { nothing("fmi3GetFloat32", instance, n, "Float32") }
 }
 
 /// There are no variables of the type Float32.
@@ -44,7 +44,7 @@ pub unsafe extern "C" fn fmi3SetFloat32(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Float32") }
+    unsafe { nothing("fmi3SetFloat32", instance, n, "Float32") }
 }
 
 /// There are no variables of the type Int8.
@@ -57,7 +57,7 @@ pub unsafe extern "C" fn fmi3GetInt8(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Int8") }
+    unsafe { nothing("fmi3GetInt8", instance, n, "Int8") }
 }
 
 /// There are no variables of the type Int8.
@@ -70,7 +70,7 @@ pub unsafe extern "C" fn fmi3SetInt8(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Int8") }
+    unsafe { nothing("fmi3SetInt8", instance, n, "Int8") }
 }
 
 /// There are no variables of the type UInt8.
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn fmi3GetUInt8(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "UInt8") }
+    unsafe { nothing("fmi3GetUInt8", instance, n, "UInt8") }
 }
 
 /// There are no variables of the type UInt8.
@@ -96,7 +96,7 @@ pub unsafe extern "C" fn fmi3SetUInt8(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "UInt8") }
+    unsafe { nothing("fmi3SetUInt8", instance, n, "UInt8") }
 }
 
 /// There are no variables of the type Int16.
@@ -109,7 +109,7 @@ pub unsafe extern "C" fn fmi3GetInt16(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Int16") }
+    unsafe { nothing("fmi3GetInt16", instance, n, "Int16") }
 }
 
 /// There are no variables of the type Int16.
@@ -122,7 +122,7 @@ pub unsafe extern "C" fn fmi3SetInt16(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Int16") }
+    unsafe { nothing("fmi3SetInt16", instance, n, "Int16") }
 }
 
 /// There are no variables of the type UInt16.
@@ -135,7 +135,7 @@ pub unsafe extern "C" fn fmi3GetUInt16(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "UInt16") }
+    unsafe { nothing("fmi3GetUInt16", instance, n, "UInt16") }
 }
 
 /// There are no variables of the type UInt16.
@@ -148,7 +148,7 @@ pub unsafe extern "C" fn fmi3SetUInt16(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "UInt16") }
+    unsafe { nothing("fmi3SetUInt16", instance, n, "UInt16") }
 }
 
 /// There are no variables of the type UInt32.
@@ -161,7 +161,7 @@ pub unsafe extern "C" fn fmi3GetUInt32(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "UInt32") }
+    unsafe { nothing("fmi3GetUInt32", instance, n, "UInt32") }
 }
 
 /// There are no variables of the type UInt32.
@@ -174,7 +174,7 @@ pub unsafe extern "C" fn fmi3SetUInt32(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "UInt32") }
+    unsafe { nothing("fmi3SetUInt32", instance, n, "UInt32") }
 }
 
 /// There are no variables of the type Int64.
@@ -187,7 +187,7 @@ pub unsafe extern "C" fn fmi3GetInt64(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Int64") }
+    unsafe { nothing("fmi3GetInt64", instance, n, "Int64") }
 }
 
 /// There are no variables of the type Int64.
@@ -200,7 +200,7 @@ pub unsafe extern "C" fn fmi3SetInt64(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Int64") }
+    unsafe { nothing("fmi3SetInt64", instance, n, "Int64") }
 }
 
 /// There are no variables of the type UInt64.
@@ -213,7 +213,7 @@ pub unsafe extern "C" fn fmi3GetUInt64(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "UInt64") }
+    unsafe { nothing("fmi3GetUInt64", instance, n, "UInt64") }
 }
 
 /// There are no variables of the type UInt64.
@@ -226,7 +226,7 @@ pub unsafe extern "C" fn fmi3SetUInt64(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "UInt64") }
+    unsafe { nothing("fmi3SetUInt64", instance, n, "UInt64") }
 }
 
 /// There are no variables of the type String.
@@ -239,7 +239,7 @@ pub unsafe extern "C" fn fmi3GetString(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "String") }
+    unsafe { nothing("fmi3GetString", instance, n, "String") }
 }
 
 /// There are no variables of the type String.
@@ -252,7 +252,7 @@ pub unsafe extern "C" fn fmi3SetString(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "String") }
+    unsafe { nothing("fmi3SetString", instance, n, "String") }
 }
 
 /// There are no variables of the type Binary.
@@ -266,7 +266,7 @@ pub unsafe extern "C" fn fmi3GetBinary(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Binary") }
+    unsafe { nothing("fmi3GetBinary", instance, n, "Binary") }
 }
 
 /// There are no variables of the type Binary.
@@ -280,7 +280,7 @@ pub unsafe extern "C" fn fmi3SetBinary(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Binary") }
+    unsafe { nothing("fmi3SetBinary", instance, n, "Binary") }
 }
 
 /// There are no clocks.
@@ -292,7 +292,7 @@ pub unsafe extern "C" fn fmi3GetClock(
     _values: *mut bool,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Clock") }
+    unsafe { nothing("fmi3GetClock", instance, n, "Clock") }
 }
 
 /// There are no clocks.
@@ -304,7 +304,7 @@ pub unsafe extern "C" fn fmi3SetClock(
     _values: *const bool,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Clock") }
+    unsafe { nothing("fmi3SetClock", instance, n, "Clock") }
 }
 
 /// Dependencies are in the description.
@@ -317,6 +317,7 @@ pub unsafe extern "C" fn fmi3GetNumberOfVariableDependencies(
     // SAFETY: the standard's contract, see the module above.
     unsafe {
         refuse(
+            "fmi3GetNumberOfVariableDependencies",
             instance,
             "the FMU gives dependencies in its description (providesPerElementDependencies is not set)",
         )
@@ -337,6 +338,7 @@ pub unsafe extern "C" fn fmi3GetVariableDependencies(
     // SAFETY: the standard's contract, see the module above.
     unsafe {
         refuse(
+            "fmi3GetVariableDependencies",
             instance,
             "the FMU gives dependencies in its description (providesPerElementDependencies is not set)",
         )
@@ -359,6 +361,7 @@ pub unsafe extern "C" fn fmi3GetAdjointDerivative(
     // SAFETY: the standard's contract, see the module above.
     unsafe {
         refuse(
+            "fmi3GetAdjointDerivative",
             instance,
             "the FMU gives no adjoint derivatives (providesAdjointDerivatives is not set)",
         )
@@ -371,6 +374,7 @@ pub unsafe extern "C" fn fmi3EnterConfigurationMode(instance: *mut c_void) -> St
     // SAFETY: the standard's contract, see the module above.
     unsafe {
         refuse(
+            "fmi3EnterConfigurationMode",
             instance,
             "the FMU has no structural parameters: there is nothing to configure",
         )
@@ -383,6 +387,7 @@ pub unsafe extern "C" fn fmi3ExitConfigurationMode(instance: *mut c_void) -> Sta
     // SAFETY: the standard's contract, see the module above.
     unsafe {
         refuse(
+            "fmi3ExitConfigurationMode",
             instance,
             "the FMU has no structural parameters: there is nothing to configure",
         )
@@ -399,7 +404,7 @@ pub unsafe extern "C" fn fmi3GetIntervalDecimal(
     _qualifiers: *mut i32,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Clock") }
+    unsafe { nothing("fmi3GetIntervalDecimal", instance, n, "Clock") }
 }
 
 /// There are no clocks.
@@ -413,7 +418,7 @@ pub unsafe extern "C" fn fmi3GetIntervalFraction(
     _qualifiers: *mut i32,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Clock") }
+    unsafe { nothing("fmi3GetIntervalFraction", instance, n, "Clock") }
 }
 
 /// There are no clocks.
@@ -425,7 +430,7 @@ pub unsafe extern "C" fn fmi3GetShiftDecimal(
     _shifts: *mut f64,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Clock") }
+    unsafe { nothing("fmi3GetShiftDecimal", instance, n, "Clock") }
 }
 
 /// There are no clocks.
@@ -438,7 +443,7 @@ pub unsafe extern "C" fn fmi3GetShiftFraction(
     _resolutions: *mut u64,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Clock") }
+    unsafe { nothing("fmi3GetShiftFraction", instance, n, "Clock") }
 }
 
 /// There are no clocks.
@@ -450,7 +455,7 @@ pub unsafe extern "C" fn fmi3SetIntervalDecimal(
     _intervals: *const f64,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Clock") }
+    unsafe { nothing("fmi3SetIntervalDecimal", instance, n, "Clock") }
 }
 
 /// There are no clocks.
@@ -463,7 +468,7 @@ pub unsafe extern "C" fn fmi3SetIntervalFraction(
     _resolutions: *const u64,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Clock") }
+    unsafe { nothing("fmi3SetIntervalFraction", instance, n, "Clock") }
 }
 
 /// There are no clocks.
@@ -475,7 +480,7 @@ pub unsafe extern "C" fn fmi3SetShiftDecimal(
     _shifts: *const f64,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Clock") }
+    unsafe { nothing("fmi3SetShiftDecimal", instance, n, "Clock") }
 }
 
 /// There are no clocks.
@@ -488,14 +493,14 @@ pub unsafe extern "C" fn fmi3SetShiftFraction(
     _resolutions: *const u64,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "Clock") }
+    unsafe { nothing("fmi3SetShiftFraction", instance, n, "Clock") }
 }
 
 /// There are no algebraic loops over discrete states: nothing to evaluate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3EvaluateDiscreteStates(instance: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { call(instance, |_| Ok(OK)) }
+    unsafe { call("fmi3EvaluateDiscreteStates", instance, |_| Ok(OK)) }
 }
 
 /// Co-simulation has no event mode to come from (hasEventMode is not set).
@@ -504,6 +509,7 @@ pub unsafe extern "C" fn fmi3EnterStepMode(instance: *mut c_void) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe {
         refuse(
+            "fmi3EnterStepMode",
             instance,
             "the FMU has no event mode in co-simulation: step mode begins with the end of the initialization",
         )
@@ -521,7 +527,7 @@ pub unsafe extern "C" fn fmi3GetOutputDerivatives(
     _count: usize,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { nothing(instance, n, "derivative of an output") }
+    unsafe { nothing("fmi3GetOutputDerivatives", instance, n, "derivative of an output") }
 }
 
 /// There is no scheduled execution.
@@ -532,5 +538,11 @@ pub unsafe extern "C" fn fmi3ActivateModelPartition(
     _time: f64,
 ) -> Status {
     // SAFETY: the standard's contract, see the module above.
-    unsafe { refuse(instance, "the FMU has no scheduled execution") }
+    unsafe {
+        refuse(
+            "fmi3ActivateModelPartition",
+            instance,
+            "the FMU has no scheduled execution",
+        )
+    }
 }

@@ -30,6 +30,15 @@ void expect(int holds, const char *what, const char *file, int line);
         expect(messages > before_, "a message: " #call, __FILE__, __LINE__);                                           \
     } while (0)
 
+/* A question without an answer, which the log tells too. */
+#define DISCARDED(call)                                                                                                \
+    do {                                                                                                               \
+        long before_ = messages;                                                                                       \
+        int status_ = (int)(call);                                                                                     \
+        expect(status_ == DISCARD, "discarded: " #call, __FILE__, __LINE__);                                           \
+        expect(messages > before_, "a message: " #call, __FILE__, __LINE__);                                           \
+    } while (0)
+
 /* The value reference of a variable. */
 uint32_t reference(const char *name);
 /* One that no variable has. */

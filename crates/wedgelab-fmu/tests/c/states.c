@@ -99,6 +99,17 @@ void check_states(int corruptions) {
     EXPECT(api->free_state(c, NULL) == OK);
     EXPECT(api->free_state(c, &nothing) == OK);
     EXPECT(api->free_state(c, &nothing) == OK);
+    /* States that were freed, and pointers that lead to none. */
+    void *freed = NULL, *again;
+    EXPECT(api->save(c, &freed) == OK);
+    again = freed;
+    EXPECT(api->free_state(c, &again) == OK && again == NULL);
+    again = freed;
+    REFUSED(api->free_state(c, &again));
+    REFUSED(api->restore(c, freed));
+    REFUSED(api->size(c, freed, &size));
+    REFUSED(api->save(c, &again));
+    REFUSED(api->restore(c, c));
     void *exchange = started(1);
     REFUSED(api->restore(exchange, state));
     EXPECT(api->free_state(exchange, &copy) == OK);

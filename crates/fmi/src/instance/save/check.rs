@@ -1,0 +1,131 @@
+//! Whether a saved state can be one of an instance: all that could lead it astray is looked at before it is taken over.
+
+use std::fmt::Display;
+
+use super::super::check_experiment;
+use super::{Instance, Phase, Saved};
+use crate::Error;
+use crate::element::Interface;
+
+/// A member of a saved state that cannot be.
+pub(crate) fn damaged(member: &str, found: impl Display, expected: impl Display) -> Error {
+    Error::new(format!(
+        "the saved state is damaged: {member} is {found}; it must be {expected}; restore a state as it was saved, or reset the instance"
+    ))
+}
+
+/// Whether all numbers of a member are finite.
+pub(crate) fn check_finite<'v>(member: &str, values: impl IntoIterator<Item = &'v f64>) -> Result<(), Error> {
+    match values
+        .into_iter()
+        .enumerate()
+        .find(|(_, value)| !value.is_finite())
+    {
+        Some((number, value)) => Err(damaged(
+            &format!("{member} {number} (counted from 0)"),
+            value,
+            "finite",
+        )),
+        None => Ok(()),
+    }
+}
+
+impl Saved {
+    /// Whether it can be a state of this instance, as far as that can be said without its element.
+    pub(super) fn check(&self, instance: &Instance) -> Result<(), Error> {
+        let values = &instance.values;
+        let before = self
+            .before
+            .as_ref()
+            .map_or(values.inputs.len(), |(before, _)| before.len());
+        for (member, own, found) in [
+            ("parameters", values.parameters.len(), self.parameters.len()),
+            ("options", values.options.len(), self.options.len()),
+            ("inputs", values.inputs.len(), self.inputs.len()),
+            ("slopes", values.slopes.len(), self.slopes.len()),
+            ("before", values.inputs.len(), before),
+        ] {
+            if own != found {
+                return Err(damaged(
+                    member,
+                    format!("a list of {found}"),
+                    format!("a list of {own}"),
+                ));
+            }
+        }
+        check_experiment(self.start, self.stop, self.tolerance)
+            .map_err(|error| Error::new(format!("the saved state is damaged: {error}")))?;
+        check_finite("time", [&self.time])?;
+        check_finite("parameters", &self.parameters)?;
+        check_finite("inputs", &self.inputs)?;
+        check_finite("slopes", self.slopes.iter().flatten())?;
+        if let Some((before, length)) = &self.before {
+            check_finite("before", before)?;
+            if !(*length > 0.0 && length.is_finite()) {
+                return Err(damaged(
+                    "the length of the step before",
+                    length,
+                    "positive and finite",
+                ));
+            }
+        }
+        self.check_options(instance)?;
+        self.check_phase()
+    }
+
+    fn check_options(&self, instance: &Instance) -> Result<(), Error> {
+        for (entry, value) in instance.description.entries.options.iter().zip(&self.options) {
+            let [least, greatest] = entry.reach.unwrap_or([0.0, 1.0]);
+            if !(least..=greatest).contains(&f64::from(*value)) {
+                return Err(damaged(
+                    &entry.name,
+                    value,
+                    format!("between {least} and {greatest}"),
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether phase, interface, element and times belong together.
+    fn check_phase(&self) -> Result<(), Error> {
+        let exchange = self.interface == Interface::ModelExchange;
+        let possible = match self.phase {
+            Phase::Event | Phase::Continuous => exchange,
+            Phase::Step | Phase::Failed => !exchange,
+            Phase::Instantiated | Phase::Initialization | Phase::Terminated => true,
+        };
+        if !possible {
+            return Err(damaged(
+                "phase",
+                self.phase.name(),
+                "one of this kind of interface",
+            ));
+        }
+        let begun = !self.phase.is_before_start();
+        if begun && self.element.is_none() {
+            return Err(damaged(
+                "element",
+                "missing",
+                "there from the end of the initialization on",
+            ));
+        }
+        if !begun && self.time != self.start {
+            return Err(damaged(
+                "time",
+                self.time,
+                format!("the start time, {} s", self.start),
+            ));
+        }
+        // A step that has failed may have left the element on its way.
+        let may_differ = matches!(self.phase, Phase::Failed | Phase::Terminated);
+        match self.element.as_ref().map(|element| element.time(self.start)) {
+            Some(time) if time.own != time.of(self.time) && !may_differ => Err(damaged(
+                "the element's time",
+                time.own,
+                format!("{} s, as the instance's", time.of(self.time)),
+            )),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Whether a saved state can be one of a case's run: all that could lead a run astray is looked at before it goes on.
+
+use integrate::MOST_COUNTED;
+use mechanics::system::Mode;
+use wedge::outputs::{CORNERS, FACES};
+
+use super::{Counts, EVENT_CAP, RunError, RunState, probe_times};
+use crate::case::Case;
+use crate::result::ContactEvent;
+use crate::rows::Rows;
+
+fn damaged<T>(member: &'static str, found: impl ToString, expected: impl ToString) -> Result<T, RunError> {
+    Err(RunError::Damaged {
+        member,
+        found: found.to_string(),
+        expected: expected.to_string(),
+    })
+}
+
+fn check_length(member: &'static str, found: usize, expected: usize) -> Result<(), RunError> {
+    if found == expected {
+        return Ok(());
+    }
+    damaged(
+        member,
+        format!("a list of {found}"),
+        format!("a list of {expected}"),
+    )
+}
+
+fn check_size(member: &'static str, value: f64) -> Result<(), RunError> {
+    if value >= 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    damaged(member, value, "zero or positive, and finite")
+}
+
+fn check_finite(member: &'static str, value: f64) -> Result<(), RunError> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    damaged(member, value, "finite")
+}
+
+impl RunState {
+    /// Whether it can be one of this case's run, whose wedge has so many contact points. What the integrator has is looked at by
+    /// the integrator.
+    pub(super) fn check(&self, case: &Case, points: usize) -> Result<(), RunError> {
+        let (time, end) = (self.integrator.time, case.simulation.duration);
+        if !(0.0..=end).contains(&time) {
+            return damaged(
+                "integrator.time",
+                time,
+                format!("between 0 and the duration, {end} s"),
+            );
+        }
+        if self.integrator.segment_start < 0.0 {
+            return damaged(
+                "integrator.segment_start",
+                self.integrator.segment_start,
+                "zero or positive",
+            );
+        }
+        if let Some(mode) = self
+            .integrator
+            .modes
+            .iter()
+            .find(|mode| **mode > Mode::Slip as u8)
+        {
+            return damaged(
+                "integrator.modes",
+                mode,
+                "0 (open), 1 (stick) or 2 (slip) at every corner",
+            );
+        }
+        let rows = Rows::of(&case.simulation);
+        let next = self.next_row;
+        let written = (1..=rows.count).contains(&next) && rows.time(next - 1) <= time;
+        if !written || (next < rows.count && rows.time(next) <= time) {
+            let expected = format!(
+                "the number of the first row after the time {time} s, at most {}",
+                rows.count
+            );
+            return damaged("next_row", next, expected);
+        }
+        let probes = probe_times(case).iter().filter(|probe| **probe <= time).count();
+        self.counts.check(points, probes)
+    }
+}
+
+impl Counts {
+    fn check(&self, points: usize, probes: usize) -> Result<(), RunError> {
+        check_length("counts.crept", self.crept.len(), points)?;
+        check_length("counts.creep_speeds", self.creep_speeds.len(), points)?;
+        check_length("counts.events", self.events.len(), FACES.len())?;
+        check_length("counts.probes", self.probes.len(), probes)?;
+        check_finite("counts.start_energy", self.start_energy)?;
+        check_size("counts.largest_residual", self.largest_residual)?;
+        self.crept
+            .iter()
+            .try_for_each(|value| check_size("counts.crept", *value))?;
+        self.creep_speeds
+            .iter()
+            .try_for_each(|value| check_size("counts.creep_speeds", *value))?;
+        self.probes
+            .iter()
+            .flatten()
+            .try_for_each(|value| check_finite("counts.probes", *value))?;
+        let counters = self.events.iter().flatten().chain([&self.event_total]);
+        if let Some(count) = counters.copied().find(|count| *count > MOST_COUNTED) {
+            return damaged(
+                "counts.events or counts.event_total",
+                count,
+                format!("at most {MOST_COUNTED}"),
+            );
+        }
+        if self.listed.len() > EVENT_CAP {
+            let found = format!("a list of {}", self.listed.len());
+            return damaged("counts.listed", found, format!("a list of at most {EVENT_CAP}"));
+        }
+        self.listed.iter().try_for_each(check_event)
+    }
+}
+
+fn check_event(event: &ContactEvent) -> Result<(), RunError> {
+    check_finite("counts.listed.time", event.time)?;
+    let modes = [Mode::Open, Mode::Stick, Mode::Slip].map(Mode::name);
+    let (face, corner, from, to) = (&*event.face, &*event.corner, &*event.from, &*event.to);
+    for (member, found, known) in [
+        ("counts.listed.face", face, &FACES[..]),
+        ("counts.listed.corner", corner, &CORNERS[..]),
+        ("counts.listed.from", from, &modes[..]),
+        ("counts.listed.to", to, &modes[..]),
+    ] {
+        if !known.contains(&found) {
+            let shown: String = found.chars().take(40).collect();
+            return damaged(
+                member,
+                format!("\"{shown}\""),
+                format!("one of {}", known.join(", ")),
+            );
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,52 @@
+//! Which pointers that were given to importers are alive: what was freed, or never was one of ours, is recognized before it is used.
+
+use std::collections::BTreeMap;
+use std::ffi::c_void;
+use std::sync::{PoisonError, RwLock};
+
+/// What a pointer leads to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// An instance.
+    Instance,
+    /// A saved state.
+    State,
+}
+
+static ALIVE: RwLock<BTreeMap<usize, Kind>> = RwLock::new(BTreeMap::new());
+
+/// A pointer for something that C keeps.
+pub(crate) fn hand_out<T>(thing: T, kind: Kind) -> *mut c_void {
+    let pointer: *mut c_void = Box::into_raw(Box::new(thing)).cast();
+    let mut alive = ALIVE.write().unwrap_or_else(PoisonError::into_inner);
+    alive.insert(pointer as usize, kind);
+    pointer
+}
+
+/// Whether a pointer comes from [`hand_out`] for this kind and has not been taken back. (Another thing of this kind may have come to lie
+/// where a freed one was.)
+pub(crate) fn is_alive(pointer: *const c_void, kind: Kind) -> bool {
+    let alive = ALIVE.read().unwrap_or_else(PoisonError::into_inner);
+    alive.get(&(pointer as usize)) == Some(&kind)
+}
+
+/// Frees what [`hand_out`] gave; whether there was something to be freed.
+///
+/// # Safety
+/// What has been handed out for this kind is of the type `T`, and nobody uses it at the same time.
+pub(crate) unsafe fn take_back<T>(pointer: *mut c_void, kind: Kind) -> bool {
+    let found = {
+        let mut alive = ALIVE.write().unwrap_or_else(PoisonError::into_inner);
+        let found = alive.get(&(pointer as usize)) == Some(&kind);
+        if found {
+            alive.remove(&(pointer as usize));
+        }
+        found
+    };
+    if found {
+        // SAFETY: it was alive, so it comes from `Box::into_raw`; it is of this type by this function's contract; and it was removed, so that
+        // nobody takes it back twice.
+        drop(unsafe { Box::from_raw(pointer.cast::<T>()) });
+    }
+    found
+}
