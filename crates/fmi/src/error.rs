@@ -1,5 +1,6 @@
 //! What an instance says when it cannot do what it is asked.
 
+use input::bounded;
 use thiserror::Error;
 
 /// How bad it is.
@@ -71,7 +72,7 @@ impl Error {
     #[must_use]
     pub fn new(message: impl Into<String>) -> Self {
         Self {
-            message: message.into(),
+            message: bounded(message.into()),
         }
     }
 }

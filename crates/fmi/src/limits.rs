@@ -1,6 +1,7 @@
 //! How much is read of what others have written, and the ways to read no more.
 //!
-//! The numbers are far beyond what this program writes, and far below what fills a memory.
+//! The numbers are those of all readers ([`input::limits`]): far beyond what this program writes, and far below what fills
+//! a memory.
 
 use std::fmt::Display;
 use std::fs::{self, File};
@@ -9,22 +10,10 @@ use std::path::Path;
 
 use crate::Error;
 
-/// Most bytes of a saved state; states take some kilobytes.
-pub const STATE_BYTES: usize = 64 << 20;
-/// Most bytes of the case in an FMU, whose tables are part of it.
-pub const CASE_BYTES: u64 = 64 << 20;
+pub use input::limits::{FMU_FILE, FMU_FILES, FMU_LIBRARY, FMU_UNPACKED, FMU_VALUES, RECORD_FILE, TEXT_FILE};
+
 /// Most bytes of the file that names the model.
-pub const MODEL_BYTES: u64 = 1 << 10;
-/// Most bytes of a library for one platform.
-pub const LIBRARY_BYTES: u64 = 256 << 20;
-/// Most bytes of an FMU as a file.
-pub const FMU_BYTES: u64 = 64 << 20;
-/// Most bytes of all files in FMUs that are joined.
-pub const UNPACKED_BYTES: u64 = 512 << 20;
-/// Most files in an FMU.
-pub const FMU_FILES: usize = 1000;
-/// Most values in one call of an importer.
-pub const VALUES: usize = 1 << 20;
+pub const MODEL_FILE: u64 = 1 << 10;
 
 /// Numbers of bytes as texts show them.
 pub(crate) fn shown(bytes: u64) -> String {

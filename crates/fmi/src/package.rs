@@ -108,7 +108,7 @@ pub fn fmu(
     platform: Platform,
 ) -> Result<(Vec<u8>, Description), Error> {
     let description = Description::new(model, case)?;
-    let binary = limits::read(library, limits::LIBRARY_BYTES)
+    let binary = limits::read(library, limits::FMU_LIBRARY)
         .map_err(|error| Error::new(format!("the library {error}")))?;
     platform.check(library, &binary)?;
     let library = format!(
@@ -151,7 +151,7 @@ pub fn merged(parts: &[PathBuf]) -> Result<(Vec<u8>, usize), Error> {
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
     for part in parts {
         let taken: u64 = files.iter().map(|(_, bytes)| bytes.len() as u64).sum();
-        for (name, bytes) in unpack(part, limits::UNPACKED_BYTES.saturating_sub(taken))? {
+        for (name, bytes) in unpack(part, limits::FMU_UNPACKED.saturating_sub(taken))? {
             match files.iter().find(|(known, _)| *known == name) {
                 None if files.is_empty() || name.starts_with("binaries/") || *part == parts[0] => {
                     files.push((name, bytes));
@@ -182,7 +182,7 @@ pub fn merged(parts: &[PathBuf]) -> Result<(Vec<u8>, usize), Error> {
 /// The files in an FMU, which must have no more bytes than these in all.
 fn unpack(path: &Path, most: u64) -> Result<Vec<(String, Vec<u8>)>, Error> {
     let failed = |error: &dyn std::fmt::Display| Error::new(format!("{} is no FMU: {error}", path.display()));
-    let file = limits::open(path, limits::FMU_BYTES)?;
+    let file = limits::open(path, limits::FMU_FILE)?;
     let mut archive = ZipArchive::new(file).map_err(|error| failed(&error))?;
     if archive.len() > limits::FMU_FILES {
         let (own, most) = (archive.len(), limits::FMU_FILES);
@@ -205,7 +205,7 @@ fn unpack(path: &Path, most: u64) -> Result<Vec<(String, Vec<u8>)>, Error> {
         }
         let size = entry.size();
         let too_much = || {
-            let most = limits::shown(limits::UNPACKED_BYTES);
+            let most = limits::shown(limits::FMU_UNPACKED);
             failed(&format!(
                 "unpacked it has more than the {most} that are read, at {name}"
             ))

@@ -24,7 +24,7 @@ pub fn read(folder: &Path) -> Result<(Model, Case), Error> {
             ))
         })
     };
-    let name = text(MODEL, limits::MODEL_BYTES)?;
+    let name = text(MODEL, limits::MODEL_FILE)?;
     let model = Model::of(name.trim()).ok_or_else(|| {
         let shown: String = name.trim().chars().take(40).collect();
         Error::new(format!(
@@ -32,7 +32,7 @@ pub fn read(folder: &Path) -> Result<(Model, Case), Error> {
             folder.join(MODEL).display()
         ))
     })?;
-    let text = text(CASE, limits::CASE_BYTES)?;
+    let text = text(CASE, limits::TEXT_FILE)?;
     let case = Case::parse(CASE, &text, folder, &[])
         .map_err(|error| Error::new(format!("the FMU's {CASE} is damaged: {error}")))?;
     Ok((model, case))

@@ -169,7 +169,7 @@ fn issue_029_members_of_an_instance_that_led_astray_are_refused_by_name() {
             .unwrap_or_else(|| panic!("{place} was taken"));
         assert!(reason.message.contains(member), "{place}: {reason}");
     }
-    let reason = Saved::from_bytes(&vec![b' '; limits::STATE_BYTES + 1]).unwrap_err();
+    let reason = Saved::from_bytes(&vec![b' '; limits::RECORD_FILE as usize + 1]).unwrap_err();
     assert!(reason.message.contains("at most 67108864 are read"), "{reason}");
 }
 
@@ -232,12 +232,12 @@ fn issue_029_resources_that_fill_the_memory_are_refused() {
         written.set_len(bytes).unwrap();
         resources::read(&path).unwrap_err().message
     };
-    let text = reason(resources::CASE, limits::CASE_BYTES + 1);
+    let text = reason(resources::CASE, limits::TEXT_FILE + 1);
     assert!(
         text.contains("case.toml") && text.contains("at most 64 MiB are read"),
         "{text}"
     );
-    let text = reason(resources::MODEL, limits::MODEL_BYTES + 1);
+    let text = reason(resources::MODEL, limits::MODEL_FILE + 1);
     assert!(
         text.contains("model.txt") && text.contains("at most 1 KiB are read"),
         "{text}"
@@ -321,7 +321,7 @@ fn issue_029_fmus_that_cannot_be_merged_say_why() {
     );
     fs::write(path("text.fmu"), "this is no archive").unwrap();
     let large = fs::File::create(path("large.fmu")).unwrap();
-    large.set_len(limits::FMU_BYTES + 1).unwrap();
+    large.set_len(limits::FMU_FILE + 1).unwrap();
     fs::create_dir(path("folder.fmu")).unwrap();
     for (name, what) in [
         (
@@ -382,7 +382,7 @@ fn issue_029_what_is_no_library_is_not_put_into_an_fmu() {
         }
     }
     let large = fs::OpenOptions::new().write(true).open(&library).unwrap();
-    large.set_len(limits::LIBRARY_BYTES + 1).unwrap();
+    large.set_len(limits::FMU_LIBRARY + 1).unwrap();
     let reason = write(0).unwrap_err();
     assert!(reason.contains("at most 256 MiB are read"), "{reason}");
 }

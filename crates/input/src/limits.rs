@@ -41,6 +41,19 @@ pub const FACTORS: usize = 100;
 /// Longest text of one quantity, number and unit together, in bytes.
 pub const QUANTITY: usize = 256;
 
+/// Largest library for one platform in an FMU, in bytes.
+pub const FMU_LIBRARY: u64 = 256 << 20;
+
+/// Largest FMU as a file, in bytes; largest size of all files in FMUs that are merged; most files in one.
+pub const FMU_FILE: u64 = 64 << 20;
+/// See [`FMU_FILE`].
+pub const FMU_UNPACKED: u64 = 512 << 20;
+/// See [`FMU_FILE`].
+pub const FMU_FILES: usize = 1000;
+
+/// Most values in one call of an FMU's importer.
+pub const FMU_VALUES: usize = 1 << 20;
+
 /// Most rows of a run's output: more than an hour at the usual interval of 0.01 s.
 ///
 /// With 133 columns they take 430 MB in memory and about 1 GB as CSV.

@@ -130,7 +130,7 @@ fn words(panic: &(dyn Any + Send)) -> String {
         .or_else(|| panic.downcast_ref::<String>().cloned())
         .unwrap_or_else(|| "no message".to_owned());
     format!(
-        "internal error, please report it: {text}; no instance can be used after it: free it and make another one"
+        "internal error, please report it: {text}; free this instance, if there is one, and make another one"
     )
 }
 
@@ -207,7 +207,8 @@ pub(crate) unsafe fn call(
     }
     let component = pointer.cast::<Component>();
     let (status, messages, logger, name) = {
-        // SAFETY: the component is alive, and by this function's contract nobody else uses it now; the reference ends with this block, before the importer's logger runs, which may call the instance again.
+        // SAFETY: the component is alive, and by this function's contract nobody else uses it now; the reference ends
+        // with this block, before the importer's logger runs, which may call the instance again.
         let component = unsafe { &mut *component };
         let mut failure = None;
         let status = if component.broken {

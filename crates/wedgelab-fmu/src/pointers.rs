@@ -14,9 +14,9 @@ pub(crate) fn missing(what: &str) -> Error {
 /// Whether a call may be about so many values. (More than half of the address space are none at all.)
 fn check_count<T>(count: usize, what: &str) -> Result<(), Error> {
     let most = if size_of::<T>() == 1 {
-        limits::STATE_BYTES
+        limits::RECORD_FILE as usize
     } else {
-        limits::VALUES
+        limits::FMU_VALUES
     };
     if count <= most {
         return Ok(());

@@ -48,13 +48,13 @@ impl Saved {
     /// Reads what [`Saved::to_bytes`] wrote.
     ///
     /// # Errors
-    /// These are no bytes of such a state, or more than [`limits::STATE_BYTES`].
+    /// These are no bytes of such a state, or more than [`limits::RECORD_FILE`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
-        if bytes.len() > limits::STATE_BYTES {
+        if bytes.len() as u64 > limits::RECORD_FILE {
             return Err(Error::new(format!(
                 "{} bytes are no saved state; at most {} are read",
                 bytes.len(),
-                limits::STATE_BYTES
+                limits::RECORD_FILE
             )));
         }
         serde_json::from_slice(bytes)

@@ -1,5 +1,6 @@
 //! Saved states of driven wedges.
 
+use input::bounded;
 use integrate::{Options, State};
 use serde::{Deserialize, Serialize};
 use wedge::Parameters;
@@ -12,7 +13,7 @@ use super::equations::{check_coil, check_friction, check_modes, check_neighbours
 /// Version of [`DrivenState`].
 pub const DRIVEN_STATE_VERSION: u32 = 1;
 /// More bytes than these are no saved state, and are not read: states take some kilobytes.
-pub const MOST_STATE_BYTES: usize = 64 << 20;
+pub const MOST_STATE_BYTES: usize = input::limits::RECORD_FILE as usize;
 
 /// All that is needed to continue a driven wedge with the same bits, also in another process and on another machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -63,7 +64,7 @@ impl DrivenState {
                 bytes.len()
             )));
         }
-        let damaged = |error: serde_json::Error| DrivenError::State(error.to_string());
+        let damaged = |error: serde_json::Error| DrivenError::State(bounded(error.to_string()));
         let head: Head = serde_json::from_slice(bytes).map_err(damaged)?;
         if head.version != DRIVEN_STATE_VERSION {
             return Err(DrivenError::Version {
