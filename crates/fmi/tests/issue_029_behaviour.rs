@@ -234,7 +234,7 @@ fn issue_029_resources_that_fill_the_memory_are_refused() {
     };
     let text = reason(resources::CASE, limits::TEXT_FILE + 1);
     assert!(
-        text.contains("case.toml") && text.contains("at most 64 MiB are read"),
+        text.contains("case.toml") && text.contains("at most 16 MiB are read"),
         "{text}"
     );
     let text = reason(resources::MODEL, limits::MODEL_FILE + 1);
