@@ -227,7 +227,7 @@ fn values_out_of_range() {
     );
     for tolerance in ["0", "1", "1.5", "-1e-6"] {
         let line = format!("relative_tolerance = {tolerance}");
-        check("simulation", &line, "between 0 and 1", tolerance, "1e-6");
+        check("simulation", &line, "between 1e-15 and 1", tolerance, "1e-6");
     }
     check(
         "simulation",

@@ -327,7 +327,7 @@ fn results_that_do_not_fit() {
         ),
         (
             &["run", "run/summary.json"],
-            &["run/summary.json", "looks like JSON", "name a result.csv"],
+            &["run/summary.json", "is a JSON file", "takes the folder"],
         ),
         (&["run", "run/case.toml"], &["run/case.toml", "help"]),
         (&["run", "run/result.mat"], &["is a MAT-file"]),

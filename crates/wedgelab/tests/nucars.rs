@@ -480,7 +480,7 @@ fn wrong_runs_are_refused() {
         ),
         (
             &["run", "nucars_69_constant_toe_out", "--interval", "0.001 ms"],
-            &["at most a million"],
+            &["at most 400000"],
         ),
     ];
     for (arguments, texts) in cases {

@@ -189,7 +189,7 @@ mod tests {
         let found = wrong_with("integrate", "[dependencies]\nquantity.workspace = true");
         assert_eq!(
             found,
-            ["`integrate` (floor 0, ground) depends on `quantity` (floor 0, ground), on the same floor."]
+            ["`integrate` (floor 1, ground) depends on `quantity` (floor 1, ground), on the same floor."]
         );
         assert_eq!(
             wrong_with("wedgelab-py", "[dependencies]\nwedgelab = { path = 'w' }").len(),
@@ -205,7 +205,7 @@ mod tests {
         );
         assert_eq!(found.len(), 2);
         assert!(
-            found[0].contains("`study` (floor 3, asking), on a higher floor"),
+            found[0].contains("`study` (floor 4, asking), on a higher floor"),
             "{found:?}"
         );
     }

@@ -125,7 +125,7 @@ fn mistakes_are_told_where_they_were_typed() {
         ("wedge.angle", "32 in", "deg"),
         ("wedge.angle", "95 deg", "between 0 deg and 90 deg"),
         ("wedge.weight", "50", "50 lbf"),
-        ("friction.column", "-0.1", "zero or greater"),
+        ("friction.column", "-0.1", "between 0 and 10"),
         ("friction.law", "tahn", "tanh"),
         (
             "wedge.inertia",

@@ -87,9 +87,8 @@ fn issue_029_fmus_are_whole_or_not_there() {
     let folder = tempdir().unwrap();
     let path = folder.path();
     // As large as a real library, and packed no faster.
-    let library: Vec<u8> = (0..3_000_000_u32)
-        .map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8)
-        .collect();
+    let noise = (0..3_000_000_u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8);
+    let library: Vec<u8> = b"\x7fELF".iter().copied().chain(noise).collect();
     fs::write(path.join("library"), library).unwrap();
     let case = "vdrun_toe_0_psi_0";
     let export = ["fmu", "export", case, "--library", "library", "-o"];

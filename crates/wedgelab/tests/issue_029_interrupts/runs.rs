@@ -50,7 +50,7 @@ fn issue_029_a_half_truck_that_is_interrupted_is_written() {
         let path = folder.path();
         for name in builtin::names() {
             let text = builtin::text(name).unwrap();
-            let longer = text.replace("0.01 20.0 0.1", "0.01 9000.0 0.1");
+            let longer = text.replace("0.01 20.0 0.1", "0.01 3000.0 0.1");
             assert!(name != RUN || text != longer);
             fs::write(path.join(name), longer).unwrap();
         }

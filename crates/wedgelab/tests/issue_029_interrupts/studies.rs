@@ -71,7 +71,11 @@ fn issue_029_a_second_signal_ends_a_study_at_once() {
     for (signal, code) in SIGNALS {
         let folder = tempdir().unwrap();
         let path = folder.path();
-        fs::write(path.join("long.toml"), SHORT.replace("0.12 s", "100000 s")).unwrap();
+        fs::write(
+            path.join("long.toml"),
+            SHORT.replace("0.12 s\"", "100000 s\"\nsimulation.output_interval = \"0.5 s\""),
+        )
+        .unwrap();
         let mut running = start(path, &["study", "long.toml", "--out", "a", "--jobs", "1"]);
         running.wait_for_work();
         running.send(signal);
@@ -147,7 +151,7 @@ fn issue_029_series_that_are_interrupted_are_whole_or_not_there() {
         let folder = tempdir().unwrap();
         let path = folder.path();
         let text = "case = \"cdrun_toe_-0.2_psi_0.012\"\nsampling = \"full_factorial\"\n[vary]\n\
-             simulation.duration = [\"0.05 s\", \"100000 s\"]\n";
+             simulation.duration = [\"0.05 s\", \"3000 s\"]\n";
         fs::write(path.join("two.toml"), text.replace("0.05", "0.06")).unwrap();
         let mut running = start(path, &["study", "two.toml", "--out", "a", "--series", "0", "1"]);
         running.wait_for_work();

@@ -128,7 +128,7 @@ fn limits_units_stand_in_the_metadata() {
     };
     assert_eq!(unit("energy_per_cycle_side_frame_J"), "J");
     assert_eq!(unit("equivalent_stiffness_N_per_m"), "N/m");
-    assert_eq!(unit("control_coil.stiffness_lbf_per_in"), "lbf/in");
+    assert_eq!(unit("side_frame.toe_deg"), "deg");
     assert_eq!(unit("jam_margin_rad"), "rad");
     assert_eq!(
         columns.as_array().unwrap().len(),
