@@ -2,6 +2,13 @@
 //!
 //! `cargo xtask fuzz --help` explains it.
 
+/// A line on the standard output. If nobody reads there is nothing to be done.
+macro_rules! say {
+    ($($told:tt)*) => {{
+        let _ = std::io::Write::write_fmt(&mut std::io::stdout(), format_args!("{}\n", format_args!($($told)*)));
+    }};
+}
+
 mod corpus;
 mod finding;
 mod folder;

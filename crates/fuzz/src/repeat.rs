@@ -55,17 +55,17 @@ pub fn repeat(
     let inputs = Inputs::of(reader);
     let input = inputs.input(address.seed, address.number);
     let made = inputs.mutations(address.seed, address.number);
-    println!("{} bytes, by {made:?}:\n{}\n", input.len(), shown(&input));
+    say!("{} bytes, by {made:?}:\n{}\n", input.len(), shown(&input));
     let failed = |error: io::Error| error.to_string();
     let (what, detail) = run(reader, &input, patience).map_err(failed)?;
-    println!("{detail}");
+    say!("{detail}");
     let Some(what) = what else { return Ok(true) };
     let mut least = input;
     if let Some(time) = shorten.map(Duration::try_from_secs_f64) {
         let end = Instant::now() + time.map_err(|_| "--shorten wants a positive number.")?;
         least = shortened(reader, least, &what, patience, end).map_err(failed)?;
-        println!("\n{} bytes do the same:\n{}", least.len(), shown(&least));
-        println!("{}", run(reader, &least, patience).map_err(failed)?.1);
+        say!("\n{} bytes do the same:\n{}", least.len(), shown(&least));
+        say!("{}", run(reader, &least, patience).map_err(failed)?.1);
     }
     if let Some(folder) = save {
         let name = format!("{}-{}-{}.input", address.reader, address.seed, address.number);

@@ -11,20 +11,21 @@ const MEGABYTE: f64 = 1e6;
 
 /// Prints the table of all readers, and what was found.
 pub fn print(results: &[ReaderResult], seed: u64) {
-    println!("{}", table(results));
+    say!("{}", table(results));
     for result in results {
         for (what, group) in &result.found {
             let shortest = &group.shortest;
             let address = format!("{}:{seed}:{}", result.reader.name, shortest.number);
-            println!("\n{}: {what}, {} times", result.reader.name, group.count);
-            println!(
+            say!("\n{}: {what}, {} times", result.reader.name, group.count);
+            say!(
                 "  seed {seed}, number {}, {} bytes",
-                shortest.number, shortest.length
+                shortest.number,
+                shortest.length
             );
             for line in shortest.detail.lines() {
-                println!("  {line}");
+                say!("  {line}");
             }
-            println!("  cargo xtask fuzz --repeat {address}");
+            say!("  cargo xtask fuzz --repeat {address}");
         }
     }
 }
