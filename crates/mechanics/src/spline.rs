@@ -50,6 +50,14 @@ pub enum SplineError {
         /// The one before.
         previous: f64,
     },
+    /// Points so close to each other that the spline overflows.
+    #[error(
+        "at point {index} (counted from 1) the curvature is not finite: abscissae are too close to each other"
+    )]
+    Steep {
+        /// Number of the point, counted from 1.
+        index: usize,
+    },
     /// A value is infinite or not a number.
     #[error("point {index} (counted from 1) is not finite")]
     NotFinite {
@@ -62,7 +70,8 @@ impl Spline {
     /// The spline through the points (`abscissae[i]`, `ordinates[i]`).
     ///
     /// # Errors
-    /// Fewer than four points, unequal lengths, values that are not finite, abscissae that do not increase.
+    /// Fewer than four points, unequal lengths, values that are not finite, abscissae that do not increase
+    /// or are so close to each other that curvatures overflow.
     pub fn new(abscissae: Vec<f64>, ordinates: Vec<f64>) -> Result<Self, SplineError> {
         let n = abscissae.len();
         if n != ordinates.len() {
@@ -87,6 +96,9 @@ impl Spline {
             }
         }
         let curvatures = curvatures(&abscissae, &ordinates);
+        if let Some(index) = curvatures.iter().position(|curvature| !curvature.is_finite()) {
+            return Err(SplineError::Steep { index: index + 1 });
+        }
         Ok(Self {
             abscissae,
             ordinates,

@@ -385,3 +385,11 @@ fn spline_errors() {
     }
     assert!(new(&[0.0, 1.0, 2.0, 3.0], &[0.0; 4]).is_ok());
 }
+
+/// A table whose rows are next to each other was taken, and its curvatures were no numbers.
+#[test]
+fn issue_029_points_too_close_to_each_other_make_no_spline() {
+    let close = vec![0.0, 1e-311, 0.5, 1.0];
+    let found = Spline::new(close, vec![0.0, 0.5, 0.7, 0.0]);
+    assert!(matches!(found, Err(SplineError::Steep { .. })), "{found:?}");
+}

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use input::bounded;
 use quantity::{Kind, System as Units, nearest};
 use wedge::outputs::Outputs;
 use wedge::parameters::Damping;
@@ -40,8 +41,8 @@ impl Place<'_> {
         TableError::Header {
             file: self.file.to_owned(),
             line: self.line,
-            problem: problem.into(),
-            advice: advice.into(),
+            problem: bounded(problem.into()),
+            advice: bounded(advice.into()),
         }
     }
 }
