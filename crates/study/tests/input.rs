@@ -239,9 +239,9 @@ fn values_out_of_range() {
     check(
         "simulation",
         r#"output_interval = "1e-9 s""#,
-        "ten million",
+        "more than 400000 output times",
         "\"1e-9 s\"",
-        "0.01 s",
+        "5.0e-5 s",
     );
     check(
         "simulation",

@@ -317,7 +317,7 @@ fn bad_cases() {
             "simulation",
             "relative_tolerance = 1.0",
             "bad.toml:3:22",
-            ["between 0 and 1", "1e-6"],
+            ["between 1e-15 and 1", "1e-6"],
         ),
         (
             "bolster",
