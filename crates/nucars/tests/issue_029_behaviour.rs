@@ -1,5 +1,7 @@
 //! Issue 29: long lines, many mistakes and files of another kind.
 
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
 use std::fs;
 
 use miette::{GraphicalReportHandler, GraphicalTheme};

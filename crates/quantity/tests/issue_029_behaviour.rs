@@ -1,5 +1,7 @@
 //! Issue 29: what ended the program, or filled the screen, when it was typed as a unit.
 
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
 use quantity::{Kind, Number, Quantity, Unit, nearest};
 
 /// The parser called itself at each bracket: 50,000 pairs ended the program.
@@ -31,7 +33,7 @@ fn issue_029_messages_are_short_whatever_was_typed() {
         format!("{} in", "9".repeat(1_000_000)),
         format!("1{}", "x".repeat(200)),
         format!("1 {}", "x".repeat(200)),
-        format!("{}", "1".repeat(250)),
+        "1".repeat(250),
         "\u{1b}[31m".repeat(40),
     ] {
         let error = Quantity::parse_as(&text, Kind::Length).unwrap_err();

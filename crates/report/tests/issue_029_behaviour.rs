@@ -1,5 +1,7 @@
 //! Issue 29: tables of another kind or size, and comparisons that overflow.
 
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
 use std::fs;
 use std::path::Path;
 
