@@ -42,6 +42,14 @@ pub enum CharacteristicError {
         /// The one before, m.
         previous: f64,
     },
+    /// Points so close to each other that the stiffness overflows.
+    #[error(
+        "at point {index} (counted from 1) the stiffness is not finite: compressions are too close to each other"
+    )]
+    Steep {
+        /// Number of the point, counted from 1.
+        index: usize,
+    },
     /// The force falls with compression: such a coil would snap through.
     #[error("point {index} (counted from 1): the force falls from {previous} to {value} N; it must not fall")]
     Falling {
@@ -58,7 +66,8 @@ impl Characteristic {
     /// The characteristic through points of compression (m) and force (N).
     ///
     /// # Errors
-    /// Fewer than two points, values not finite, compressions that do not increase, forces that fall.
+    /// Fewer than two points, values not finite, compressions that do not increase or are so close
+    /// to each other that the stiffness overflows, forces that fall.
     pub fn new(points: Vec<[f64; 2]>) -> Result<Self, CharacteristicError> {
         if points.len() < 2 {
             return Err(CharacteristicError::TooFew { got: points.len() });
@@ -85,6 +94,10 @@ impl Characteristic {
                     previous: a[1],
                 });
             }
+        }
+        let stiffness = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
+        if let Some(i) = points.windows(2).position(|pair| !stiffness(pair).is_finite()) {
+            return Err(CharacteristicError::Steep { index: i + 2 });
         }
         let mut energies = vec![0.0];
         for pair in points.windows(2) {

@@ -88,3 +88,15 @@ fn issue_029_comparisons_that_overflow_are_refused() {
     }
     assert!(Comparison::of(&[entry("a", "1e100"), entry("b", "-1e100")], &[]).is_ok());
 }
+
+/// A name that moves the cursor of a terminal was repeated in messages.
+#[test]
+fn issue_029_names_with_control_characters_are_refused() {
+    for name in ["a\u{1b}[31m", "a\u{202e}b", "a\u{7f}"] {
+        let error = wrong(format!("time_s,{name}\n0,x\n").as_bytes()).to_string();
+        assert!(
+            error.contains("the name of column 2 holds a control character"),
+            "{error}"
+        );
+    }
+}

@@ -1,5 +1,6 @@
 //! From errors of lower floors to Python's exceptions, which are classes of `wedgelab.errors`.
 
+use input::{bounded, limits};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use ::nucars::Finding;
@@ -136,15 +137,17 @@ pub fn simple(py: Python<'_>, class: &str, message: &str, help: &str) -> PyErr {
 
 /// `wedgelab.UnitError` about a text.
 pub fn unit_error(py: Python<'_>, text: &str, error: &UnitError) -> PyErr {
-    let span = error.span();
-    let before = text.get(..span.start).unwrap_or("").chars().count();
-    let marked = text.get(span.clone()).unwrap_or("").chars().count().max(1);
-    let shown = format!(
-        "  × {error}\n    {text}\n    {}{}\n  help: {}",
-        " ".repeat(before),
-        "^".repeat(marked),
-        error.help()
-    );
+    // A longer text is not shown: the message has its beginning.
+    let marked = if text.len() > limits::QUANTITY {
+        String::new()
+    } else {
+        let span = error.span();
+        let before = text.get(..span.start).unwrap_or("").chars().count();
+        let marked = text.get(span).unwrap_or("").chars().count().max(1);
+        let text = bounded(text.to_owned());
+        format!("    {text}\n    {}{}\n", " ".repeat(before), "^".repeat(marked))
+    };
+    let shown = format!("  × {error}\n{marked}  help: {}", error.help());
     raise(py, "UnitError", (error.to_string(), shown))
 }
 

@@ -149,7 +149,8 @@ fn run_state(input: &[u8]) -> Outcome {
     };
     let state: RunState = match serde_json::from_slice(input) {
         Ok(state) => state,
-        Err(error) => return Outcome::refused_with(&error.to_string()),
+        // Whoever shows what serde says of a damaged text cuts it.
+        Err(error) => return Outcome::refused_with(&input::bounded(error.to_string())),
     };
     let mut run = match Run::resume(case, state) {
         Ok(run) => run,

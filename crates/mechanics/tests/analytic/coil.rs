@@ -126,3 +126,11 @@ fn damping_and_line_of_action_of_a_coil() {
         assert_eq!(at_end.evaluate(&relative).guide_power, 0.0);
     }
 }
+
+/// A table whose rows are next to each other was taken, and its stiffness was infinite.
+#[test]
+fn issue_029_points_too_close_to_each_other_make_no_characteristic() {
+    let found = Characteristic::new(vec![[0.0, 0.0], [1e-310, 900.0], [1.0, 1979.0]]);
+    let steep = mechanics::characteristic::CharacteristicError::Steep { index: 2 };
+    assert_eq!(found, Err(steep));
+}

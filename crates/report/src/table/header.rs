@@ -143,6 +143,13 @@ fn understand(
         let problem = format!("the name of column {} has {} characters", index + 1, cell.len());
         return Err(place.error(problem, format!("give it a name of at most {LONGEST} characters")));
     }
+    if bounded(cell.to_owned()) != cell {
+        let problem = format!("the name of column {} holds a control character", index + 1);
+        return Err(place.error(
+            problem,
+            "look whether the file is damaged, and name the column anew",
+        ));
+    }
     if let Some(kind) = known.get(cell) {
         if !kind.suffix(Units::Us).is_empty() {
             let example = |units| format!("{cell}_{}", kind.suffix(units));
