@@ -1,7 +1,7 @@
 //! Reading of files and texts within stated limits.
 //!
 //! - [`limits`]: the limits of every reader, in one place.
-//! - [`file`]: files read up to a size, their type looked at first.
+//! - [`mod@file`]: files read up to a size, their type looked at first.
 //! - [`FileType`]: what a file seems to be, and which command takes it.
 //! - [`Text`]: a text that was read, with excerpts of bounded size for messages.
 //! - [`structure`]: nesting, number of values and length of lines of TOML, found before it is parsed.

@@ -133,10 +133,9 @@ fn check_event(event: &ContactEvent) -> Result<(), RunError> {
         ("counts.listed.to", to, &modes[..]),
     ] {
         if !known.contains(&found) {
-            let shown: String = found.chars().take(40).collect();
             return damaged(
                 member,
-                format!("\"{shown}\""),
+                format!("\"{}\"", input::shortened(found)),
                 format!("one of {}", known.join(", ")),
             );
         }
