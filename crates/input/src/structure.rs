@@ -4,6 +4,8 @@
 use std::ops::Range;
 
 use thiserror::Error;
+use toml_parser::Source;
+use toml_parser::lexer::TokenKind;
 
 use crate::limits;
 
@@ -88,67 +90,45 @@ pub fn lines(text: &str) -> Result<(), Excess> {
     Ok(())
 }
 
-/// What the scanner is inside of.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Inside {
-    Plain,
-    Comment,
-    /// A string that ends with this quotation mark, or with the line.
-    Quoted(u8),
-    /// A string that ends with three of this quotation mark.
-    Tripled(u8),
-}
-
 /// Checks length, nesting and number of values of a TOML text.
+///
+/// A closing bracket closes an open one of its kind only, and only the innermost: one that fits nothing closes nothing,
+/// since the parser stays inside and recurses further. So the depth found here is at least the parser's.
 ///
 /// # Errors
 /// One of them is beyond its limit.
 pub fn toml(text: &str) -> Result<(), Excess> {
     lines(text)?;
-    let bytes = text.as_bytes();
-    let mut inside = Inside::Plain;
-    let (mut depth, mut values, mut dots) = (0_usize, 0_usize, 0_usize);
-    let mut at = 0;
-    while at < bytes.len() {
-        let byte = bytes[at];
-        let tripled = |mark: u8| bytes[at..].starts_with(&[mark; 3]);
-        match inside {
-            Inside::Comment if byte == b'\n' => inside = Inside::Plain,
-            Inside::Quoted(mark) if byte == mark || byte == b'\n' => inside = Inside::Plain,
-            Inside::Quoted(b'"') | Inside::Tripled(b'"') if byte == b'\\' => at += 1,
-            Inside::Tripled(mark) if tripled(mark) => {
-                inside = Inside::Plain;
-                at += 2;
+    let mut open = Vec::with_capacity(limits::NESTING + 1);
+    let (mut values, mut dots) = (0_usize, 0_usize);
+    for token in Source::new(text).lex() {
+        match token.kind() {
+            bracket @ (TokenKind::LeftSquareBracket | TokenKind::LeftCurlyBracket) => {
+                open.push(bracket);
+                values += 1;
+                dots = 0;
             }
-            Inside::Comment | Inside::Quoted(_) | Inside::Tripled(_) => {}
-            Inside::Plain => match byte {
-                b'#' => inside = Inside::Comment,
-                b'"' | b'\'' if tripled(byte) => {
-                    inside = Inside::Tripled(byte);
-                    at += 2;
-                }
-                b'"' | b'\'' => inside = Inside::Quoted(byte),
-                b'[' | b'{' => {
-                    depth += 1;
-                    values += 1;
-                    dots = 0;
-                }
-                b']' | b'}' => depth = depth.saturating_sub(1),
-                b'.' => dots += 1,
-                b',' | b'=' | b'\n' => {
-                    values += usize::from(byte != b'\n');
-                    dots = 0;
-                }
-                _ => {}
-            },
+            TokenKind::RightSquareBracket => {
+                open.pop_if(|last| *last == TokenKind::LeftSquareBracket);
+            }
+            TokenKind::RightCurlyBracket => {
+                open.pop_if(|last| *last == TokenKind::LeftCurlyBracket);
+            }
+            TokenKind::Dot => dots += 1,
+            TokenKind::Comma | TokenKind::Equals => {
+                values += 1;
+                dots = 0;
+            }
+            TokenKind::Newline => dots = 0,
+            _ => {}
         }
-        if depth > limits::NESTING || dots > limits::NESTING {
+        let at = token.span().start();
+        if open.len() > limits::NESTING || dots > limits::NESTING {
             return Err(Excess::Nesting { at });
         }
         if values > limits::VALUES {
             return Err(Excess::Values { at });
         }
-        at += 1;
     }
     Ok(())
 }
@@ -185,6 +165,23 @@ mod tests {
         // A string that is not closed ends with its line.
         let hidden = format!("a = \"\nb = {}", "[".repeat(100));
         assert!(matches!(toml(&hidden), Err(Excess::Nesting { .. })));
+    }
+
+    /// A bracket of the other kind closed what the parser kept open: the program was aborted by 280 kB of such lines.
+    #[test]
+    fn issue_029_brackets_of_the_other_kind_close_nothing() {
+        for line in [
+            "a={[]]\n",
+            "r={f]\nd=[1]\n",
+            "a=[{}}\n",
+            "a=[\"\"\"x\"\"\"\",[\n]\n",
+            "[a}\n",
+        ] {
+            let found = toml(&line.repeat(3000));
+            assert!(matches!(found, Err(Excess::Nesting { .. })), "{line}: {found:?}");
+        }
+        // What is closed in order is at no depth, however often.
+        assert_eq!(toml(&"a=[{b=[]}]\n[c]\n".repeat(3000)), Ok(()));
     }
 
     #[test]

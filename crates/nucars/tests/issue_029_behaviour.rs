@@ -103,3 +103,15 @@ fn issue_029_files_of_another_kind_are_recognized() {
     let error = Source::from_text("some.sys", format!("\\BODY DATA\n{long}")).unwrap_err();
     assert!(error.to_string().contains("this line has"), "{error}");
 }
+
+/// A keyword kept a `=` before white space that is none of ASCII, and lost it when it was written and read again.
+#[test]
+fn issue_029_keywords_are_read_as_written() {
+    for keyword in ["=\u{2028}\u{2028}", "A -\u{a0}", "B :\t="] {
+        let source = Source::from_text("some.run", format!("\\{keyword}\n1\n")).unwrap();
+        let read = nucars::read::read_run(&source);
+        let written = nucars::write::write_run(&read.tree);
+        let again = nucars::read::read_run(&Source::from_text("some.run", written).unwrap());
+        assert!(again.tree == read.tree, "{keyword:?}");
+    }
+}

@@ -68,7 +68,7 @@ fn keyword(text: &str, start: usize, end: usize) -> (Spanned<String>, usize) {
     let values = |(_, letter): &(usize, char)| matches!(letter, '\'' | '"' | '0'..='9' | '+' | '.' | '!');
     let stop = line.char_indices().find(values);
     let words = &line[..stop.map_or(line.len(), |(at, _)| at)];
-    let words = words.trim_end_matches(['-', ' ', '\t', '\r', '=', ':']);
+    let words = words.trim_end_matches(|letter: char| letter.is_whitespace() || "-=:".contains(letter));
     let words: Vec<String> = words.split_whitespace().map(str::to_uppercase).collect();
     let shown = text[start..end].trim_end().len().min(60);
     let mut shown_end = start + shown;
