@@ -146,11 +146,15 @@ impl Cli {
                 .map_err(|error| format!("{} cannot be written to: {error}", folder.display()));
         }
         let plan = self.plan()?;
-        let results = parent::run(&plan)?;
-        report::print(&results, plan.seed);
-        if let Some(folder) = &self.save {
-            report::save(&results, plan.seed, folder)?;
-        }
+        let results = parent::run(&plan, &|result| {
+            report::tell(result, plan.seed);
+            if let Some(folder) = &self.save
+                && let Err(error) = report::save(result, plan.seed, folder)
+            {
+                eprintln!("{} cannot be written to: {error}", folder.display());
+            }
+        })?;
+        report::print(&results);
         Ok(results.iter().all(|result| result.found.is_empty()))
     }
 }

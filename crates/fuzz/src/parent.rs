@@ -48,11 +48,11 @@ pub struct ReaderResult {
     pub found: Groups,
 }
 
-/// Runs all readers, some at a time.
+/// Runs all readers, some at a time, and shows each result to `done`.
 ///
 /// # Errors
 /// Workers cannot be started, or their files not be read.
-pub fn run(plan: &Plan) -> Result<Vec<ReaderResult>, String> {
+pub fn run(plan: &Plan, done: &(dyn Fn(&ReaderResult) + Sync)) -> Result<Vec<ReaderResult>, String> {
     let folder = Folder::make().map_err(|error| format!("no folder for workers: {error}"))?;
     let results = Mutex::new(Vec::new());
     let next = AtomicUsize::new(0);
@@ -62,7 +62,7 @@ pub fn run(plan: &Plan) -> Result<Vec<ReaderResult>, String> {
                 while let Some(reader) = plan.readers.get(next.fetch_add(1, Ordering::Relaxed)) {
                     let result = run_reader(reader, plan, folder.path());
                     if let Ok(result) = &result {
-                        tell(result);
+                        done(result);
                     }
                     let mut results = results.lock().unwrap_or_else(|lock| lock.into_inner());
                     results.push(result.map_err(|error| format!("{}: {error}", reader.name)));
@@ -79,15 +79,6 @@ pub fn run(plan: &Plan) -> Result<Vec<ReaderResult>, String> {
     };
     results.sort_by_key(place);
     Ok(results)
-}
-
-fn tell(result: &ReaderResult) {
-    eprintln!(
-        "{}: {} executions, {} findings",
-        result.reader.name,
-        result.tally.executions,
-        result.found.len()
-    );
 }
 
 fn run_reader(reader: &'static Reader, plan: &Plan, folder: &Path) -> io::Result<ReaderResult> {

@@ -1,6 +1,8 @@
 //! What is told at the end.
 
+use std::fmt::Write;
 use std::fs;
+use std::io;
 use std::path::Path;
 
 use fuzz::inputs::Inputs;
@@ -9,25 +11,36 @@ use crate::parent::ReaderResult;
 
 const MEGABYTE: f64 = 1e6;
 
-/// Prints the table of all readers, and what was found.
-pub fn print(results: &[ReaderResult], seed: u64) {
-    say!("{}", table(results));
-    for result in results {
-        for (what, group) in &result.found {
-            let shortest = &group.shortest;
-            let address = format!("{}:{seed}:{}", result.reader.name, shortest.number);
-            say!("\n{}: {what}, {} times", result.reader.name, group.count);
-            say!(
-                "  seed {seed}, number {}, {} bytes",
-                shortest.number,
-                shortest.length
-            );
-            for line in shortest.detail.lines() {
-                say!("  {line}");
-            }
-            say!("  cargo xtask fuzz --repeat {address}");
+/// Tells what came out for a reader, as soon as it is known.
+pub fn tell(result: &ReaderResult, seed: u64) {
+    let ReaderResult { reader, tally, found } = result;
+    let mut text = format!(
+        "{}: {} executions, {} findings\n",
+        reader.name,
+        tally.executions,
+        found.len()
+    );
+    for (what, group) in found {
+        let shortest = &group.shortest;
+        let address = format!("{}:{seed}:{}", reader.name, shortest.number);
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "\n{}: {what}, {} times", reader.name, group.count);
+        let _ = writeln!(
+            text,
+            "  seed {seed}, number {}, {} bytes",
+            shortest.number, shortest.length
+        );
+        for line in shortest.detail.lines() {
+            let _ = writeln!(text, "  {line}");
         }
+        let _ = writeln!(text, "  cargo xtask fuzz --repeat {address}\n");
     }
+    say!("{}", text.trim_end());
+}
+
+/// Prints the table of all readers.
+pub fn print(results: &[ReaderResult]) {
+    say!("\n{}", table(results));
 }
 
 /// The table.
@@ -77,22 +90,19 @@ fn table(results: &[ReaderResult]) -> String {
     rows.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Writes the shortest input of each finding into a folder, and beside it what was found.
+/// Writes the shortest input of each finding of a reader into a folder, and beside it what was found.
 ///
 /// # Errors
 /// The folder or a file cannot be written.
-pub fn save(results: &[ReaderResult], seed: u64, folder: &Path) -> Result<(), String> {
-    let failed = |error| format!("{} cannot be written to: {error}", folder.display());
-    fs::create_dir_all(folder).map_err(failed)?;
-    for result in results {
-        let inputs = Inputs::of(result.reader);
-        for group in result.found.values() {
-            let number = group.shortest.number;
-            let name = format!("{}-{seed}-{number}", result.reader.name);
-            fs::write(folder.join(format!("{name}.input")), inputs.input(seed, number)).map_err(failed)?;
-            let text = format!("{}\n{}\n", group.shortest.what, group.shortest.detail);
-            fs::write(folder.join(format!("{name}.txt")), text).map_err(failed)?;
-        }
+pub fn save(result: &ReaderResult, seed: u64, folder: &Path) -> io::Result<()> {
+    fs::create_dir_all(folder)?;
+    let inputs = Inputs::of(result.reader);
+    for group in result.found.values() {
+        let number = group.shortest.number;
+        let name = format!("{}-{seed}-{number}", result.reader.name);
+        fs::write(folder.join(format!("{name}.input")), inputs.input(seed, number))?;
+        let text = format!("{}\n{}\n", group.shortest.what, group.shortest.detail);
+        fs::write(folder.join(format!("{name}.txt")), text)?;
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! The readers: each with a name, a corpus, a dictionary, and what it must keep to.
 
+mod beginnings;
 mod broken;
 mod cases;
 mod files;
@@ -30,7 +31,7 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 19] = [
+pub const ALL: [Reader; 20] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,
@@ -50,6 +51,7 @@ pub const ALL: [Reader; 19] = [
     states::RUN_STATES,
     states::INSTANCES,
     files::FILES,
+    beginnings::BEGINNINGS,
 ];
 
 /// The reader of this name; `broken` is one that breaks, for trying out the program.

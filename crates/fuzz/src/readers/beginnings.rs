@@ -1,0 +1,47 @@
+//! Runs that begin: what is set over a case, and a few steps from there.
+
+use study::case::builtin;
+use study::run::Run;
+
+use super::{Outcome, Reader, cases};
+
+/// Beginnings of runs.
+pub const BEGINNINGS: Reader = Reader {
+    name: "beginnings",
+    about: "runs of cases with --set, and three steps of each",
+    corpus: cases::OVERRIDES.corpus,
+    dictionary: cases::OVERRIDES.dictionary,
+    read: begin,
+};
+
+/// Steps of the integrator that are made.
+const STEPS: usize = 3;
+
+fn begin(input: &[u8]) -> Outcome {
+    let Ok(text) = std::str::from_utf8(input) else {
+        return Outcome::NO_TEXT;
+    };
+    let set: Vec<String> = text.lines().map(str::to_owned).collect();
+    // What is wrong with the text is for the reader `overrides`.
+    let Ok(case) = builtin::case_with("vdrun_toe_-0.2_psi_0.012", &set) else {
+        return Outcome::NO_TEXT;
+    };
+    let mut run = match Run::new(&case) {
+        Ok(run) => run,
+        Err(error) => return Outcome::refused_with(&error.to_string()),
+    };
+    let mut all = Outcome::ACCEPTED;
+    for _ in 0..STEPS {
+        if run.is_finished() {
+            break;
+        }
+        if let Err(error) = run.advance() {
+            all = all.or(Outcome::refused_with(&error.to_string()));
+            break;
+        }
+    }
+    let result = run.result(None);
+    let mut values = result.values.iter().flatten();
+    assert!(values.all(|value| value.is_finite()), "not finite: in a row");
+    all
+}
