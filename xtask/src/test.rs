@@ -69,7 +69,7 @@ const CHECKS: &[Check] = &[
         "the tests of libraries, programs and examples pass",
         tests,
     ),
-    // Compiles in the dev profile, in which overflows are seen.
+    // After `test`, which has built most of it.
     Check::new(
         "fuzz",
         "a minute of broken inputs breaks no reader",

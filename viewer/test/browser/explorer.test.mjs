@@ -270,7 +270,7 @@ test("a bad value is explained where it was typed, and put right there", { skip 
   const before = await state(page);
   const own = field(page, "friction.column");
   await type(page, "friction.column", "-1")();
-  await own.locator(".wx-mistake").filter({ hasText: "zero or greater" }).waitFor();
+  await own.locator(".wx-mistake").filter({ hasText: "between 0 and 10" }).waitFor();
   assert.equal(await own.locator("input[type=text]").getAttribute("aria-invalid"), "true");
   assert.equal(await page.locator(".wx-mistake:visible").count(), 1);
   // In a section that is folded.
