@@ -101,15 +101,14 @@ impl Controller {
     }
 }
 
-/// Growth, taken slowly where steps are linearly implicit or long.
+/// Growth, taken slowly where steps are linearly implicit.
 ///
 /// What bounds them grows faster than their order says: where friction sticks, with the eighth to fifteenth power of the step, and a step
 /// that follows what the order says is rejected every third time. Growth is the root of what was wanted up to twice the step, and less by as
 /// much beyond: half of the gain. Why a low gain smooths: G. Söderlind, *Digital filters in adaptive time-stepping*, ACM TOMS 29 (2003) 1.
 #[inline]
 fn grown(wanted: f64, family: Family) -> f64 {
-    let unhurried = matches!(family, Family::LinearlyImplicit | Family::Collocation);
-    if wanted <= 1.0 || !unhurried {
+    if wanted <= 1.0 || family != Family::LinearlyImplicit {
         wanted
     } else if wanted < 2.0 {
         wanted.sqrt()
@@ -134,11 +133,7 @@ mod tests {
     fn only_the_first_explicit_step_may_be_followed_by_a_much_longer_one() {
         let most = Options::default().maximum_factor;
         assert_eq!(factors(Family::Explicit), [FIRST_GROWTH * most, most]);
-        for family in [
-            Family::LinearlyImplicit,
-            Family::Collocation,
-            Family::DiagonallyImplicit,
-        ] {
+        for family in [Family::LinearlyImplicit, Family::DiagonallyImplicit] {
             assert_eq!(factors(family), [most; 2]);
         }
     }
@@ -153,6 +148,5 @@ mod tests {
         };
         assert!((after(Family::Explicit) - 1.8).abs() < 1e-12);
         assert!((after(Family::LinearlyImplicit) - 1.8_f64.sqrt()).abs() < 1e-12);
-        assert!((after(Family::Collocation) - 1.8_f64.sqrt()).abs() < 1e-12);
     }
 }

@@ -153,9 +153,8 @@ impl Switches {
         dense: &Dense<'_>,
         maximum: usize,
     ) -> Result<(), TooMany> {
-        // A step by collocation is two to four times as long as others; an explicit one spans a radian or so of the fastest answer at most.
+        // An explicit step spans a radian or so of the fastest answer at most.
         let looks: &[f64] = match dense.tableau.family {
-            Family::Collocation => &[0.25, 0.5, 0.75],
             Family::Explicit => &[],
             Family::LinearlyImplicit | Family::DiagonallyImplicit => &[0.5],
         };

@@ -45,10 +45,8 @@ const SLACK: f64 = 0.05;
 /// A direction breaks away if it comes from below this size and grows by this much and by this factor.
 const HELD: f64 = 3.0;
 const GROWTH: (f64, f64) = (1.0, 1.5);
-/// Between its ends a long step may break loose what sticks again at its end: from this size on, if it grows by this factor.
-const LOOSE: [f64; 2] = [1.3, 1.3];
-/// The sizes between which the hold of a layer fades.
-const FADING: [f64; 2] = [2.0, 12.0];
+/// Below this size the tail of a layer still holds a direction.
+const TAIL: f64 = 12.0;
 /// Behind a layer the direction is larger than this.
 const OUT: f64 = 3.0;
 /// It does reverse if what is across its old direction is smaller than this when its part along that comes to the edge.
@@ -263,30 +261,11 @@ impl Kinks {
         })
     }
 
-    /// Whether a direction that its layer held at the place that was looked at last is slipping out of it at the one peered at.
-    pub fn break_loose(&self) -> bool {
-        let [least, factor] = LOOSE.map(|size| size * size);
-        let mut pairs = self.here.directions.iter().zip(&self.signs.directions);
-        pairs.any(|(from, to)| {
-            let (from, to) = (square(from), square(to));
-            from < HELD * HELD && to > least.max(factor * from)
-        })
-    }
-
-    /// Whether the hold of a layer fades at the place that was looked at last.
-    pub fn fade(&self) -> bool {
-        let [low, high] = FADING.map(|size| size * size);
-        self.here
-            .directions
-            .iter()
-            .any(|direction| (low..high).contains(&square(direction)))
-    }
-
     /// Whether a layer held a direction, if only by its tail, at the place that was looked at last or at the one before; true where the problem
     /// tells of no directions.
     pub fn hold(&self) -> bool {
         let mut all = self.here.directions.iter().chain(&self.before.directions);
-        self.here.directions.is_empty() || all.any(|direction| square(direction) < FADING[1] * FADING[1])
+        self.here.directions.is_empty() || all.any(|direction| square(direction) < TAIL * TAIL)
     }
 
     /// By how much bounds on errors in layers widen at the place that was looked at last: see [`Problem::layer_bounds`].
@@ -326,8 +305,8 @@ impl Kinks {
         let explicit = dense.tableau.family == Family::Explicit;
         let most = if explicit { EXPLICIT_REACH } else { REACH };
         let mut reach = (length / dense.step).min(most);
-        if error * spread(dense, 1.0 + reach) > TRUST {
-            reach = libm::pow(TRUST / error, 1.0 / spread_power(dense)) - 1.0;
+        if error * fifth(1.0 + reach) > TRUST {
+            reach = libm::pow(TRUST / error, 0.2) - 1.0;
         }
         if explicit && self.are_far(reach) {
             return None;
@@ -337,7 +316,7 @@ impl Kinks {
             let Found { low, high, index } = self.locate(problem, dense, 1.0 + reach, far, error)?;
             let values = self.here.values.len();
             let Some(direction) = index.checked_sub(values) else {
-                let end = (high + overshoot(error, spread(dense, high))).max(1.0 + NEAR_KINK);
+                let end = (high + overshoot(error, fifth(high))).max(1.0 + NEAR_KINK);
                 return Some(Ahead::Kink(dense.start + end * dense.step));
             };
             let number = values + self.here.directions.len() + direction;
@@ -421,7 +400,7 @@ impl Kinks {
         let mut last = f64::INFINITY;
         for _ in 0..ROUNDS {
             let (low, high) = self.search.ends();
-            let width = overshoot(error, spread(dense, high));
+            let width = overshoot(error, fifth(high));
             if high - low <= width {
                 break;
             }
@@ -501,26 +480,6 @@ fn overshoot(error: f64, spread: f64) -> f64 {
 /// The square of the length of a plane vector.
 pub(crate) fn square([a, b]: &[f64; 2]) -> f64 {
     a * a + b * b
-}
-
-/// By how much the error of a continued dense output grows from the end of its step to a place beyond it.
-fn spread(dense: &Dense<'_>, theta: f64) -> f64 {
-    match dense.tableau.family {
-        Family::Collocation => {
-            let fourth = theta * theta * (theta * theta);
-            fourth * fourth * fourth
-        }
-        _ => fifth(theta),
-    }
-}
-
-/// The power in [`spread`]. A polynomial of degree 7 leaves what it follows faster than others: with the eighth power every other
-/// reversal that was foreseen there was none.
-fn spread_power(dense: &Dense<'_>) -> f64 {
-    match dense.tableau.family {
-        Family::Collocation => 12.0,
-        _ => 5.0,
-    }
 }
 
 fn fifth(x: f64) -> f64 {

@@ -1,14 +1,13 @@
-//! Several numbers side by side, with and without derivatives: a law written over [`Number`] does four points at once, or one point of
-//! several runs.
+//! Four numbers side by side, with and without derivatives: a law written over [`Number`] does four points at once.
 //!
-//! The lanes are explicit (`wide`): nothing is left to the compiler's vectorizer. Every lane gives the same bits wherever it stands, and
-//! however many there are; elementary functions agree with those of single numbers to rounding.
+//! The lanes are explicit (`wide`): nothing is left to the compiler's vectorizer. Every lane gives the same bits wherever it stands;
+//! elementary functions agree with those of single numbers to rounding.
 
 mod dual;
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-use wide::{f64x2, f64x4};
+use wide::f64x4;
 
 pub use dual::LaneDual;
 
@@ -17,222 +16,201 @@ use crate::scalar::{Blend, EIGHTH_TURN, Mask, Number, SERIES, series, small_sin_
 /// How many numbers stand side by side in [`Lanes`].
 pub const LANES: usize = 4;
 
-/// As many numbers as the processor's vectors hold, two at least: one for each of several runs.
-#[cfg(target_feature = "avx")]
-pub type Runs = Lanes;
-/// As many numbers as the processor's vectors hold, two at least: one for each of several runs.
-#[cfg(not(target_feature = "avx"))]
-pub type Runs = Pair;
-
 /// From `x = √s = 20` on, tanh is 1 to the last bit.
 const SATURATED: f64 = 400.0;
 
-/// A kind of lanes.
-macro_rules! lanes {
-    ($name:ident, $mask:ident, $wide:ident, $count:literal, $text:literal, $answers:literal) => {
-        #[doc = $text]
-        #[derive(Clone, Copy, Debug)]
-        pub struct $name($wide);
-
-        #[doc = $answers]
-        #[derive(Clone, Copy, Debug)]
-        pub struct $mask($wide);
-
-        impl $name {
-            /// How many numbers stand side by side.
-            pub const COUNT: usize = $count;
-            /// Zeros.
-            pub const ZERO: Self = Self($wide::ZERO);
-
-            /// These numbers.
-            #[inline(always)]
-            #[must_use]
-            pub fn new(values: [f64; $count]) -> Self {
-                Self($wide::new(values))
-            }
-            /// The numbers.
-            #[inline(always)]
-            #[must_use]
-            pub fn to_array(self) -> [f64; $count] {
-                self.0.to_array()
-            }
-            /// One of the numbers.
-            ///
-            /// # Panics
-            /// If there is no such lane.
-            #[inline(always)]
-            #[must_use]
-            pub fn at(self, lane: usize) -> f64 {
-                self.0.to_array()[lane]
-            }
-            /// Replaces one of the numbers.
-            ///
-            /// # Panics
-            /// If there is no such lane.
-            #[inline(always)]
-            pub fn put(&mut self, lane: usize, value: f64) {
-                self.0.as_mut_array()[lane] = value;
-            }
-
-            /// Value of `tanh(√s)/√s`, and its slope by `s` if it is asked for.
-            #[inline(always)]
-            fn tanh_ratio_with<const SLOPE: bool>(self) -> (Self, Self) {
-                if !self.0.simd_le($wide::splat(SATURATED)).any() {
-                    let ratio = 1.0 / self.sqrt();
-                    return (ratio, if SLOPE { ratio * -0.5 / self } else { self });
-                }
-                self.unsaturated::<SLOPE>()
-            }
-
-            /// The same where a lane needs tanh itself.
-            #[inline(never)]
-            fn unsaturated<const SLOPE: bool>(self) -> (Self, Self) {
-                let x = self.sqrt();
-                // Not near zero, where there is the series: 1 - 2/(e^2x + 1) has all digits but one or two.
-                let t = 1.0 - 2.0 / (Self((x * 2.0).0.exp()) + 1.0);
-                let ratio = t / x;
-                let small = self.below(Self::from(SERIES));
-                let (near, near_slope) = series(self);
-                let value = Self::blend(small, near, ratio);
-                if !SLOPE {
-                    return (value, self);
-                }
-                let slope = (1.0 - t * t - ratio) / (self * 2.0);
-                (value, Self::blend(small, near_slope, slope))
-            }
-
-            #[cold]
-            #[inline(never)]
-            fn large_angles(self) -> (Self, Self) {
-                let pairs = self.to_array().map(libm::sincos);
-                (
-                    Self::new(pairs.map(|(sine, _)| sine)),
-                    Self::new(pairs.map(|(_, cosine)| cosine)),
-                )
-            }
-        }
-
-        impl Mask for $mask {
-            #[inline(always)]
-            fn all(self) -> bool {
-                self.0.all()
-            }
-            #[inline(always)]
-            fn none(self) -> bool {
-                !self.0.any()
-            }
-        }
-
-        impl Blend<$mask> for $name {
-            #[inline(always)]
-            fn blend(mask: $mask, yes: Self, no: Self) -> Self {
-                Self(mask.0.bitselect(yes.0, no.0))
-            }
-        }
-
-        lanes!(@each $name $wide Add add, Sub sub, Mul mul, Div div);
-
-        impl Neg for $name {
-            type Output = Self;
-            #[inline(always)]
-            fn neg(self) -> Self {
-                Self(-self.0)
-            }
-        }
-
-        impl AddAssign for $name {
-            #[inline(always)]
-            fn add_assign(&mut self, o: Self) {
-                *self = *self + o;
-            }
-        }
-
-        impl SubAssign for $name {
-            #[inline(always)]
-            fn sub_assign(&mut self, o: Self) {
-                *self = *self - o;
-            }
-        }
-
-        impl From<f64> for $name {
-            #[inline(always)]
-            fn from(value: f64) -> Self {
-                Self($wide::splat(value))
-            }
-        }
-
-        impl Number for $name {
-            type Mask = $mask;
-            type Plain = Self;
-            #[inline(always)]
-            fn plain(self) -> Self {
-                self
-            }
-            #[inline(always)]
-            fn lift(value: Self) -> Self {
-                value
-            }
-            #[inline(always)]
-            fn by(self, factor: Self) -> Self {
-                self * factor
-            }
-            #[inline(always)]
-            fn below(self, bound: Self) -> $mask {
-                $mask(self.0.simd_lt(bound.0))
-            }
-            #[inline(always)]
-            fn at_most(self, bound: Self) -> $mask {
-                $mask(self.0.simd_le(bound.0))
-            }
-            #[inline(always)]
-            fn chain(self, value: Self, _slope: Self) -> Self {
-                value
-            }
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                Self(self.0.sqrt())
-            }
-            #[inline(always)]
-            fn tanh_ratio(self) -> Self {
-                self.tanh_ratio_with::<false>().0
-            }
-            /// The bits that `libm` gives: by its polynomials where all are small, by itself elsewhere.
-            #[inline(always)]
-            fn sin_cos(self) -> (Self, Self) {
-                let x = self;
-                if !Self(x.0.abs()).at_most(Self::from(EIGHTH_TURN)).all() {
-                    return x.large_angles();
-                }
-                small_sin_cos(x)
-            }
-        }
-    };
-    (@each $name:ident $wide:ident $($trait:ident $method:ident),*) => {$(
-        impl $trait for $name {
+/// An operation lane by lane.
+macro_rules! lane_by_lane {
+    ($($trait:ident $method:ident),*) => {$(
+        impl $trait for Lanes {
             type Output = Self;
             #[inline(always)]
             fn $method(self, o: Self) -> Self {
                 Self(self.0.$method(o.0))
             }
         }
-        impl $trait<f64> for $name {
+        impl $trait<f64> for Lanes {
             type Output = Self;
             #[inline(always)]
             fn $method(self, o: f64) -> Self {
-                Self(self.0.$method($wide::splat(o)))
+                Self(self.0.$method(f64x4::splat(o)))
             }
         }
-        impl $trait<$name> for f64 {
-            type Output = $name;
+        impl $trait<Lanes> for f64 {
+            type Output = Lanes;
             #[inline(always)]
-            fn $method(self, o: $name) -> $name {
-                $name($wide::splat(self).$method(o.0))
+            fn $method(self, o: Lanes) -> Lanes {
+                Lanes(f64x4::splat(self).$method(o.0))
             }
         }
     )*};
 }
-lanes!(Lanes, LaneMask, f64x4, 4, "Four numbers.", "Four answers.");
-lanes!(Pair, PairMask, f64x2, 2, "Two numbers.", "Two answers.");
+
+/// Four numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Lanes(f64x4);
+
+/// Four answers.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneMask(f64x4);
+
+impl Lanes {
+    /// Zeros.
+    pub const ZERO: Self = Self(f64x4::ZERO);
+
+    /// These numbers.
+    #[inline(always)]
+    #[must_use]
+    pub fn new(values: [f64; LANES]) -> Self {
+        Self(f64x4::new(values))
+    }
+    /// The numbers.
+    #[inline(always)]
+    #[must_use]
+    pub fn to_array(self) -> [f64; LANES] {
+        self.0.to_array()
+    }
+    /// One of the numbers.
+    ///
+    /// # Panics
+    /// If there is no such lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(self, lane: usize) -> f64 {
+        self.0.to_array()[lane]
+    }
+    /// Value of `tanh(√s)/√s`, and its slope by `s` if it is asked for.
+    #[inline(always)]
+    fn tanh_ratio_with<const SLOPE: bool>(self) -> (Self, Self) {
+        if !self.0.simd_le(f64x4::splat(SATURATED)).any() {
+            let ratio = 1.0 / self.sqrt();
+            return (ratio, if SLOPE { ratio * -0.5 / self } else { self });
+        }
+        self.unsaturated::<SLOPE>()
+    }
+
+    /// The same where a lane needs tanh itself.
+    #[inline(never)]
+    fn unsaturated<const SLOPE: bool>(self) -> (Self, Self) {
+        let x = self.sqrt();
+        // Not near zero, where there is the series: 1 - 2/(e^2x + 1) has all digits but one or two.
+        let t = 1.0 - 2.0 / (Self((x * 2.0).0.exp()) + 1.0);
+        let ratio = t / x;
+        let small = self.below(Self::from(SERIES));
+        let (near, near_slope) = series(self);
+        let value = Self::blend(small, near, ratio);
+        if !SLOPE {
+            return (value, self);
+        }
+        let slope = (1.0 - t * t - ratio) / (self * 2.0);
+        (value, Self::blend(small, near_slope, slope))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn large_angles(self) -> (Self, Self) {
+        let pairs = self.to_array().map(libm::sincos);
+        (
+            Self::new(pairs.map(|(sine, _)| sine)),
+            Self::new(pairs.map(|(_, cosine)| cosine)),
+        )
+    }
+}
+
+impl Mask for LaneMask {
+    #[inline(always)]
+    fn all(self) -> bool {
+        self.0.all()
+    }
+    #[inline(always)]
+    fn none(self) -> bool {
+        !self.0.any()
+    }
+}
+
+impl Blend<LaneMask> for Lanes {
+    #[inline(always)]
+    fn blend(mask: LaneMask, yes: Self, no: Self) -> Self {
+        Self(mask.0.bitselect(yes.0, no.0))
+    }
+}
+
+lane_by_lane!(Add add, Sub sub, Mul mul, Div div);
+
+impl Neg for Lanes {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl AddAssign for Lanes {
+    #[inline(always)]
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
+
+impl SubAssign for Lanes {
+    #[inline(always)]
+    fn sub_assign(&mut self, o: Self) {
+        *self = *self - o;
+    }
+}
+
+impl From<f64> for Lanes {
+    #[inline(always)]
+    fn from(value: f64) -> Self {
+        Self(f64x4::splat(value))
+    }
+}
+
+impl Number for Lanes {
+    type Mask = LaneMask;
+    type Plain = Self;
+    #[inline(always)]
+    fn plain(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn lift(value: Self) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn by(self, factor: Self) -> Self {
+        self * factor
+    }
+    #[inline(always)]
+    fn below(self, bound: Self) -> LaneMask {
+        LaneMask(self.0.simd_lt(bound.0))
+    }
+    #[inline(always)]
+    fn at_most(self, bound: Self) -> LaneMask {
+        LaneMask(self.0.simd_le(bound.0))
+    }
+    #[inline(always)]
+    fn chain(self, value: Self, _slope: Self) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+    #[inline(always)]
+    fn tanh_ratio(self) -> Self {
+        self.tanh_ratio_with::<false>().0
+    }
+    /// The bits that `libm` gives: by its polynomials where all are small, by itself elsewhere.
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let x = self;
+        if !Self(x.0.abs()).at_most(Self::from(EIGHTH_TURN)).all() {
+            return x.large_angles();
+        }
+        small_sin_cos(x)
+    }
+}
 
 impl Lanes {
     /// The sum of the lanes of each of four.
@@ -320,10 +298,9 @@ mod tests {
                 let (sine, cosine) = libm::sincos(x);
                 assert_eq!(Number::sin_cos(x), (sine, cosine), "{x}");
                 assert_eq!((s.at(0), c.at(0)), (sine, cosine), "{x}");
-                let (s2, c2) = Pair::new([0.2, x]).sin_cos();
-                assert_eq!((s2.at(1), c2.at(1)), (sine, cosine), "{x}");
-                let s4 = Lanes::new([x * x, 0.0, 1e6, 2.0]).tanh_ratio();
-                assert_eq!(Pair::new([3.0, x * x]).tanh_ratio().at(1), s4.at(0), "{x}");
+                let first = Lanes::new([x * x, 0.0, 1e6, 2.0]).tanh_ratio();
+                let second = Lanes::new([3.0, x * x, 0.1, 5.0]).tanh_ratio();
+                assert_eq!(first.at(0), second.at(1), "{x}");
                 let (tenth, _) = libm::sincos(0.1);
                 assert_eq!(s.at(1), tenth);
             }

@@ -3,8 +3,7 @@
 //! A [`Problem`] gives its right-hand side and brings its own structured linear algebra (for which [`BlockLu`] is at
 //! hand); an [`Integrator`] makes accepted steps with a stiffly accurate [`Method`], controls their
 //! error, gives dense output, and times the changes of discrete switches. Nothing is allocated in a step, and the
-//! same input gives the same bits on every system. A [`Team`] makes the steps of several runs side by side, with the bits of
-//! each run alone.
+//! same input gives the same bits on every system.
 
 #![warn(missing_docs)]
 
@@ -24,7 +23,6 @@ mod ordinary;
 pub mod partitioned;
 mod problem;
 pub mod processor;
-mod radau;
 mod rodas;
 mod rosenbrock;
 pub mod scalar;
@@ -33,7 +31,6 @@ mod stages;
 mod state;
 mod statistics;
 mod tableau;
-mod together;
 mod tr_bdf2;
 
 pub use block_lu::BlockLu;
@@ -44,8 +41,7 @@ pub use matrices::Matrices;
 pub use options::Options;
 pub use ordinary::Ordinary;
 pub use problem::{Problem, Singular};
-pub use rosenbrock::{Call, Integrator, Progress};
+pub use rosenbrock::Integrator;
 pub use state::{MOST_COUNTED, STATE_VERSION, State};
 pub use statistics::Statistics;
 pub use tableau::{Family, MAXIMUM_STAGES, Method, Tableau, UnknownMethod};
-pub use together::{MOST_PLACES, OneByOne, Team, Together};

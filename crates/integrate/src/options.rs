@@ -20,9 +20,6 @@ pub struct Options {
     pub method: Method,
     /// Whether steps may be explicit where the problem tells that nothing is stiff ([`crate::Problem::stiffness`]).
     pub explicit_steps: bool,
-    /// Whether steps may be by collocation where the way is smooth and the problem solves with complex shifts
-    /// ([`crate::Problem::complex_shifts`]).
-    pub collocation_steps: bool,
     /// Whether changes of the problem's switches are recorded and timed ([`crate::Problem::switch_count`]). Steps and states are the same without.
     pub record_switches: bool,
     /// Admissible local error of each state, relative to its scale.
@@ -54,7 +51,6 @@ impl Default for Options {
         Self {
             method: Method::default(),
             explicit_steps: true,
-            collocation_steps: true,
             record_switches: true,
             relative_tolerance: 1e-6,
             initial_step: None,
@@ -85,7 +81,7 @@ impl Options {
                 maximum_factor: 2.0,
                 ..options
             },
-            Family::LinearlyImplicit | Family::Explicit | Family::Collocation => options,
+            Family::LinearlyImplicit | Family::Explicit => options,
         }
     }
 

@@ -18,7 +18,6 @@
 
 pub use crate::layout::{Layout, Structure};
 
-mod complex;
 mod single;
 
 use self::single::{Single, Source};
@@ -384,26 +383,6 @@ impl Partitioned {
         Ok(())
     }
 
-    /// For how many complex shifts it keeps factors: three where there is one small body and no internal state, none elsewhere.
-    #[must_use]
-    pub fn complex_shifts(&self) -> usize {
-        if self.single.is_some() {
-            single::COMPLEX_SHIFTS
-        } else {
-            0
-        }
-    }
-
-    /// Factors `shift · I - J` for a complex shift (real and imaginary part), after [`Partitioned::factor`] with the same J.
-    ///
-    /// # Errors
-    /// The matrix is singular, or there is no such number.
-    pub fn factor_complex(&mut self, number: usize, shift: [f64; 2]) -> Result<(), Singular> {
-        let single = self.single();
-        let regular = single.is_some_and(|(single, source)| single.factor_complex(number, shift, source));
-        regular.then_some(()).ok_or(Singular { block: 0 })
-    }
-
     /// What stands in where there is one small body, and what it factors.
     fn single(&mut self) -> Option<(&mut Single, Source<'_>)> {
         let source = Source {
@@ -414,13 +393,6 @@ impl Partitioned {
             row_data: &self.row_data,
         };
         self.single.as_mut().map(|single| (single, source))
-    }
-
-    /// Solves `(shift · I - J) y = b` in place, real and imaginary part, by the factors with this number.
-    pub fn solve_complex(&mut self, number: usize, re: &mut [f64], im: &mut [f64]) {
-        if let Some(single) = &self.single {
-            single.solve_complex(number, re, im);
-        }
     }
 
     /// Solves `(shift · I - J) y = b` in place.

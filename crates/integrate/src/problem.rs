@@ -73,16 +73,6 @@ pub trait Problem {
     /// Within a step that is about to be rejected `x` may be far out or not finite; so may then be `dx`.
     fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]);
 
-    /// Writes `f` at several times and states, `f(times[k], x_k)` to `dx_k`, each with the bits of [`Problem::derivative`]: for problems that do
-    /// it quicker at once. Each `x_k` and `dx_k` begins `stride` numbers behind the one before.
-    fn derivatives(&mut self, times: &[f64], stride: usize, x: &[f64], dx: &mut [f64]) {
-        let n = self.dimension();
-        let rows = x.chunks_exact(stride).zip(dx.chunks_exact_mut(stride));
-        for (time, (x, dx)) in times.iter().zip(rows) {
-            self.derivative(*time, &x[..n], &mut dx[..n]);
-        }
-    }
-
     /// Evaluates and keeps the Jacobian matrix `J = ∂f/∂x` at `(time, x)`, where `f` is `dx`; writes `∂f/∂t`.
     ///
     /// `df_dt` comes filled with zeros: an autonomous problem need not touch it.
@@ -124,26 +114,6 @@ pub trait Problem {
 
     /// Solves `(shift·I - J) y = b` in place, with the matrix of the last successful [`Problem::factor`].
     fn solve(&mut self, b: &mut [f64]);
-
-    /// For how many complex shifts it keeps factors at once. Where there are three, long smooth steps are made by collocation.
-    fn complex_shifts(&self) -> usize {
-        0
-    }
-
-    /// Factors `shift·I - J` for a complex shift (real and imaginary part), and keeps the factors under a number below
-    /// [`Problem::complex_shifts`]. Comes after [`Problem::factor`] with the same J, whose factors are kept as well.
-    ///
-    /// # Errors
-    /// Where the matrix is singular, and by problems that do not do this.
-    fn factor_complex(&mut self, number: usize, shift: [f64; 2]) -> Result<(), Singular> {
-        let _ = (number, shift);
-        Err(Singular { block: 0 })
-    }
-
-    /// Solves `(shift·I - J) y = b` in place, real and imaginary part, with the factors kept under this number.
-    fn solve_complex(&mut self, number: usize, re: &mut [f64], im: &mut [f64]) {
-        let _ = (number, re, im);
-    }
 
     /// How many values and directions [`Problem::kinks`] writes.
     fn kink_counts(&self) -> (usize, usize) {
@@ -240,9 +210,6 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]) {
         (**self).derivative(time, x, dx);
     }
-    fn derivatives(&mut self, times: &[f64], stride: usize, x: &[f64], dx: &mut [f64]) {
-        (**self).derivatives(times, stride, x, dx);
-    }
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         (**self).linearize(time, x, dx, df_dt);
     }
@@ -263,15 +230,6 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     }
     fn solve(&mut self, b: &mut [f64]) {
         (**self).solve(b);
-    }
-    fn complex_shifts(&self) -> usize {
-        (**self).complex_shifts()
-    }
-    fn factor_complex(&mut self, number: usize, shift: [f64; 2]) -> Result<(), Singular> {
-        (**self).factor_complex(number, shift)
-    }
-    fn solve_complex(&mut self, number: usize, re: &mut [f64], im: &mut [f64]) {
-        (**self).solve_complex(number, re, im);
     }
     fn kink_counts(&self) -> (usize, usize) {
         (**self).kink_counts()

@@ -7,7 +7,6 @@ use crate::kinks::{Ahead, Kinks, Passage};
 use crate::lanes::LANES;
 use crate::options::Options;
 use crate::problem::Problem;
-use crate::radau::PAIRS;
 use crate::stages::leading_states;
 use crate::state::{STATE_VERSION, State};
 use crate::statistics::Statistics;
@@ -15,23 +14,18 @@ use crate::tableau::{Family, MAXIMUM_STAGES, Tableau};
 
 mod attempt;
 mod between;
-mod collocation;
 mod guess;
 mod kept;
 mod newton;
 mod piece;
 mod reversal;
 mod step;
-mod underway;
 
+use attempt::Attempt;
 use between::Between;
-pub(crate) use collocation::Calm;
-use collocation::Collocation;
 pub(crate) use guess::Behind;
 pub(crate) use kept::Place;
 use newton::Newton;
-use underway::Underway;
-pub use underway::{Call, Progress};
 
 /// Integrates a [`Problem`] step by step.
 ///
@@ -100,7 +94,7 @@ pub struct Integrator<P: Problem> {
     stages: Vec<f64>,
 
     // The step being tried.
-    underway: Underway,
+    attempt: Attempt,
     trial_stages: Vec<f64>,
     trial_x: Vec<f64>,
     trial_dx: Vec<f64>,
@@ -108,10 +102,6 @@ pub struct Integrator<P: Problem> {
     slope: Vec<f64>,
     newton: Newton,
     between: Between,
-    collocation: Collocation,
-    /// Whether steps may be by collocation at all.
-    collocates: bool,
-    calm: Calm,
     /// How long the last explicit step was that its error bounded, in units of the fastest answer; zero: there was none.
     reach: f64,
 }
@@ -143,7 +133,6 @@ impl<P: Problem> Integrator<P> {
             ahead: None,
             passage: None,
             controller: Controller::default(),
-            calm: Calm::default(),
             reach: 0.0,
             slope: Vec::new(),
             behind: None,
@@ -221,10 +210,6 @@ impl<P: Problem> Integrator<P> {
             Family::DiagonallyImplicit => Newton::new(&mut problem, options.relative_tolerance, stride),
             _ => Newton::default(),
         };
-        let collocates = options.collocation_steps
-            && options.fixed_step.is_none()
-            && tableau.family == Family::LinearlyImplicit
-            && problem.complex_shifts() >= PAIRS.len();
         let mut this = Self {
             switches: Switches::new(&problem, state.modes, options.maximum_events),
             kinks: Kinks::new(&problem),
@@ -257,7 +242,7 @@ impl<P: Problem> Integrator<P> {
             autonomous: true,
             linearized: false,
             stages: all_stages.clone(),
-            underway: Underway::NONE,
+            attempt: Attempt::NONE,
             trial_stages: all_stages,
             trial_x: zero(),
             trial_dx: zero(),
@@ -265,14 +250,6 @@ impl<P: Problem> Integrator<P> {
             slope: zero(),
             newton,
             between: Between::new(stride),
-            collocation: if collocates {
-                Collocation::new(stride)
-            } else {
-                Collocation::default()
-            },
-            collocates,
-            // A state saved with other options may come from a long step.
-            calm: if collocates { state.calm } else { Calm::default() },
             reach: state.reach,
         };
         // Not counted: a run without a break has this evaluation from its last step.
@@ -304,7 +281,6 @@ impl<P: Problem> Integrator<P> {
             ahead: self.ahead,
             passage: self.passage,
             controller: self.controller.clone(),
-            calm: self.calm,
             reach: self.reach,
             slope: match self.tableau.family {
                 Family::DiagonallyImplicit => self.derivative().to_vec(),
@@ -405,7 +381,6 @@ impl<P: Problem> Integrator<P> {
         self.evaluate_derivative();
         self.ahead = None;
         self.passage = None;
-        self.end_calm();
     }
 
     /// Whether a saved state can belong to this problem.
@@ -436,9 +411,6 @@ impl<P: Problem> Integrator<P> {
         self.ahead = state.ahead;
         self.passage = state.passage;
         self.controller.clone_from(&state.controller);
-        if self.collocates {
-            self.calm = state.calm;
-        }
         self.reach = state.reach;
         self.statistics.clone_from(&state.statistics);
         let counted = self.statistics.derivatives;
@@ -465,7 +437,6 @@ impl<P: Problem> Integrator<P> {
         self.evaluate_derivative();
         self.ahead = None;
         self.passage = None;
-        self.end_calm();
         self.controller.restart();
     }
 }

@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 use crate::control::Controller;
 use crate::error::SetupError;
 use crate::kinks::{Ahead, Passage};
-use crate::rosenbrock::{Behind, Calm, Place};
+use crate::rosenbrock::{Behind, Place};
 use crate::statistics::Statistics;
 
 /// Version of [`State`].
-pub const STATE_VERSION: u32 = 12;
+pub const STATE_VERSION: u32 = 13;
 /// The largest number in a counter of a saved state. A million steps a second count for thirty years up to it; from it on no run
 /// counts to the end of 64 bits.
 pub const MOST_COUNTED: u64 = 1_000_000_000_000_000;
@@ -40,8 +40,6 @@ pub struct State {
     pub(crate) passage: Option<Passage>,
     /// Memory of the step-size control.
     pub(crate) controller: Controller,
-    /// How smooth the last steps were, which chooses the method of the next one.
-    pub(crate) calm: Calm,
     /// How long the last explicit step was that its error bounded, in units of the fastest answer; zero: there was none.
     pub(crate) reach: f64,
     /// The slope with which an implicit step ended, which is the first stage of the next one; empty: the derivative at the states is.
@@ -68,7 +66,6 @@ impl State {
         }
         self.statistics.check()?;
         self.controller.check()?;
-        self.calm.check()?;
         self.ahead.map_or(Ok(()), |ahead| ahead.check(directions))?;
         self.passage.map_or(Ok(()), |passage| passage.check(directions))?;
         if self.matrices.len() > MOST_MATRICES {

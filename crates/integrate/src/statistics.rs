@@ -14,9 +14,6 @@ pub struct Statistics {
     /// Those of them that were explicit.
     #[serde(default)]
     pub explicit_steps: u64,
-    /// Those of them that were by collocation.
-    #[serde(default)]
-    pub collocation_steps: u64,
     /// Steps rejected because of their error.
     pub rejected_error: u64,
     /// Steps rejected because a value was not finite.
@@ -65,7 +62,6 @@ impl Statistics {
         for (name, count) in [
             ("statistics.steps", self.steps),
             ("statistics.explicit_steps", self.explicit_steps),
-            ("statistics.collocation_steps", self.collocation_steps),
             ("statistics.rejected_error", self.rejected_error),
             ("statistics.rejected_not_finite", self.rejected_not_finite),
             ("statistics.rejected_singular", self.rejected_singular),

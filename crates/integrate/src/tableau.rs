@@ -28,9 +28,6 @@ pub enum Family {
     LinearlyImplicit,
     /// By evaluation: γ is zero, `U_i = h f(t + α_i h, x + Σ_j a_ij U_j)`, and the last row of `a` makes the error estimate.
     Explicit,
-    /// All at once, by Newton's method along the eigenvectors of its matrix: the `U_i` are the changes `Z_i` of the states at its points, the last
-    /// `U` is the error estimate.
-    Collocation,
     /// By Newton's method: `U_i = h f(t + α_i h, x + Σ_j a_ij U_j + γ U_i)`; the last `U` is the error estimate.
     DiagonallyImplicit,
 }

@@ -120,9 +120,9 @@ fn what_is_interpolated_is_the_same_whatever_was_asked_for_before() {
     assert!(differ > 10, "{differ} steps were settled");
 }
 
-/// Once the next step has begun, the right-hand side may be another one: the plain dense output is what is there.
+/// Once it is told that the right-hand side has changed, the plain dense output is what is there.
 #[test]
-fn nothing_is_settled_in_a_step_that_another_one_follows() {
+fn nothing_is_settled_where_the_right_hand_side_has_changed() {
     let options = Options {
         relative_tolerance: 1e-4,
         ..Options::default()
@@ -135,7 +135,7 @@ fn nothing_is_settled_in_a_step_that_another_one_follows() {
     let (mut settled, mut plain, mut after) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     run.interpolate(middle, &mut settled);
     run.interpolate_range(middle, 0, &mut plain);
-    run.begin_step(3.0).unwrap();
+    run.renew();
     run.interpolate(middle, &mut after);
     assert_ne!(settled, plain);
     assert_eq!(after, plain);

@@ -145,58 +145,6 @@ fn one_body_is_solved_as_the_whole_matrix() {
     }
 }
 
-/// With a complex shift a + ib the matrix is the real one with a, plus ib (I, M, I): what is left of the right side.
-#[test]
-fn one_body_is_solved_with_complex_shifts() {
-    for size in 1..=6 {
-        for quadratures in 0..=5 {
-            let structure = Structure {
-                bodies: vec![size],
-                quadratures,
-                quadrature_bodies: (0..quadratures).map(|k| (k, 0)).collect(),
-                ..Structure::default()
-            };
-            let (a, b) = (9.0, 14.0);
-            let mut number = numbers_of(&structure, a);
-            let (mut partitioned, whole, mass) = filled(&structure, a, &mut number);
-            assert_eq!(partitioned.complex_shifts(), 3);
-            let (n, u) = (partitioned.layout().len(), partitioned.layout().speeds);
-            let right: [Vec<f64>; 2] = [0, 1].map(|_| (0..n).map(|_| number()).collect());
-            let [mut re, mut im] = right.clone();
-            partitioned.factor(20.0).unwrap();
-            for k in [2, 0] {
-                // another one in between
-                partitioned
-                    .factor_complex(k, [a + f64::from(k as u8), b])
-                    .unwrap();
-            }
-            partitioned.solve_complex(0, &mut re, &mut im);
-            let times_mass = |x: &[f64], i: usize| -> f64 {
-                if (u..2 * u).contains(&i) {
-                    (0..u).map(|j| mass[i - u][j] * x[u + j]).sum()
-                } else {
-                    x[i]
-                }
-            };
-            for i in 0..n {
-                let row = |x: &[f64]| -> f64 { whole[i].iter().zip(x).map(|(w, x)| w * x).sum() };
-                let left_re = row(&re) - b * times_mass(&im, i) - times_mass(&right[0], i);
-                let left_im = row(&im) + b * times_mass(&re, i) - times_mass(&right[1], i);
-                assert!(
-                    left_re.abs() < 1e-13 && left_im.abs() < 1e-13,
-                    "{size} coordinates, {quadratures} quadratures, row {i}: {left_re} {left_im}"
-                );
-            }
-            assert!(partitioned.factor_complex(3, [a, b]).is_err());
-        }
-    }
-    let two = Partitioned::new(&Structure {
-        bodies: vec![4, 4],
-        ..Structure::default()
-    });
-    assert_eq!(two.complex_shifts(), 0);
-}
-
 #[test]
 fn other_structures_are_solved_as_the_whole_matrix() {
     let bristles = |bodies: Vec<usize>, internal_pairs: Vec<Vec<usize>>| Structure {

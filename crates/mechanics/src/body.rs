@@ -70,7 +70,7 @@ impl Body {
 
     /// What its motion depends on.
     #[inline(always)]
-    pub(crate) fn rigid(&self) -> Rigid<f64> {
+    pub(crate) fn rigid(&self) -> Rigid {
         Rigid {
             mass: self.mass,
             inertia: self.inertia,
@@ -82,12 +82,12 @@ impl Body {
     }
 }
 
-/// What of a body its motion depends on: of one body, or of the same body in several runs side by side.
+/// What of a body its motion depends on.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rigid<P> {
-    pub mass: P,
-    pub inertia: [P; 3],
-    pub center_of_gravity: Vector<P>,
+pub(crate) struct Rigid {
+    pub mass: f64,
+    pub inertia: [f64; 3],
+    pub center_of_gravity: Vector<f64>,
     /// Whether the centre of gravity is the origin.
     pub central: bool,
     pub free: [bool; 6],
@@ -151,18 +151,17 @@ impl<S: Number> Kinematics<S> {
     ///
     /// `frame` is the motion of the reference frame, `gravity` the field in fixed axes (m/s²).
     #[inline(always)]
-    pub(crate) fn inertia<T, P>(
+    pub(crate) fn inertia<T>(
         &self,
-        body: &Rigid<P>,
+        body: &Rigid,
         frame: &FrameMotion<T>,
         frame_moves: bool,
         gravity: Vector<f64>,
         accelerations: &[f64; 6],
     ) -> (Vector<S>, Vector<S>)
     where
-        S: Add<T, Output = S> + Mul<P, Output = S>,
+        S: Add<T, Output = S>,
         T: Number + Mul<S, Output = S>,
-        P: Number,
     {
         let a = accelerations;
         let turn = &self.turn;
@@ -187,10 +186,10 @@ impl<S: Number> Kinematics<S> {
         if !body.central {
             let arm = body.center_of_gravity;
             let swing: Vector<S> = omega.cross(arm);
-            let own: Vector<S> = alpha.cross::<P, S>(arm) + omega.cross(swing);
+            let own: Vector<S> = alpha.cross::<f64, S>(arm) + omega.cross(swing);
             force += turn.rotation.apply::<S, S>(own);
         }
-        let force = force.scale::<P, S>(body.mass);
+        let force = force.scale::<f64, S>(body.mass);
         // Euler's equations.
         let ([w1, w2, w3], [e1, e2, e3]) = (omega.0, alpha.0);
         let [i1, i2, i3] = body.inertia;
@@ -208,11 +207,11 @@ impl<S: Number> Kinematics<S> {
     }
 }
 
-impl<P: Number<Plain = P>> Kinematics<P> {
+impl Kinematics<f64> {
     /// The parts of a moment (body axes) about the axes of roll, pitch, yaw.
     #[inline(always)]
-    pub(crate) fn about_axes(&self, moment: &Vector<P>) -> [P; 3] {
-        [0, 1, 2].map(|k| self.turn.axes[k].dot::<P, P>(*moment))
+    pub(crate) fn about_axes(&self, moment: &Vector<f64>) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.turn.axes[k].dot::<f64, f64>(*moment))
     }
 
     /// Accelerations of the six coordinates (held ones: zero) under a force at the body's origin (frame axes) and moments about
@@ -223,12 +222,12 @@ impl<P: Number<Plain = P>> Kinematics<P> {
     /// directions. A body that cannot be accelerated (no inertia) gives infinite or undefined values.
     #[inline(always)]
     #[must_use]
-    pub(crate) fn accelerations(&self, body: &Rigid<P>, force: &Vector<P>, moments: [P; 3]) -> [P; 6] {
+    pub(crate) fn accelerations(&self, body: &Rigid, force: &Vector<f64>, moments: [f64; 3]) -> [f64; 6] {
         let (free, axes, rotation) = (&body.free, &self.turn.axes, &self.turn.rotation);
         let (arm, central) = (body.center_of_gravity, body.central);
-        let (zero, one) = (P::zero(), P::from(1.0));
+        let (zero, one) = (0.0, 1.0);
         // By the angles' rates: the angular velocity, and the centre of gravity's velocity in held directions.
-        let mut spin = [Vector::<P>::zero(); 3];
+        let mut spin = [Vector::<f64>::zero(); 3];
         let mut held = [[zero; 3]; 3];
         let mut right = [zero; 3];
         let mut torque = Vector::zero();
@@ -236,14 +235,14 @@ impl<P: Number<Plain = P>> Kinematics<P> {
             let mut carried = *force;
             for c in (0..3).filter(|c| !free[*c]) {
                 carried.0[c] = zero;
-                let length: Vector<P> = arm.cross(Vector(rotation.0[c]));
-                held[c] = [0, 1, 2].map(|k| axes[k].dot::<P, P>(length));
+                let length: Vector<f64> = arm.cross(Vector(rotation.0[c]));
+                held[c] = [0, 1, 2].map(|k| axes[k].dot::<f64, f64>(length));
             }
-            torque = arm.cross::<P, P>(rotation.apply_transposed(carried));
+            torque = arm.cross::<f64, f64>(rotation.apply_transposed(carried));
         }
         for k in (0..3).filter(|k| free[3 + k]) {
             spin[k] = axes[k];
-            right[k] = moments[k] - axes[k].dot::<P, P>(torque);
+            right[k] = moments[k] - axes[k].dot::<f64, f64>(torque);
         }
         let entry = |k: usize, l: usize| {
             let mut value = if k == l && !free[3 + k] { one } else { zero };
@@ -282,10 +281,10 @@ impl<P: Number<Plain = P>> Kinematics<P> {
         let inverse = one / body.mass;
         let mut swing = Vector::zero();
         if !central {
-            let alpha = spin[0].scale::<P, P>(turns[0])
-                + spin[1].scale::<P, P>(turns[1])
-                + spin[2].scale::<P, P>(turns[2]);
-            swing = rotation.apply(alpha.cross::<P, P>(arm));
+            let alpha = spin[0].scale::<f64, f64>(turns[0])
+                + spin[1].scale::<f64, f64>(turns[1])
+                + spin[2].scale::<f64, f64>(turns[2]);
+            swing = rotation.apply(alpha.cross::<f64, f64>(arm));
         }
         for c in 0..3 {
             if free[c] {

@@ -10,8 +10,6 @@
 //! and a guiding couple; the couple does work when the body turns, and this work is integrated and entered in the
 //! energy ledger under its own name. With `acts_at = "seat"` the force acts at the coil's end, and there is no couple.
 
-use std::ops::Mul;
-
 use integrate::lanes::Lanes;
 use integrate::scalar::{Dual, Number, Real};
 use serde::{Deserialize, Serialize};
@@ -67,17 +65,6 @@ pub struct Coil {
     pub rotational_damping: f64,
     /// Whether the spring can pull.
     pub pulls: bool,
-}
-
-/// What of a coil its force depends on, but for the spring's law: of one coil, or of the same coil in several runs side by side.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Seating<P> {
-    pub end: Vector<P>,
-    pub acts_at: Vector<P>,
-    pub damping: P,
-    pub rotational_damping: P,
-    /// Whether it ends at the body's origin.
-    pub central: bool,
 }
 
 /// Spring and dashpot alone.
@@ -171,18 +158,24 @@ impl Coil {
     /// What the coil does to its body, seen from a mount that does not turn: [`Coil::evaluate`] with as few products as there need be.
     #[inline(always)]
     pub(crate) fn effect(&self, sight: &Sight<f64>, body: &Kinematics<f64>) -> Effect {
-        self.seating().effect(sight, body, |length| self.spring(length))
-    }
-
-    /// What its force depends on, but for the spring's law.
-    #[inline(always)]
-    pub(crate) fn seating(&self) -> Seating<f64> {
-        Seating {
-            end: self.end,
-            acts_at: self.acts_at,
-            damping: self.damping,
-            rotational_damping: self.rotational_damping,
-            central: self.end == Vector::zero(),
+        let (rotation, spin, end) = (&body.turn.rotation, body.spin, self.end);
+        let (mut place, mut velocity) = (body.position, body.velocity);
+        if end != Vector::zero() {
+            place += rotation.apply(end);
+            velocity += rotation.apply(spin.cross::<f64, f64>(end));
+        }
+        let d = sight.position + sight.rotation.apply::<f64, f64>(place);
+        let rate = sight.velocity + sight.rotation.apply::<f64, f64>(velocity);
+        let pull = pull(self.damping, d, rate, |length| self.spring(length));
+        let own: Vector<f64> =
+            rotation.apply_transposed(sight.rotation.apply_transposed::<f64, f64>(pull.force));
+        let brake = self.rotational_damping;
+        let moment = self.acts_at.cross::<f64, f64>(own) - spin.scale::<f64, f64>(brake);
+        let couple: Vector<f64> = (self.acts_at - end).cross(own);
+        Effect {
+            force: pull.force,
+            moment,
+            powers: [pull.loss + spin.dot::<f64, f64>(spin) * brake, couple.dot(spin)],
         }
     }
 
@@ -294,44 +287,14 @@ impl Coil {
     }
 }
 
-impl<P: Number<Plain = P>> Seating<P> {
-    /// What one or several coils do to their bodies, with the spring force (N) by the length (m).
-    #[inline(always)]
-    pub fn effect(&self, sight: &Sight<P>, body: &Kinematics<P>, spring: impl FnOnce(P) -> P) -> Effect<P> {
-        let (rotation, spin, end) = (&body.turn.rotation, body.spin, self.end);
-        let (mut place, mut velocity) = (body.position, body.velocity);
-        if !self.central {
-            place += rotation.apply(end);
-            velocity += rotation.apply(spin.cross::<P, P>(end));
-        }
-        let d = sight.position + sight.rotation.apply::<P, P>(place);
-        let rate = sight.velocity + sight.rotation.apply::<P, P>(velocity);
-        let pull = pull(self.damping, d, rate, spring);
-        let own: Vector<P> = rotation.apply_transposed(sight.rotation.apply_transposed::<P, P>(pull.force));
-        let brake = self.rotational_damping;
-        let moment = self.acts_at.cross::<P, P>(own) - spin.scale::<P, P>(brake);
-        let couple: Vector<P> = (self.acts_at - end).cross(own);
-        Effect {
-            force: pull.force,
-            moment,
-            powers: [pull.loss + spin.dot::<P, P>(spin) * brake, couple.dot(spin)],
-        }
-    }
-}
-
 /// Spring and dashpot between the seat and the coil's end at `d`, which moves with `rate`.
 #[inline(always)]
-fn pull<S: Number + Mul<P, Output = S>, P: Copy>(
-    damping: P,
-    d: Vector<S>,
-    rate: Vector<S>,
-    spring: impl FnOnce(S) -> S,
-) -> Pull<S> {
+fn pull<S: Real>(damping: f64, d: Vector<S>, rate: Vector<S>, spring: impl FnOnce(S) -> S) -> Pull<S> {
     let length = d.dot::<S, S>(d).sqrt();
     let spring = spring(length);
     let along = d.scale(spring / length);
     Pull {
-        force: along - rate.scale::<P, S>(damping),
+        force: along - rate.scale::<f64, S>(damping),
         along,
         length,
         spring,

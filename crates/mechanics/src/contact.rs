@@ -11,8 +11,6 @@ mod chain;
 mod quads;
 mod work;
 
-use std::ops::Mul;
-
 use integrate::scalar::{Number, Real};
 
 pub(crate) use quads::{Points, View};
@@ -82,14 +80,6 @@ pub(crate) struct Grade<P> {
     pub share: P,
 }
 
-/// What the forces at the points of a face depend on, but for the points themselves: of one face, or of the same face in several runs
-/// side by side.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Grip<P> {
-    pub coefficient: P,
-    pub law: FrictionLaw<P>,
-}
-
 /// What a law sees of a point (or of four).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Meeting<S> {
@@ -154,9 +144,7 @@ impl<F: Surface> ContactFace<F> {
                 None => [S::zero(); 2],
             };
             let mut contact = self.geometry(point, relative);
-            let touch = self
-                .grip()
-                .touch(&point.grade(), closed, &contact.meeting(), deflection);
+            let touch = self.touch(&point.grade(), closed, &contact.meeting(), deflection);
             contact.normal = touch.normal;
             contact.friction = touch.friction;
             contact.damping_loss = touch.damping_loss;
@@ -192,42 +180,15 @@ impl<F: Surface> ContactFace<F> {
         }
     }
 
-    /// What the forces at its points depend on, but for the points themselves.
-    #[inline(always)]
-    pub(crate) fn grip(&self) -> Grip<f64> {
-        Grip {
-            coefficient: self.coefficient,
-            law: self.law,
-        }
-    }
-
-    /// Friction of a point that carries `share` of the face's tangential stiffness.
-    #[inline(always)]
-    pub fn friction<S: Number>(
-        &self,
-        share: S::Plain,
-        normal: S,
-        slip: [S; 2],
-        deflection: [S; 2],
-    ) -> Friction<S> {
-        self.grip().friction(share, normal, slip, deflection)
-    }
-}
-
-impl<P: Number<Plain = P>> Grip<P> {
     /// The forces at a point: none of the surface where it is not closed.
     #[inline(always)]
-    pub fn touch<S>(
+    pub(crate) fn touch<S: Number>(
         &self,
         grade: &Grade<S::Plain>,
         closed: S::Mask,
         at: &Meeting<S>,
         deflection: [S; 2],
-    ) -> Touch<S>
-    where
-        S: Number + Mul<P, Output = S>,
-        S::Plain: Mul<P, Output = S::Plain>,
-    {
+    ) -> Touch<S> {
         let elastic = S::blend(closed, at.gap.by(-grade.stiffness), S::zero());
         let (mut normal, mut damping_loss) = (elastic, S::zero());
         if grade.damped {
@@ -246,21 +207,17 @@ impl<P: Number<Plain = P>> Grip<P> {
     /// How far a point is from its law's own change between stick and slip, see [`Friction::load`]; of no meaning with a bristle where it
     /// is open.
     #[inline(always)]
-    fn load<S>(
+    fn load<S: Number>(
         &self,
         grade: &Grade<S::Plain>,
         closed: S::Mask,
         at: &Meeting<S>,
         deflection: [S; 2],
-    ) -> S::Plain
-    where
-        S: Number + Mul<P, Output = S>,
-        S::Plain: Mul<P, Output = S::Plain>,
-    {
+    ) -> S::Plain {
         match self.law {
             FrictionLaw::Tanh { reference_speed } => {
                 let slip = at.slip.map(S::plain);
-                dot::<S::Plain>(slip, slip).sqrt() * (P::from(1.0) / reference_speed)
+                dot::<S::Plain>(slip, slip).sqrt() * (1.0 / reference_speed)
             }
             FrictionLaw::Bristle { .. } => self.touch(grade, closed, at, deflection).friction.load,
         }
@@ -268,11 +225,13 @@ impl<P: Number<Plain = P>> Grip<P> {
 
     /// Friction of a point that carries `share` of the face's tangential stiffness.
     #[inline(always)]
-    fn friction<S>(&self, share: S::Plain, normal: S, slip: [S; 2], deflection: [S; 2]) -> Friction<S>
-    where
-        S: Number + Mul<P, Output = S>,
-        S::Plain: Mul<P, Output = S::Plain>,
-    {
+    pub fn friction<S: Number>(
+        &self,
+        share: S::Plain,
+        normal: S,
+        slip: [S; 2],
+        deflection: [S; 2],
+    ) -> Friction<S> {
         let limit = normal * self.coefficient;
         match self.law {
             FrictionLaw::Tanh { reference_speed } => tanh::friction(limit, reference_speed, slip),

@@ -98,11 +98,11 @@ impl<S: Number> Sight<S> {
 
 /// A mount on a prescribed body that moves without turning, seen by a body in a fixed frame: what stays the same.
 #[derive(Clone, Copy, Debug)]
-pub struct Translation<P = f64> {
+pub struct Translation {
     /// From the mount's origin to that of the body's frame while `b` rests, mount axes.
-    pub(crate) rest: Vector<P>,
+    pub(crate) rest: Vector<f64>,
     /// The directions in which `b` moves, mount axes.
-    pub(crate) ways: [Vector<P>; 3],
+    pub(crate) ways: [Vector<f64>; 3],
 }
 
 impl Translation {
@@ -129,14 +129,14 @@ impl Translation {
     }
 }
 
-impl<P: Number<Plain = P>> Translation<P> {
+impl Translation {
     /// Brings position and velocities of a sight up to date with value, rate and second derivative of each way.
     #[inline(always)]
-    pub fn update(&self, sight: &mut Sight<P>, jets: impl Iterator<Item = [P; 3]>) {
+    pub fn update(&self, sight: &mut Sight<f64>, jets: impl Iterator<Item = [f64; 3]>) {
         let (mut position, mut velocity) = (self.rest, Vector::zero());
         for (way, [value, rate, _]) in self.ways.iter().zip(jets) {
-            position = position - way.scale::<P, P>(value);
-            velocity += way.scale::<P, P>(rate);
+            position = position - way.scale::<f64, f64>(value);
+            velocity += way.scale::<f64, f64>(rate);
         }
         sight.position = position;
         sight.mount_velocity = velocity;
@@ -145,10 +145,10 @@ impl<P: Number<Plain = P>> Translation<P> {
 
     /// The acceleration of the frame as the mount sees it: the rate of the sight's velocity.
     #[inline(always)]
-    pub fn acceleration(&self, jets: impl Iterator<Item = [P; 3]>) -> Vector<P> {
+    pub fn acceleration(&self, jets: impl Iterator<Item = [f64; 3]>) -> Vector<f64> {
         let mut acceleration = Vector::zero();
         for (way, [.., second]) in self.ways.iter().zip(jets) {
-            acceleration = acceleration - way.scale::<P, P>(second);
+            acceleration = acceleration - way.scale::<f64, f64>(second);
         }
         acceleration
     }
@@ -169,13 +169,13 @@ pub struct Relative<S> {
 
 /// What an element does to the body that it carries.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Effect<P = f64> {
+pub(crate) struct Effect {
     /// Force, mount axes, N.
-    pub force: Vector<P>,
+    pub force: Vector<f64>,
     /// Moment about the body's origin, body axes, N·m.
-    pub moment: Vector<P>,
+    pub moment: Vector<f64>,
     /// Powers of the element's channels, W.
-    pub powers: [P; 2],
+    pub powers: [f64; 2],
 }
 
 /// The free angles of a body: their axes, how its angular velocity changes with them at fixed rates, and the angular velocity (body axes).

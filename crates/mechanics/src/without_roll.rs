@@ -12,25 +12,23 @@
 //!
 //! Units: m, rad, s, N.
 
-use integrate::scalar::Number;
-
 use crate::body::{Kinematics, Rigid};
 use crate::vector::Vector;
 
-impl<P: Number<Plain = P>> Kinematics<P> {
+impl Kinematics<f64> {
     /// Accelerations of the six coordinates (held ones: zero) under a force at the body's origin (frame axes) and a moment about it (body axes), where roll is
     /// held at zero and the frame rests; `field` is its acceleration less gravity, in its own axes.
     #[inline(always)]
     pub(crate) fn accelerations_without_roll(
         &self,
-        body: &Rigid<P>,
-        field: &Vector<P>,
-        force: &Vector<P>,
-        moment: &Vector<P>,
-    ) -> [P; 6] {
+        body: &Rigid,
+        field: &Vector<f64>,
+        force: &Vector<f64>,
+        moment: &Vector<f64>,
+    ) -> [f64; 6] {
         let (free, rotation, arm) = (&body.free, &self.turn.rotation, body.center_of_gravity);
         let [sine, cosine, _] = self.turn.axes[1].0;
-        let (zero, one) = (P::zero(), P::from(1.0));
+        let (zero, one) = (0.0, 1.0);
         let product = self.rates[1] * self.rates[2];
         let drift = Vector([cosine * product, -(sine * product), zero]);
         let ([w1, w2, w3], [i1, i2, i3]) = (self.spin.0, body.inertia);
@@ -44,22 +42,22 @@ impl<P: Number<Plain = P>> Kinematics<P> {
         // Acceleration of the centre of gravity from the field's, body axes.
         let mut own = Vector::zero();
         if !body.central {
-            let swing: Vector<P> = self.spin.cross(arm);
-            own = drift.cross::<P, P>(arm) + self.spin.cross::<P, P>(swing);
+            let swing: Vector<f64> = self.spin.cross(arm);
+            own = drift.cross::<f64, f64>(arm) + self.spin.cross::<f64, f64>(swing);
             let mut carried = *force;
             for c in 0..3 {
                 if free[c] {
                     continue;
                 }
                 let direction = Vector(rotation.0[c]);
-                carried.0[c] = (direction.dot::<P, P>(own) + field.0[c]) * body.mass;
-                let [lever1, lever2, by_yaw] = arm.cross::<P, P>(direction).0;
+                carried.0[c] = (direction.dot::<f64, f64>(own) + field.0[c]) * body.mass;
+                let [lever1, lever2, by_yaw] = arm.cross::<f64, f64>(direction).0;
                 let by_pitch = sine * lever1 + cosine * lever2;
                 pitch += body.mass * by_pitch * by_pitch;
                 both += body.mass * by_pitch * by_yaw;
                 yaw += body.mass * by_yaw * by_yaw;
             }
-            right = right - arm.cross::<P, P>(rotation.apply_transposed(carried));
+            right = right - arm.cross::<f64, f64>(rotation.apply_transposed(carried));
         }
         let [mut about_pitch, mut about_yaw] = [sine * right.0[0] + cosine * right.0[1], right.0[2]];
         if !free[4] {
@@ -74,7 +72,7 @@ impl<P: Number<Plain = P>> Kinematics<P> {
         let mut out = [zero, zero, zero, zero, pitching, yawing];
         let mut relative = Vector::zero();
         if !body.central {
-            own += Vector([sine * pitching, cosine * pitching, yawing]).cross::<P, P>(arm);
+            own += Vector([sine * pitching, cosine * pitching, yawing]).cross::<f64, f64>(arm);
             relative = rotation.apply(own);
         }
         let inverse = one / body.mass;

@@ -1,11 +1,10 @@
 //! Computing what the folder of a study lacks, several runs at a time; and what is made of all runs.
 
-use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use study::design::Study;
-use study::records::{self, Record};
+use study::records;
 
 use crate::page::study as page;
 use crate::study_digest::Digest;
@@ -42,22 +41,10 @@ pub fn begun(folder: &StudyFolder) -> Result<Begun, StudyFolderError> {
 struct Queue {
     part: u64,
     numbers: std::vec::IntoIter<u64>,
-    /// How many runs all workers together have under way.
-    under_way: u64,
 }
 
-impl Queue {
-    /// Whether a worker of so many that has some runs under way may have one more, if no more than `beyond` runs are in parts not looked
-    /// at yet. Several side by side are faster than one after the other, but not as fast as on cores of their own: of the last
-    /// ones no worker takes more than its share.
-    fn shares(&self, own: u64, jobs: u64, beyond: u64) -> bool {
-        let left = self.numbers.len() as u64 + self.under_way + beyond;
-        own == 0 || own < left.div_ceil(jobs)
-    }
-}
-
-/// Computes all runs that have no record, by so many workers, each of which has several under way, until `stop` becomes true: no new
-/// runs begin then, and those under way are finished. Tells each one that is kept.
+/// Computes all runs that have no record, by so many workers, until `stop` becomes true: no new runs begin then, and those under way are
+/// finished. Tells each one that is kept.
 ///
 /// # Errors
 /// A part cannot be read or written to. All that was kept stays.
@@ -71,7 +58,6 @@ pub fn compute(
     let queue = Mutex::new(Queue {
         part: 0,
         numbers: Vec::new().into_iter(),
-        under_way: 0,
     });
     let failure: Mutex<Option<StudyFolderError>> = Mutex::new(None);
     let failed = AtomicBool::new(false);
@@ -81,17 +67,13 @@ pub fn compute(
         first.get_or_insert(error);
     };
     let stops = || stop.load(Ordering::Relaxed) || failed.load(Ordering::Relaxed);
-    let workers = jobs.max(1) as u64;
-    // The next run for a worker that has `own` runs under way.
-    let next = |own: u64| -> Option<u64> {
+    let next = || -> Option<u64> {
         let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
-        let beyond = study.count().saturating_sub(folder.numbers(queue.part).start);
-        if stops() || !queue.shares(own, workers, beyond) {
+        if stops() {
             return None;
         }
         loop {
             if let Some(number) = queue.numbers.next() {
-                queue.under_way += 1;
                 return Some(number);
             }
             if queue.part >= folder.parts() {
@@ -107,36 +89,16 @@ pub fn compute(
             queue.part += 1;
         }
     };
-    let keep = |record: &Record| {
-        let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
-        queue.under_way = queue.under_way.saturating_sub(1);
-        drop(queue);
-        match folder.keep(record) {
-            Ok(()) => done(),
-            Err(error) => fail(error),
-        }
-    };
     let worker = || {
-        // Anew as long as there is something, for a worker that has had its share.
-        loop {
-            let (pulled, kept) = (Cell::new(0), Cell::new(0));
-            let mut pull = || {
-                let number = next(pulled.get() - kept.get())?;
-                pulled.set(pulled.get() + 1);
-                Some(number)
-            };
-            records::run_many(study, &mut pull, &mut |record| {
-                kept.set(kept.get() + 1);
-                keep(&record);
-                !stops()
-            });
-            if pulled.get() == 0 {
-                return;
+        while let Some(number) = next() {
+            match folder.keep(&records::run(study, number)) {
+                Ok(()) => done(),
+                Err(error) => fail(error),
             }
         }
     };
     std::thread::scope(|scope| {
-        for _ in 0..jobs {
+        for _ in 0..jobs.max(1) {
             scope.spawn(worker);
         }
     });
@@ -155,25 +117,4 @@ pub fn finish(study: &Study, folder: &StudyFolder) -> Result<Digest, StudyFolder
     folder.merge(study, |values, record| digest.add(study, values, record))?;
     page::write(study, &digest, folder.path()).map_err(StudyFolderError::after_all_runs)?;
     Ok(digest)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Queue;
-
-    #[test]
-    fn limits_the_last_runs_are_shared_by_all_workers() {
-        let queue = |numbers: u64, under_way| Queue {
-            part: 1,
-            numbers: (0..numbers).collect::<Vec<_>>().into_iter(),
-            under_way,
-        };
-        // Four runs, four workers: one each. Two workers have two each.
-        assert!(queue(4, 0).shares(0, 4, 0) && !queue(3, 1).shares(1, 4, 0));
-        assert!(queue(3, 1).shares(1, 2, 0) && !queue(2, 2).shares(2, 2, 0));
-        // Those of parts not looked at count.
-        assert!(queue(3, 1).shares(1, 4, 16));
-        // Whoever has none takes one.
-        assert!(queue(1, 100).shares(0, 1000, 0));
-    }
 }

@@ -13,12 +13,10 @@
 //!
 //! [`read`] finds all sound records in any bytes, whatever lies between them.
 
-use std::cell::Cell;
-use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::design::Study;
-use crate::measures::{Begun, COUNT, Measures, Unmeasured, abreast};
+use crate::measures::{COUNT, Measures, Unmeasured, measure};
 
 const MAGIC: [u8; 4] = *b"WLR1";
 const HEAD: usize = 12;
@@ -95,16 +93,11 @@ fn caught(number: u64, compute: impl FnOnce() -> Record) -> Record {
 }
 
 fn compute(study: &Study, number: u64) -> Record {
-    record(number, begin(study, number).and_then(Begun::finish))
-}
-
-/// Begins the run of a variant.
-fn begin(study: &Study, number: u64) -> Result<Begun, Unmeasured> {
     let case = study.case(number).map_err(|error| {
         let reasons: Vec<&str> = error.problems().iter().map(|problem| problem.message()).collect();
         Unmeasured::Refused(reasons.join("; "))
-    })?;
-    Begun::new(&case)
+    });
+    record(number, case.and_then(|case| measure(&case)))
 }
 
 /// What became of a variant as its record.
@@ -128,40 +121,14 @@ fn record(number: u64, outcome: Result<Measures, Unmeasured>) -> Record {
     }
 }
 
-/// Computes all variants whose numbers come, several side by side, which is faster than one after the other; the records are
-/// those of [`run`]. Each is given to `done` as soon as it is there, in whatever order they end. When no number comes any
-/// more, or `done` says false, the variants under way are finished.
-pub fn run_many(study: &Study, next: &mut dyn FnMut() -> Option<u64>, done: &mut dyn FnMut(Record) -> bool) {
-    let goes_on = Cell::new(true);
-    abreast(
-        &mut || if goes_on.get() { next() } else { None },
-        &|number| begin(study, number),
-        &mut |number, over| {
-            // One that was lost is computed alone: the mistake may be that of another one.
-            let record = over.map_or_else(|| run(study, number), |outcome| record(number, outcome));
-            if !done(record) {
-                goes_on.set(false);
-            }
-        },
-    );
-}
-
 /// Computes these variants and gives their records as bytes, in the order of the numbers: what one worker of many does. Numbers
 /// beyond the study are left out.
 #[must_use]
 pub fn run_all(study: &Study, numbers: impl IntoIterator<Item = u64>) -> Vec<u8> {
-    let numbers = numbers.into_iter().filter(|number| *number < study.count());
-    let numbers: Vec<u64> = numbers.collect();
-    let mut found = BTreeMap::new();
-    let mut waiting = numbers.iter().copied();
-    run_many(study, &mut || waiting.next(), &mut |record| {
-        found.insert(record.number, record);
-        true
-    });
     let fingerprint = study.fingerprint();
     let mut bytes = Vec::new();
-    for record in numbers.iter().filter_map(|number| found.get(number)) {
-        record.write(fingerprint, &mut bytes);
+    for number in numbers.into_iter().filter(|number| *number < study.count()) {
+        run(study, number).write(fingerprint, &mut bytes);
     }
     bytes
 }

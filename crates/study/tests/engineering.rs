@@ -3,7 +3,7 @@
 
 use study::case::{Case, builtin};
 use study::design::ENGINEERING;
-use study::measures::{Measures, measure_all};
+use study::measures::{Measures, measure};
 
 /// The measures of cases, first by the default method, then at engineering accuracy.
 fn both(names: &[&str], tolerance: &str) -> Vec<[Measures; 2]> {
@@ -15,7 +15,7 @@ fn both(names: &[&str], tolerance: &str) -> Vec<[Measures; 2]> {
             .map(|name| builtin::case_with(name, set).unwrap())
             .collect()
     };
-    let measured = |set: &[String]| measure_all(&cases(set)).into_iter().map(Result::unwrap);
+    let measured = |set: &[String]| cases(set).into_iter().map(|case| measure(&case).unwrap());
     measured(&close)
         .zip(measured(&engineering))
         .map(<[_; 2]>::from)

@@ -2,14 +2,14 @@
 //! tolerance.
 //!
 //! `study_rate [TOLERANCE] [OUTPUT-INTERVAL] [METHOD] [REPEATS]`, for example `study_rate 1.5e-5 "0.01 s" tr-bdf2 5` for engineering
-//! accuracy. Errors are against relative tolerance 1e-9 with the case's own output interval. Then the rate of a small study, four variants of friction
-//! of each case, one run after the other and several side by side.
+//! accuracy. Errors are against relative tolerance 1e-9 with the case's own output interval. Then the rate of a small study, four variants of
+//! friction of each case.
 
 use std::process::ExitCode;
 use std::time::Instant;
 
 use study::case::{Case, builtin};
-use study::measures::{ALL, Measures, measure, measure_all};
+use study::measures::{ALL, Measures, measure};
 
 /// The measures that are compared: means over branches, energies, equivalent stiffness and damping.
 fn compared(name: &str) -> bool {
@@ -71,11 +71,11 @@ fn rate() -> Result<(), String> {
         println!();
     }
     println!("{:.0} runs/s on one core", f64::from(runs) / total);
-    side_by_side(&set, repeats)
+    variants(&set, repeats)
 }
 
-/// The rates of variants one after the other and side by side, which must give the same.
-fn side_by_side(set: &[String], repeats: u32) -> Result<(), String> {
+/// The rate of variants.
+fn variants(set: &[String], repeats: u32) -> Result<(), String> {
     let mut cases = Vec::new();
     for name in builtin::thesis_names().filter(|name| name.ends_with("psi_0.012")) {
         for friction in ["0.35", "0.38", "0.42", "0.45"] {
@@ -84,32 +84,19 @@ fn side_by_side(set: &[String], repeats: u32) -> Result<(), String> {
             cases.push(builtin::case_with(name, &set).map_err(|error| error.to_string())?);
         }
     }
-    let one_by_one = || cases.iter().map(measure).collect::<Vec<_>>();
-    let mut shortest = [f64::INFINITY; 2];
-    let mut found = [Vec::new(), Vec::new()];
-    // In turn, and the shortest time of each: other programs may run beside this one.
+    // The shortest time: other programs may run beside this one.
+    let mut shortest = f64::INFINITY;
     for _ in 0..repeats.max(1) {
-        for (kind, shortest) in shortest.iter_mut().enumerate() {
-            let clock = Instant::now();
-            found[kind] = if kind == 0 {
-                one_by_one()
-            } else {
-                measure_all(&cases)
-            };
-            *shortest = shortest.min(clock.elapsed().as_secs_f64());
+        let clock = Instant::now();
+        for case in &cases {
+            measure(case).map_err(|error| format!("{error:?}"))?;
         }
+        shortest = shortest.min(clock.elapsed().as_secs_f64());
     }
-    let [alone, beside] = shortest.map(|wall| cases.len() as f64 / wall);
     println!(
-        "{} variants: {alone:.0} runs/s one after the other, {beside:.0} side by side, {:.3} times as many",
+        "{} variants: {:.0} runs/s",
         cases.len(),
-        beside / alone
+        cases.len() as f64 / shortest
     );
-    // As text, where a measure that a run does not have is equal to itself.
-    let [alone, beside] = found.map(|found| format!("{found:?}"));
-    if alone == beside {
-        Ok(())
-    } else {
-        Err("side by side they have other measures than alone".to_owned())
-    }
+    Ok(())
 }

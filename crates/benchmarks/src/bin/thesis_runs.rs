@@ -21,17 +21,8 @@ fn main() -> ExitCode {
     let part = arguments.get(2).map_or("", String::as_str);
     println!("Wall times on a machine that does other things too: trust ratios within one run.");
     println!(
-        "{:26} {:>9} {:>9} {:>10} {:>10} {:>8} {:>8} {:>11} {:>8} {:>8}",
-        "run",
-        "up lbf",
-        "down lbf",
-        "lbf·in",
-        "residual",
-        "steps",
-        "explicit",
-        "collocation",
-        "rejected",
-        "ms"
+        "{:26} {:>9} {:>9} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8}",
+        "run", "up lbf", "down lbf", "lbf·in", "residual", "steps", "explicit", "rejected", "ms"
     );
     let mut total = 0.0;
     for name in builtin::thesis_names().filter(|name| name.contains(part)) {
@@ -65,13 +56,12 @@ fn main() -> ExitCode {
             .map_or(f64::NAN, |e| e.value);
         let statistics = &summary.solver.statistics;
         println!(
-            "{name:26} {:9.1} {:9.1} {energy:10.1} {:10.1e} {:8} {:8} {:11} {:8} {:8.1}",
+            "{name:26} {:9.1} {:9.1} {energy:10.1} {:10.1e} {:8} {:8} {:8} {:8.1}",
             mean(&summary.averages.up),
             mean(&summary.averages.down),
             summary.ledger.largest_relative_residual,
             statistics.steps,
             statistics.explicit_steps,
-            statistics.collocation_steps,
             statistics.rejected(),
             wall * 1e3
         );

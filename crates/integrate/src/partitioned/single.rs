@@ -4,13 +4,10 @@
 use wide::f64x2;
 
 use super::Row;
-use super::complex::ComplexFactor;
 use crate::dense_block::invert;
 
 /// The largest number of coordinates.
 const MOST: usize = 6;
-/// For how many complex shifts factors are kept.
-pub(super) const COMPLEX_SHIFTS: usize = 3;
 
 /// Calls a function with the number of coordinates as a constant `N`, so that its loops are unrolled.
 macro_rules! sized {
@@ -47,15 +44,14 @@ pub(super) struct Single {
     size: usize,
     /// 1/σ.
     reciprocal: f64,
-    pub(super) mass: Vec<[f64; 2]>,
-    pub(super) stiffness: Vec<[f64; 2]>,
+    mass: Vec<[f64; 2]>,
+    stiffness: Vec<[f64; 2]>,
     /// The inverse of W.
     inverse: Vec<[f64; 2]>,
     /// W and its inverse, row by row.
     square: Vec<f64>,
     /// The derivatives of the quadratures by positions and speeds.
-    pub(super) rows: Vec<[f64; 2]>,
-    complex: [ComplexFactor; COMPLEX_SHIFTS],
+    rows: Vec<[f64; 2]>,
 }
 
 impl Single {
@@ -70,7 +66,6 @@ impl Single {
             inverse: zero(),
             square: vec![0.0; size * size],
             rows: vec![[0.0; 2]; 2 * size * quadratures.div_ceil(2)],
-            complex: std::array::from_fn(|_| ComplexFactor::new(size)),
         })
     }
 
@@ -115,25 +110,6 @@ impl Single {
             }
         }
         true
-    }
-
-    /// Factors with a complex shift, for which [`Single::factor`] must have prepared the matrices; false: the matrix is singular.
-    pub fn factor_complex(&mut self, number: usize, shift: [f64; 2], source: Source<'_>) -> bool {
-        let Some(factor) = self.complex.get_mut(number) else {
-            return false;
-        };
-        sized!(self.size, factor.factor::<N>(shift, source))
-    }
-
-    /// Solves with a complex shift; where the number or the lengths do not fit nothing is done.
-    pub fn solve_complex(&self, number: usize, re: &mut [f64], im: &mut [f64]) {
-        let Some(factor) = self.complex.get(number) else {
-            return;
-        };
-        if re.len() != im.len() || re.len() < 2 * self.size {
-            return;
-        }
-        sized!(self.size, factor.solve::<N>(self, re, im));
     }
 
     /// Solves with the shift of the last factorization.
@@ -190,7 +166,7 @@ impl Single {
 
 /// A pair of rows times a vector.
 #[inline(always)]
-pub(super) fn product<const N: usize>(rows: &[[f64; 2]; N], vector: &[f64x2; N]) -> f64x2 {
+fn product<const N: usize>(rows: &[[f64; 2]; N], vector: &[f64x2; N]) -> f64x2 {
     let mut sum = f64x2::new(rows[0]) * vector[0];
     for j in 1..N {
         sum += f64x2::new(rows[j]) * vector[j];

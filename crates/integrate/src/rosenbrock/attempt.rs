@@ -1,9 +1,9 @@
-//! One attempt at a step: the stages of the method, the new states and their error. It goes from one right-hand side to the next.
+//! One attempt at a step: the stages of the method, the new states and their error.
 
 use super::Integrator;
-use super::underway::{Phase, Underway};
 use crate::error::Reason;
 use crate::explicit::TSITOURAS;
+use crate::kinks::Ahead;
 use crate::problem::Problem;
 use crate::stages::{add, all_finite, combine, largest, leading_states, scale};
 use crate::tableau::Family;
@@ -25,47 +25,99 @@ pub(super) struct Failure {
     pub index: Option<usize>,
 }
 
-/// How far an attempt came: until it wants a right-hand side (nothing), or to its end with the size of its error.
-pub(super) type Advance = Result<Option<f64>, Failure>;
+/// The size of an attempt's error in units of the tolerance, or why it failed.
+pub(super) type Outcome = Result<f64, Failure>;
+
+/// The attempt that is planned.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Attempt {
+    /// Where the step must end at the latest.
+    pub end: f64,
+    /// The length that was planned.
+    pub proposed: f64,
+    /// Length and end of the attempt.
+    pub step: f64,
+    pub target: f64,
+    /// The kink behind which the attempt is to end.
+    pub landing: Option<Ahead>,
+    /// Whether it was cut short by something ahead.
+    pub cut: bool,
+    /// The error of the last attempt that was rejected because of it, in units of the tolerance.
+    pub scaled_error: f64,
+    /// Whether the attempt is made only to see where a value that is not finite begins.
+    pub checked: bool,
+    /// The state that was to blame before that.
+    pub blamed: Option<usize>,
+}
+
+impl Attempt {
+    pub const NONE: Self = Self {
+        end: f64::NAN,
+        proposed: f64::NAN,
+        step: f64::NAN,
+        target: f64::NAN,
+        landing: None,
+        cut: false,
+        scaled_error: 0.0,
+        checked: false,
+        blamed: None,
+    };
+}
 
 /// The stage of the explicit method whose argument is the new state.
-pub(super) const EXPLICIT_END: usize = 6;
+const EXPLICIT_END: usize = 6;
 const _: () = assert!(TSITOURAS.alpha.len() == EXPLICIT_END + 2);
 
 impl<P: Problem> Integrator<P> {
-    /// Goes on with the attempt under way.
+    /// Makes the attempt that is planned.
     ///
     /// Only a checked attempt tells which state is to blame for a value that is not finite.
     #[inline(always)]
-    pub(super) fn advance(&mut self) -> Advance {
-        match self.underway.phase {
-            Phase::Implicit(stage) => self.after_stage(stage),
-            Phase::End => self.after_end(),
-            Phase::Explicit(stage) => self.after_explicit_stage(stage),
-            Phase::Newton(point) => self.after_newton(point),
-            Phase::Idle | Phase::Start => {
-                if self.tableau.family == Family::DiagonallyImplicit {
-                    self.begin_newton()
-                } else if self.is_explicit(self.underway.step) {
-                    self.begin_explicit()
-                } else if self.is_calm() {
-                    self.begin_collocation()
-                } else {
-                    self.begin_implicit()
-                }
-            }
+    pub(super) fn make_attempt(&mut self) -> Outcome {
+        if self.tableau.family == Family::DiagonallyImplicit {
+            self.attempt_by_newton()
+        } else if self.is_explicit(self.attempt.step) {
+            self.attempt_explicitly()
+        } else {
+            self.attempt_implicitly()
         }
     }
 
+    /// The attempt by the linearly implicit method.
     #[inline(never)]
-    fn begin_implicit(&mut self) -> Advance {
-        let (stride, tableau) = (self.stride, self.tableau);
+    fn attempt_implicitly(&mut self) -> Outcome {
+        let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
+        let Attempt {
+            step,
+            target,
+            checked,
+            ..
+        } = self.attempt;
         self.trial_method = tableau;
         self.linearize_here();
-        let inverse = 1.0 / self.underway.step;
+        let inverse = 1.0 / step;
         self.factor(inverse / tableau.gamma)?;
         self.trial_stages[..stride].copy_from_slice(&self.dx);
-        self.solve_stage(0)
+        self.solve_stage(0);
+        for i in 1..tableau.stages() {
+            let (done, rest) = self.trial_stages.split_at_mut(i * stride);
+            if self.extends[i] {
+                add(&mut self.argument, 1.0, &done[(i - 1) * stride..]);
+            } else {
+                let argument = &mut self.argument[..self.widths[i]];
+                combine(argument, &self.x, 1.0, tableau.a[i], done, stride);
+            }
+            let time = stage_time(tableau.alpha[i], self.time, step, target);
+            self.problem
+                .derivative(time, &self.argument[..n], &mut self.slope[..n]);
+            if checked && !all_finite(&self.slope) {
+                return Err(not_finite(&self.slope[..n]));
+            }
+            let stage = &mut rest[..stride];
+            combine(stage, &self.slope, inverse, tableau.c[i], done, stride);
+            self.solve_stage(i);
+        }
+        self.end_of_stages()
     }
 
     /// Whether a step of this length from the place reached is explicit.
@@ -118,54 +170,19 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
+    /// Solves for a stage, in place of its right-hand side.
     #[inline(always)]
-    fn after_stage(&mut self, i: usize) -> Advance {
-        let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
-        if self.underway.checked && !all_finite(&self.slope) {
-            return Err(not_finite(&self.slope[..n]));
-        }
-        let (done, rest) = self.trial_stages.split_at_mut(i * stride);
-        let inverse = 1.0 / self.underway.step;
-        combine(
-            &mut rest[..stride],
-            &self.slope,
-            inverse,
-            tableau.c[i],
-            done,
-            stride,
-        );
-        self.solve_stage(i)
-    }
-
-    /// Solves for a stage, and wants the next one.
-    #[inline(always)]
-    fn solve_stage(&mut self, i: usize) -> Advance {
-        let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
-        let Underway { step, target, .. } = self.underway;
-        let next = i + 1;
-        let done = &mut self.trial_stages[..next * stride];
-        let stage = &mut done[i * stride..];
-        let d = tableau.d[i] * step;
+    fn solve_stage(&mut self, i: usize) {
+        let stage = &mut self.trial_stages[i * self.stride..][..self.stride];
+        let d = self.tableau.d[i] * self.attempt.step;
         if !self.autonomous && d != 0.0 {
             add(stage, d, &self.df_dt);
         }
-        self.problem.solve(&mut stage[..n]);
-        if next == tableau.stages() {
-            return self.end_of_stages();
-        }
-        if self.extends[next] {
-            add(&mut self.argument, 1.0, stage);
-        } else {
-            let argument = &mut self.argument[..self.widths[next]];
-            combine(argument, &self.x, 1.0, tableau.a[next], done, stride);
-        }
-        let time = stage_time(tableau.alpha[next], self.time, step, target);
-        self.want(time, Phase::Implicit(next));
-        Ok(None)
+        self.problem.solve(&mut stage[..self.dimension]);
     }
 
     #[inline(always)]
-    fn end_of_stages(&mut self) -> Advance {
+    fn end_of_stages(&mut self) -> Outcome {
         let (n, stride, count) = (self.dimension, self.stride, self.tableau.stages());
         self.statistics.derivatives += count as u64 - 1;
         self.statistics.solves += count as u64;
@@ -185,82 +202,78 @@ impl<P: Problem> Integrator<P> {
             }
         }
         if error > 1.0 && self.options.fixed_step.is_none() {
-            return Ok(Some(error));
+            return Ok(error);
         }
-        // The derivative at the end belongs to the step: a step into a place where there is none is rejected.
-        self.underway.error = error;
-        self.want(self.underway.target, Phase::End);
-        Ok(None)
+        self.evaluate_end()?;
+        Ok(error)
     }
 
+    /// The derivative at the end belongs to the step: a step into a place where there is none is rejected.
     #[inline(always)]
-    fn after_end(&mut self) -> Advance {
+    pub(super) fn evaluate_end(&mut self) -> Result<(), Failure> {
+        let n = self.dimension;
+        self.problem
+            .derivative(self.attempt.target, &self.trial_x[..n], &mut self.trial_dx[..n]);
         self.statistics.derivatives += 1;
         if !all_finite(&self.trial_dx) {
-            return Err(not_finite(&self.trial_dx[..self.dimension]));
+            return Err(not_finite(&self.trial_dx[..n]));
         }
-        Ok(Some(self.underway.error))
+        Ok(())
     }
 
-    /// The same by the explicit method, where nothing is stiff.
+    /// The attempt by the explicit method, where nothing is stiff.
     #[inline(never)]
-    fn begin_explicit(&mut self) -> Advance {
+    fn attempt_explicitly(&mut self) -> Outcome {
+        let (n, stride) = (self.dimension, self.stride);
+        let Attempt {
+            step,
+            target,
+            checked,
+            landing,
+            ..
+        } = self.attempt;
         self.trial_method = &TSITOURAS;
-        let first = &mut self.trial_stages[..self.stride];
-        scale(first, self.underway.step, &self.dx);
-        self.want_explicit_stage(1);
-        Ok(None)
-    }
-
-    fn want_explicit_stage(&mut self, i: usize) {
-        let Underway { step, target, .. } = self.underway;
-        let argument = if i == EXPLICIT_END {
-            &mut self.trial_x[..]
-        } else {
-            &mut self.argument[..leading_states(&self.problem)]
-        };
-        let done = &self.trial_stages[..i * self.stride];
-        combine(argument, &self.x, 1.0, TSITOURAS.a[i], done, self.stride);
-        let time = stage_time(TSITOURAS.alpha[i], self.time, step, target);
-        self.want(time, Phase::Explicit(i));
-    }
-
-    #[inline(never)]
-    fn after_explicit_stage(&mut self, i: usize) -> Advance {
-        let n = self.dimension;
-        self.statistics.derivatives += 1;
-        let slope = if i == EXPLICIT_END {
-            &self.trial_dx
-        } else {
-            &self.slope
-        };
-        if self.underway.checked && !all_finite(slope) {
-            return Err(not_finite(&slope[..n]));
-        }
-        let stage = &mut self.trial_stages[i * self.stride..][..self.stride];
-        scale(stage, self.underway.step, slope);
-        if i < EXPLICIT_END {
-            self.want_explicit_stage(i + 1);
-            return Ok(None);
+        scale(&mut self.trial_stages[..stride], step, &self.dx);
+        for i in 1..=EXPLICIT_END {
+            let (argument, slope) = if i == EXPLICIT_END {
+                (&mut self.trial_x[..], &mut self.trial_dx)
+            } else {
+                let leading = leading_states(&self.problem);
+                (&mut self.argument[..leading], &mut self.slope)
+            };
+            let (done, rest) = self.trial_stages.split_at_mut(i * stride);
+            combine(argument, &self.x, 1.0, TSITOURAS.a[i], done, stride);
+            let argument = if i == EXPLICIT_END {
+                &self.trial_x[..n]
+            } else {
+                &self.argument[..n]
+            };
+            let time = stage_time(TSITOURAS.alpha[i], self.time, step, target);
+            self.problem.derivative(time, argument, &mut slope[..n]);
+            self.statistics.derivatives += 1;
+            if checked && !all_finite(slope) {
+                return Err(not_finite(&slope[..n]));
+            }
+            scale(&mut rest[..stride], step, slope);
         }
         let error = self.explicit_error()?;
         // Across a kink the estimate of an explicit method's error can be small by chance, again and again until it is; that of a
         // linearly implicit one, whose Jacobian matrix is that of the wrong side, is large.
-        if self.underway.landing.is_some() || error > 1.0 {
-            return Ok(Some(error));
+        if landing.is_some() || error > 1.0 {
+            return Ok(error);
         }
         self.peer_at_end();
         if !self.kinks.cross() {
-            return Ok(Some(error));
+            return Ok(error);
         }
         self.stiffness = f64::INFINITY;
-        self.begin_implicit()
+        self.attempt_implicitly()
     }
 
     /// Sees what tells kinks at the end of the attempt.
     pub(super) fn peer_at_end(&mut self) {
         let x = &self.trial_x[..self.dimension];
-        self.kinks.peer(&mut self.problem, self.underway.target, x);
+        self.kinks.peer(&mut self.problem, self.attempt.target, x);
     }
 
     /// The size of the error of an explicit step all of whose stages are there.

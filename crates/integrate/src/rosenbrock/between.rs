@@ -70,12 +70,11 @@ impl Between {
         }
     }
 
-    /// A step of this family was accepted. Where it is explicit nothing is stiff; the points of collocation stand so close that the
-    /// polynomial follows.
+    /// A step of this family was accepted. Where it is explicit nothing is stiff.
     pub fn open(&mut self, family: Family) {
         self.matrix = match family {
             Family::LinearlyImplicit => Matrix::Fresh,
-            Family::DiagonallyImplicit | Family::Explicit | Family::Collocation => Matrix::Gone,
+            Family::DiagonallyImplicit | Family::Explicit => Matrix::Gone,
         };
     }
 
@@ -93,7 +92,7 @@ impl<P: Problem> Integrator<P> {
     pub fn limit_before(&self, row: f64, end: f64) -> f64 {
         match self.tableau.family {
             Family::DiagonallyImplicit => row.min(end),
-            Family::LinearlyImplicit | Family::Explicit | Family::Collocation => end,
+            Family::LinearlyImplicit | Family::Explicit => end,
         }
     }
 

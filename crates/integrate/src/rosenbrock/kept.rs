@@ -136,7 +136,7 @@ impl Kept {
 impl<P: Problem> Integrator<P> {
     /// What is known of the matrix in use at the argument, after one that fits was taken if there is one.
     pub(super) fn fit_here(&mut self) -> Fit {
-        self.look_here(self.underway.wanted);
+        self.look_here(self.newton.time);
         let kept = &mut self.newton.kept;
         if kept.order.is_empty() {
             return Fit::Other;
@@ -164,7 +164,7 @@ impl<P: Problem> Integrator<P> {
 
     /// Whether the matrix in use fits at the argument.
     pub(super) fn still_fits(&mut self) -> bool {
-        self.look_here(self.underway.wanted);
+        self.look_here(self.newton.time);
         let Kept {
             matrices,
             order,
@@ -190,7 +190,7 @@ impl<P: Problem> Integrator<P> {
     pub(super) fn form_matrix(&mut self) {
         self.statistics.jacobians += 1;
         let number = self.newton.kept.make_room();
-        self.form_at(self.underway.wanted, number);
+        self.form_at(self.newton.time, number);
     }
 
     fn form_at(&mut self, time: f64, number: usize) {

@@ -10,11 +10,10 @@
 //! Natural corrections and monotonicity: P. Deuflhard, *Newton Methods for Nonlinear Problems*, Springer 2004, section 3.
 
 use super::Integrator;
-use super::attempt::{Advance, Failure, not_finite, stage_time, unsolved};
+use super::attempt::{Attempt, Failure, Outcome, not_finite, stage_time, unsolved};
 use super::guess::{Behind, Way};
 use super::kept::{Fit, Kept};
 use super::reversal::Reversal;
-use super::underway::{Phase, Underway};
 use crate::kinks::KinkSigns;
 use crate::problem::Problem;
 use crate::stages::{
@@ -39,15 +38,14 @@ const MOST_ROUNDS: u32 = 8;
 const MOST_IN_SEARCH: u32 = 12;
 const MOST_AIMED: u32 = 4;
 
-/// For which point a stage waits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Point {
-    /// The guess.
-    Guess,
-    /// The point to which a correction leads.
+/// What a round of Newton's method came to.
+enum Round {
+    /// The argument is the stage.
+    Found,
+    /// The argument is another guess.
+    OtherGuess,
+    /// The argument is where a correction leads.
     Corrected,
-    /// A point on the way there.
-    Between,
 }
 
 /// A search along a correction: fractions of it, and what the next correction is along it there.
@@ -110,10 +108,12 @@ impl Search {
     }
 }
 
-/// A stage under way.
+/// A stage being found.
 #[derive(Debug, Default)]
 pub(super) struct Newton {
     stage: usize,
+    /// Its time.
+    pub time: f64,
     rounds: u32,
     /// The size of the correction; 1: so small that nothing is left to do.
     size: f64,
@@ -228,36 +228,51 @@ impl Newton {
 }
 
 impl<P: Problem> Integrator<P> {
-    /// Begins an attempt.
+    /// The attempt by a diagonally implicit method.
     #[inline(never)]
-    pub(super) fn begin_newton(&mut self) -> Advance {
+    pub(super) fn attempt_by_newton(&mut self) -> Outcome {
+        let (stride, last) = (self.stride, self.tableau.stages() - 2);
         self.trial_method = self.tableau;
-        let first = &mut self.trial_stages[..self.stride];
-        scale(first, self.underway.step, &self.dx);
-        self.begin_newton_stage(1)
+        scale(&mut self.trial_stages[..stride], self.attempt.step, &self.dx);
+        for stage in 1..=last {
+            self.guess_stage(stage);
+            self.find_stage()?;
+            let found = &mut self.trial_stages[stage * stride..][..stride];
+            let inverse = 1.0 / self.tableau.gamma;
+            scale_difference(found, inverse, &self.argument, &self.newton.base);
+        }
+        self.trial_x.copy_from_slice(&self.argument);
+        if !all_finite(&self.trial_x) {
+            return Err(not_finite(&self.trial_x[..self.dimension]));
+        }
+        let last = &self.trial_stages[last * stride..][..stride];
+        scale(&mut self.trial_dx, 1.0 / self.attempt.step, last);
+        self.write_error();
+        Ok(largest(self.last_trial_stage(), &self.newton.controlled))
     }
 
-    fn begin_newton_stage(&mut self, i: usize) -> Advance {
+    /// Begins a stage: its base, its time, and as argument a guess of its states.
+    fn guess_stage(&mut self, i: usize) {
+        let Attempt {
+            step: length, target, ..
+        } = self.attempt;
         let (stride, tableau) = (self.stride, self.tableau);
         let newton = &mut self.newton;
         let smooth = newton.was_smooth();
         (newton.stage, newton.rounds) = (i, 0);
+        newton.time = stage_time(tableau.alpha[i], self.time, length, target);
         let done = &self.trial_stages[..i * stride];
         combine(&mut newton.base, &self.x, 1.0, tableau.a[i], done, stride);
         // From the last step, then from the stage before, where the argument is. Where nothing is known of the last step, its slope is.
         let (way, cubic) = if i == 1 {
             self.argument.copy_from_slice(&self.x);
             let Behind { step, x, first } = &newton.behind;
-            let step = if newton.knows_behind {
-                *step
-            } else {
-                self.underway.step
-            };
+            let step = if newton.knows_behind { *step } else { length };
             let way = Way {
                 start: x,
                 first: (first, 1.0),
                 last: (&self.dx, step),
-                further: tableau.alpha[1] * self.underway.step / step,
+                further: tableau.alpha[1] * length / step,
                 by_slope: true,
             };
             (way, newton.knows_behind)
@@ -280,63 +295,86 @@ impl<P: Problem> Integrator<P> {
             &mut self.argument[read],
             &mut newton.next[read],
         );
-        self.want_newton(Point::Guess)
     }
 
-    fn want_newton(&mut self, point: Point) -> Advance {
-        let Underway { step, target, .. } = self.underway;
-        let time = stage_time(self.tableau.alpha[self.newton.stage], self.time, step, target);
-        self.want(time, Phase::Newton(point));
-        Ok(None)
-    }
-
-    /// Goes on where the right-hand side is there.
-    #[inline(never)]
-    pub(super) fn after_newton(&mut self, point: Point) -> Advance {
+    /// The slope at the argument.
+    fn evaluate_stage(&mut self) {
+        let n = self.dimension;
+        self.problem
+            .derivative(self.newton.time, &self.argument[..n], &mut self.slope[..n]);
         self.statistics.derivatives += 1;
-        if point == Point::Guess {
-            return self.newton_round();
+    }
+
+    /// Goes from the guess to where the stage's equations hold: the argument.
+    #[inline(never)]
+    fn find_stage(&mut self) -> Result<(), Failure> {
+        self.evaluate_stage();
+        loop {
+            match self.newton_round()? {
+                Round::Found => return Ok(()),
+                Round::OtherGuess => self.evaluate_stage(),
+                Round::Corrected => {
+                    if self.follow_corrections() {
+                        return Ok(());
+                    }
+                }
+            }
         }
-        let size = self.next_correction();
-        let newton = &self.newton;
-        if point == Point::Corrected {
+    }
+
+    /// Goes where corrections by the same matrix lead while they shrink; whether the stage is found. Else a matrix is to be formed at
+    /// the argument, whose slope is there.
+    fn follow_corrections(&mut self) -> bool {
+        let size = loop {
+            self.evaluate_stage();
+            let size = self.next_correction();
+            let newton = &self.newton;
             let leaves =
                 |part: f64| size <= part || (size < newton.size && size * size <= part * newton.size);
             let doubtful = newton.fits && !leaves(VERY_SURE);
             if leaves(SURE) && (!doubtful || self.still_fits()) {
                 add(&mut self.argument, 1.0, &self.newton.next);
-                return self.end_newton_stage();
+                return true;
             }
-            let newton = &self.newton;
-            if size < CONTRACTION * newton.size {
-                return self.correct(size);
+            if size < CONTRACTION * self.newton.size {
+                self.correct(size);
+            } else {
+                break size;
             }
-        }
-        let newton = &mut self.newton;
-        let along = if size.is_finite() { newton.along() } else { -1.0 };
-        let there = if point == Point::Corrected {
-            newton.search = Search::up_to(along);
-            along >= -BACK
-        } else {
-            newton.search.note(along)
         };
-        if there {
-            return self.newton_round();
+        let mut along = self.along(size);
+        if along >= -BACK {
+            return false;
         }
-        if point == Point::Corrected {
-            let reversal = self.reversal();
-            self.newton.search.reversal = reversal;
+        self.newton.search = Search::up_to(along);
+        let reversal = self.reversal();
+        self.newton.search.reversal = reversal;
+        loop {
+            let newton = &mut self.newton;
+            let fraction = newton.search.next(along);
+            self.argument.copy_from_slice(&newton.from);
+            add(&mut self.argument, fraction, &newton.correction);
+            self.evaluate_stage();
+            let size = self.next_correction();
+            along = self.along(size);
+            if self.newton.search.note(along) {
+                return false;
+            }
         }
-        let newton = &mut self.newton;
-        let fraction = newton.search.next(along);
-        self.argument.copy_from_slice(&newton.from);
-        add(&mut self.argument, fraction, &newton.correction);
-        self.want_newton(Point::Between)
+    }
+
+    /// The next correction's part along this one; of one that is not finite (its size is infinite): straight back.
+    fn along(&self, size: f64) -> f64 {
+        if size.is_finite() {
+            self.newton.along()
+        } else {
+            -1.0
+        }
     }
 
     /// What the last correction, whose end is the argument, gets across.
     fn reversal(&mut self) -> Option<Reversal> {
-        let (n, time) = (self.dimension, self.underway.wanted);
+        let (n, time) = (self.dimension, self.newton.time);
         let Newton { ends, from, .. } = &mut self.newton;
         let [start, end] = ends;
         if end.directions.is_empty() {
@@ -349,7 +387,7 @@ impl<P: Problem> Integrator<P> {
 
     /// 1/(hγ).
     fn newton_shift(&self) -> f64 {
-        1.0 / (self.tableau.gamma * self.underway.step)
+        1.0 / (self.tableau.gamma * self.attempt.step)
     }
 
     /// The next correction, at the argument by the matrix that is there; its size, infinite where anything is not finite.
@@ -363,7 +401,7 @@ impl<P: Problem> Integrator<P> {
     }
 
     /// A correction from the argument, by the matrix there.
-    fn newton_round(&mut self) -> Advance {
+    fn newton_round(&mut self) -> Result<Round, Failure> {
         let n = self.dimension;
         let finite = all_finite(&self.slope);
         let curved = std::mem::take(&mut self.newton.curved);
@@ -383,7 +421,7 @@ impl<P: Problem> Integrator<P> {
             let newton = &self.newton;
             let read = ..leading_states(&self.problem);
             self.argument[read].copy_from_slice(&newton.next[read]);
-            return self.want_newton(Point::Guess);
+            return Ok(Round::OtherGuess);
         }
         self.newton.rounds = rounds;
         let known = self.have_matrix(fit)?;
@@ -394,9 +432,10 @@ impl<P: Problem> Integrator<P> {
         }
         if size <= 1.0 && known {
             add(&mut self.argument, 1.0, &newton.next);
-            return self.end_newton_stage();
+            return Ok(Round::Found);
         }
-        self.correct(size)
+        self.correct(size);
+        Ok(Round::Corrected)
     }
 
     /// Has a matrix for a round, factored, where so much is known of the one in use; whether it is known to be that of the place, or about that.
@@ -416,31 +455,11 @@ impl<P: Problem> Integrator<P> {
     }
 
     /// Goes where the next correction, of this size, leads.
-    fn correct(&mut self, size: f64) -> Advance {
+    fn correct(&mut self, size: f64) {
         let newton = &mut self.newton;
         newton.size = size;
         newton.from.copy_from_slice(&self.argument);
         std::mem::swap(&mut newton.correction, &mut newton.next);
         add(&mut self.argument, 1.0, &newton.correction);
-        self.want_newton(Point::Corrected)
-    }
-
-    /// The stage is the argument.
-    fn end_newton_stage(&mut self) -> Advance {
-        let (stride, tableau) = (self.stride, self.tableau);
-        let i = self.newton.stage;
-        let stage = &mut self.trial_stages[i * stride..][..stride];
-        scale_difference(stage, 1.0 / tableau.gamma, &self.argument, &self.newton.base);
-        if i + 2 < tableau.stages() {
-            return self.begin_newton_stage(i + 1);
-        }
-        self.trial_x.copy_from_slice(&self.argument);
-        if !all_finite(&self.trial_x) {
-            return Err(not_finite(&self.trial_x[..self.dimension]));
-        }
-        let last = &self.trial_stages[i * stride..][..stride];
-        scale(&mut self.trial_dx, 1.0 / self.underway.step, last);
-        self.write_error();
-        Ok(Some(largest(self.last_trial_stage(), &self.newton.controlled)))
     }
 }

@@ -1,9 +1,7 @@
 //! Steps.
 
 use super::Integrator;
-use super::attempt::Failure;
-use super::collocation::STRETCH;
-use super::underway::{Phase, Progress, Underway};
+use super::attempt::{Attempt, Failure, Outcome};
 use crate::error::{Reason, StepError};
 use crate::kinks::{Ahead, Layer, Passage, WHOLE_LANDING};
 use crate::problem::Problem;
@@ -38,20 +36,27 @@ impl<P: Problem> Integrator<P> {
     /// # Errors
     /// If the limit does not lie ahead, or no step can be made; the last accepted step then stays in place.
     pub fn step_to(&mut self, limit: f64) -> Result<(), StepError> {
-        self.begin_step(limit)?;
-        while self.go_on()? == Progress::Wants {
-            self.wanted().evaluate();
+        self.plan(limit)?;
+        loop {
+            match self.make_attempt() {
+                Ok(error) if self.is_acceptable(error) => {
+                    self.accept(error);
+                    return Ok(());
+                }
+                outcome => self.reject(outcome)?,
+            }
         }
-        Ok(())
     }
 
-    /// Begins a step as [`Integrator::step_to`] makes it, whose right-hand sides the caller evaluates: [`Integrator::go_on`].
-    ///
-    /// # Errors
-    /// If the limit does not lie ahead, or no step can be made.
+    /// Whether an attempt with this error is a step.
+    #[inline(always)]
+    fn is_acceptable(&self, error: f64) -> bool {
+        !self.attempt.checked && (self.options.fixed_step.is_some() || error <= 1.0)
+    }
+
+    /// Plans the first attempt at a step.
     #[inline]
-    pub fn begin_step(&mut self, limit: f64) -> Result<(), StepError> {
-        self.underway.phase = Phase::Idle;
+    fn plan(&mut self, limit: f64) -> Result<(), StepError> {
         self.between.close();
         if limit.is_nan() || limit <= self.time {
             return Err(self.error(Reason::Limit { limit }, 0.0, None, 0.0));
@@ -80,46 +85,16 @@ impl<P: Problem> Integrator<P> {
         if target <= self.time {
             return Err(self.give_up(Reason::Lost, proposed, None, 0.0));
         }
-        self.underway = Underway {
-            phase: Phase::Start,
+        self.attempt = Attempt {
             end,
             proposed,
             step,
             target,
             landing,
             cut: step < CUT * proposed,
-            ..Underway::NONE
+            ..Attempt::NONE
         };
         self.check_number()
-    }
-
-    /// Goes on with the step begun, until a right-hand side is wanted or the step is made. The caller evaluates what
-    /// [`Integrator::wanted`] gives before it calls this again. Where no step was begun nothing is done.
-    ///
-    /// # Errors
-    /// If no step can be made; the last accepted step then stays in place.
-    #[inline(always)]
-    pub fn go_on(&mut self) -> Result<Progress, StepError> {
-        while self.underway.phase != Phase::Idle {
-            match self.advance() {
-                Ok(None) => return Ok(Progress::Wants),
-                Ok(Some(error)) => self.end_attempt(Ok(error))?,
-                Err(failure) => self.end_attempt(Err(failure))?,
-            }
-        }
-        Ok(Progress::Accepted)
-    }
-
-    /// Accepts the step, or plans another attempt.
-    fn end_attempt(&mut self, outcome: Result<f64, Failure>) -> Result<(), StepError> {
-        match outcome {
-            Ok(error) if !self.underway.checked && (self.options.fixed_step.is_some() || error <= 1.0) => {
-                self.underway.phase = Phase::Idle;
-                self.accept(error);
-                Ok(())
-            }
-            _ => self.reject(outcome),
-        }
     }
 
     /// Whether one more attempt is admissible.
@@ -128,17 +103,17 @@ impl<P: Problem> Integrator<P> {
         if statistics.steps + statistics.rejected() < maximum {
             return Ok(());
         }
-        let Underway {
+        let Attempt {
             step, scaled_error, ..
-        } = self.underway;
+        } = self.attempt;
         let index = (scaled_error > 0.0).then(|| self.dominant().0);
         Err(self.give_up(Reason::MaximumSteps { maximum }, step, index, scaled_error))
     }
 
     /// Plans another attempt after one that failed or whose error is too large.
     #[cold]
-    fn reject(&mut self, outcome: Result<f64, Failure>) -> Result<(), StepError> {
-        let Underway {
+    fn reject(&mut self, outcome: Outcome) -> Result<(), StepError> {
+        let Attempt {
             end,
             mut step,
             target,
@@ -147,7 +122,7 @@ impl<P: Problem> Integrator<P> {
             checked,
             blamed,
             ..
-        } = self.underway;
+        } = self.attempt;
         let tried = target - self.time;
         if checked {
             let failure = outcome.err().unwrap_or(Failure {
@@ -156,7 +131,6 @@ impl<P: Problem> Integrator<P> {
             });
             return Err(self.give_up(failure.reason, tried, failure.index, f64::NAN));
         }
-        let calm = self.lose_calm(&outcome);
         let failure = match outcome {
             Ok(error) => {
                 self.statistics.rejected_error += 1;
@@ -182,7 +156,7 @@ impl<P: Problem> Integrator<P> {
                     }
                     Reason::Unsolved => {
                         self.statistics.rejected_unsolved += 1;
-                        step *= if calm { 1.0 } else { 0.25 };
+                        step *= 0.25;
                     }
                     _ => {
                         self.statistics.rejected_not_finite += 1;
@@ -192,10 +166,6 @@ impl<P: Problem> Integrator<P> {
                 failure
             }
         };
-        if calm {
-            // It is no longer made by collocation.
-            step *= 1.0 / STRETCH;
-        }
         let minimum = self
             .options
             .minimum_step
@@ -215,8 +185,7 @@ impl<P: Problem> Integrator<P> {
         } else {
             self.fit(step, end)
         };
-        self.underway = Underway {
-            phase: Phase::Start,
+        self.attempt = Attempt {
             step,
             target,
             landing: None,
@@ -224,14 +193,13 @@ impl<P: Problem> Integrator<P> {
             scaled_error,
             checked: last,
             blamed: failure.index,
-            ..self.underway
+            ..self.attempt
         };
         if last { Ok(()) } else { self.check_number() }
     }
 
     /// The step cannot be made.
     fn give_up(&mut self, reason: Reason, step: f64, index: Option<usize>, scaled_error: f64) -> StepError {
-        self.underway.phase = Phase::Idle;
         self.ahead = None;
         self.error(reason, step, index, scaled_error)
     }
@@ -278,7 +246,6 @@ impl<P: Problem> Integrator<P> {
     }
 
     pub(super) fn evaluate_derivative(&mut self) {
-        self.underway.phase = Phase::Idle;
         self.between.close();
         let n = self.dimension;
         self.problem
@@ -349,14 +316,14 @@ impl<P: Problem> Integrator<P> {
 
     #[inline]
     fn accept(&mut self, error: f64) {
-        let Underway {
+        let Attempt {
             step,
             target,
             cut,
             proposed,
             landing,
             ..
-        } = self.underway;
+        } = self.attempt;
         self.ahead = None;
         std::mem::swap(&mut self.previous_x, &mut self.x);
         std::mem::swap(&mut self.x, &mut self.trial_x);
@@ -375,7 +342,6 @@ impl<P: Problem> Integrator<P> {
                 .leave_behind(self.time - self.previous_time, &self.previous_x, first);
         }
         self.statistics.explicit_steps += u64::from(family == Family::Explicit);
-        self.statistics.collocation_steps += u64::from(family == Family::Collocation);
         // All that is asked at the end is asked at once: what the problem has computed there serves several times.
         let answer = self.stiffness;
         self.bound();
@@ -435,7 +401,6 @@ impl<P: Problem> Integrator<P> {
             self.switches
                 .detect(&mut self.problem, &dense, maximum, &mut self.statistics);
         }
-        self.choose_method(cut || landing.is_some());
         if let Some(Ahead::InLayer(layer)) = self.ahead {
             self.enter_layer(layer, self.proposed_step);
         }

@@ -9,7 +9,7 @@
 //!
 //! so that gap, gap rate and slip of all points are linear in their places. The laws are those of [`ContactFace`].
 
-use std::ops::{Add, Mul, Range};
+use std::ops::Range;
 
 use integrate::lanes::{LANES, LaneDual, LaneMask, Lanes};
 use integrate::scalar::{Mask, Number};
@@ -92,7 +92,7 @@ impl Points {
 
     /// Sees where the points are and how they move.
     #[inline(always)]
-    pub fn meet(&mut self, view: &View<f64>) {
+    pub fn meet(&mut self, view: &View) {
         for (quad, met) in self.quads.iter().zip(&mut self.met) {
             *met = view.meet(quad.position, quad.grade.damped);
         }
@@ -153,23 +153,23 @@ impl Quad {
 
 /// A plane and its motion as the body sees them: what is linear in the places of points.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct View<P> {
-    distance: P,
-    normal: Vector<P>,
-    speeds: [P; 3],
+pub(crate) struct View {
+    distance: f64,
+    normal: Vector<f64>,
+    speeds: [f64; 3],
     /// By what the components of the velocity grow with the place.
-    growth: [Vector<P>; 3],
+    growth: [Vector<f64>; 3],
     /// From body axes to mount axes.
-    rotation: Matrix<P>,
+    rotation: Matrix<f64>,
 }
 
-impl<P: Number<Plain = P>> View<P> {
+impl View {
     /// From a mount that does not turn: `v_i = c_i + (e_i × ω)·r` with ω in body axes.
     #[inline(always)]
-    pub fn of(sight: &Sight<P>, body: &Kinematics<P>) -> Self {
-        let rotation: Matrix<P> = sight.rotation.times(body.turn.rotation);
-        let place: Vector<P> = sight.rotation.apply(body.position);
-        let velocity: Vector<P> = sight.rotation.apply(body.velocity);
+    pub fn of(sight: &Sight<f64>, body: &Kinematics<f64>) -> Self {
+        let rotation: Matrix<f64> = sight.rotation.times(body.turn.rotation);
+        let place: Vector<f64> = sight.rotation.apply(body.position);
+        let velocity: Vector<f64> = sight.rotation.apply(body.velocity);
         let [n, t1, t2] = rotation.0.map(Vector);
         Self {
             distance: sight.position.0[0] + place.0[0],
@@ -182,19 +182,19 @@ impl<P: Number<Plain = P>> View<P> {
 
     /// Distance and normal alone, as [`View::of`] sees them.
     #[inline(always)]
-    fn wall(sight: &Sight<P>, body: &Kinematics<P>) -> (P, Vector<P>) {
+    fn wall(sight: &Sight<f64>, body: &Kinematics<f64>) -> (f64, Vector<f64>) {
         let normal = Vector(sight.rotation.0[0]);
         (
-            sight.position.0[0] + normal.dot::<P, P>(body.position),
+            sight.position.0[0] + normal.dot::<f64, f64>(body.position),
             body.turn.rotation.apply_transposed(normal),
         )
     }
 
     #[inline(always)]
-    pub fn new(relative: &Relative<P>) -> Self {
+    pub fn new(relative: &Relative<f64>) -> Self {
         let Matrix([n, t1, t2]) = relative.rotation;
         let [w0, w1, w2] = relative.angular_velocity.0;
-        let mix = |a: P, x: [P; 3], b: P, y: [P; 3]| {
+        let mix = |a: f64, x: [f64; 3], b: f64, y: [f64; 3]| {
             Vector([a * x[0] - b * y[0], a * x[1] - b * y[1], a * x[2] - b * y[2]])
         };
         Self {
@@ -206,32 +206,24 @@ impl<P: Number<Plain = P>> View<P> {
         }
     }
 
-    /// What the law sees of a point in several runs, or of four points in one; the gap's rate only where there is contact damping.
+    /// What the law sees of four points; the gap's rate only where there is contact damping.
     #[inline(always)]
-    pub fn meet<F>(&self, place: Vector<F>, damped: bool) -> Meeting<F>
-    where
-        F: Number + Add<P, Output = F>,
-        P: Mul<F, Output = F>,
-    {
-        let speed = |i: usize| -> F { self.growth[i].dot::<F, F>(place) + self.speeds[i] };
+    pub fn meet(&self, place: Vector<Lanes>, damped: bool) -> Meeting<Lanes> {
+        let speed = |i: usize| -> Lanes { self.growth[i].dot::<Lanes, Lanes>(place) + self.speeds[i] };
         Meeting {
-            gap: self.normal.dot::<F, F>(place) + self.distance,
-            gap_rate: if damped { speed(0) } else { F::zero() },
+            gap: self.normal.dot::<Lanes, Lanes>(place) + self.distance,
+            gap_rate: if damped { speed(0) } else { Lanes::ZERO },
             slip: [speed(1), speed(2)],
         }
     }
 
     /// What it does to the body: forces along the mount's axes, moments (body axes), losses in friction and in contact damping.
     #[inline(always)]
-    pub fn push<F>(&self, place: Vector<F>, touch: &Touch<F>) -> [F; 8]
-    where
-        F: Number,
-        P: Mul<F, Output = F>,
-    {
+    pub fn push(&self, place: Vector<Lanes>, touch: &Touch<Lanes>) -> [Lanes; 8] {
         let [t1, t2] = touch.friction.force;
         let force = Vector([touch.normal, t1, t2]);
-        let own: Vector<F> = self.rotation.transpose().apply(force);
-        let moment: Vector<F> = place.cross(own);
+        let own: Vector<Lanes> = self.rotation.transpose().apply(force);
+        let moment: Vector<Lanes> = place.cross(own);
         let ([f1, f2, f3], [m1, m2, m3]) = (force.0, moment.0);
         [f1, f2, f3, m1, m2, m3, touch.friction.loss, touch.damping_loss]
     }
@@ -254,12 +246,11 @@ impl ContactFace<Plane> {
     pub(crate) fn effect(
         &self,
         points: &mut Points,
-        view: &View<f64>,
+        view: &View,
         deflections: &[f64],
         rates: &mut [f64],
     ) -> Effect {
         points.meet(view);
-        let grip = self.grip();
         let mut sums = [Lanes::zero(); 8];
         points.open = true;
         for (number, (quad, at)) in points.quads.iter().zip(&points.met).enumerate() {
@@ -269,7 +260,7 @@ impl ContactFace<Plane> {
             }
             points.open = false;
             let first = LANES * number;
-            let touch = grip.touch(&quad.grade, closed, at, quad.deflection(deflections, first));
+            let touch = self.touch(&quad.grade, closed, at, quad.deflection(deflections, first));
             for (sum, term) in sums.iter_mut().zip(view.push(quad.position, &touch)) {
                 *sum += term;
             }
@@ -305,7 +296,7 @@ impl ContactFace<Plane> {
                 Lanes::zero()
             } else {
                 let deflection = quad.deflection(deflections, first);
-                self.grip().load(&quad.grade, closed(quad, at), at, deflection)
+                self.load(&quad.grade, closed(quad, at), at, deflection)
             };
             each(first..first + quad.count, at.gap, load);
         }
@@ -352,7 +343,7 @@ impl ContactFace<Plane> {
             gap_rate: seed(at.gap_rate, 3),
         };
         let deflection = [seed(deflection[0], 4), seed(deflection[1], 5)];
-        let touch = self.grip().touch(&quad.grade, closed, &seeded, deflection);
+        let touch = self.touch(&quad.grade, closed, &seeded, deflection);
         let ([t1, t2], [r1, r2]) = (touch.friction.force, touch.friction.rate);
         let outputs = [
             touch.normal,

@@ -9,18 +9,18 @@ use serde::{Deserialize, Serialize};
 /// The friction laws. Which one is active is part of every result.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", tag = "law")]
-pub enum FrictionLaw<P = f64> {
+pub enum FrictionLaw {
     /// Smoothed Coulomb friction, see [`tanh`]: creeps under a held load.
     Tanh {
         /// Reference speed v0, m/s.
-        reference_speed: P,
+        reference_speed: f64,
     },
     /// An elastic element in series with the slider, see [`bristle`]: holds a load.
     Bristle {
         /// Tangential stiffness of the face, N/m.
-        stiffness: P,
+        stiffness: f64,
         /// Tangential damping of the face, N·s/m.
-        damping: P,
+        damping: f64,
     },
 }
 

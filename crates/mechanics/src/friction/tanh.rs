@@ -7,8 +7,6 @@
 //! `v = v0 atanh(|F_t| / μN)`; the law is a stiff dashpot of μN/v0 there. Remedy: [`super::bristle`].
 //! What remains: with v0 = 0.001 in/s a load of half the limit creeps by 0.00055 in/s.
 
-use std::ops::Mul;
-
 use integrate::scalar::Number;
 
 use super::{Friction, dot};
@@ -16,12 +14,8 @@ use super::{Friction, dot};
 /// Friction of a point with the friction limit `limit` = μN (N) and tangential velocity `velocity` (m/s).
 #[inline(always)]
 #[must_use]
-pub fn friction<S, P>(limit: S, reference_speed: P, velocity: [S; 2]) -> Friction<S>
-where
-    S: Number + Mul<P, Output = S>,
-    P: Number,
-{
-    let scale = P::from(1.0) / reference_speed;
+pub fn friction<S: Number>(limit: S, reference_speed: f64, velocity: [S; 2]) -> Friction<S> {
+    let scale = 1.0 / reference_speed;
     let w = [velocity[0] * scale, velocity[1] * scale];
     let s = dot(w, w);
     let factor = -(limit * s.tanh_ratio());

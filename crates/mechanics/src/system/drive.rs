@@ -54,7 +54,6 @@ impl System {
         }
         moved.frame.motions = motions;
         self.forget_places();
-        self.forget_stages();
         Ok(())
     }
 
@@ -67,7 +66,6 @@ impl System {
         match self.coils.get_mut(coil) {
             Some(mounted) => {
                 mounted.element.law = law;
-                self.forget_stages();
                 Ok(())
             }
             None => Err(DriveError::NoSuch {
@@ -87,7 +85,6 @@ impl System {
         match self.faces.get_mut(face) {
             Some(mounted) => {
                 mounted.element.coefficient = coefficient;
-                self.forget_stages();
                 Ok(())
             }
             None => Err(DriveError::NoSuch {

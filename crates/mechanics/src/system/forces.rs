@@ -1,6 +1,6 @@
 //! The right-hand side: forces, accelerations, rates of the internal states, powers.
 
-use integrate::scalar::{Dual, Number, Real};
+use integrate::scalar::{Dual, Real};
 use std::ops::Mul;
 
 use super::{Mounted, System};
@@ -301,13 +301,14 @@ impl System {
     }
 }
 
-/// Adds what a plain element does to its body to force and moment.
+/// Adds what a plain element does to its body to force and moment, and writes the powers of its channels; a neighbour that is driven does
+/// work.
 #[inline(always)]
 fn push<E: Element>(
     mounted: &mut Mounted<E>,
     kinematics: &Kinematics<f64>,
     (internal, rates): (&[f64], &mut [f64]),
-    loads: (&mut Vector<f64>, &mut Vector<f64>),
+    (force, moment): (&mut Vector<f64>, &mut Vector<f64>),
     (powers, work): (&mut [f64], &mut f64),
 ) {
     let sight = &mounted.sight;
@@ -317,32 +318,21 @@ fn push<E: Element>(
         .element
         .act_from(&mut mounted.points, seen, internal, rates)
     {
-        Some(effect) => add_effect(&effect, sight, (channels, mounted.driven), loads, (powers, work)),
+        Some(effect) => {
+            *force += sight.rotation.apply_transposed::<f64, f64>(effect.force);
+            *moment += effect.moment;
+            write_powers(channels, effect.powers, powers);
+            if mounted.driven {
+                *work += sight.mount_velocity.dot::<f64, f64>(effect.force);
+            }
+        }
         None => write_powers(channels, [0.0; 2], powers),
-    }
-}
-
-/// Adds what a plain element does to force and moment on its body, and writes the powers of its channels; a neighbour that is driven does
-/// work.
-#[inline(always)]
-pub(super) fn add_effect<P: Number<Plain = P>>(
-    effect: &Effect<P>,
-    sight: &Sight<P>,
-    (channels, driven): (&[Option<usize>; 2], bool),
-    (force, moment): (&mut Vector<P>, &mut Vector<P>),
-    (powers, work): (&mut [P], &mut P),
-) {
-    *force += sight.rotation.apply_transposed::<P, P>(effect.force);
-    *moment += effect.moment;
-    write_powers(channels, effect.powers, powers);
-    if driven {
-        *work += sight.mount_velocity.dot::<P, P>(effect.force);
     }
 }
 
 /// The powers of the channels of one element, which are its own.
 #[inline(always)]
-fn write_powers<P: Copy>(channels: &[Option<usize>; 2], own: [P; 2], powers: &mut [P]) {
+fn write_powers(channels: &[Option<usize>; 2], own: [f64; 2], powers: &mut [f64]) {
     for (channel, power) in channels.iter().zip(own) {
         if let Some(channel) = channel {
             powers[*channel] = power;
@@ -352,16 +342,16 @@ fn write_powers<P: Copy>(channels: &[Option<usize>; 2], own: [P; 2], powers: &mu
 
 /// The accelerations of a body's coordinates under force and moment, in a reference frame that may move.
 #[inline(always)]
-pub(super) fn accelerate<P: Number<Plain = P>>(
-    kinematics: &Kinematics<P>,
-    body: &Rigid<P>,
-    (frame, frame_moves): (&FrameMotion<P>, bool),
+fn accelerate(
+    kinematics: &Kinematics<f64>,
+    body: &Rigid,
+    (frame, frame_moves): (&FrameMotion<f64>, bool),
     gravity: Vector<f64>,
-    (force, moment): (Vector<P>, Vector<P>),
-) -> [P; 6] {
+    (force, moment): (Vector<f64>, Vector<f64>),
+) -> [f64; 6] {
     if !body.rolls && !frame_moves {
-        let field: Vector<P> = frame.acceleration - Vector::<P>::lift(gravity);
-        let field: Vector<P> = frame.rotation.apply_transposed(field);
+        let field: Vector<f64> = frame.acceleration - gravity;
+        let field: Vector<f64> = frame.rotation.apply_transposed(field);
         return kinematics.accelerations_without_roll(body, &field, &force, &moment);
     }
     let (inertia, turning) = kinematics.inertia(body, frame, frame_moves, gravity, &[0.0; 6]);

@@ -3,7 +3,6 @@
 //! State vector `(q, u, s, w)`: free coordinates of all free bodies, their rates, internal states of the elements
 //! (bristle deflections), and quadratures (work of the prescribed motions, every dissipation). SI units.
 
-mod abreast;
 mod along;
 mod drive;
 mod equilibrium;
@@ -17,7 +16,6 @@ mod place;
 mod placer;
 mod rows;
 mod sense;
-mod stages;
 mod stiffness;
 mod time;
 
@@ -33,7 +31,6 @@ use crate::link::Mount;
 use crate::surface::Plane;
 use crate::vector::Vector;
 
-pub use abreast::Abreast;
 pub use along::{Along, Direction, DriveChange};
 pub use drive::DriveError;
 pub use equilibrium::NoEquilibrium;
@@ -85,7 +82,7 @@ struct FreeBody {
     /// How many of them are translations; the others are angles.
     translations: usize,
     /// What its motion depends on.
-    rigid: Rigid<f64>,
+    rigid: Rigid,
     /// Its first position among q, and its first speed among u.
     offset: usize,
     /// Its diagonal block in the Jacobian.
@@ -164,13 +161,6 @@ pub struct System {
     face_placed: (usize, f64),
     /// Whether the faces have seen their points there.
     met: bool,
-    /// Gap and slip of all points, where they were told of them by whoever evaluated the right-hand side in the system's stead: at which time,
-    /// positions and speeds; not a number: nowhere.
-    told: Vec<[f64; 3]>,
-    told_at: f64,
-    told_of: Vec<f64>,
-    /// Room for several of its own stages.
-    stages: stages::Stages,
 }
 
 impl System {
@@ -310,10 +300,6 @@ impl Problem for System {
         self.forces(x, dx);
     }
 
-    fn derivatives(&mut self, times: &[f64], stride: usize, x: &[f64], dx: &mut [f64]) {
-        self.forces_at(times, stride, x, dx);
-    }
-
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         self.place(time, x);
         self.differentiate(x, dx, true);
@@ -349,18 +335,6 @@ impl Problem for System {
 
     fn solve(&mut self, b: &mut [f64]) {
         self.jacobian.solve(b);
-    }
-
-    fn complex_shifts(&self) -> usize {
-        self.jacobian.complex_shifts()
-    }
-
-    fn factor_complex(&mut self, number: usize, shift: [f64; 2]) -> Result<(), Singular> {
-        self.jacobian.factor_complex(number, shift)
-    }
-
-    fn solve_complex(&mut self, number: usize, re: &mut [f64], im: &mut [f64]) {
-        self.jacobian.solve_complex(number, re, im);
     }
 
     fn kink_counts(&self) -> (usize, usize) {

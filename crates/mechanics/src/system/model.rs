@@ -302,7 +302,6 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         coil.mobilities = vec![mobility(&bodies[coil.body], coil.element.end)];
     }
     let points = mounted_faces.iter().map(|face| face.element.points.len());
-    let told = vec![[0.0; 3]; points.clone().sum()];
     let first_points = points
         .scan(0, |next, count| Some(std::mem::replace(next, *next + count)))
         .collect();
@@ -335,10 +334,6 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         placed: vec![f64::NAN; 2 * layout.speeds],
         face_placed: (0, f64::NAN),
         met: false,
-        told,
-        told_at: f64::NAN,
-        told_of: vec![0.0; 2 * layout.speeds],
-        stages: super::stages::Stages::default(),
     })
 }
 

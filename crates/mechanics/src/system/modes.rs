@@ -197,51 +197,22 @@ impl System {
         first..first + self.faces[face].element.points.len()
     }
 
-    /// Takes what [`System::kinks`] wants to know at `time` and state `x` from whoever has seen it: gap and slip of all points, in their order.
-    #[inline(always)]
-    pub(super) fn tell(&mut self, time: f64, x: &[f64], motions: impl Iterator<Item = [f64; 3]>) {
-        self.told_at = time;
-        for (told, x) in self.told_of.iter_mut().zip(x) {
-            *told = *x;
-        }
-        for (told, motion) in self.told.iter_mut().zip(motions) {
-            *told = motion;
-        }
-    }
-
-    /// Whether that is known here.
-    #[inline(always)]
-    fn was_told(&self, time: f64, x: &[f64]) -> bool {
-        let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
-        time == self.told_at && self.told_of.iter().zip(x).all(same)
-    }
-
     /// What foretells kinks: the gap of every point (m), and the slip of closed points over the reference speed of their law
     /// (open points and bristles: not a number).
     pub(super) fn kink_signs(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
-        let told = self.was_told(time, x);
-        if !told {
-            self.place(time, x);
-            self.meet();
-        }
+        self.place(time, x);
+        self.meet();
         for (number, face) in self.faces.iter().enumerate() {
             let own = self.points_of(number);
             let scale = match face.element.law {
                 FrictionLaw::Tanh { reference_speed } => 1.0 / reference_speed,
                 FrictionLaw::Bristle { .. } => f64::NAN,
             };
-            let mut put = |i: usize, gap: f64, slip: [f64; 2]| {
+            face.points.motions(|i, gap, slip| {
                 signs.values[own.start + i] = gap;
                 let closed = if gap < 0.0 { scale } else { f64::NAN };
                 signs.directions[own.start + i] = slip.map(|part| part * closed);
-            };
-            if told {
-                for (i, [gap, x, y]) in self.told[own.clone()].iter().enumerate() {
-                    put(i, *gap, [*x, *y]);
-                }
-            } else {
-                face.points.motions(put);
-            }
+            });
         }
     }
 

@@ -65,7 +65,7 @@ impl System {
 
     /// Everything is placed anew when it is asked for next: a motion has changed.
     pub(super) fn forget_places(&mut self) {
-        (self.frames_at, self.face_placed.1, self.told_at) = (f64::NAN, f64::NAN, f64::NAN);
+        (self.frames_at, self.face_placed.1) = (f64::NAN, f64::NAN);
     }
 
     /// Brings a body's reference frame to `time`.

@@ -1,7 +1,5 @@
 //! A run that keeps its measures only.
 
-use std::cell::RefCell;
-
 use integrate::Integrator;
 use mechanics::quasi_static::Direction;
 use mechanics::system::{Loads, System};
@@ -35,55 +33,26 @@ const _: () = assert!(MOST_STEPS <= MAXIMUM_STEPS);
 /// # Errors
 /// The run cannot begin or does not come to its end.
 pub fn measure(case: &Case) -> Result<Measures, Unmeasured> {
-    Begun::new(case)?.finish()
-}
-
-/// A run that begins, and what is measured of it.
-pub(crate) struct Begun {
-    pub measuring: Measuring,
-    pub integrator: Integrator<System>,
-}
-
-impl Begun {
-    /// Begins the run of a case.
-    ///
-    /// # Errors
-    /// It cannot begin.
-    pub fn new(case: &Case) -> Result<Self, Unmeasured> {
-        let refused = |error: RunError| Unmeasured::Refused(error.to_string());
-        let wedge = Wedge::new(case.parameters.clone()).map_err(|error| refused(error.into()))?;
-        let options = integrate::Options {
-            maximum_steps: MOST_STEPS,
-            ..options(case)
-        };
-        let integrator = Integrator::new(wedge.system.clone(), options, 0.0, &wedge.initial_state)
-            .map_err(|error| refused(error.into()))?;
-        Ok(Self {
-            measuring: Measuring::new(&case.simulation, wedge, &integrator),
-            integrator,
-        })
-    }
-
-    /// Makes all its steps, with nobody beside it.
-    ///
-    /// # Errors
-    /// It does not come to its end.
-    pub fn finish(self) -> Result<Measures, Unmeasured> {
-        let Self {
-            mut measuring,
-            mut integrator,
-        } = self;
-        while integrator.time() < measuring.end() {
-            if let Err(error) = integrator.step_to(measuring.limit(&integrator)) {
-                return Err(Unmeasured::Stopped(error.to_string()));
-            }
-            measuring.after_step(&mut integrator);
+    let refused = |error: RunError| Unmeasured::Refused(error.to_string());
+    let wedge = Wedge::new(case.parameters.clone()).map_err(|error| refused(error.into()))?;
+    let options = integrate::Options {
+        maximum_steps: MOST_STEPS,
+        ..options(case)
+    };
+    let mut integrator = Integrator::new(wedge.system.clone(), options, 0.0, &wedge.initial_state)
+        .map_err(|error| refused(error.into()))?;
+    let mut measuring = Measuring::new(&case.simulation, wedge, &integrator);
+    while integrator.time() < measuring.rows.end {
+        let limit = measuring.rows.limit(measuring.next_row, &integrator);
+        if let Err(error) = integrator.step_to(limit) {
+            return Err(Unmeasured::Stopped(error.to_string()));
         }
-        Ok(measuring.finish(&integrator))
+        measuring.after_step(&mut integrator);
     }
+    Ok(measuring.finish(&integrator))
 }
 
-/// The rows of a run, as far as measures need them. Kept between runs, so that they need no new memory.
+/// The rows of a run, as far as measures need them.
 #[derive(Debug, Default)]
 struct Series {
     times: Vec<f64>,
@@ -91,13 +60,8 @@ struct Series {
     on_bolster: Vec<f64>,
 }
 
-thread_local! {
-    /// Those of runs that are over: there are as many as there were runs under way at once.
-    static SERIES: RefCell<Vec<Series>> = const { RefCell::new(Vec::new()) };
-}
-
-/// What is measured of a run on its way. The steps are made by whoever has its integrator.
-pub(crate) struct Measuring {
+/// What is measured of a run on its way.
+struct Measuring {
     rows: Rows,
     wedge: Wedge,
     cycle: Option<Cycle>,
@@ -126,14 +90,6 @@ impl Measuring {
         let rows = Rows::of(simulation);
         let window = cycle.and_then(|cycle| cycle.window(rows.end));
         let averaged = window.map_or((0.0, rows.end), |(start, end, _)| (start, end));
-        let mut series = SERIES.with(|kept| kept.borrow_mut().pop()).unwrap_or_default();
-        for values in [
-            &mut series.times,
-            &mut series.displacement,
-            &mut series.on_bolster,
-        ] {
-            values.clear();
-        }
         let start = wedge.initial_state.clone();
         let start_energy = wedge.system.observe(0.0, &start).energies.total();
         let mut this = Self {
@@ -151,7 +107,7 @@ impl Measuring {
             peaks: [0.0; 6],
             peaks_from: averaged.0,
             events: 0,
-            series,
+            series: Series::default(),
             wedge,
         };
         this.observe_row(0.0);
@@ -159,18 +115,8 @@ impl Measuring {
         this
     }
 
-    /// When the run ends, s.
-    pub fn end(&self) -> f64 {
-        self.rows.end
-    }
-
-    /// Where the next step is to end at the latest, s.
-    pub fn limit(&self, integrator: &Integrator<System>) -> f64 {
-        self.rows.limit(self.next_row, integrator)
-    }
-
     /// Measures an accepted step.
-    pub fn after_step(&mut self, integrator: &mut Integrator<System>) {
+    fn after_step(&mut self, integrator: &mut Integrator<System>) {
         let time = integrator.time();
         self.events += integrator.events().len() as u64;
         self.clock.step(integrator.events(), time);
@@ -234,7 +180,7 @@ impl Measuring {
     }
 
     /// The measures, after the last step.
-    pub fn finish(&mut self, integrator: &Integrator<System>) -> Measures {
+    fn finish(&mut self, integrator: &Integrator<System>) -> Measures {
         let mut measures = Measures::NONE;
         let values = &mut measures.0;
         self.averages(values);
@@ -268,8 +214,6 @@ impl Measuring {
             .relative_residual(self.start_energy);
         values[place::EVENTS] = self.events as f64;
         values[place::STEPS] = integrator.statistics().steps as f64;
-        let series = std::mem::take(&mut self.series);
-        SERIES.with(|kept| kept.borrow_mut().push(series));
         measures
     }
 

@@ -16,15 +16,11 @@
 //! Stick share and wear power are taken over the whole cycles after the first half period, as energies are; where there
 //! are none, over the whole run. A measure that a run does not have is `NaN`.
 
-mod abreast;
 mod clock;
 mod measuring;
 
 use quantity::Kind;
 
-pub(crate) use abreast::abreast;
-pub use abreast::measure_all;
-pub(crate) use measuring::Begun;
 pub use measuring::{Unmeasured, measure};
 
 /// A measure.
