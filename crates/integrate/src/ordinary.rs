@@ -2,7 +2,6 @@
 
 use crate::block_lu::BlockLu;
 use crate::kinks::KinkSigns;
-use crate::matrices::Matrices;
 use crate::problem::{Problem, Singular};
 
 type Function<'a> = Box<dyn FnMut(f64, &[f64], &mut [f64]) + Send + 'a>;
@@ -57,12 +56,12 @@ pub struct Ordinary<'a> {
     stiffness: Option<Stiffness<'a>>,
     /// How many values and directions, and what writes them.
     kinks: Option<((usize, usize), Kinks<'a>)>,
-    /// How many matrices are kept, one a piece; zero: not all kinks are told.
-    pieces: usize,
+    /// Whether the kinks told are all there are.
+    pieces: bool,
     /// Ends of segments, ascending.
     breaks: Vec<f64>,
     displacements: usize,
-    matrix: Matrices<BlockLu>,
+    matrix: BlockLu,
 }
 
 impl std::fmt::Debug for Ordinary<'_> {
@@ -92,9 +91,9 @@ impl<'a> Ordinary<'a> {
             layer_bounds: Vec::new(),
             stiffness: None,
             kinks: None,
-            pieces: 0,
+            pieces: false,
             breaks: Vec::new(),
-            matrix: Matrices::new(matrix),
+            matrix,
         }
     }
 
@@ -125,10 +124,10 @@ impl<'a> Ordinary<'a> {
         self
     }
 
-    /// The kinks told are all there are, see [`Problem::tells_pieces`]; so many matrices are kept.
+    /// The kinks told are all there are, see [`Problem::tells_pieces`].
     #[must_use]
-    pub fn in_pieces(mut self, matrices: usize) -> Self {
-        self.pieces = matrices;
+    pub fn in_pieces(mut self) -> Self {
+        self.pieces = true;
         self
     }
 
@@ -212,14 +211,6 @@ impl Problem for Ordinary<'_> {
         }
     }
 
-    fn matrices(&self) -> usize {
-        self.pieces.max(1)
-    }
-
-    fn take_matrix(&mut self, number: usize) {
-        self.matrix.take(number);
-    }
-
     fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
         match &mut self.stiffness {
             Some(function) => function(time, x),
@@ -246,7 +237,7 @@ impl Problem for Ordinary<'_> {
     }
 
     fn tells_pieces(&self) -> bool {
-        self.pieces > 0
+        self.pieces
     }
 
     fn switch_count(&self) -> usize {

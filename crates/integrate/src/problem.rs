@@ -85,18 +85,6 @@ pub trait Problem {
         self.linearize(time, x, dx, unused);
     }
 
-    /// How many matrices it can keep at once, with their factors, under numbers from 0 on. Newton's method keeps as many, one a piece of the
-    /// right-hand side, where the problem [tells pieces](Problem::tells_pieces).
-    fn matrices(&self) -> usize {
-        1
-    }
-
-    /// From here on the matrix that is formed, factored and solved with is the one under this number, below [`Problem::matrices`]; at
-    /// first it is number 0. The others stay as they are.
-    fn take_matrix(&mut self, number: usize) {
-        let _ = number;
-    }
-
     /// How fast the fastest part of the problem answers near `(time, x)`, 1/s: a bound of the size of the eigenvalues of J, which need
     /// not be sharp; infinite: not known.
     ///
@@ -126,7 +114,7 @@ pub trait Problem {
     }
 
     /// Whether [`Problem::kinks`] tells all kinks there are, so that between them derivatives change little: Newton's method then keeps
-    /// a matrix for every piece that it meets, as many as [`Problem::matrices`].
+    /// its matrix while it is on its piece.
     fn tells_pieces(&self) -> bool {
         false
     }
@@ -215,12 +203,6 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     }
     fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], unused: &mut [f64]) {
         (**self).linearize_for_newton(time, x, dx, unused);
-    }
-    fn matrices(&self) -> usize {
-        (**self).matrices()
-    }
-    fn take_matrix(&mut self, number: usize) {
-        (**self).take_matrix(number);
     }
     fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
         (**self).stiffness(time, x)

@@ -136,7 +136,7 @@ impl<P: Problem> Integrator<P> {
             reach: 0.0,
             slope: Vec::new(),
             behind: None,
-            matrices: Vec::new(),
+            matrix: None,
             statistics: Statistics::default(),
         };
         let mut this = Self::resume(problem, options, state)?;
@@ -207,7 +207,7 @@ impl<P: Problem> Integrator<P> {
         x[..n].copy_from_slice(&state.x);
         let all_stages = vec![0.0; stride * MAXIMUM_STAGES];
         let newton = match tableau.family {
-            Family::DiagonallyImplicit => Newton::new(&mut problem, options.relative_tolerance, stride),
+            Family::DiagonallyImplicit => Newton::new(&problem, options.relative_tolerance, stride),
             _ => Newton::default(),
         };
         let mut this = Self {
@@ -264,7 +264,7 @@ impl<P: Problem> Integrator<P> {
                 value,
             });
         }
-        this.continue_stages(&state.slope, state.behind.as_ref(), &state.matrices);
+        this.continue_stages(&state.slope, state.behind.as_ref(), state.matrix.as_ref());
         Ok(this)
     }
 
@@ -287,7 +287,7 @@ impl<P: Problem> Integrator<P> {
                 _ => Vec::new(),
             },
             behind: self.newton.behind(self.dimension),
-            matrices: self.places_of_matrices(),
+            matrix: self.place_of_matrix(),
             statistics: self.statistics.clone(),
         }
     }
@@ -416,17 +416,17 @@ impl<P: Problem> Integrator<P> {
         let counted = self.statistics.derivatives;
         self.evaluate_derivative();
         self.statistics.derivatives = counted;
-        self.continue_stages(&state.slope, state.behind.as_ref(), &state.matrices);
+        self.continue_stages(&state.slope, state.behind.as_ref(), state.matrix.as_ref());
         Ok(())
     }
 
-    /// Takes the slope with which the last step ended, that step, and the matrices that there were.
-    fn continue_stages(&mut self, slope: &[f64], behind: Option<&Behind>, matrices: &[Place]) {
+    /// Takes the slope with which the last step ended, that step, and the matrix that there was.
+    fn continue_stages(&mut self, slope: &[f64], behind: Option<&Behind>, matrix: Option<&Place>) {
         if self.tableau.family == Family::DiagonallyImplicit {
             for (dx, slope) in self.dx.iter_mut().zip(slope) {
                 *dx = *slope;
             }
-            self.form_matrices_again(matrices);
+            self.form_matrix_again(matrix);
             self.newton.restore_behind(behind);
         }
     }

@@ -13,8 +13,6 @@ pub const STATE_VERSION: u32 = 13;
 /// The largest number in a counter of a saved state. A million steps a second count for thirty years up to it; from it on no run
 /// counts to the end of 64 bits.
 pub const MOST_COUNTED: u64 = 1_000_000_000_000_000;
-/// The largest number of matrices in a saved state; problems keep a few.
-const MOST_MATRICES: usize = 64;
 
 /// All that is needed to continue an integration with the same bits.
 ///
@@ -46,8 +44,8 @@ pub struct State {
     pub(crate) slope: Vec<f64>,
     /// The last step, from which Newton's method guesses how the next one begins; none: it guesses straight on.
     pub(crate) behind: Option<Behind>,
-    /// Where the matrices that Newton's method keeps were formed, from the one used longest ago on.
-    pub(crate) matrices: Vec<Place>,
+    /// Where the matrix that Newton's method keeps was formed; none: there is none.
+    pub(crate) matrix: Option<Place>,
     /// What was done so far.
     pub statistics: Statistics,
 }
@@ -68,20 +66,12 @@ impl State {
         self.controller.check()?;
         self.ahead.map_or(Ok(()), |ahead| ahead.check(directions))?;
         self.passage.map_or(Ok(()), |passage| passage.check(directions))?;
-        if self.matrices.len() > MOST_MATRICES {
-            let value = self.matrices.len() as f64;
-            return Err(SetupError::Damaged {
-                name: "matrices",
-                value,
-            });
-        }
         let slopes = if self.slope.is_empty() { 0 } else { dimension };
-        let mut places = self.matrices.iter().map(|place| place.x.len());
-        let places = places.find(|length| *length != dimension).unwrap_or(dimension);
+        let place = self.matrix.as_ref().map_or(dimension, |place| place.x.len());
         let behind = self.behind.as_ref();
         let behind = behind.map_or([dimension; 2], |behind| [behind.x.len(), behind.first.len()]);
         let lengths = [
-            ("states of a matrix", dimension, places),
+            ("states of the matrix", dimension, place),
             ("states of the last step", dimension, behind[0]),
             ("slopes of the last step", dimension, behind[1]),
             ("states", dimension, self.x.len()),
@@ -104,9 +94,9 @@ impl State {
         if let Some(slope) = self.slope.iter().find(|slope| !slope.is_finite()) {
             return damaged("slope", *slope);
         }
-        let mut places = self.matrices.iter();
-        if let Some(value) = places.find_map(|place| place.damage(self.segment_start)) {
-            return damaged("matrices", value);
+        let place = self.matrix.as_ref();
+        if let Some(value) = place.and_then(|place| place.damage(self.segment_start)) {
+            return damaged("matrix", value);
         }
         if let Some(value) = self.behind.as_ref().and_then(Behind::damage) {
             return damaged("behind", value);

@@ -141,7 +141,7 @@ pub(super) struct Newton {
 
 impl Newton {
     /// For a problem; vectors have `stride` entries.
-    pub fn new<P: Problem>(problem: &mut P, tolerance: f64, stride: usize) -> Self {
+    pub fn new<P: Problem>(problem: &P, tolerance: f64, stride: usize) -> Self {
         let zero = || vec![0.0; stride];
         let (mut weights, mut controlled) = (zero(), zero());
         let kept = Kept::new(problem, stride);
@@ -415,7 +415,9 @@ impl<P: Problem> Integrator<P> {
         let fit = if rounds == 1 {
             self.fit_here()
         } else {
-            self.another_fits_here()
+            // The one in use has failed.
+            self.look_here(self.newton.time);
+            Fit::Other
         };
         if curved && (!finite || fit != Fit::Same) {
             let newton = &self.newton;

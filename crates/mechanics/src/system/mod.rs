@@ -20,7 +20,7 @@ mod stiffness;
 mod time;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
-use integrate::{KinkSigns, Matrices, Problem, Singular, SwitchGroup};
+use integrate::{KinkSigns, Problem, Singular, SwitchGroup};
 
 use crate::body::{Body, Kinematics, Rigid};
 use crate::coil::Coil;
@@ -145,8 +145,7 @@ pub struct System {
     moment: Vec<Vector<f64>>,
     /// Derivative by time of the force on each body and of the moments about the axes of its angles.
     load_rate: Vec<(Vector<f64>, [f64; 3])>,
-    /// The matrix in use, of several.
-    jacobian: Matrices<Partitioned>,
+    jacobian: Partitioned,
     /// Whether anything depends on time explicitly.
     moves: bool,
     /// Whether all elements are plain.
@@ -251,9 +250,6 @@ impl System {
     }
 }
 
-/// Most matrices of one body that are kept. A wedge that rattles comes back to some sixteen pieces; many wedges together come back to none.
-const MOST_MATRICES: usize = 16;
-
 impl Problem for System {
     fn dimension(&self) -> usize {
         self.layout.len()
@@ -311,14 +307,6 @@ impl Problem for System {
     fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], _: &mut [f64]) {
         self.place(time, x);
         self.differentiate(x, dx, false);
-    }
-
-    fn matrices(&self) -> usize {
-        (MOST_MATRICES / self.free.len()).max(1)
-    }
-
-    fn take_matrix(&mut self, number: usize) {
-        self.jacobian.take(number);
     }
 
     fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {

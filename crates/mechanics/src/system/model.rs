@@ -1,6 +1,5 @@
 //! The description of a system, and how it becomes a [`System`].
 
-use integrate::Matrices;
 use integrate::partitioned::{Layout, Partitioned};
 use thiserror::Error;
 
@@ -326,7 +325,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         frames_at: f64::NAN,
         reference: 0.0,
         kinematics,
-        jacobian: Matrices::new(jacobian),
+        jacobian,
         moves,
         plain,
         bounded,
