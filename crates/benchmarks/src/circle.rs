@@ -1,14 +1,14 @@
 //! A free body carried once round a circle of track: which coordinates can a car on track have?
 //!
-//! A guide runs along a circle to the left at constant speed, and holds the body by a bushing. [`Carried`] is the body in absolute
-//! coordinates, written here for this question alone, with any order of its three angles; [`on_core`] is a body of the core, in
-//! absolute coordinates or in coordinates relative to the moving guide. No gravity. SI units.
+//! A guide runs along a circle to the left at constant speed, and holds the body by a bushing. [`Carried`] is the body in
+//! absolute coordinates, written here for this question alone, with any order of its three angles; [`on_core`] is a body
+//! of the core, in absolute coordinates or in coordinates relative to the moving guide. No gravity. SI units.
 //!
-//! Equations: rotation `R = R_1(q4) R_2(q5) R_3(q6)` about the axes of [`Order`], angular velocity `ω = Σ q˙_k e_k`, and by Kane's
-//! method `e_k · (I ω˙ + ω × I ω) = e_k · M` in fixed axes. With the spin last the bushing holds the carrier, which does not spin:
-//! `M` does no work on the spin.
+//! Equations: rotation `R = R_1(q4) R_2(q5) R_3(q6)` about the axes of [`Order`], angular velocity `ω = Σ q˙_k e_k`, and
+//! by Kane's method `e_k · (I ω˙ + ω × I ω) = e_k · M` in fixed axes. With the spin last the bushing holds the carrier,
+//! which does not spin: `M` does no work on the spin.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use integrate::scalar::{Dual, Real};
 use integrate::{Integrator, Method, Options, Ordinary, Problem, SetupError, StepError};
@@ -38,6 +38,16 @@ const DAMPING: f64 = 5e4;
 const ROTATIONAL_STIFFNESS: f64 = 1e6;
 const ROTATIONAL_DAMPING: f64 = 2e4;
 
+/// Time of one circle, s.
+pub const CIRCLE: f64 = TAU / HEADING_RATE;
+
+/// The lateral force in the steady state, N: `m ω² (R + d)`, where it stretches the bushing by d.
+#[must_use]
+pub fn steady_force() -> f64 {
+    let inertia = MASS * HEADING_RATE * HEADING_RATE;
+    inertia * RADIUS * STIFFNESS / (STIFFNESS - inertia)
+}
+
 /// The order in which the angles turn a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
@@ -57,6 +67,11 @@ impl Order {
             Self::YawPitchRoll => [2, 1, 0],
             Self::YawRollPitch => [2, 0, 1],
         }
+    }
+
+    /// Whether pitch is a spin, which the bushing leaves free.
+    fn spins(self) -> bool {
+        self == Self::YawRollPitch
     }
 }
 
@@ -85,6 +100,15 @@ pub struct Bushing<S> {
     pub energy: S,
     loss: S,
     work: S,
+}
+
+/// The states of [`Carried`] in a vector of them.
+///
+/// # Panics
+/// If there are fewer.
+#[must_use]
+pub fn states(x: &[f64]) -> [f64; STATES] {
+    std::array::from_fn(|k| x[k])
 }
 
 struct Pose<S> {
@@ -130,7 +154,7 @@ impl Carried {
             let turn = [rotation_x, rotation_y, rotation_z][axis](x[3 + k].sin_cos());
             rotation = rotation.times(turn);
         }
-        if self.order != Order::YawRollPitch {
+        if !self.order.spins() {
             (carrier, carrier_velocity) = (rotation, velocity);
         }
         Pose {
@@ -194,6 +218,13 @@ impl Carried {
         0.5 * (MASS * speed + spin) + self.bushing(time, x, &pose).energy
     }
 
+    /// What the energy ledger lacks, J; `start` is the energy at the start.
+    #[must_use]
+    pub fn residual(&self, time: f64, x: &[f64; STATES], start: f64) -> f64 {
+        let [.., work, losses] = x;
+        self.energy(time, x) - start - work + losses
+    }
+
     /// The right-hand side.
     pub fn rates<S: Real>(&self, time: S, x: &[S; STATES]) -> [S; STATES] {
         let pose = self.pose(x);
@@ -208,7 +239,7 @@ impl Carried {
         };
         let momentum = inertia(pose.angular_velocity);
         let gyration = pose.angular_velocity.cross::<S, S>(momentum) + inertia(pose.bias);
-        let spins = self.order == Order::YawRollPitch;
+        let spins = self.order.spins();
         let right = [0, 1, 2].map(|k| {
             let active = if spins && k == 2 { Vector::zero() } else { moment };
             pose.axes[k].dot::<S, S>(active - gyration)
@@ -253,27 +284,26 @@ impl Carried {
     /// The problem for the integrator; the spin's angle is not error controlled where it is free.
     #[must_use]
     pub fn problem(self) -> Ordinary<'static> {
-        let full = |x: &[f64]| -> [f64; STATES] { std::array::from_fn(|k| x[k]) };
         let mut scales = vec![
             0.1, 0.1, 0.1, 1.0, 1.0, 1.0, 10.0, 10.0, 10.0, 100.0, 100.0, 100.0, 10.0, 10.0,
         ];
-        if self.order == Order::YawRollPitch {
+        if self.order.spins() {
             scales[5] = f64::INFINITY;
         }
         Ordinary::new(
             scales,
-            move |time, x, dx| dx.copy_from_slice(&self.rates(time, &full(x))),
+            move |time, x, dx| dx.copy_from_slice(&self.rates(time, &states(x))),
             move |time, x, matrix| {
-                let (rows, _) = self.linearize(time, &full(x));
+                let (rows, _) = self.linearize(time, &states(x));
                 matrix.copy_from_slice(rows.as_flattened());
             },
         )
         .displacements(6)
-        .time_derivative(move |time, x, df_dt| df_dt.copy_from_slice(&self.linearize(time, &full(x)).1))
+        .time_derivative(move |time, x, df_dt| df_dt.copy_from_slice(&self.linearize(time, &states(x)).1))
     }
 }
 
-/// Integrates until `end`, s, or as far as it goes; returns why it stopped.
+/// Integrates until `end`, s, or as far as it goes, and shows the run after each step; returns why it stopped.
 ///
 /// # Errors
 /// It cannot begin.
@@ -282,6 +312,7 @@ pub fn travel<P: Problem>(
     start: &[f64],
     (method, relative_tolerance): (Method, f64),
     end: f64,
+    mut each: impl FnMut(&Integrator<P>),
 ) -> Result<(Integrator<P>, Option<StepError>), SetupError> {
     let options = Options {
         relative_tolerance,
@@ -293,6 +324,7 @@ pub fn travel<P: Problem>(
         if let Err(error) = integrator.step_to(end) {
             return Ok((integrator, Some(error)));
         }
+        each(&integrator);
     }
     Ok((integrator, None))
 }

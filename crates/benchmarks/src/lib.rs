@@ -7,7 +7,11 @@ pub mod circle;
 pub mod truck;
 pub mod wedges;
 
+use std::hint::black_box;
+
+use integrate::Problem;
 use mechanics::small::System;
+use mechanics::system::Observation;
 use nucars::truck::Choices;
 use rustix::time::{ClockId, clock_gettime};
 use study::truck::catalog;
@@ -59,4 +63,51 @@ pub fn sliding_truck(name: &str) -> Result<(System, Vec<f64>), String> {
 pub fn cpu_seconds() -> f64 {
     let now = clock_gettime(ClockId::ProcessCPUTime);
     now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
+}
+
+/// CPU times (µs) of right-hand side, Jacobian matrix, factorization and solution at a state: the least of nine rounds
+/// of `calls` each. `shift` is what the matrix is factored with, 1/s.
+pub fn costs<P: Problem>(problem: &mut P, time: f64, x: &[f64], shift: f64, calls: usize) -> [f64; 4] {
+    let (mut dx, mut df_dt) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+    // Each call a little later, so that nothing is known from the one before.
+    let mut at = time;
+    let rates = least(calls, || {
+        at += 1e-9;
+        problem.derivative(at, black_box(x), &mut dx);
+    });
+    let jacobian = least(calls, || {
+        at += 1e-9;
+        df_dt.fill(0.0);
+        problem.linearize(at, black_box(x), &dx, &mut df_dt);
+    });
+    let factor = least(calls, || {
+        black_box(problem.factor(black_box(shift)).is_ok());
+    });
+    let solve = least(calls, || {
+        df_dt.copy_from_slice(&dx);
+        problem.solve(black_box(&mut df_dt));
+    });
+    [rates, jacobian, factor, solve]
+}
+
+/// The least CPU time of nine rounds, µs a call.
+fn least(calls: usize, mut call: impl FnMut()) -> f64 {
+    let rounds = (0..9).map(|_| {
+        let begun = cpu_seconds();
+        for _ in 0..calls {
+            call();
+        }
+        1e6 * (cpu_seconds() - begun) / calls as f64
+    });
+    rounds.fold(f64::INFINITY, f64::min)
+}
+
+/// Work of the motions, losses, and what the energy ledger lacks, J; `start` is the energy at the start.
+#[must_use]
+pub fn ledger(seen: &Observation, start: f64) -> [f64; 3] {
+    let (work, losses) = seen
+        .quadratures
+        .split_first()
+        .map_or((0.0, 0.0), |(work, losses)| (*work, losses.iter().sum::<f64>()));
+    [work, losses, seen.energies.total() - start - work + losses]
 }

@@ -26,7 +26,7 @@ use wedge::parameters::Damping;
 
 const INCH: f64 = 0.0254;
 /// lbf, in N.
-const POUND_FORCE: f64 = 4.448_221_615_260_5;
+pub const POUND_FORCE: f64 = 4.448_221_615_260_5;
 /// lb, in kg.
 const POUND: f64 = 0.453_592_37;
 /// lbf/in, in N/m; lbf·s/in, in N·s/m.
@@ -111,6 +111,17 @@ struct Spring {
     damping: f64,
 }
 
+impl Spring {
+    fn new([preload, stiffness, shear]: [f64; 3], damping: f64) -> Self {
+        Self {
+            preload,
+            stiffness,
+            shear,
+            damping,
+        }
+    }
+}
+
 impl Rig {
     /// The truck as a system, faces in contact without load, coils at their static loads.
     ///
@@ -174,28 +185,16 @@ impl Rig {
     }
 
     fn load_coil(&self) -> Spring {
-        let [preload, stiffness, shear] = match self.damping {
-            Damping::Constant => [15_403.8, 6468.7, 4450.0],
-            Damping::Variable => [12_252.1, 5369.5, 3616.0],
-        };
-        Spring {
-            preload,
-            stiffness,
-            shear,
-            damping: 0.0,
+        match self.damping {
+            Damping::Constant => Spring::new([15_403.8, 6468.7, 4450.0], 0.0),
+            Damping::Variable => Spring::new([12_252.1, 5369.5, 3616.0], 0.0),
         }
     }
 
     fn control_coil(&self) -> Spring {
-        let [preload, stiffness, shear] = match self.damping {
-            Damping::Constant => [3702.2, 1979.0, 1346.0],
-            Damping::Variable => [6303.0, 1937.0, 1317.0],
-        };
-        Spring {
-            preload,
-            stiffness,
-            shear,
-            damping: 1.0,
+        match self.damping {
+            Damping::Constant => Spring::new([3702.2, 1979.0, 1346.0], 1.0),
+            Damping::Variable => Spring::new([6303.0, 1937.0, 1317.0], 1.0),
         }
     }
 

@@ -1,10 +1,8 @@
 //! The truck of the benchmark is the truck that it is said to be.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-use benchmarks::truck::{BolsterMotion, RIGS};
+use benchmarks::truck::{BolsterMotion, POUND_FORCE, RIGS};
 use integrate::{Integrator, Method, Options, Problem};
-
-const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
 /// A side frame weighs 1,150.5 lbf, carries a nest of 61,615 lbf, and stands on four points of 15,691 lbf.
 #[test]

@@ -1,15 +1,13 @@
 //! `circle [TOLERANCE [METHOD]]`: a free body once round a circle of track, in coordinates of several kinds.
 //!
-//! Circle: how far it came, in turns. Force: the largest deviation of the lateral force of the bushing from `m ω² r` after a quarter of the
-//! circle, relative. Residual: of the energy ledger, over the kinetic energy.
+//! Circle: how far it came, in turns. Force: the largest deviation of the lateral force of the bushing from `m ω² r` at
+//! ends of steps after a quarter of the circle, relative. Residual: of the energy ledger, over the kinetic energy.
 
-use std::f64::consts::TAU;
 use std::process::ExitCode;
 
-use benchmarks::circle::{
-    Carried, Coordinates, HEADING_RATE, MASS, Order, RADIUS, SPIN, STIFFNESS, on_core, travel,
-};
-use integrate::Method;
+use benchmarks::circle::{CIRCLE, Carried, Coordinates, Order, SPIN, on_core, states, steady_force, travel};
+use benchmarks::ledger;
+use integrate::{Integrator, Method, Problem};
 
 fn main() -> ExitCode {
     let Some(by) = arguments() else {
@@ -59,43 +57,35 @@ fn arguments() -> Option<(Method, f64)> {
     Some((method.ok()?, tolerance.parse().ok()?))
 }
 
-/// The lateral force in the steady state: m ω² (R + d), where it stretches the bushing by d.
-fn steady() -> f64 {
-    let inertia = MASS * HEADING_RATE * HEADING_RATE;
-    inertia * RADIUS * STIFFNESS / (STIFFNESS - inertia)
+/// Prints how a run ended: `force` is the largest deviation, `residual` relative.
+fn line<P: Problem>(name: &str, run: &Integrator<P>, force: f64, residual: f64) {
+    let (turns, statistics) = (run.time() / CIRCLE, run.statistics());
+    println!(
+        "{name:36} {turns:8.3} {:8} {:8} {force:10.1e} {residual:10.1e}",
+        statistics.steps,
+        statistics.rejected()
+    );
 }
 
-fn line(name: &str, turns: f64, steps: u64, rejected: u64, force: f64, residual: f64) {
-    println!("{name:36} {turns:8.3} {steps:8} {rejected:8} {force:10.1e} {residual:10.1e}");
+/// How far a lateral force is off at a time, relative to that of the steady state; zero in the first quarter.
+fn deviation(time: f64, force: f64) -> f64 {
+    if time < 0.25 * CIRCLE {
+        return 0.0;
+    }
+    (force / steady_force() - 1.0).abs()
 }
 
 fn carried(name: &str, body: Carried, by: (Method, f64)) -> Result<(), String> {
     let start = body.start();
     let energy = body.energy(0.0, &start);
     let mut worst = 0.0_f64;
-    let mut done = None;
-    // In 64 parts, to look at the force between them.
-    for part in 16..=64 {
-        let end = f64::from(part) / 64.0 * TAU / HEADING_RATE;
-        let (integrator, stopped) =
-            travel(body.problem(), &start, by, end).map_err(|error| error.to_string())?;
-        let x: [f64; 14] = std::array::from_fn(|k| integrator.x()[k]);
-        let time = integrator.time();
-        if stopped.is_none() {
-            let force = body.loads(time, &x).force.0[1];
-            worst = worst.max((force / steady() - 1.0).abs());
-        }
-        let residual = (body.energy(time, &x) - energy - x[12] + x[13]) / energy;
-        let statistics = integrator.statistics();
-        let ended = stopped.is_some();
-        done = Some((time, statistics.steps, statistics.rejected(), residual));
-        if ended {
-            break;
-        }
-    }
-    if let Some((time, steps, rejected, residual)) = done {
-        line(name, time * HEADING_RATE / TAU, steps, rejected, worst, residual);
-    }
+    let (run, _) = travel(body.problem(), &start, by, CIRCLE, |run| {
+        let (time, x) = (run.time(), states(run.x()));
+        worst = worst.max(deviation(time, body.loads(time, &x).force.0[1]));
+    })
+    .map_err(|error| error.to_string())?;
+    let residual = body.residual(run.time(), &states(run.x()), energy);
+    line(name, &run, worst, residual / energy);
     Ok(())
 }
 
@@ -103,29 +93,16 @@ fn core(name: &str, coordinates: Coordinates, by: (Method, f64)) -> Result<(), S
     let (system, x) = on_core(coordinates)?;
     let mut observer = system.clone();
     let energy = observer.observe(0.0, &x).energies.total();
-    let (mut worst, mut done) = (0.0_f64, None);
-    for part in 16..=64 {
-        let end = f64::from(part) / 64.0 * TAU / HEADING_RATE;
-        let (integrator, stopped) = travel(system.clone(), &x, by, end).map_err(|error| error.to_string())?;
-        let time = integrator.time();
-        observer.segment_like(integrator.problem());
-        let seen = observer.observe(time, integrator.x());
-        if stopped.is_none() {
-            // The two coils across, in the seat's axes: those of the guide.
-            let force = seen.coils[2].coil.force.0[1] + seen.coils[3].coil.force.0[1];
-            worst = worst.max((force / steady() - 1.0).abs());
-        }
-        let work = seen.quadratures[0];
-        let losses: f64 = seen.quadratures[1..].iter().sum();
-        let residual = (seen.energies.total() - energy - work + losses) / energy;
-        let statistics = integrator.statistics();
-        done = Some((time, statistics.steps, statistics.rejected(), residual));
-        if stopped.is_some() {
-            break;
-        }
-    }
-    if let Some((time, steps, rejected, residual)) = done {
-        line(name, time * HEADING_RATE / TAU, steps, rejected, worst, residual);
-    }
+    let (mut worst, mut lacking) = (0.0_f64, 0.0);
+    let (run, _) = travel(system, &x, by, CIRCLE, |run| {
+        observer.segment_like(run.problem());
+        let seen = observer.observe(run.time(), run.x());
+        // The two coils across, in the seat's axes: those of the guide.
+        let force = seen.coils[2].coil.force.0[1] + seen.coils[3].coil.force.0[1];
+        worst = worst.max(deviation(run.time(), force));
+        [.., lacking] = ledger(&seen, energy);
+    })
+    .map_err(|error| error.to_string())?;
+    line(name, &run, worst, lacking / energy);
     Ok(())
 }

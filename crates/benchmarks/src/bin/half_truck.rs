@@ -1,14 +1,13 @@
 //! The half-truck of the comparison program's files on one core: 20 s of motion, 18 coordinates, 48 to 50 connections.
 //!
 //! `half_truck [TOLERANCE] [NAME-PART]`, for example `half_truck 1e-5 69_constant`. Times are those of integration, events and
-//! output rows each 0.01 s, without writing files; the target is 1 s a run at 1e-5. Then what the right-hand side, the Jacobian, a
-//! factorization and a solution cost in a sliding state; the target is a Jacobian of at most 10 right-hand sides.
+//! output rows each 0.01 s, without writing files; the target is 1 s a run at 1e-5. Then the CPU time that the right-hand side,
+//! the Jacobian, a factorization and a solution take in a sliding state; the target is a Jacobian of at most 10 right-hand sides.
 
-use std::hint::black_box;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use benchmarks::sliding_truck;
+use benchmarks::{costs, sliding_truck};
 use integrate::Problem;
 use nucars::truck::Choices;
 use study::truck::catalog::{DURATION, entries};
@@ -56,24 +55,7 @@ fn measure_all() -> Result<(), String> {
     for name in ["nucars_68_constant_toe_out", "nucars_69_constant_toe_out"] {
         let (mut system, x) = sliding_truck(name)?;
         system.segment(0.0);
-        let (mut dx, mut df_dt) = (vec![0.0; x.len()], vec![0.0; x.len()]);
-        let mut at = 2.0;
-        let derivative = measure(|| {
-            at += 1e-9;
-            system.derivative(at, black_box(&x), &mut dx);
-        });
-        let jacobian = measure(|| {
-            at += 1e-9;
-            df_dt.fill(0.0);
-            system.linearize(at, black_box(&x), &dx, &mut df_dt);
-        });
-        let factor = measure(|| {
-            black_box(system.factor(black_box(1e4)).is_ok());
-        });
-        let solve = measure(|| {
-            df_dt.copy_from_slice(&dx);
-            system.solve(black_box(&mut df_dt));
-        });
+        let [derivative, jacobian, factor, solve] = costs(&mut system, 2.0, &x, 1e4, 2000);
         println!(
             "{name}: right-hand side {derivative:.2} us, Jacobian {jacobian:.2} us (ratio {:.1}), factor {factor:.2} us, \
              solve {solve:.2} us",
@@ -81,17 +63,4 @@ fn measure_all() -> Result<(), String> {
         );
     }
     Ok(())
-}
-
-/// The best of several rounds, microseconds a call.
-fn measure(mut call: impl FnMut()) -> f64 {
-    const CALLS: u32 = 2000;
-    let rounds = (0..9).map(|_| {
-        let start = Instant::now();
-        for _ in 0..CALLS {
-            call();
-        }
-        start.elapsed().as_secs_f64() * 1e6 / f64::from(CALLS)
-    });
-    rounds.fold(f64::INFINITY, f64::min)
 }

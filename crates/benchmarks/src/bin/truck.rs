@@ -1,16 +1,16 @@
-//! `truck [TOLERANCE] [NAME-PART] [METHOD]`: the three-piece truck on one core, 10 s of a prescribed bolster, for example
-//! `truck 1e-5 vertical esdirk3`.
+//! `truck [TOLERANCE] [NAME-PART] [METHOD]`: the three-piece truck on one core, 10 s of a prescribed bolster, for
+//! example `truck 1e-5 vertical esdirk3`.
 //!
-//! CPU times of integration with contact states recorded, without rows or files. Changes: of contact states, a second. Newton: steps
-//! rejected because a stage could not be solved. Residual: of the energy ledger, over the larger of work done and losses. Then what right-hand
-//! side, Jacobian matrix, factorization and solution cost at the end of the last run.
+//! CPU times of integration with contact states recorded, without rows or files. Changes: of contact states, a second.
+//! Newton: steps rejected because a stage could not be solved. Residual: of the energy ledger, over the larger of work
+//! done and losses. Then what right-hand side, Jacobian matrix, factorization and solution cost at the end of the last
+//! run.
 
-use std::hint::black_box;
 use std::process::ExitCode;
 
-use benchmarks::cpu_seconds;
-use benchmarks::truck::{RIGS, Rig};
-use integrate::{Integrator, Method, Options, Problem};
+use benchmarks::truck::{POUND_FORCE, RIGS, Rig};
+use benchmarks::{costs, cpu_seconds, ledger};
+use integrate::{Integrator, Method, Options};
 use mechanics::system::System;
 
 /// Simulated time, s.
@@ -61,14 +61,20 @@ fn measure_all() -> Result<(), String> {
             last = Some(measure(rig, *method, tolerance)?);
         }
     }
-    let Some((system, time, x)) = last else {
+    let Some((mut system, time, x)) = last else {
         let names: Vec<&str> = RIGS.iter().map(|rig| rig.name).collect();
         return Err(format!(
             "no truck is called `{part}`; there are {}",
             names.join(", ")
         ));
     };
-    costs(system, time, &x);
+    let [rates, jacobian, factor, solve] = costs(&mut system, time, &x, 1e4, 1000);
+    println!(
+        "{} states: right-hand side {rates:.2} µs, Jacobian matrix {jacobian:.1} µs ({:.1} right-hand sides), \
+         factorization {factor:.1} µs, solution {solve:.2} µs",
+        x.len(),
+        jacobian / rates
+    );
     Ok(())
 }
 
@@ -96,11 +102,8 @@ fn measure(rig: &Rig, method: Method, tolerance: f64) -> Result<(System, f64, Ve
     let (time, x) = (integrator.time(), integrator.x().to_vec());
     observer.segment_like(integrator.problem());
     let seen = observer.observe(time, &x);
-    let (work, losses) = seen
-        .quadratures
-        .split_first()
-        .map_or((0.0, 0.0), |(work, losses)| (*work, losses.iter().sum::<f64>()));
-    let residual = (seen.energies.total() - start - work + losses) / losses.max(work.abs());
+    let [work, losses, residual] = ledger(&seen, start);
+    let residual = residual / losses.max(work.abs());
     let column: f64 = seen
         .faces
         .iter()
@@ -124,51 +127,10 @@ fn measure(rig: &Rig, method: Method, tolerance: f64) -> Result<(System, f64, Ve
         cpu,
         1e6 * cpu / s.steps as f64,
         residual,
-        column / 4.448_221_615_260_5
+        column / POUND_FORCE
     );
     if let Some(error) = stopped {
         println!("  stopped at {time} s: {error}");
     }
     Ok((observer, time, x))
-}
-
-/// Prints what the parts of a step cost.
-fn costs(mut system: System, time: f64, x: &[f64]) {
-    let (mut dx, mut df_dt) = (vec![0.0; x.len()], vec![0.0; x.len()]);
-    let mut at = time;
-    let rates = cost(|| {
-        at += 1e-9;
-        system.derivative(at, black_box(x), &mut dx);
-    });
-    let jacobian = cost(|| {
-        at += 1e-9;
-        df_dt.fill(0.0);
-        system.linearize(at, black_box(x), &dx, &mut df_dt);
-    });
-    let factor = cost(|| {
-        black_box(system.factor(black_box(1e4)).is_ok());
-    });
-    let solve = cost(|| {
-        df_dt.copy_from_slice(&dx);
-        system.solve(black_box(&mut df_dt));
-    });
-    println!(
-        "{} states: right-hand side {rates:.2} µs, Jacobian matrix {jacobian:.1} µs ({:.1} right-hand sides), factorization \
-         {factor:.1} µs, solution {solve:.2} µs",
-        x.len(),
-        jacobian / rates
-    );
-}
-
-/// The least of several rounds, µs a call.
-fn cost(mut call: impl FnMut()) -> f64 {
-    const CALLS: u32 = 1000;
-    let rounds = (0..9).map(|_| {
-        let begun = cpu_seconds();
-        for _ in 0..CALLS {
-            call();
-        }
-        1e6 * (cpu_seconds() - begun) / f64::from(CALLS)
-    });
-    rounds.fold(f64::INFINITY, f64::min)
 }

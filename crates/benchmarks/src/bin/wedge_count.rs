@@ -6,11 +6,10 @@
 //! the recording of contact modes. Pieces: right-hand side, Jacobian matrix, factorization, solution, in the state that the last step
 //! ended in.
 
-use std::hint::black_box;
 use std::process::ExitCode;
 
-use benchmarks::cpu_seconds;
 use benchmarks::wedges::{Arrangement, wedges};
+use benchmarks::{costs, cpu_seconds};
 use integrate::{Integrator, Options, Problem};
 use mechanics::system::System;
 
@@ -86,7 +85,7 @@ fn table(most: usize) -> Result<(), String> {
 
 /// The costs of one system.
 fn measure(count: usize, arrangement: Arrangement) -> Result<String, String> {
-    let system = wedges(count, arrangement)?;
+    let mut system = wedges(count, arrangement)?;
     let (mut recorded, mut bare) = (f64::INFINITY, f64::INFINITY);
     let (mut events, mut end) = (0, Vec::new());
     for _ in 0..(WEDGES / count).max(3) {
@@ -96,7 +95,9 @@ fn measure(count: usize, arrangement: Arrangement) -> Result<String, String> {
         (cost, events, end) = steps(&system, true)?;
         recorded = recorded.min(cost);
     }
-    let [rates, jacobian, factor, solve] = pieces(system, &end);
+    system.segment(0.0);
+    let calls = (20_000 / end.len()).max(20);
+    let [rates, jacobian, factor, solve] = costs(&mut system, 0.1, &end, 1e5, calls);
     let each = [bare, recorded, rates, jacobian, factor, solve].map(|cost| cost / count as f64);
     let events = events as f64 / f64::from(STEPS) / count as f64;
     let [bare, recorded, rates, jacobian, factor, solve] = each;
@@ -131,41 +132,4 @@ fn advance(integrator: &mut Integrator<System>, number: u32) -> Result<(), Strin
             .map_err(|error| error.to_string())?;
     }
     Ok(())
-}
-
-/// Right-hand side, Jacobian matrix, factorization, solution, µs.
-fn pieces(mut system: System, x: &[f64]) -> [f64; 4] {
-    let (mut dx, mut df_dt) = (vec![0.0; x.len()], vec![0.0; x.len()]);
-    let calls = (20_000 / x.len()).max(20);
-    system.segment(0.0);
-    let mut at = 0.1;
-    let rates = cost(calls, || {
-        at += 1e-9;
-        system.derivative(at, black_box(x), &mut dx);
-    });
-    let jacobian = cost(calls, || {
-        at += 1e-9;
-        df_dt.fill(0.0);
-        system.linearize(at, black_box(x), &dx, &mut df_dt);
-    });
-    let factor = cost(calls, || {
-        black_box(system.factor(black_box(1e5)).is_ok());
-    });
-    let solve = cost(calls, || {
-        df_dt.copy_from_slice(&dx);
-        system.solve(black_box(&mut df_dt));
-    });
-    [rates, jacobian, factor, solve]
-}
-
-/// The best of several rounds, µs a call.
-fn cost(calls: usize, mut call: impl FnMut()) -> f64 {
-    let rounds = (0..9).map(|_| {
-        let begun = cpu_seconds();
-        for _ in 0..calls {
-            call();
-        }
-        1e6 * (cpu_seconds() - begun) / calls as f64
-    });
-    rounds.fold(f64::INFINITY, f64::min)
 }

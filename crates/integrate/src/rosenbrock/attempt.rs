@@ -128,7 +128,7 @@ impl<P: Problem> Integrator<P> {
 
     /// Has the Jacobian matrix at the place reached.
     #[inline(always)]
-    pub(super) fn linearize_here(&mut self) {
+    fn linearize_here(&mut self) {
         let n = self.dimension;
         if !self.linearized {
             self.df_dt.fill(0.0);
@@ -210,7 +210,7 @@ impl<P: Problem> Integrator<P> {
 
     /// The derivative at the end belongs to the step: a step into a place where there is none is rejected.
     #[inline(always)]
-    pub(super) fn evaluate_end(&mut self) -> Result<(), Failure> {
+    fn evaluate_end(&mut self) -> Result<(), Failure> {
         let n = self.dimension;
         self.problem
             .derivative(self.attempt.target, &self.trial_x[..n], &mut self.trial_dx[..n]);
@@ -271,7 +271,7 @@ impl<P: Problem> Integrator<P> {
     }
 
     /// Sees what tells kinks at the end of the attempt.
-    pub(super) fn peer_at_end(&mut self) {
+    fn peer_at_end(&mut self) {
         let x = &self.trial_x[..self.dimension];
         self.kinks.peer(&mut self.problem, self.attempt.target, x);
     }
@@ -295,15 +295,6 @@ pub(super) fn stage_time(alpha: f64, start: f64, step: f64, target: f64) -> f64 
         target
     } else {
         start + alpha * step
-    }
-}
-
-/// The equations of the step cannot be solved: nobody is to blame.
-#[cold]
-pub(super) fn unsolved() -> Failure {
-    Failure {
-        reason: Reason::Unsolved,
-        index: None,
     }
 }
 

@@ -10,10 +10,11 @@
 //! Natural corrections and monotonicity: P. Deuflhard, *Newton Methods for Nonlinear Problems*, Springer 2004, section 3.
 
 use super::Integrator;
-use super::attempt::{Attempt, Failure, Outcome, not_finite, stage_time, unsolved};
+use super::attempt::{Attempt, Failure, Outcome, not_finite, stage_time};
 use super::guess::{Behind, Way};
 use super::kept::{Fit, Kept};
 use super::reversal::Reversal;
+use crate::error::Reason;
 use crate::kinks::KinkSigns;
 use crate::problem::Problem;
 use crate::stages::{
@@ -410,7 +411,10 @@ impl<P: Problem> Integrator<P> {
         }
         let rounds = self.newton.rounds + 1;
         if rounds > MOST_ROUNDS {
-            return Err(unsolved());
+            return Err(Failure {
+                reason: Reason::Unsolved,
+                index: None,
+            });
         }
         let fit = if rounds == 1 {
             self.fit_here()
