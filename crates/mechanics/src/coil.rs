@@ -10,13 +10,13 @@
 //! and a guiding couple; the couple does work when the body turns, and this work is integrated and entered in the
 //! energy ledger under its own name. With `acts_at = "seat"` the force acts at the coil's end, and there is no couple.
 
-use integrate::lanes::Lanes;
-use integrate::scalar::{Dual, Number, Real};
+use integrate::scalar::{Number, Real};
 use serde::{Deserialize, Serialize};
 
 use crate::body::Kinematics;
 use crate::characteristic::Characteristic;
-use crate::link::{Effect, Relative, Response, Responses, Sight, Turning, combined};
+use crate::link::{Effect, Relative, Sight};
+use crate::tangent::{Action, Inputs, Law};
 use crate::vector::Vector;
 
 /// Force by compression.
@@ -125,25 +125,32 @@ impl Coil {
         spring: impl FnOnce(S) -> S,
     ) -> CoilForce<S> {
         // A coil that ends at the body's origin, as in a wedge, needs no lever.
-        let central = self.end == Vector::zero();
-        let (mut arm, mut d, mut rate) = (Vector::zero(), relative.position, relative.velocity);
-        if !central {
-            arm = relative.rotation.apply(self.end);
-            d += arm;
-            rate += relative.angular_velocity.cross(arm);
+        if self.end == Vector::zero() {
+            return self.at_end(relative, spring);
         }
-        let pull = pull(self.damping, d, rate, spring);
+        let coil = self.at_end(&relative.at(self.end), spring);
+        let arm: Vector<S> = relative.rotation.apply(self.end);
+        CoilForce {
+            moment: coil.moment + arm.cross::<S, S>(coil.force),
+            ..coil
+        }
+    }
+
+    /// The same by the motion of the coil's end, with the moment about it.
+    #[inline(always)]
+    fn at_end<S: Real>(&self, relative: &Relative<S>, spring: impl FnOnce(S) -> S) -> CoilForce<S> {
+        let pull = pull(self.damping, relative.position, relative.velocity, spring);
         let force = pull.force;
         let turn = relative.angular_velocity;
-        let brake = turn.scale(-self.rotational_damping);
+        let mut moment = turn.scale(-self.rotational_damping);
         let loss = pull.loss + turn.dot(turn) * self.rotational_damping;
-        let (moment, guide_power) = if self.acts_at == self.end {
-            (arm.cross(force) + brake, S::zero())
-        } else {
-            let at: Vector<S> = relative.rotation.apply(self.acts_at);
-            let couple = (at - arm).cross(force);
-            (at.cross(force) + brake, couple.dot(turn))
-        };
+        let mut guide_power = S::zero();
+        if self.acts_at != self.end {
+            let offset: Vector<S> = relative.rotation.apply(self.acts_at - self.end);
+            let couple: Vector<S> = offset.cross(force);
+            moment += couple;
+            guide_power = couple.dot(turn);
+        }
         CoilForce {
             force,
             spring_force: pull.along,
@@ -179,88 +186,14 @@ impl Coil {
         }
     }
 
-    /// How what the coil does changes with the motion of its body with `R` free angles, where its seat stands still or translates; with
-    /// its force (mount axes) and moment (body axes).
-    #[inline(always)]
-    pub(crate) fn respond<const R: usize>(
-        &self,
-        relative: &Relative<f64>,
-        turning: &Turning,
-        response: &mut Response,
-    ) -> (Vector<f64>, Vector<f64>) {
-        let rotation = &relative.rotation;
-        let turned = |v: Vector<f64>| -> Vector<f64> { rotation.apply(v) };
-        let cross = |a: Vector<f64>, b: Vector<f64>| -> Vector<f64> { a.cross(b) };
-        let dot = |a: Vector<f64>, b: Vector<f64>| -> f64 { a.dot(b) };
-        let (end, spin) = (self.end, turning.spin);
-        let swing = cross(spin, end);
-        let (d, rate) = (relative.position + turned(end), relative.velocity + turned(swing));
-        // Written out: `array::map` is not always inlined.
-        let variable = |v: Vector<f64>, i: usize, first: usize| Dual::<6>::variable(v.0[i], first + i);
-        let seed = |v: Vector<f64>, first: usize| {
-            Vector([
-                variable(v, 0, first),
-                variable(v, 1, first),
-                variable(v, 2, first),
-            ])
-        };
-        let pull = pull(self.damping, seed(d, 0), seed(rate, 3), |length| {
-            self.spring(length)
-        });
-        let force = pull.force.value();
-        let own: Vector<f64> = rotation.apply_transposed(force);
-        // The guiding couple's power is that of the force at a velocity of its own.
-        let offset = self.acts_at - end;
-        let guide = turned(cross(spin, offset));
-        let arms: [Vector<f64>; R] = std::array::from_fn(|k| cross(turning.axes[k], self.acts_at));
-        let levers = arms.map(turned);
-        let damping = self.rotational_damping;
-        let effect = |force: Vector<f64>, loss: f64| -> Responses {
-            let [x, y, z] = force.0;
-            let mut moments = [0.0, 0.0, 0.0, dot(guide, force)];
-            for k in 0..R {
-                moments[k] = dot(levers[k], force);
-            }
-            [Lanes::new([x, y, z, loss]), Lanes::new(moments)]
-        };
-        let column = |index: usize| {
-            effect(
-                Vector([0, 1, 2].map(|i| pull.force.0[i].derivative[index])),
-                pull.loss.derivative[index],
-            )
-        };
-        *response = Response::NONE;
-        response.place = [column(0), column(1), column(2)];
-        response.velocity = [column(3), column(4), column(5)];
-        // The end of a coil that acts elsewhere moves with the angles.
-        let central = end == Vector::zero();
-        for l in 0..R {
-            let (axis, drift) = (turning.axes[l], turning.drifts[l]);
-            let (mut angle, mut angle_rate) = ([Lanes::ZERO; 2], [Lanes::ZERO; 2]);
-            if !central {
-                let arm = turned(cross(axis, end));
-                let carried = turned(cross(axis, swing) + cross(drift, end));
-                angle = combined(&response.place, arm);
-                for (sum, term) in angle.iter_mut().zip(combined(&response.velocity, carried)) {
-                    *sum += term;
-                }
-                angle_rate = combined(&response.velocity, arm);
-            }
-            let guide_change = cross(axis, cross(spin, offset)) + cross(drift, offset);
-            let mut moments = [0.0, 0.0, 0.0, dot(own, guide_change)];
-            let mut brakes = [0.0, 0.0, 0.0, dot(own, cross(axis, offset))];
-            for k in 0..R {
-                let other = turning.axes[k];
-                moments[k] = dot(cross(own, axis), arms[k]) - damping * dot(other, drift);
-                brakes[k] = -damping * dot(other, axis);
-            }
-            angle[0] += Lanes::new([0.0, 0.0, 0.0, 2.0 * damping * dot(spin, drift)]);
-            angle[1] += Lanes::new(moments);
-            angle_rate[0] += Lanes::new([0.0, 0.0, 0.0, 2.0 * damping * dot(spin, axis)]);
-            angle_rate[1] += Lanes::new(brakes);
-            (response.angle[l], response.angle_rate[l]) = (angle, angle_rate);
+    /// On what its wrench about its end depends.
+    #[must_use]
+    pub(crate) fn inputs(&self) -> Inputs {
+        if self.acts_at == self.end && self.rotational_damping == 0.0 {
+            Inputs::Points
+        } else {
+            Inputs::Motion
         }
-        (force, cross(self.acts_at, own) - spin.scale(damping))
     }
 
     /// Spring force at a length (m), N.
@@ -283,6 +216,19 @@ impl Coil {
             CoilLaw::Linear { stiffness } => 0.5 * stiffness * compression * compression,
             CoilLaw::Table(table) => table.energy(compression),
             CoilLaw::Given { .. } => 0.0,
+        }
+    }
+}
+
+impl Law for Coil {
+    /// The wrench by the motion of the coil's end, about it.
+    #[inline(always)]
+    fn wrench<S: Real>(&self, relative: &Relative<S>) -> Action<S> {
+        let coil = self.at_end(relative, |length| self.spring(length));
+        Action {
+            force: coil.force,
+            moment: coil.moment,
+            powers: [coil.loss, coil.guide_power],
         }
     }
 }

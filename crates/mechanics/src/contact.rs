@@ -7,14 +7,12 @@
 //! Defects: with `c > 0` the force jumps when a point strikes; the stiffness per point is a model parameter that
 //! stands for the elasticity of the faces, not a property of a point. Four corners are the 2 × 2 case of a face.
 
-mod chain;
 mod quads;
-mod work;
+mod tangent;
 
 use integrate::scalar::{Number, Real};
 
 pub(crate) use quads::{Points, View};
-pub(crate) use work::RateResponse;
 
 use crate::friction::{Friction, FrictionLaw, bristle, dot, tanh};
 use crate::link::Relative;

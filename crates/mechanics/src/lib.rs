@@ -20,6 +20,7 @@ pub mod small;
 pub mod spline;
 pub mod surface;
 pub mod system;
+mod tangent;
 pub mod turn;
 pub mod vector;
 mod without_roll;

@@ -6,7 +6,6 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use integrate::lanes::Lanes;
 use integrate::scalar::{Number, Real};
 
 use crate::body::Kinematics;
@@ -167,6 +166,20 @@ pub struct Relative<S> {
     pub angular_velocity: Vector<S>,
 }
 
+impl<S: Real> Relative<S> {
+    /// The motion of a point of the body (body axes, from its origin) instead of the body's origin.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(&self, point: Vector<f64>) -> Self {
+        let arm: Vector<S> = self.rotation.apply(point);
+        Self {
+            position: self.position + arm,
+            velocity: self.velocity + self.angular_velocity.cross::<S, S>(arm),
+            ..*self
+        }
+    }
+}
+
 /// What an element does to the body that it carries.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effect {
@@ -187,36 +200,11 @@ pub(crate) struct Turning {
     pub spin: Vector<f64>,
 }
 
-/// Changes of an element's [`Effect`]: force along the mount's axes with the first power, moments about the axes of the free angles (three
-/// slots) with the second power.
-pub(crate) type Responses = [Lanes; 2];
-
-/// How an element's effect changes with the motion of the body that it carries.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Response {
-    /// By the place of the body's origin, along each of the mount's axes.
-    pub place: [Responses; 3],
-    /// By its velocity.
-    pub velocity: [Responses; 3],
-    /// By the free angles; without the change of the other axes.
-    pub angle: [Responses; 3],
-    /// By their rates.
-    pub angle_rate: [Responses; 3],
-}
-
-impl Response {
-    /// No change.
+impl Turning {
+    /// Of a body without free angles.
     pub const NONE: Self = Self {
-        place: [[Lanes::ZERO; 2]; 3],
-        velocity: [[Lanes::ZERO; 2]; 3],
-        angle: [[Lanes::ZERO; 2]; 3],
-        angle_rate: [[Lanes::ZERO; 2]; 3],
+        axes: [Vector([0.0; 3]); 3],
+        drifts: [Vector([0.0; 3]); 3],
+        spin: Vector([0.0; 3]),
     };
-}
-
-/// `Σ_i weights_i columns_i`.
-#[inline(always)]
-pub(crate) fn combined(columns: &[Responses; 3], weights: Vector<f64>) -> Responses {
-    let [x, y, z] = weights.0;
-    [0, 1].map(|o| columns[0][o] * x + columns[1][o] * y + columns[2][o] * z)
 }

@@ -1,27 +1,21 @@
 //! The right-hand side: forces, accelerations, rates of the internal states, powers.
 
-use integrate::scalar::{Dual, Real};
 use std::ops::Mul;
 
-use super::{Mounted, System};
+use integrate::partitioned::Partitioned;
+use integrate::scalar::Real;
+
+use super::chain::Chain;
+use super::jacobian::differentiate_internal;
+use super::{FreeBody, Mounted, System};
 use crate::body::{Kinematics, Rigid};
 use crate::coil::{Coil, CoilForce};
-use crate::contact::{ContactFace, FaceResultant, Points, RateResponse, View};
+use crate::contact::{ContactFace, FaceResultant, Points, View};
 use crate::frame::FrameMotion;
-use crate::link::{Effect, Mount, Relative, Response, Sight, Turning};
+use crate::link::{Effect, Mount, Relative, Sight};
 use crate::surface::Plane;
+use crate::tangent::{Action, Columns, Tangent};
 use crate::vector::Vector;
-
-/// What an element does to the body that it carries, in mount axes.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Action<S> {
-    /// Force, N.
-    pub force: Vector<S>,
-    /// Moment about the body's origin, N·m.
-    pub moment: Vector<S>,
-    /// Powers of the element's channels, W.
-    pub powers: [S; 2],
-}
 
 /// An element between two bodies.
 pub(super) trait Element: Sized {
@@ -43,24 +37,23 @@ pub(super) trait Element: Sized {
         rates: &mut [f64],
     ) -> Option<Effect>;
 
-    /// How that changes with the motion of a body with `R` free angles, seen from a mount that does not turn, and how the rates of internal
-    /// states do, as many as `rates` takes; with the force (mount axes) and the moment (body axes).
-    fn respond<const R: usize>(
-        &self,
-        points: &Points,
-        relative: &Relative<f64>,
-        turning: &Turning,
-        response: &mut Response,
-        rates: &mut [RateResponse],
-    ) -> (Vector<f64>, Vector<f64>);
+    /// Where its marker A is, from the origin of the body that it carries, body axes, m.
+    fn marker(&self) -> Vector<f64> {
+        Vector::zero()
+    }
 
-    /// The action with its derivatives; `rates` sees those of the rates of two internal states at a time.
-    fn change<const N: usize>(
-        &self,
-        points: &Points,
-        relative: &Relative<Dual<N>>,
-        rates: impl FnMut(usize, [[f64; 2]; N]),
-    ) -> Action<Dual<N>>;
+    /// The tangent by the motion of marker A; `rates` receives the derivatives of the rates of internal states, four pairs at a time.
+    fn tangent(&self, points: &Points, relative: &Relative<f64>, rates: &mut [Columns]) -> Tangent;
+
+    /// The derivatives by the internal states.
+    fn differentiate_internal(
+        _: &Mounted<Self>,
+        _: &Chain<'_>,
+        _: &Relative<f64>,
+        _: &[Option<&FreeBody>; 2],
+        _: &mut Partitioned,
+    ) {
+    }
 }
 
 /// The quadrature of the work of all prescribed motions: the first one.
@@ -93,25 +86,18 @@ impl Element for ContactFace<Plane> {
     }
 
     #[inline(always)]
-    fn respond<const R: usize>(
-        &self,
-        points: &Points,
-        relative: &Relative<f64>,
-        turning: &Turning,
-        response: &mut Response,
-        rates: &mut [RateResponse],
-    ) -> (Vector<f64>, Vector<f64>) {
-        points.respond::<R>(relative, turning, response, rates)
+    fn tangent(&self, points: &Points, relative: &Relative<f64>, rates: &mut [Columns]) -> Tangent {
+        points.tangent(relative, rates)
     }
 
-    #[inline(always)]
-    fn change<const N: usize>(
-        &self,
-        points: &Points,
-        relative: &Relative<Dual<N>>,
-        rates: impl FnMut(usize, [[f64; 2]; N]),
-    ) -> Action<Dual<N>> {
-        Action::of_face(&points.change(relative, self.law.states_per_point() > 0, rates))
+    fn differentiate_internal(
+        mounted: &Mounted<Self>,
+        chain: &Chain<'_>,
+        relative: &Relative<f64>,
+        ends: &[Option<&FreeBody>; 2],
+        jacobian: &mut Partitioned,
+    ) {
+        differentiate_internal(mounted, chain, relative, ends, jacobian);
     }
 }
 
@@ -137,26 +123,13 @@ impl Element for Coil {
         Some(self.effect(sight, body))
     }
 
-    #[inline(always)]
-    fn respond<const R: usize>(
-        &self,
-        _: &Points,
-        relative: &Relative<f64>,
-        turning: &Turning,
-        response: &mut Response,
-        _: &mut [RateResponse],
-    ) -> (Vector<f64>, Vector<f64>) {
-        Self::respond::<R>(self, relative, turning, response)
+    fn marker(&self) -> Vector<f64> {
+        self.end
     }
 
     #[inline(always)]
-    fn change<const N: usize>(
-        &self,
-        _: &Points,
-        relative: &Relative<Dual<N>>,
-        _: impl FnMut(usize, [[f64; 2]; N]),
-    ) -> Action<Dual<N>> {
-        Action::of_coil(&self.evaluate(relative))
+    fn tangent(&self, _: &Points, relative: &Relative<f64>, _: &mut [Columns]) -> Tangent {
+        Tangent::of(self.inputs(), relative, self)
     }
 }
 

@@ -1,371 +1,291 @@
-//! The Jacobian, element by element, by forward differentiation of the same lines that give the forces.
+//! The Jacobian, element by element.
 //!
 //! What enters the speed rows is the residual `Q(q, u) - M(q) u˙ - b(q, u)` at fixed accelerations, so that the change of M with the
-//! coordinates is included. Inertia depends on angles alone where the reference frame stands still: one pass with derivatives by
-//! them and their rates. Elements on prescribed neighbours that do not turn answer with their response ([`super::rows`]); for
-//! the others one pass a free body, whose positions and speeds are seeded, everything else being constant, and one more, with a
-//! single derivative, for the explicit dependence on time.
+//! coordinates is included. Every element gives its tangent ([`crate::tangent`]), and [`super::chain`] what the coordinates of the bodies
+//! at its two ends make of it. Inertia is differentiated by numbers with derivatives, by what it depends on: angles and their rates where
+//! the reference frame stands still.
 
-use integrate::lanes::Lanes;
+use integrate::lanes::LANES;
 use integrate::partitioned::Partitioned;
-use integrate::scalar::{Dual, Real};
+use integrate::scalar::Dual;
 
-use super::forces::{Action, Element};
-use super::rows::{Columns, add_columns, respond};
-use super::{FrameState, FreeBody, Mounted, System};
-use crate::body::{Body, Kinematics};
+use super::chain::{Block, Chain, NO_BLOCK, Powers, add_block};
+use super::forces::Element;
+use super::{FreeBody, Mounted, System};
+use crate::body::Kinematics;
 use crate::contact::ContactFace;
-use crate::frame::FrameMotion;
-use crate::link::{Relative, Sight};
+use crate::link::{Relative, Turning};
 use crate::surface::Plane;
-use crate::vector::{Matrix, Vector};
+use crate::tangent::{Columns, Tangent};
+use crate::vector::Vector;
 
-/// What a pass needs to see.
+/// What is gathered for a free body while the elements are differentiated.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gathered {
+    turning: Turning,
+    block: Block,
+    /// The moment of all elements, body axes.
+    moment: Vector<f64>,
+}
+
+impl Gathered {
+    pub const NONE: Self = Self {
+        turning: Turning::NONE,
+        block: NO_BLOCK,
+        moment: Vector([0.0; 3]),
+    };
+}
+
+/// What all elements see.
 struct Scene<'s> {
-    bodies: &'s [Body],
-    frames: &'s [FrameState],
     kinematics: &'s [Kinematics<f64>],
     free: &'s [FreeBody],
     free_number: &'s [Option<usize>],
-    gravity: Vector<f64>,
 }
 
 impl System {
-    /// The Jacobian (if `whole`; else without what inertia adds by the angles, some thousandth of what contacts add) at the state that [`System::place`] was called with, where the rates are `dx`.
+    /// The Jacobian (if `whole`; else without what inertia adds by the angles, some thousandth of what contacts add) at the state that
+    /// [`System::place`] was called with, where the rates are `dx`.
     pub(super) fn differentiate(&mut self, x: &[f64], dx: &[f64], whole: bool) {
         let layout = self.layout;
         let [_, _, internal, _] = layout.split(x);
         self.meet();
-        for free in &self.free {
-            for (j, &k) in free.free.iter().enumerate() {
-                self.accelerations[free.body][k] = dx[layout.speeds + free.offset + j];
-            }
+        self.jacobian.clear();
+        for (free, gathered) in self.free.iter().zip(&mut self.gathered) {
+            let kinematics = &self.kinematics[free.body];
+            *gathered = Gathered {
+                turning: kinematics.turning(&free.free),
+                ..Gathered::NONE
+            };
         }
         let scene = Scene {
-            bodies: &self.bodies,
-            frames: &self.frames,
             kinematics: &self.kinematics,
             free: &self.free,
             free_number: &self.free_number,
-            gravity: self.gravity,
         };
-        self.jacobian.clear();
         for face in &mut self.faces {
             let deflections = &internal[face.first_internal..][..face.internal_count];
             face.element.linearize(&mut face.points, deflections);
+            if face.points.are_active() {
+                differentiate_element(face, &scene, &mut self.gathered, &mut self.jacobian);
+            } else {
+                face.tangent = Tangent::NONE;
+            }
         }
-        for (number, free) in self.free.iter().enumerate() {
+        for coil in &mut self.coils {
+            differentiate_element(coil, &scene, &mut self.gathered, &mut self.jacobian);
+        }
+        for number in 0..self.free.len() {
+            let free = &self.free[number];
             let kinematics = &self.kinematics[free.body];
-            let mass = self.jacobian.mass_mut(number);
-            kinematics.mass_matrix(&self.bodies[free.body], &free.free, mass);
-            let turning = kinematics.turning(&free.free);
-            let mut carried = Vector::zero();
-            let mut columns: Columns = [[[Lanes::ZERO; 2]; 6]; 2];
-            for &face in &free.faces {
-                let face = &mut self.faces[face];
-                if face.plain && face.points.are_active() {
-                    carried += respond(face, kinematics, &turning, free);
-                    face.add_rows(free, &mut columns, &mut self.jacobian);
-                    face.add_rates(free, &mut self.jacobian);
-                }
+            kinematics.mass_matrix(
+                &self.bodies[free.body],
+                &free.free,
+                self.jacobian.mass_mut(number),
+            );
+            let accelerations = &mut self.accelerations[free.body];
+            for (j, &k) in free.free.iter().enumerate() {
+                accelerations[k] = dx[layout.speeds + free.offset + j];
             }
-            for &coil in &free.coils {
-                let coil = &mut self.coils[coil];
-                if coil.plain {
-                    carried += respond(coil, kinematics, &turning, free);
-                    coil.add_rows(free, &mut columns, &mut self.jacobian);
-                }
-            }
-            add_columns(&columns, free, &mut self.jacobian);
-            let coordinates = self.coordinates(free, x);
-            let pass = Pass {
-                scene: &scene,
-                number,
-                coordinates,
-                accelerations: &self.accelerations[free.body],
-                faces: &self.faces,
-                coils: &self.coils,
-            };
-            let jacobian = &mut self.jacobian;
-            if whole && scene.frames[free.body].fixed {
-                match free.angles() {
-                    0 => pass.inertia::<0>(&carried, jacobian),
-                    1 => pass.inertia::<2>(&carried, jacobian),
-                    2 => pass.inertia::<4>(&carried, jacobian),
-                    _ => pass.inertia::<6>(&carried, jacobian),
-                }
-            }
-            if !free.plain {
-                match free.free.len() {
-                    1 => pass.run::<2>(jacobian),
-                    2 => pass.run::<4>(jacobian),
-                    3 => pass.run::<6>(jacobian),
-                    4 => pass.run::<8>(jacobian),
-                    5 => pass.run::<10>(jacobian),
-                    _ => pass.run::<12>(jacobian),
-                }
-            }
-        }
-        for face in &self.faces {
-            if face.internal_count > 0 {
-                differentiate_internal(face, &scene, &mut self.jacobian);
+            let blocks = self.jacobian.blocks_mut(free.pair);
+            add_block(&self.gathered[number].block, free, free.free.len(), blocks);
+            let (moves, angles) = (!self.frames[free.body].fixed, free.angles());
+            match (whole, moves, angles) {
+                (_, true, _) => self.inertia::<12>(number, x),
+                (false, ..) | (_, _, 0) => {}
+                (.., 1) => self.inertia::<2>(number, x),
+                (.., 2) => self.inertia::<4>(number, x),
+                _ => self.inertia::<6>(number, x),
             }
         }
     }
-}
 
-/// One pass: the derivatives by one body's positions and speeds.
-struct Pass<'s> {
-    scene: &'s Scene<'s>,
-    number: usize,
-    coordinates: ([f64; 6], [f64; 6]),
-    accelerations: &'s [f64; 6],
-    faces: &'s [Mounted<ContactFace<Plane>>],
-    coils: &'s [Mounted<crate::coil::Coil>],
-}
-
-/// Force and moment on the seeded body.
-struct Load<const N: usize> {
-    force: Vector<Dual<N>>,
-    moment: Vector<Dual<N>>,
-}
-
-impl Pass<'_> {
-    fn run<const N: usize>(&self, jacobian: &mut Partitioned) {
-        let free = &self.scene.free[self.number];
-        let body = &self.scene.bodies[free.body];
+    /// The inertia of a body by its angles (half of the `D` derivatives) and their rates, with the moment of its elements, the axes of
+    /// which turn; with 12 derivatives by all coordinates and rates, which count in a reference frame that moves.
+    fn inertia<const D: usize>(&mut self, number: usize, x: &[f64]) {
+        let free = &self.free[number];
+        let body = &self.bodies[free.body];
+        let (coordinates, speeds) = self.coordinates(free, x);
+        let first = if D == 12 { 0 } else { free.translations };
+        let seeded = D / 2;
+        let (mut q, mut u) = (coordinates.map(Dual::<D>::from), speeds.map(Dual::<D>::from));
+        for (slot, &k) in free.free[first..].iter().enumerate() {
+            q[k] = Dual::variable(coordinates[k], slot);
+            u[k] = Dual::variable(speeds[k], seeded + slot);
+        }
+        let kinematics = Kinematics::new(q, u, body.rolls());
+        let frame = &self.frames[free.body];
+        let (force, moment) = kinematics.inertia(
+            &free.rigid,
+            &frame.motion,
+            !frame.fixed,
+            self.gravity,
+            &self.accelerations[free.body],
+        );
+        let (force, moment) = (
+            -force,
+            Vector::<Dual<D>>::lift(self.gathered[number].moment) - moment,
+        );
         let n = free.free.len();
-        let mut coordinates = self.coordinates.0.map(Dual::<N>::from);
-        let mut speeds = self.coordinates.1.map(Dual::<N>::from);
-        for (j, &k) in free.free.iter().enumerate() {
-            coordinates[k] = Dual::variable(self.coordinates.0[k], j);
-            speeds[k] = Dual::variable(self.coordinates.1[k], n + j);
-        }
-        let kinematics = Kinematics::new(coordinates, speeds, body.rolls());
-        let mut load = Load {
-            force: Vector::zero(),
-            moment: Vector::zero(),
-        };
-        for &face in &free.faces {
-            if !self.faces[face].plain {
-                self.element(&self.faces[face], &kinematics, &mut load, jacobian);
-            }
-        }
-        for &coil in &free.coils {
-            if !self.coils[coil].plain {
-                self.element(&self.coils[coil], &kinematics, &mut load, jacobian);
-            }
-        }
-        let frame = &self.scene.frames[free.body];
-        if !frame.fixed {
-            let gravity = self.scene.gravity;
-            let (force, moment) =
-                kinematics.inertia(&free.rigid, &frame.motion, true, gravity, self.accelerations);
-            load.force += -force;
-            load.moment += -moment;
-        }
-        let blocks = jacobian.blocks_mut(free.pair);
-        add_rows(&kinematics, &free.free, n, &load.force, &load.moment, blocks);
-    }
-
-    /// The inertia of a body in a frame at rest, by its angles (half of the `D` derivatives) and their rates, with the moment of plain
-    /// elements (body axes), the axes of which turn.
-    fn inertia<const D: usize>(&self, carried: &Vector<f64>, jacobian: &mut Partitioned) {
-        let free = &self.scene.free[self.number];
-        let body = &self.scene.bodies[free.body];
-        let mut coordinates = self.coordinates.0.map(Dual::<D>::from);
-        let mut speeds = self.coordinates.1.map(Dual::<D>::from);
-        let (n, angles) = (free.free.len(), D / 2);
-        for (slot, &k) in free.free[free.translations..].iter().enumerate() {
-            coordinates[k] = Dual::variable(self.coordinates.0[k], slot);
-            speeds[k] = Dual::variable(self.coordinates.1[k], angles + slot);
-        }
-        let kinematics = Kinematics::new(coordinates, speeds, body.rolls());
-        let frame = &self.scene.frames[free.body].motion;
-        let (force, moment) =
-            kinematics.inertia(&free.rigid, frame, false, self.scene.gravity, self.accelerations);
-        let (force, moment) = (-force, Vector::<Dual<D>>::lift(*carried) - moment);
-        let (stiffness, damping) = jacobian.blocks_mut(free.pair);
+        let (stiffness, damping) = self.jacobian.blocks_mut(free.pair);
         for (row, &k) in free.free.iter().enumerate() {
             let component = kinematics.generalized(k, &force, &moment);
-            for slot in 0..angles {
-                let entry = row * n + free.translations + slot;
+            for slot in 0..seeded.min(n - first) {
+                let entry = row * n + first + slot;
                 stiffness[entry] += component.derivative[slot];
-                damping[entry] += component.derivative[angles + slot];
+                damping[entry] += component.derivative[seeded + slot];
             }
         }
     }
+}
 
-    /// Adds the derivatives of one element that touches the seeded body.
-    #[inline(always)]
-    fn element<E: Element, const N: usize>(
-        &self,
-        mounted: &Mounted<E>,
-        seeded: &Kinematics<Dual<N>>,
-        load: &mut Load<N>,
-        jacobian: &mut Partitioned,
-    ) {
-        let scene = self.scene;
-        let free = &scene.free[self.number];
-        let n = free.free.len();
-        let carries = mounted.body == free.body;
-        let side = usize::from(!carries);
-        let mut keep_rates = |point: usize, rates: [[f64; 2]; N]| {
-            let [g_q, g_u, _] = jacobian.side_mut(mounted.first_internal / 2 + point, side);
-            for row in 0..2 {
-                for j in 0..n {
-                    g_q[row * n + j] = rates[j][row];
-                    g_u[row * n + j] = rates[n + j][row];
+/// Adds the derivatives of one element to those of its bodies and its powers, and of its internal states.
+#[inline(always)]
+fn differentiate_element<E: Element>(
+    mounted: &mut Mounted<E>,
+    scene: &Scene<'_>,
+    gathered: &mut [Gathered],
+    jacobian: &mut Partitioned,
+) {
+    let body: Relative<f64> = mounted.sight.relative(&scene.kinematics[mounted.body]);
+    let point = mounted.element.marker();
+    let (arm, relative) = if point == Vector::zero() {
+        (point, body)
+    } else {
+        (body.rotation.apply(point), body.at(point))
+    };
+    mounted.tangent = mounted
+        .element
+        .tangent(&mounted.points, &relative, &mut mounted.rate_tangents);
+    let ends = [mounted.body, mounted.on].map(|body| scene.free_number[body]);
+    let [Some(a), b] = ends else {
+        return;
+    };
+    let turning_b = b.map_or(Turning::NONE, |b| gathered[b].turning);
+    let turning_a = gathered[a].turning;
+    let on = &scene.kinematics[mounted.on];
+    let chain = Chain::new(mounted, &relative, arm, [&turning_a, &turning_b], on);
+    let (free_a, n_a) = (&scene.free[a], scene.free[a].free.len());
+    gathered[a].moment += body.rotation.apply_transposed::<f64, f64>(chain.moment_on_a());
+
+    let (mut powers, mut other) = (Powers::NONE, NO_BLOCK);
+    chain.by_a(free_a, &mut gathered[a].block, &mut other, &mut powers);
+    keep_powers(&mounted.rows[0], &powers, n_a, jacobian);
+    if let Some(b) = b {
+        let (free_b, n_b) = (&scene.free[b], scene.free[b].free.len());
+        let moment = mounted.mount.rotation.apply(chain.moment_on_b());
+        gathered[b].moment += moment;
+        add_block(&other, free_b, n_a, jacobian.blocks_mut(mounted.pairs[1]));
+        let (mut powers, mut other) = (Powers::NONE, NO_BLOCK);
+        chain.by_b(free_b, &mut gathered[b].block, &mut other, &mut powers);
+        add_block(&other, free_a, n_b, jacobian.blocks_mut(mounted.pairs[0]));
+        keep_powers(&mounted.rows[1], &powers, n_b, jacobian);
+    }
+    if mounted.internal_count > 0 {
+        for (side, end) in ends.into_iter().flatten().enumerate() {
+            keep_rates(mounted, &chain, side, &scene.free[end], jacobian);
+        }
+        E::differentiate_internal(mounted, &chain, &relative, &scene.free_of(ends), jacobian);
+    }
+}
+
+impl<'s> Scene<'s> {
+    fn free_of(&self, ends: [Option<usize>; 2]) -> [Option<&'s FreeBody>; 2] {
+        ends.map(|end| end.map(|end| &self.free[end]))
+    }
+}
+
+/// Keeps the derivatives of the powers of an element's dissipation terms, and of the motion that drives it, by one body.
+#[inline(always)]
+fn keep_powers(rows: &[Option<usize>; 3], powers: &Powers, n: usize, jacobian: &mut Partitioned) {
+    for (power, row) in rows.iter().enumerate() {
+        if let Some(row) = row {
+            let (by_position, by_speed) = jacobian.row_mut(*row);
+            let [positions, speeds] = powers.of(power);
+            by_position.copy_from_slice(&positions[..n]);
+            by_speed.copy_from_slice(&speeds[..n]);
+        }
+    }
+}
+
+/// Keeps the derivatives of the rates of internal states by one body.
+#[inline(always)]
+fn keep_rates<E>(
+    mounted: &Mounted<E>,
+    chain: &Chain<'_>,
+    side: usize,
+    free: &FreeBody,
+    jacobian: &mut Partitioned,
+) {
+    let n = free.free.len();
+    let points = mounted.internal_count / 2;
+    for (number, columns) in mounted.rate_tangents.iter().enumerate() {
+        for j in 0..n {
+            let changes = chain.others(side, free, j, columns).map(|change| change.map(|c| c.to_array()));
+            for i in 0..LANES.min(points - LANES * number) {
+                let group = mounted.first_internal / 2 + LANES * number + i;
+                let [g_q, g_u, _] = jacobian.side_mut(group, side);
+                for row in 0..2 {
+                    g_q[row * n + j] = changes[0][row][i];
+                    g_u[row * n + j] = changes[1][row][i];
                 }
             }
-        };
-        let action: Action<Dual<N>>;
-        let drive;
-        if carries {
-            let sight = &mounted.sight;
-            let relative = sight.relative(seeded);
-            action = mounted
-                .element
-                .change(&mounted.points, &relative, &mut keep_rates);
-            let (force, moment) = action.on_body(sight, seeded);
-            load.force += force;
-            load.moment += moment;
-            if let (true, Some(on)) = (mounted.on_free, scene.free_number[mounted.on]) {
-                let kinematics = &scene.kinematics[mounted.on];
-                let (force, moment) = action.reaction(&relative, kinematics, &mounted.mount);
-                let blocks = jacobian.blocks_mut(mounted.pairs[1]);
-                add_rows(kinematics, &scene.free[on].free, n, &force, &moment, blocks);
-            }
-            drive = mounted.driven.then(|| action.drive_power(&relative, sight));
-        } else {
-            let (a, b) = (
-                &scene.frames[mounted.body].motion,
-                &scene.frames[mounted.on].motion,
-            );
-            let sight = Sight::new(&lift_frame(a), &lift_frame(b), seeded, &mounted.mount);
-            let kinematics = &scene.kinematics[mounted.body];
-            let relative = sight.relative(kinematics);
-            action = mounted
-                .element
-                .change(&mounted.points, &relative, &mut keep_rates);
-            let (force, moment) = action.on_body(&sight, kinematics);
-            if let Some(number) = scene.free_number[mounted.body] {
-                let blocks = jacobian.blocks_mut(mounted.pairs[0]);
-                add_rows(kinematics, &scene.free[number].free, n, &force, &moment, blocks);
-            }
-            let (force, moment) = action.reaction(&relative, seeded, &mounted.mount);
-            load.force += force;
-            load.moment += moment;
-            drive = None;
-        }
-        let powers = [Some(action.powers[0]), Some(action.powers[1]), drive];
-        for (row, power) in mounted.rows[side].iter().zip(powers) {
-            if let (Some(row), Some(power)) = (row, power) {
-                let (p_q, p_u) = jacobian.row_mut(*row);
-                p_q.copy_from_slice(&power.derivative[..n]);
-                p_u.copy_from_slice(&power.derivative[n..2 * n]);
-            }
-        }
-    }
-}
-
-/// Adds the derivatives of the generalized forces by the seeded body's `n` positions and speeds to a block pair.
-#[inline(always)]
-fn add_rows<K: Real, const N: usize>(
-    kinematics: &Kinematics<K>,
-    free: &[usize],
-    n: usize,
-    force: &Vector<Dual<N>>,
-    moment: &Vector<Dual<N>>,
-    (stiffness, damping): (&mut [f64], &mut [f64]),
-) where
-    Kinematics<K>: Generalize<Dual<N>>,
-{
-    for (row, &k) in free.iter().enumerate() {
-        let component = kinematics.component(k, force, moment);
-        let (k_row, d_row) = (&mut stiffness[row * n..][..n], &mut damping[row * n..][..n]);
-        for j in 0..n {
-            k_row[j] += component.derivative[j];
-            d_row[j] += component.derivative[n + j];
-        }
-    }
-}
-
-/// Generalized forces of a force and a moment that carry derivatives.
-trait Generalize<S> {
-    fn component(&self, k: usize, force: &Vector<S>, moment: &Vector<S>) -> S;
-}
-
-impl<const N: usize> Generalize<Dual<N>> for Kinematics<Dual<N>> {
-    #[inline(always)]
-    fn component(&self, k: usize, force: &Vector<Dual<N>>, moment: &Vector<Dual<N>>) -> Dual<N> {
-        self.generalized(k, force, moment)
-    }
-}
-
-impl<const N: usize> Generalize<Dual<N>> for Kinematics<f64> {
-    #[inline(always)]
-    fn component(&self, k: usize, force: &Vector<Dual<N>>, moment: &Vector<Dual<N>>) -> Dual<N> {
-        if k < 3 {
-            force.0[k]
-        } else {
-            self.turn.axes[k - 3].dot(*moment)
         }
     }
 }
 
 /// The derivatives by the internal states of a face: of their own rates, of the forces, of the powers.
-fn differentiate_internal(face: &Mounted<ContactFace<Plane>>, scene: &Scene<'_>, jacobian: &mut Partitioned) {
-    let relative: Relative<f64> = face.sight.relative(&scene.kinematics[face.body]);
+pub(super) fn differentiate_internal(
+    face: &Mounted<ContactFace<Plane>>,
+    chain: &Chain<'_>,
+    relative: &Relative<f64>,
+    ends: &[Option<&FreeBody>; 2],
+    jacobian: &mut Partitioned,
+) {
     face.points.internal_slopes(|point, slopes| {
         let group = face.first_internal / 2 + point;
         *jacobian.internal_mut(group) = slopes.rate;
         let row = face.first_internal_row + 2 * point;
         *jacobian.internal_row_mut(row) = slopes.loss;
+        let arm: Vector<f64> = relative.rotation.apply(slopes.place);
         for e in 0..2 {
-            let arm: Vector<f64> = relative.rotation.apply(slopes.place);
-            let action = Action {
-                force: slopes.force[e],
-                moment: arm.cross(slopes.force[e]),
-                powers: [0.0; 2],
-            };
-            let mut keep = |side: usize, number: usize, (force, moment): (Vector<f64>, Vector<f64>)| {
-                let free = &scene.free[number];
-                let kinematics = &scene.kinematics[free.body];
+            let (force, moment) = (slopes.force[e], arm.cross::<f64, f64>(slopes.force[e]));
+            for (side, free) in ends.iter().flatten().enumerate() {
+                let rows = chain.load(side, force, moment);
                 let n = free.free.len();
                 let [_, _, f_t] = jacobian.side_mut(group, side);
-                for (target, &k) in f_t[e * n..][..n].iter_mut().zip(&free.free) {
-                    *target = kinematics.generalized(k, &force, &moment);
+                for (index, target) in f_t[e * n..][..n].iter_mut().enumerate() {
+                    let (part, component) = free.row(index);
+                    *target = rows[part].at(component);
                 }
-            };
-            if let Some(number) = scene.free_number[face.body] {
-                keep(
-                    0,
-                    number,
-                    action.on_body(&face.sight, &scene.kinematics[face.body]),
-                );
-            }
-            if let Some(number) = scene.free_number[face.on] {
-                keep(
-                    1,
-                    number,
-                    action.reaction(&relative, &scene.kinematics[face.on], &face.mount),
-                );
             }
             if face.driven {
-                jacobian.internal_row_mut(row + 1)[e] = action.drive_power(&relative, &face.sight);
+                jacobian.internal_row_mut(row + 1)[e] = face.drive_power(relative, force, moment);
             }
         }
     });
 }
 
-fn lift_frame<const N: usize>(motion: &FrameMotion<f64>) -> FrameMotion<Dual<N>> {
-    FrameMotion {
-        position: Vector::lift(motion.position),
-        rotation: Matrix::lift(motion.rotation),
-        velocity: Vector::lift(motion.velocity),
-        angular_velocity: Vector::lift(motion.angular_velocity),
-        acceleration: Vector::lift(motion.acceleration),
-        angular_acceleration: Vector::lift(motion.angular_acceleration),
+impl<E> Mounted<E> {
+    /// The power that the prescribed motion of the body under the element delivers against a force and a moment about marker A, W.
+    #[inline(always)]
+    pub(super) fn drive_power(&self, relative: &Relative<f64>, force: Vector<f64>, moment: Vector<f64>) -> f64 {
+        let about: Vector<f64> = moment + relative.position.cross::<f64, f64>(force);
+        let sight = &self.sight;
+        sight.mount_velocity.dot::<f64, f64>(force) + sight.mount_angular_velocity.dot::<f64, f64>(about)
+    }
+}
+
+/// The derivatives of the rates of internal states along a change of the relative motion, by point.
+pub(super) fn rates_along(
+    rates: &[Columns],
+    change: &crate::tangent::Change,
+    d_internal: &mut [f64],
+) {
+    for (columns, target) in rates.iter().zip(d_internal.chunks_mut(2 * LANES)) {
+        let [first, second] = columns.along(change).map(|lanes| lanes.to_array());
+        for (i, pair) in target.chunks_exact_mut(2).enumerate() {
+            (pair[0], pair[1]) = (first[i], second[i]);
+        }
     }
 }

@@ -4,6 +4,7 @@
 //! (bristle deflections), and quadratures (work of the prescribed motions, every dissipation). SI units.
 
 mod along;
+mod chain;
 mod drive;
 mod equilibrium;
 mod forces;
@@ -14,7 +15,6 @@ mod modes;
 mod observe;
 mod place;
 mod placer;
-mod rows;
 mod sense;
 mod stiffness;
 mod time;
@@ -22,6 +22,7 @@ mod time;
 use integrate::partitioned::{Layout, Partitioned, Structure};
 use integrate::{KinkSigns, Problem, Singular, SwitchGroup};
 
+use self::jacobian::Gathered;
 use crate::body::{Body, Kinematics, Rigid};
 use crate::coil::Coil;
 use crate::contact::ContactFace;
@@ -87,8 +88,6 @@ struct FreeBody {
     offset: usize,
     /// Its diagonal block in the Jacobian.
     pair: usize,
-    /// Whether all elements on it are plain, and its reference frame stands still.
-    plain: bool,
     /// The faces that touch it, in their order.
     faces: Vec<usize>,
     /// The coils that touch it, in their order.
@@ -143,6 +142,8 @@ pub struct System {
     accelerations: Vec<[f64; 6]>,
     force: Vec<Vector<f64>>,
     moment: Vec<Vector<f64>>,
+    /// What differentiation gathers for each free body.
+    gathered: Vec<Gathered>,
     /// Derivative by time of the force on each body and of the moments about the axes of its angles.
     load_rate: Vec<(Vector<f64>, [f64; 3])>,
     jacobian: Partitioned,

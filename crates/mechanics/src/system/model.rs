@@ -3,17 +3,19 @@
 use integrate::partitioned::{Layout, Partitioned};
 use thiserror::Error;
 
+use super::jacobian::Gathered;
 use super::placer::Placer;
 use super::stiffness::mobility;
 use super::{FrameState, FreeBody, Move, System, is_bristle, scale_of, scales, structure};
 use crate::body::{Body, Kinematics};
 use crate::coil::Coil;
-use crate::contact::{ContactFace, Points, RateResponse};
+use crate::contact::{ContactFace, Points};
 use crate::frame::Frame;
 use crate::friction::FrictionLaw;
-use crate::link::{Mount, Response, Sight, Translation};
+use crate::link::{Mount, Sight, Translation};
 use crate::motion::Motion;
 use crate::surface::Plane;
+use crate::tangent::{Columns, Tangent};
 use crate::vector::Vector;
 
 /// Bodies and the elements between them.
@@ -95,15 +97,13 @@ pub struct Mounted<E> {
     pub(super) points: Points,
     /// What is constant of the sight where the body under the element only translates.
     pub(super) translation: Option<Translation>,
-    /// Whether its neighbour is prescribed and does not turn, nor does the frame of its body: then [`Response`] says it all.
+    /// Whether its neighbour is prescribed and does not turn, nor does the frame of its body.
     pub(super) plain: bool,
-    /// How its effect changed with the motion of its body when it was differentiated last, and its force then (mount axes).
-    pub(super) response: Response,
-    pub(super) force: Vector<f64>,
+    /// Its tangent where it was differentiated last, and that of the rates of its internal states, by four pairs.
+    pub(super) tangent: Tangent,
+    pub(super) rate_tangents: Vec<Columns>,
     /// Bounds of how much a force at each of its points accelerates the point, 1/kg.
     pub(super) mobilities: Vec<f64>,
-    /// The same of the rates of its internal states, by point.
-    pub(super) rate_responses: Vec<RateResponse>,
     /// Coupling blocks (body, on) and (on, body).
     pub(super) pairs: [usize; 2],
     /// Rows of the quadratures (channels, work) by `body` and by `on`.
@@ -173,7 +173,6 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             rigid: body.rigid(),
             offset,
             pair: 0,
-            plain: body.frame.is_fixed(),
             faces: Vec::new(),
             coils: Vec::new(),
         });
@@ -252,14 +251,12 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         mounted.find_pairs(&jacobian, &free_number);
         for number in mounted.touches(&free_number) {
             free[number].faces.push(face);
-            free[number].plain &= mounted.plain;
         }
     }
     for (coil, mounted) in mounted_coils.iter_mut().enumerate() {
         mounted.find_pairs(&jacobian, &free_number);
         for number in mounted.touches(&free_number) {
             free[number].coils.push(coil);
-            free[number].plain &= mounted.plain;
         }
     }
 
@@ -308,6 +305,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         accelerations: vec![[0.0; 6]; bodies.len()],
         force: vec![Vector::zero(); bodies.len()],
         moment: vec![Vector::zero(); bodies.len()],
+        gathered: vec![Gathered::NONE; free.len()],
         load_rate: vec![(Vector::zero(), [0.0; 3]); bodies.len()],
         bodies,
         gravity: Vector(gravity),

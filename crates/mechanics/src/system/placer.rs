@@ -1,13 +1,14 @@
 //! Elements put in their places: what is known of each once the model is.
 
+use integrate::lanes::LANES;
 use integrate::partitioned::Partitioned;
 
 use super::FrameState;
 use super::model::{Channel, ChannelKind, ModelError, Mounted, Parts};
 use crate::body::{Body, Kinematics};
-use crate::contact::{Points, RateResponse};
-use crate::link::{Mount, Response, Sight, Translation};
-use crate::vector::Vector;
+use crate::contact::Points;
+use crate::link::{Mount, Sight, Translation};
+use crate::tangent::{Columns, Tangent};
 
 /// Puts elements in their places.
 pub(super) struct Placer<'m> {
@@ -86,10 +87,9 @@ impl Placer<'_> {
         let moves = !self.frames[on].fixed || !self.frames[body].fixed;
         Ok(Mounted {
             plain: on_number.is_none() && (!moves || translation.is_some()),
-            response: Response::NONE,
-            force: Vector::zero(),
+            tangent: Tangent::NONE,
             mobilities: Vec::new(),
-            rate_responses: vec![RateResponse::default(); pairs],
+            rate_tangents: vec![Columns::NONE; pairs.div_ceil(LANES)],
             translation,
             element,
             points: Points::default(),

@@ -7,7 +7,7 @@ use std::ops::Mul;
 use integrate::scalar::Real;
 
 use super::System;
-use super::forces::Action;
+use crate::tangent::Action;
 use crate::body::Kinematics;
 use crate::frame::FrameMotion;
 use crate::link::{Relative, Sight};

@@ -3,10 +3,12 @@
 use integrate::scalar::Dual;
 
 use super::forces::Element;
+use super::jacobian::rates_along;
 use super::{FrameState, Mounted, System};
 use crate::body::Kinematics;
 use crate::frame::FrameMotion;
 use crate::link::{Relative, Sight};
+use crate::tangent::{Action, Change, combined, force_of, moment_of, sum};
 use crate::vector::{Matrix, Vector};
 
 impl System {
@@ -44,39 +46,14 @@ impl System {
                 self.kinematics[body].about_axes(&-rate_of(&moment)),
             );
         }
-        for face in self.faces.iter().filter(|face| face.moves) {
+        let scene = (&self.frames[..], &self.kinematics[..]);
+        for face in self.faces.iter().filter(|face| face.moves && face.points.are_active()) {
             let rates = &mut d_internal[face.first_internal..][..face.internal_count];
-            let (free, frame) = (self.free_number[face.body], &self.frames[face.on]);
-            if let (true, Some(free)) = (face.plain, free) {
-                // The response of a face that was passed over is an older one.
-                if !face.points.are_active() {
-                    continue;
-                }
-                face.in_time(
-                    &self.free[free],
-                    frame,
-                    &mut self.load_rate[face.body],
-                    d_quadratures,
-                );
-                face.rates_in_time(frame, rates);
-                continue;
-            }
-            let scene = (&self.frames[..], &self.kinematics[..]);
-            time_derivative(face, scene, rates, &mut self.load_rate, d_quadratures);
+            let load_rate = &mut self.load_rate;
+            element_in_time(face, scene, rates, load_rate, d_quadratures);
         }
         for coil in self.coils.iter().filter(|coil| coil.moves) {
-            let (free, frame) = (self.free_number[coil.body], &self.frames[coil.on]);
-            if let (true, Some(free)) = (coil.plain, free) {
-                coil.in_time(
-                    &self.free[free],
-                    frame,
-                    &mut self.load_rate[coil.body],
-                    d_quadratures,
-                );
-                continue;
-            }
-            let scene = (&self.frames[..], &self.kinematics[..]);
-            time_derivative(coil, scene, &mut [], &mut self.load_rate, d_quadratures);
+            element_in_time(coil, scene, &mut [], &mut self.load_rate, d_quadratures);
         }
         for free in &self.free {
             let (force, moments) = &self.load_rate[free.body];
@@ -90,38 +67,48 @@ impl System {
 
 /// The derivative by time of what one element does.
 #[inline(always)]
-fn time_derivative<E: Element>(
+fn element_in_time<E: Element>(
     mounted: &Mounted<E>,
     (frames, kinematics): (&[FrameState], &[Kinematics<f64>]),
     d_internal: &mut [f64],
     load_rate: &mut [(Vector<f64>, [f64; 3])],
     d_quadratures: &mut [f64],
 ) {
+    if let Some(translation) = &mounted.translation {
+        let acceleration = translation.acceleration(frames[mounted.on].jets());
+        let loads = (&kinematics[mounted.body], &mut load_rate[mounted.body]);
+        return translating_in_time(mounted, acceleration, d_internal, loads, d_quadratures);
+    }
     let on = lift_kinematics(&kinematics[mounted.on]);
     let (a, b) = (
         moving(&frames[mounted.body].motion),
         moving(&frames[mounted.on].motion),
     );
     let sight = Sight::new(&a, &b, &on, &mounted.mount);
-    let relative: Relative<Dual<1>> = sight.relative(&kinematics[mounted.body]);
-    let action = mounted
-        .element
-        .change(&mounted.points, &relative, |point, [rate]: [[f64; 2]; 1]| {
-            d_internal[2 * point..2 * point + 2].copy_from_slice(&rate);
-        });
-    let mut add = |body: usize, (force, moment): (Vector<Dual<1>>, Vector<Dual<1>>)| {
-        let (sum, moments) = &mut load_rate[body];
+    let body: Relative<Dual<1>> = sight.relative(&kinematics[mounted.body]);
+    let relative = body.at(mounted.element.marker());
+    let change = Change::of(&relative);
+    rates_along(&mounted.rate_tangents, &change, d_internal);
+    let tangent = &mounted.tangent;
+    let column = tangent.by.along(&change);
+    let action = Action::with_change(tangent, &column);
+    // about the body's origin
+    let arm: Vector<Dual<1>> = body.rotation.apply(mounted.element.marker());
+    let action = Action {
+        moment: action.moment + arm.cross::<Dual<1>, Dual<1>>(action.force),
+        ..action
+    };
+    let mut add = |number: usize, (force, moment): (Vector<Dual<1>>, Vector<Dual<1>>)| {
+        let (sum, moments) = &mut load_rate[number];
         *sum += rate_of(&force);
-        for (sum, moment) in moments
-            .iter_mut()
-            .zip(kinematics[body].about_axes(&rate_of(&moment)))
-        {
+        let about = kinematics[number].about_axes(&rate_of(&moment));
+        for (sum, moment) in moments.iter_mut().zip(about) {
             *sum += moment;
         }
     };
     add(mounted.body, action.on_body(&sight, &kinematics[mounted.body]));
     if mounted.on_free {
-        add(mounted.on, action.reaction(&relative, &on, &mounted.mount));
+        add(mounted.on, action.reaction(&body, &on, &mounted.mount));
     }
     for (channel, power) in mounted.channels.iter().zip(action.powers) {
         if let Some(channel) = channel {
@@ -129,7 +116,47 @@ fn time_derivative<E: Element>(
         }
     }
     if mounted.driven {
-        d_quadratures[0] += action.drive_power(&relative, &sight).derivative[0];
+        d_quadratures[0] += action.drive_power(&body, &sight).derivative[0];
+    }
+}
+
+/// The same where the mount translates with this acceleration of the body's frame, as seen from it.
+#[inline(always)]
+fn translating_in_time<E: Element>(
+    mounted: &Mounted<E>,
+    acceleration: Vector<f64>,
+    d_internal: &mut [f64],
+    (body, (load, moments)): (&Kinematics<f64>, &mut (Vector<f64>, [f64; 3])),
+    d_quadratures: &mut [f64],
+) {
+    let (sight, tangent) = (&mounted.sight, &mounted.tangent);
+    let change = Change {
+        position: sight.velocity,
+        velocity: acceleration,
+        ..Change::NONE
+    };
+    rates_along(&mounted.rate_tangents, &change, d_internal);
+    let column = sum(
+        combined(&tangent.by.position, change.position),
+        combined(&tangent.by.velocity, change.velocity),
+    );
+    let (force, moment) = (force_of(&column), moment_of(&column));
+    let to_frame = |v: Vector<f64>| -> Vector<f64> { sight.rotation.apply_transposed(v) };
+    *load += to_frame(force);
+    let own: Vector<f64> = body.turn.rotation.apply_transposed(to_frame(moment));
+    let force_on_body: Vector<f64> = body.turn.rotation.apply_transposed(to_frame(force));
+    let about = own + mounted.element.marker().cross::<f64, f64>(force_on_body);
+    for (sum, moment) in moments.iter_mut().zip(body.about_axes(&about)) {
+        *sum += moment;
+    }
+    for (channel, part) in mounted.channels.iter().zip(&column) {
+        if let Some(channel) = channel {
+            d_quadratures[*channel] += part.at(3);
+        }
+    }
+    if mounted.driven {
+        let work: f64 = sight.mount_velocity.dot(force);
+        d_quadratures[0] += work - acceleration.dot::<f64, f64>(tangent.force);
     }
 }
 

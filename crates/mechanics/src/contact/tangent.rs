@@ -1,0 +1,101 @@
+//! The tangent of a face: the chain rule of points on a rigid body.
+//!
+//! With a small change d of the body's origin, φ of its rotation, δv and δω of its velocities, all in mount axes, and r from the origin
+//! to a point,
+//!
+//! ```text
+//! δr = φ × r,   δg = (d + δr)·n,   δv_P = δv + δω × r + ω × δr,   δM = r × δF + δr × F
+//! ```
+//!
+//! A plane's forces change neither with a displacement along it nor with one point's friction at another.
+
+use integrate::lanes::Lanes;
+use integrate::scalar::Number;
+
+use super::quads::{OUTPUTS, Points, Slopes};
+use crate::link::Relative;
+use crate::tangent::{Column, Columns, Tangent, sum};
+use crate::vector::Vector;
+
+/// What the law's outputs change by with the velocity of a point.
+#[inline(always)]
+fn by_velocity(slopes: &Slopes, [normal, first, second]: [Lanes; 3], damped: bool, out: &mut [Lanes; OUTPUTS]) {
+    for (o, out) in out.iter_mut().enumerate() {
+        // Neither the normal force nor the loss in contact damping depend on slip.
+        if o != 0 && o != 4 {
+            *out += slopes.by_slip[0][o] * first + slopes.by_slip[1][o] * second;
+        }
+        if damped {
+            *out += slopes.by_rate[o] * normal;
+        }
+    }
+}
+
+impl Points {
+    /// The tangent of a face where its law was differentiated. `rates` receives the derivatives of the rates of internal states, of four
+    /// points at a time: those of the first state of each, and of the second; it is empty where there are none.
+    #[inline(always)]
+    pub fn tangent(&self, relative: &Relative<f64>, rates: &mut [Columns]) -> Tangent {
+        let mut tangent = Tangent::NONE;
+        let spin = relative.angular_velocity;
+        let mut sums = [Lanes::ZERO; 8];
+        for (number, (quad, slopes)) in self.quads.iter().zip(&self.slopes).enumerate() {
+            if !slopes.active {
+                continue;
+            }
+            let damped = quad.grade.damped;
+            let arm: Vector<Lanes> = relative.rotation.apply(quad.position);
+            let [x, y, z] = arm.0;
+            let own = Vector(slopes.force);
+            let ([f0, f1, f2], [m0, m1, m2]) = (own.0, arm.cross::<Lanes, Lanes>(own).0);
+            for (sum, term) in sums.iter_mut().zip([f0, f1, f2, m0, m1, m2]) {
+                *sum += term;
+            }
+            let summed = |out: &[Lanes; OUTPUTS], carried: Vector<Lanes>| -> Column {
+                let force = Vector([out[0], out[1], out[2]]);
+                let moment: Vector<Lanes> = arm.cross::<Lanes, Lanes>(force) + carried;
+                let ([f0, f1, f2], [m0, m1, m2]) = (force.0, moment.0);
+                [
+                    Lanes::sums([f0, f1, f2, out[3]]),
+                    Lanes::sums([m0, m1, m2, out[4]]),
+                ]
+            };
+            // Where internal states have none, what is written for them goes nowhere.
+            let mut nowhere = Columns::NONE;
+            let rate = rates.get_mut(number).unwrap_or(&mut nowhere);
+            let add = |to: &mut Column, rate: &mut Column, out: &[Lanes; OUTPUTS], carried| {
+                let column = summed(out, carried);
+                *to = sum(*to, column);
+                *rate = [out[5], out[6]];
+            };
+            let (zero, none) = (Lanes::ZERO, Vector([Lanes::ZERO; 3]));
+            let by = &mut tangent.by;
+            add(&mut by.position[0], &mut rate.position[0], &slopes.by_gap, none);
+            if damped {
+                add(&mut by.velocity[0], &mut rate.velocity[0], &slopes.by_rate, none);
+            }
+            for (k, by_slip) in slopes.by_slip.iter().enumerate() {
+                add(&mut by.velocity[1 + k], &mut rate.velocity[1 + k], by_slip, none);
+            }
+            // e_k × r
+            let turned = [[zero, -z, y], [z, zero, -x], [-y, x, zero]];
+            for (k, moved) in turned.into_iter().enumerate() {
+                let moved = Vector(moved);
+                let mut out = slopes.by_gap.map(|by| by * moved.0[0]);
+                let carried: Vector<Lanes> = spin.cross(moved);
+                by_velocity(slopes, carried.0, damped, &mut out);
+                add(&mut by.rotation[k], &mut rate.rotation[k], &out, moved.cross(own));
+                let mut out = [zero; OUTPUTS];
+                by_velocity(slopes, moved.0, damped, &mut out);
+                let (by, rate) = (&mut by.angular_velocity[k], &mut rate.angular_velocity[k]);
+                add(by, rate, &out, none);
+            }
+        }
+        let [f0, f1, f2, m0, m1, m2, ..] = sums;
+        let [f0, f1, f2, m0] = Lanes::sums([f0, f1, f2, m0]).to_array();
+        let [m1, m2, ..] = Lanes::sums([m1, m2, Lanes::zero(), Lanes::zero()]).to_array();
+        tangent.force = Vector([f0, f1, f2]);
+        tangent.moment = Vector([m0, m1, m2]);
+        tangent
+    }
+}

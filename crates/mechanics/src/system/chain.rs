@@ -1,0 +1,390 @@
+//! What the coordinates of a body do to the relative motion at an element, and what becomes of its wrench at both bodies: the part of the
+//! Jacobian that all elements share.
+//!
+//! Marker A is on body a at `arm` from its origin, D leads from the origin of body b to it, everything along the axes of marker B (the
+//! mount). c are the axes of a body's reference frame, α and β those of the angles of a and b, and δω is what an angular velocity changes
+//! by at fixed rates of the angles. v and ω are the relative velocities, s the angular velocity of b in its frame, Ω that of the frame of
+//! a relative to b:
+//!
+//! ```text
+//!                     δd        φ    δv                          δω
+//! position of a       c         0    Ω × c                       0
+//! angle of a          α × arm   α    δω × arm + ω × (α × arm)    δω
+//! rate of a                          c; α × arm                  0; α
+//! position of b       -c        0    s × c                       0
+//! angle of b          -β × D    -β   -β × v - δω × D             -β × ω - δω
+//! rate of b                          -c; -β × D                  0; -β
+//! ```
+//!
+//! The wrench (F, M) acts on a as the force F and the moment `M + arm × F` about its origin, on b as -F and `-(M + D × F)`; with b the
+//! axes turn along which it is given.
+
+use integrate::lanes::Lanes;
+
+use super::{FreeBody, Mounted};
+use crate::body::Kinematics;
+use crate::link::{Relative, Turning};
+use crate::tangent::{Change, Column, Columns, Tangent, combined, force_of, moment_of};
+use crate::vector::{Matrix, Vector};
+
+/// The rows of a generalized force at a body: of its translations (axes of its reference frame), and of its free angles.
+pub(super) type Rows = [Lanes; 2];
+
+/// The derivatives of the load on a body by coordinates (first) and by their rates.
+pub(super) type Block = [[Rows; 6]; 2];
+
+/// No derivatives.
+pub(super) const NO_BLOCK: Block = [[[Lanes::ZERO; 2]; 6]; 2];
+
+/// Adds a block to the blocks of a body by the `n` coordinates of another or of itself.
+#[inline(always)]
+pub(super) fn add_block(block: &Block, free: &FreeBody, n: usize, (stiffness, damping): (&mut [f64], &mut [f64])) {
+    for row in 0..free.free.len() {
+        let (part, component) = free.row(row);
+        for (target, columns) in [&mut *stiffness, &mut *damping].into_iter().zip(block) {
+            for (entry, column) in target[row * n..][..n].iter_mut().zip(columns) {
+                *entry += column[part].at(component);
+            }
+        }
+    }
+}
+
+impl FreeBody {
+    /// Where the row of a free coordinate stands in [`Rows`].
+    #[inline(always)]
+    pub(super) fn row(&self, index: usize) -> (usize, usize) {
+        if index < self.translations {
+            (0, self.free[index])
+        } else {
+            (1, index - self.translations)
+        }
+    }
+
+    /// How many angles are free.
+    #[inline(always)]
+    pub(super) fn angles(&self) -> usize {
+        self.free.len() - self.translations
+    }
+}
+
+/// What becomes of a vector along the axes of a marker: up to four components along others.
+#[derive(Clone, Copy)]
+struct Projection([Lanes; 3]);
+
+impl Projection {
+    /// Components along these directions (marker axes).
+    #[inline(always)]
+    fn new(directions: [Vector<f64>; 4]) -> Self {
+        let component = |i: usize| Lanes::new(std::array::from_fn(|k| directions[k].0[i]));
+        Self([component(0), component(1), component(2)])
+    }
+
+    #[inline(always)]
+    fn of(&self, v: Vector<f64>) -> Lanes {
+        let [x, y, z] = v.0;
+        self.0[0] * x + self.0[1] * y + self.0[2] * z
+    }
+}
+
+/// What the coordinates of the body at one end do to the relative motion.
+struct End {
+    /// Positions change d by this, and their rates v.
+    ways: [Vector<f64>; 3],
+    /// What positions change v by, if anything.
+    carried: Option<[Vector<f64>; 3]>,
+    angles: [Change; 3],
+    /// Rates of the angles change v and ω by this.
+    swings: [[Vector<f64>; 2]; 3],
+    /// Whether they change v.
+    swing: bool,
+    /// The axes of the body's reference frame (with a fourth direction), and of its free angles.
+    along: Projection,
+    about: Projection,
+    axes: [Vector<f64>; 3],
+}
+
+impl End {
+    #[inline(always)]
+    fn by_position(&self, free: &FreeBody, index: usize, columns: &Columns) -> Column {
+        match free.row(index) {
+            (0, k) => {
+                let own = combined(&columns.position, self.ways[k]);
+                match &self.carried {
+                    None => own,
+                    Some(carried) => crate::tangent::sum(own, combined(&columns.velocity, carried[k])),
+                }
+            }
+            (_, l) => columns.along(&self.angles[l]),
+        }
+    }
+
+    #[inline(always)]
+    fn by_rate(&self, free: &FreeBody, index: usize, columns: &Columns) -> Column {
+        match free.row(index) {
+            (0, k) => combined(&columns.velocity, self.ways[k]),
+            (_, l) => {
+                let [velocity, spin] = self.swings[l];
+                let own = combined(&columns.angular_velocity, spin);
+                if self.swing {
+                    crate::tangent::sum(own, combined(&columns.velocity, velocity))
+                } else {
+                    own
+                }
+            }
+        }
+    }
+
+    /// The rows of a force and a moment about the body's origin (marker axes).
+    #[inline(always)]
+    fn rows(&self, force: Vector<f64>, moment: Vector<f64>) -> Rows {
+        [self.along.of(force), self.about.of(moment)]
+    }
+}
+
+/// An element with its tangent, its relative motion, and the two ends.
+pub(super) struct Chain<'c> {
+    tangent: &'c Tangent,
+    /// Marker A from the origins of the two bodies.
+    arm: Vector<f64>,
+    reach: Vector<f64>,
+    /// Angular velocity of a mount that turns, and marker A from it.
+    spin: Option<(Vector<f64>, Vector<f64>)>,
+    a: End,
+    b: Option<End>,
+}
+
+fn cross(a: Vector<f64>, b: Vector<f64>) -> Vector<f64> {
+    a.cross(b)
+}
+
+impl<'c> Chain<'c> {
+    /// The chain of an element; `arm` leads from the origin of body a to marker A in the axes of the mount, `relative` is the motion of
+    /// marker A.
+    #[inline(always)]
+    pub fn new<E>(
+        mounted: &'c Mounted<E>,
+        relative: &Relative<f64>,
+        arm: Vector<f64>,
+        [a, b]: [&Turning; 2],
+        on: &Kinematics<f64>,
+    ) -> Self {
+        let sight = &mounted.sight;
+        let to_mount = |v: Vector<f64>| -> Vector<f64> { relative.rotation.apply(v) };
+        let ways = [0, 1, 2].map(|k| sight.rotation.column(k));
+        let spins = sight.angular_velocity != Vector::zero();
+        let swing = arm != Vector::zero();
+        let axes = a.axes.map(to_mount);
+        let mut angles = [Change::NONE; 3];
+        let mut swings = [[Vector::zero(); 2]; 3];
+        for (l, axis) in axes.iter().enumerate() {
+            let drift = to_mount(cross(a.axes[l], a.spin) + a.drifts[l]);
+            let mut change = Change {
+                rotation: *axis,
+                angular_velocity: drift,
+                ..Change::NONE
+            };
+            if swing {
+                change.position = cross(*axis, arm);
+                change.velocity = cross(drift, arm) + cross(relative.angular_velocity, change.position);
+            }
+            swings[l] = [change.position, *axis];
+            angles[l] = change;
+        }
+        let end_a = End {
+            carried: spins.then(|| ways.map(|way| cross(sight.angular_velocity, way))),
+            along: Projection::new([ways[0], ways[1], ways[2], sight.mount_velocity]),
+            about: Projection::new([axes[0], axes[1], axes[2], Vector::zero()]),
+            ways,
+            angles,
+            swings,
+            swing,
+            axes,
+        };
+        let seat: Vector<f64> = mounted.mount.rotation.apply_transposed(mounted.mount.origin);
+        let reach = relative.position + seat;
+        let end_b = mounted.on_free.then(|| {
+            let to_frame: Matrix<f64> = on.turn.rotation.times(mounted.mount.rotation);
+            let to_mount = |v: Vector<f64>| -> Vector<f64> { mounted.mount.rotation.apply_transposed(v) };
+            let spin = to_mount(b.spin);
+            let directions = to_frame.0.map(Vector);
+            let axes = b.axes.map(to_mount);
+            let mut angles = [Change::NONE; 3];
+            let mut swings = [[Vector::zero(); 2]; 3];
+            for (l, axis) in axes.iter().enumerate() {
+                let drift = to_mount(cross(b.axes[l], b.spin) + b.drifts[l]);
+                let moved = -cross(*axis, reach);
+                angles[l] = Change {
+                    position: moved,
+                    rotation: -*axis,
+                    velocity: -cross(*axis, relative.velocity) - cross(drift, reach),
+                    angular_velocity: -cross(*axis, relative.angular_velocity) - drift,
+                };
+                swings[l] = [moved, -*axis];
+            }
+            let [x, y, z] = directions;
+            End {
+                ways: directions.map(|way| -way),
+                carried: Some(directions.map(|way| cross(spin, way))),
+                angles,
+                swings,
+                swing: true,
+                along: Projection::new([x, y, z, Vector::zero()]),
+                about: Projection::new([axes[0], axes[1], axes[2], Vector::zero()]),
+                axes,
+            }
+        });
+        Self {
+            tangent: &mounted.tangent,
+            arm,
+            reach,
+            spin: (mounted.driven && mounted.translation.is_none())
+                .then_some((sight.mount_angular_velocity, relative.position)),
+            a: end_a,
+            b: end_b,
+        }
+    }
+
+    /// The moment about the origin of body a of a force and a moment about marker A.
+    #[inline(always)]
+    fn about_a(&self, force: Vector<f64>, moment: Vector<f64>) -> Vector<f64> {
+        if self.a.swing {
+            moment + cross(self.arm, force)
+        } else {
+            moment
+        }
+    }
+
+    /// The moment on body a about its origin, marker axes.
+    pub fn moment_on_a(&self) -> Vector<f64> {
+        self.about_a(self.tangent.force, self.tangent.moment)
+    }
+
+    /// The moment on body b about its origin, marker axes.
+    pub fn moment_on_b(&self) -> Vector<f64> {
+        -(self.tangent.moment + cross(self.reach, self.tangent.force))
+    }
+
+    /// The derivatives by the coordinates of body a: of the load on it, added to `own`; of that on body b, added to `other`; and of the
+    /// powers of the element and of a mount that translates.
+    #[inline(always)]
+    pub fn by_a(&self, free: &FreeBody, own: &mut Block, other: &mut Block, powers: &mut Powers) {
+        let (force, moment) = (self.tangent.force, self.moment_on_a());
+        for j in 0..free.free.len() {
+            let column = self.a.by_position(free, j, &self.tangent.by);
+            let (df, dm) = (force_of(&column), moment_of(&column));
+            let mut about = self.about_a(df, dm);
+            let moved = match free.row(j) {
+                (0, k) => self.a.ways[k],
+                (_, l) => {
+                    let change = &self.a.angles[l];
+                    if self.a.swing {
+                        about += cross(change.position, force);
+                    }
+                    about = about - cross(self.a.axes[l], moment);
+                    change.position
+                }
+            };
+            let rate = self.a.by_rate(free, j, &self.tangent.by);
+            let (rf, rm) = (force_of(&rate), moment_of(&rate));
+            let rows = [self.a.rows(df, about), self.a.rows(rf, self.about_a(rf, rm))];
+            let mut driven = [rows[0][0].at(3), rows[1][0].at(3)];
+            if let Some((spin, place)) = self.spin {
+                let by_position = dm + cross(moved, force) + cross(place, df);
+                driven[0] += spin.dot::<f64, f64>(by_position);
+                driven[1] += spin.dot::<f64, f64>(rm + cross(place, rf));
+            }
+            powers.keep(j, [&column, &rate], driven);
+            for (block, rows) in own.iter_mut().zip(rows) {
+                add(&mut block[j], rows);
+            }
+            if let Some(b) = &self.b {
+                let on_b = dm + cross(moved, force) + cross(self.reach, df);
+                add(&mut other[0][j], b.rows(-df, -on_b));
+                add(&mut other[1][j], b.rows(-rf, -(rm + cross(self.reach, rf))));
+            }
+        }
+    }
+
+    /// The derivatives by the coordinates of body b: of the load on it, added to `own`; of that on body a, added to `other`; and of the
+    /// powers.
+    #[inline(always)]
+    pub fn by_b(&self, free: &FreeBody, own: &mut Block, other: &mut Block, powers: &mut Powers) {
+        let Some(b) = &self.b else {
+            return;
+        };
+        let (force, moment) = (self.tangent.force, self.tangent.moment);
+        for j in 0..free.free.len() {
+            let column = b.by_position(free, j, &self.tangent.by);
+            let (df, dm) = (force_of(&column), moment_of(&column));
+            let (mut turned_force, mut turned_moment) = (df, dm);
+            let moved = match free.row(j) {
+                (0, k) => b.ways[k],
+                (_, l) => {
+                    turned_force += cross(b.axes[l], force);
+                    turned_moment += cross(b.axes[l], moment);
+                    b.angles[l].position
+                }
+            };
+            let on_b = dm + cross(moved, force) + cross(self.reach, df);
+            add(&mut own[0][j], b.rows(-turned_force, -on_b));
+            let on_a = self.about_a(turned_force, turned_moment);
+            add(&mut other[0][j], self.a.rows(turned_force, on_a));
+            let rate = b.by_rate(free, j, &self.tangent.by);
+            let (rf, rm) = (force_of(&rate), moment_of(&rate));
+            add(&mut own[1][j], b.rows(-rf, -(rm + cross(self.reach, rf))));
+            add(&mut other[1][j], self.a.rows(rf, self.about_a(rf, rm)));
+            powers.keep(j, [&column, &rate], [0.0; 2]);
+        }
+    }
+
+    /// The derivatives of other quantities by position and rate of coordinate `index` of the body at an end.
+    #[inline(always)]
+    pub fn others(&self, side: usize, free: &FreeBody, index: usize, columns: &Columns) -> [Column; 2] {
+        let end = match &self.b {
+            Some(b) if side == 1 => b,
+            _ => &self.a,
+        };
+        [
+            end.by_position(free, index, columns),
+            end.by_rate(free, index, columns),
+        ]
+    }
+
+    /// The rows of a force and a moment about marker A at the body at an end.
+    #[inline(always)]
+    pub fn load(&self, side: usize, force: Vector<f64>, moment: Vector<f64>) -> Rows {
+        match &self.b {
+            Some(b) if side == 1 => b.rows(-force, -(moment + cross(self.reach, force))),
+            _ => self.a.rows(force, self.about_a(force, moment)),
+        }
+    }
+}
+
+/// Derivatives of the powers of an element and of the motion that drives its mount, by coordinates (first) and rates.
+pub(super) struct Powers([[[f64; 6]; 3]; 2]);
+
+impl Powers {
+    /// None.
+    pub const NONE: Self = Self([[[0.0; 6]; 3]; 2]);
+
+    #[inline(always)]
+    fn keep(&mut self, j: usize, columns: [&Column; 2], driven: [f64; 2]) {
+        for ((own, column), driven) in self.0.iter_mut().zip(columns).zip(driven) {
+            own[0][j] = column[0].at(3);
+            own[1][j] = column[1].at(3);
+            own[2][j] = driven;
+        }
+    }
+
+    /// By coordinates and by rates, for the power with this number.
+    #[inline(always)]
+    pub fn of(&self, power: usize) -> [&[f64; 6]; 2] {
+        [&self.0[0][power], &self.0[1][power]]
+    }
+}
+
+#[inline(always)]
+fn add(sum: &mut Rows, term: Rows) {
+    sum[0] += term[0];
+    sum[1] += term[1];
+}

@@ -1,0 +1,248 @@
+//! The tangent of a force element: how its wrench changes with the relative motion of the markers at its ends.
+//!
+//! With χ = (d, φ) the relative position and rotation of marker A seen from marker B, χ˙ = (v, ω) the relative twist, all in the axes of B,
+//! and (F, M) the wrench on A, the tangent holds the columns of `∂(F, M, powers)/∂(d, φ, v, ω)`: stiffness and damping, but for their
+//! signs. φ is a small rotation in addition to R: `δR = φ × R`. What the coordinates of the two bodies do to the relative motion is the
+//! same for all elements ([`crate::system`]); so an element states one function over any scalar, and its derivatives come from
+//! [`Tangent::of`].
+
+use integrate::lanes::Lanes;
+use integrate::scalar::{Dual, Real};
+
+use crate::link::Relative;
+use crate::vector::{Matrix, Vector};
+
+/// The wrench of an element on the body that it carries.
+#[derive(Clone, Copy, Debug)]
+pub struct Action<S> {
+    /// Force, axes of marker B, N.
+    pub force: Vector<S>,
+    /// Moment about marker A, axes of marker B, N·m.
+    pub moment: Vector<S>,
+    /// Powers of the element's dissipation terms, W.
+    pub powers: [S; 2],
+}
+
+impl Action<Dual<1>> {
+    /// The wrench of a tangent with a change as its derivative; the powers have no value.
+    #[inline(always)]
+    pub(crate) fn with_change(tangent: &Tangent, change: &Column) -> Self {
+        let [[fx, fy, fz, first], [mx, my, mz, second]] = change.map(Lanes::to_array);
+        let dual = |value: f64, derivative: f64| Dual {
+            value,
+            derivative: [derivative],
+        };
+        let with = |v: Vector<f64>, change: [f64; 3]| Vector([0, 1, 2].map(|i| dual(v.0[i], change[i])));
+        Self {
+            force: with(tangent.force, [fx, fy, fz]),
+            moment: with(tangent.moment, [mx, my, mz]),
+            powers: [dual(0.0, first), dual(0.0, second)],
+        }
+    }
+}
+
+/// A change of eight quantities: of a wrench those of force and first power, moment and second power.
+pub(crate) type Column = [Lanes; 2];
+
+/// No change.
+pub(crate) const NO_CHANGE: Column = [Lanes::ZERO; 2];
+
+/// A small change of a relative motion, axes of marker B.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Change {
+    /// Of the position d.
+    pub position: Vector<f64>,
+    /// The small rotation φ.
+    pub rotation: Vector<f64>,
+    /// Of the velocity v.
+    pub velocity: Vector<f64>,
+    /// Of the angular velocity ω.
+    pub angular_velocity: Vector<f64>,
+}
+
+/// Derivatives of up to eight quantities by the relative motion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Columns {
+    /// By the position d.
+    pub position: [Column; 3],
+    /// By the rotation φ.
+    pub rotation: [Column; 3],
+    /// By the velocity v.
+    pub velocity: [Column; 3],
+    /// By the angular velocity ω.
+    pub angular_velocity: [Column; 3],
+}
+
+/// The wrench of an element, and its derivatives and those of its powers by the relative motion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tangent {
+    /// Force, N.
+    pub force: Vector<f64>,
+    /// Moment about marker A, N·m.
+    pub moment: Vector<f64>,
+    /// The derivatives.
+    pub by: Columns,
+}
+
+/// On what a wrench depends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inputs {
+    /// Position and velocity of marker A alone: a force between two points.
+    Points,
+    /// All of the relative motion.
+    Motion,
+}
+
+/// `Σ_i weights_i columns_i`.
+#[inline(always)]
+pub(crate) fn combined(columns: &[Column; 3], weights: Vector<f64>) -> Column {
+    let [x, y, z] = weights.0;
+    [0, 1].map(|o| columns[0][o] * x + columns[1][o] * y + columns[2][o] * z)
+}
+
+/// The sum of two changes.
+#[inline(always)]
+pub(crate) fn sum(a: Column, b: Column) -> Column {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+/// The force of a column.
+#[inline(always)]
+pub(crate) fn force_of(column: &Column) -> Vector<f64> {
+    let [x, y, z, _] = column[0].to_array();
+    Vector([x, y, z])
+}
+
+/// The moment of a column.
+#[inline(always)]
+pub(crate) fn moment_of(column: &Column) -> Vector<f64> {
+    let [x, y, z, _] = column[1].to_array();
+    Vector([x, y, z])
+}
+
+impl Tangent {
+    /// No wrench, and none near.
+    pub const NONE: Self = Self {
+        force: Vector([0.0; 3]),
+        moment: Vector([0.0; 3]),
+        by: Columns::NONE,
+    };
+
+    /// The tangent of a law that is written over any scalar.
+    #[inline(always)]
+    pub fn of(inputs: Inputs, relative: &Relative<f64>, law: &impl Law) -> Self {
+        match inputs {
+            Inputs::Points => Self::seeded::<6>(relative, law),
+            Inputs::Motion => Self::seeded::<12>(relative, law),
+        }
+    }
+
+    /// The tangent by numbers with `N` derivatives: by position and velocity, and from 12 on by rotation and angular velocity.
+    #[inline(always)]
+    fn seeded<const N: usize>(relative: &Relative<f64>, law: &impl Law) -> Self {
+        let seed = |vector: Vector<f64>, first: usize| {
+            Vector(std::array::from_fn(|i| Dual::<N>::variable(vector.0[i], first + i)))
+        };
+        let mut rotation = Matrix::<Dual<N>>::lift(relative.rotation);
+        let mut angular_velocity = Vector::lift(relative.angular_velocity);
+        if N == 12 {
+            angular_velocity = seed(relative.angular_velocity, 9);
+            for j in 0..3 {
+                let [x, y, z] = relative.rotation.column(j).0;
+                // e_k × column, for the three axes
+                for (k, moved) in [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]].into_iter().enumerate() {
+                    for (i, moved) in moved.into_iter().enumerate() {
+                        rotation.0[i][j].derivative[6 + k] = moved;
+                    }
+                }
+            }
+        }
+        let action = law.wrench(&Relative {
+            position: seed(relative.position, 0),
+            rotation,
+            velocity: seed(relative.velocity, 3),
+            angular_velocity,
+        });
+        let mut tangent = Self {
+            force: action.force.value(),
+            moment: action.moment.value(),
+            ..Self::NONE
+        };
+        let column = |k: usize| {
+            let lanes = |v: &Vector<Dual<N>>, power: &Dual<N>| {
+                let [x, y, z] = &v.0;
+                Lanes::new([x, y, z, power].map(|value| value.derivative[k]))
+            };
+            [
+                lanes(&action.force, &action.powers[0]),
+                lanes(&action.moment, &action.powers[1]),
+            ]
+        };
+        for k in 0..3 {
+            tangent.by.position[k] = column(k);
+            tangent.by.velocity[k] = column(3 + k);
+            if N == 12 {
+                tangent.by.rotation[k] = column(6 + k);
+                tangent.by.angular_velocity[k] = column(9 + k);
+            }
+        }
+        tangent
+    }
+}
+
+impl Columns {
+    /// No derivatives.
+    pub const NONE: Self = Self {
+        position: [NO_CHANGE; 3],
+        rotation: [NO_CHANGE; 3],
+        velocity: [NO_CHANGE; 3],
+        angular_velocity: [NO_CHANGE; 3],
+    };
+
+    /// The change along a change of the relative motion.
+    #[inline(always)]
+    pub fn along(&self, change: &Change) -> Column {
+        sum(
+            sum(
+                combined(&self.position, change.position),
+                combined(&self.rotation, change.rotation),
+            ),
+            sum(
+                combined(&self.velocity, change.velocity),
+                combined(&self.angular_velocity, change.angular_velocity),
+            ),
+        )
+    }
+}
+
+/// The law of an element, for any scalar.
+pub(crate) trait Law {
+    /// The wrench at a relative motion.
+    fn wrench<S: Real>(&self, relative: &Relative<S>) -> Action<S>;
+}
+
+impl Change {
+    /// No change.
+    pub const NONE: Self = Self {
+        position: Vector([0.0; 3]),
+        rotation: Vector([0.0; 3]),
+        velocity: Vector([0.0; 3]),
+        angular_velocity: Vector([0.0; 3]),
+    };
+
+    /// The change that a relative motion carries as its only derivative.
+    pub fn of(relative: &Relative<Dual<1>>) -> Self {
+        let part = |v: &Vector<Dual<1>>| Vector([0, 1, 2].map(|i| v.0[i].derivative[0]));
+        let Matrix(r) = &relative.rotation;
+        // δR Rᵀ is the skew matrix of φ.
+        let entry = |i: usize, j: usize| -> f64 {
+            (0..3).map(|k| r[i][k].derivative[0] * r[j][k].value).sum()
+        };
+        Self {
+            position: part(&relative.position),
+            rotation: Vector([entry(2, 1), entry(0, 2), entry(1, 0)]),
+            velocity: part(&relative.velocity),
+            angular_velocity: part(&relative.angular_velocity),
+        }
+    }
+}
