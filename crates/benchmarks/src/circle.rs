@@ -382,8 +382,8 @@ pub fn on_core(coordinates: Coordinates) -> Result<(System, Vec<f64>), String> {
     let model = Model {
         bodies: vec![Body::prescribed("guide", guide), body],
         gravity: [0.0; 3],
-        faces: Vec::new(),
         coils,
+        ..Model::default()
     };
     let system = System::new(model).map_err(|error| error.to_string())?;
     let mut x = system.initial_state();

@@ -10,7 +10,7 @@ pub mod wedges;
 use std::hint::black_box;
 
 use integrate::Problem;
-use mechanics::small::System;
+use mechanics::system::System;
 use mechanics::system::Observation;
 use nucars::truck::Choices;
 use rustix::time::{ClockId, clock_gettime};

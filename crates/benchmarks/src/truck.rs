@@ -133,6 +133,7 @@ impl Rig {
             gravity: [0.0, 0.0, -GRAVITY],
             faces: Vec::new(),
             coils: Vec::new(),
+            ..Model::default()
         };
         for (number, side) in [1.0, -1.0].into_iter().enumerate() {
             let side_frame = SIDE_FRAMES + number;
@@ -303,6 +304,7 @@ fn free_body(name: &str, weight: f64, inertia: [f64; 3], place: [f64; 3]) -> Bod
         frame: Frame::fixed(inches(place), [0.0; 3]),
         free: [true; 6],
         initial: [0.0; 6],
+        linearized: false,
     }
 }
 

@@ -180,6 +180,7 @@ fn empty(one: &Wedge) -> Model {
         gravity: [0.0, 0.0, -one.parameters.gravity],
         faces: Vec::new(),
         coils: Vec::new(),
+        ..Model::default()
     }
 }
 
@@ -202,6 +203,7 @@ fn free_body(name: &str, origin: [f64; 3]) -> Body {
         frame: Frame::fixed(origin, [0.0; 3]),
         free: [true, false, true, false, true, true],
         initial: [0.0; 6],
+        linearized: false,
     }
 }
 

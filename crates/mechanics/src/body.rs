@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::frame::{Frame, FrameMotion};
 use crate::link::Turning;
+use crate::motion::Motion;
 use crate::turn::Turn;
 use crate::vector::{Matrix, Vector};
 
@@ -40,6 +41,11 @@ pub struct Body {
     pub free: [bool; 6],
     /// The values of all coordinates at the start; held coordinates keep them. m, rad.
     pub initial: [f64; 6],
+    /// Whether its kinematics are linearized: displacements of its centre of gravity and small rotations about x, y, z, along the axes of a
+    /// frame at rest; no gyroscopic terms. Only [`crate::connection`]s act on such a body. If it is prescribed, its frame's motions are its
+    /// coordinates.
+    #[serde(default)]
+    pub linearized: bool,
 }
 
 impl Body {
@@ -54,7 +60,57 @@ impl Body {
             frame,
             free: [false; 6],
             initial: [0.0; 6],
+            linearized: false,
         }
+    }
+
+    /// A body with linearized kinematics: its centre of gravity in the drawn layout (m), which coordinates are free, mass (kg) and principal
+    /// moments of inertia (kg·m²). The other coordinates stay at zero.
+    #[must_use]
+    pub fn linearized(
+        name: &str,
+        center_of_gravity: [f64; 3],
+        free: [bool; 6],
+        mass: f64,
+        inertia: [f64; 3],
+    ) -> Self {
+        Self {
+            mass,
+            inertia,
+            free,
+            linearized: true,
+            ..Self::prescribed(name, Frame::fixed(center_of_gravity, [0.0; 3]))
+        }
+    }
+
+    /// A body with linearized kinematics and prescribed motions of its centre of gravity (x, y, z, m) and of its rotations (roll, pitch,
+    /// yaw, rad) from the drawn layout.
+    #[must_use]
+    pub fn linearized_prescribed(name: &str, center_of_gravity: [f64; 3], motions: [Motion; 6]) -> Self {
+        let mut frame = Frame::fixed(center_of_gravity, [0.0; 3]);
+        frame.motions = motions;
+        Self {
+            linearized: true,
+            ..Self::prescribed(name, frame)
+        }
+    }
+
+    /// A body with linearized kinematics that does not move, at the origin.
+    #[must_use]
+    pub fn ground() -> Self {
+        Self::linearized("ground", [0.0; 3], [false; 6], 0.0, [0.0; 3])
+    }
+
+    /// Whether no coordinate is free.
+    #[must_use]
+    pub fn is_prescribed(&self) -> bool {
+        !self.free.contains(&true)
+    }
+
+    /// Whether it is prescribed and moves.
+    #[must_use]
+    pub fn is_driven(&self) -> bool {
+        self.is_prescribed() && !self.frame.is_fixed()
     }
 
     /// How many coordinates are free.

@@ -33,7 +33,7 @@ pub struct ContactPoint {
 }
 
 /// Points on one body that meet a surface of another.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ContactFace<F> {
     /// The face's name, as in results: `column`, `slope`.
     pub name: String,

@@ -430,6 +430,7 @@ fn elements_between_bodies() {
         let sines_of = |of_b: bool| if (case % 2 == 0) == of_b { sines } else { STILL };
         let base = Body {
             initial: [0.1, -0.2, 0.3, 0.2, 0.1, -0.3],
+            linearized: false,
             ..Body::prescribed("base", driven)
         };
         let gravity = random.vector(10.0);

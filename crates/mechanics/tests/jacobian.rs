@@ -325,6 +325,7 @@ fn one_on_driven(free: [bool; 6], law: FrictionLaw, damping: f64, frame: Frame, 
     one.frame = Frame::fixed([0.02, 0.03, 0.0], [0.1, 0.05, -0.1]);
     let base = Body {
         initial: [0.1, 0.05, -0.1, 0.05, -0.05, 0.1],
+        linearized: false,
         ..Body::prescribed("base", frame)
     };
     let mut model = model(vec![one, base, ground()], [0.3, 0.1, -9.8]);

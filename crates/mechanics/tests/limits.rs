@@ -13,7 +13,7 @@ use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
 use mechanics::link::Mount;
 use mechanics::motion::{Motion, RampProfile};
-use mechanics::system::{ChannelKind, Mode, Model, System};
+use mechanics::system::{ChannelKind, Mode, Model, StaticFriction, System};
 use mechanics::vector::Vector;
 
 // Mass on a spring with Coulomb friction
@@ -218,7 +218,7 @@ fn equilibrium_on_springs() {
     let mut system = System::new(model).unwrap();
     let mut x = system.initial_state();
     x[2] = -1e-5;
-    let rest = system.equilibrium(0.0, &x).unwrap();
+    let rest = system.equilibrium(0.0, &x, StaticFriction::Without).unwrap();
     let weight = 20.0 * 9.81;
     let seen = system.observe(0.0, &rest);
     let normals: Vec<f64> = seen.faces[0].points.iter().map(|point| point.normal).collect();
@@ -244,7 +244,7 @@ fn no_equilibrium_in_free_fall() {
     ))
     .unwrap();
     let x = system.initial_state();
-    let error = system.equilibrium(0.0, &x).unwrap_err();
+    let error = system.equilibrium(0.0, &x, StaticFriction::Without).unwrap_err();
     assert_eq!((error.body.as_str(), error.coordinate), ("stone", "z"));
     assert!((error.acceleration + 9.81).abs() < 1e-12);
 }

@@ -224,6 +224,7 @@ impl Problem {
             frame: Frame::fixed([0.0; 3], [0.0; 3]),
             free: [free, false, false, false, false, false],
             initial,
+            linearized: false,
         };
         let floor = ContactFace {
             name: "floor".to_owned(),
@@ -253,6 +254,7 @@ impl Problem {
             gravity: [0.0, 0.0, -gravity],
             faces: vec![(0, 1, Mount::new([0.0; 3], upwards), floor)],
             coils: vec![(0, 1, Mount::new([-1.0, 0.0, sunk], [0.0; 3]), spring)],
+            ..Model::default()
         };
         let system = System::new(model).map_err(|error| error.to_string())?;
         Ok(Self {

@@ -27,7 +27,7 @@
 
 use std::io::{self, Write};
 
-use mechanics::small::{Accumulator, Law};
+use mechanics::connection::{Accumulator, Law};
 use quantity::{Kind, System as Units};
 use study::truck::{TruckCase, TruckResult, yaw};
 

@@ -18,7 +18,7 @@ use mechanics::friction::FrictionLaw;
 use mechanics::link::Mount;
 use mechanics::motion::Motion;
 use mechanics::surface::Plane;
-use mechanics::system::{Model, ModelError, NoEquilibrium, System};
+use mechanics::system::{Model, ModelError, NoEquilibrium, StaticFriction, System};
 use mechanics::vector::Vector;
 use thiserror::Error;
 
@@ -79,7 +79,7 @@ impl Wedge {
         let mut initial_state = system.initial_state();
         if parameters.start == Start::Equilibrium {
             let mut still = System::new(model(&held(&parameters), shifts))?;
-            let rest = still.equilibrium(0.0, &still.initial_state())?;
+            let rest = still.equilibrium(0.0, &still.initial_state(), StaticFriction::Without)?;
             let positions = system.layout().speeds;
             initial_state[..positions].copy_from_slice(&rest[..positions]);
         }
@@ -146,6 +146,7 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
         frame: Frame::fixed([0.0, 0.0, length], [0.0; 3]),
         free: wedge.free,
         initial: [0.0; 6],
+        linearized: false,
     };
 
     let half = 0.5 * wedge.width;
@@ -224,6 +225,7 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
             Mount::new(sub([0.0; 3], seat_origin), [0.0; 3]),
             control_coil,
         )],
+        ..Model::default()
     }
 }
 

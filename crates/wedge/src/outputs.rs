@@ -150,6 +150,8 @@ impl Outputs {
                 (ChannelKind::ContactDampingLoss, _) => &mut ledger.contact_damping_loss,
                 (ChannelKind::CoilDampingLoss, _) => &mut ledger.coil_damping_loss,
                 (ChannelKind::CoilGuideWork, _) => &mut ledger.coil_guide_work,
+                // What connections lose: a wedge has none.
+                _ => continue,
             };
             *entry += value;
         }

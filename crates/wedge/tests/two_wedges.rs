@@ -77,6 +77,7 @@ fn doubled(one: &Wedge) -> System {
         gravity,
         faces,
         coils,
+        ..Model::default()
     })
     .unwrap()
 }

@@ -1,7 +1,7 @@
 //! The half-truck without its wedges: half a car on a bolster, two side frames, and the forces that wedges put on them.
 //!
 //! Bodies, springs, bearing adapters and stops are those of the built-in system file of the constantly damped half-truck
-//! ([`FILE`]), with small displacements ([`mechanics::small`]); its friction wedges and the springs that drive its bolster are left
+//! ([`FILE`]), with small displacements ([`mechanics::connection`]); its friction wedges and the springs that drive its bolster are left
 //! out. Loads from outside are constant within a step. With the generalized forces Q of all loads, `M u˙ = f(q, u, s) + Q`, and
 //! the work that comes in is `Q · Δq`, exactly.
 //!
@@ -9,8 +9,8 @@
 //! axes; leading ones are turned by 180° about z: x, y, roll and pitch change their signs, z and yaw do not. The points that the wedge's
 //! neighbours turn about lie half the wedge's length apart, as in the wedge itself, around the point of the file's connection.
 
-use integrate::{Problem, Singular};
-use mechanics::small::{Law, System};
+use mechanics::connection::Law;
+use mechanics::system::System;
 use nucars::read::read_system;
 use nucars::truck::{Choices, Truck};
 use wedge::Parameters;
@@ -82,10 +82,10 @@ pub struct Loaded {
     pub system: System,
     /// For each wedge the points of bolster and side frame.
     points: [[Point; 2]; 4],
-    /// Body and coordinate of each position, and its mass or moment of inertia.
-    places: Vec<(usize, usize, f64)>,
-    /// Generalized forces.
-    forces: Vec<f64>,
+    /// Body and coordinate of each position.
+    places: Vec<(usize, usize)>,
+    /// The loads on each body.
+    loads: Vec<Six>,
 }
 
 /// The body that carries the load, among the system's bodies.
@@ -109,7 +109,7 @@ impl Loaded {
                 .and_then(|place| truck.model.connections.get(place))
                 .ok_or_else(|| failed(&"a wedge is missing"))?;
             let (a, b) = (connection.a, connection.b);
-            let center = |body: usize| truck.model.bodies[body].center_of_gravity;
+            let center = |body: usize| truck.model.bodies[body].frame.origin;
             // The column lies on the other side of the wedge than the bolster.
             let sign = if connection.point[0] > center(a)[0] {
                 -1.0
@@ -138,7 +138,7 @@ impl Loaded {
         let system = System::new(model).map_err(|error| failed(&error))?;
         let places = places(&system);
         Ok(Self {
-            forces: vec![0.0; places.len()],
+            loads: vec![[0.0; 6]; system.bodies().len()],
             system,
             points,
             places,
@@ -147,20 +147,19 @@ impl Loaded {
 
     /// Body and coordinate of each position.
     pub fn coordinates(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.places
-            .iter()
-            .map(|(body, coordinate, _)| (*body, *coordinate))
+        self.places.iter().copied()
     }
 
     /// Sets the loads from outside: for each wedge those on the bolster and on the side frame, in the wedge's axes; and one on the body's
     /// centre of gravity.
-    pub fn set_loads(&mut self, wedges: &[[Six; 2]; 4], on_body: Six) {
-        self.forces.fill(0.0);
+    ///
+    /// # Errors
+    /// Never, with the built-in file.
+    pub fn set_loads(&mut self, wedges: &[[Six; 2]; 4], on_body: Six) -> Result<(), Error> {
+        self.loads.fill([0.0; 6]);
         let mut add = |body: usize, load: Six| {
-            for ((own, coordinate, _), force) in self.places.iter().zip(&mut self.forces) {
-                if *own == body {
-                    *force += load[*coordinate];
-                }
+            for (sum, load) in self.loads[body].iter_mut().zip(load) {
+                *sum += load;
             }
         };
         add(BODY, on_body);
@@ -169,14 +168,23 @@ impl Loaded {
                 add(point.body, point.load(*load));
             }
         }
+        put(&self.loads, &mut self.system)
+    }
+
+    /// Sets the same loads on another copy of the system.
+    ///
+    /// # Errors
+    /// Never, with the built-in file.
+    pub fn put_loads(&self, system: &mut System) -> Result<(), Error> {
+        put(&self.loads, system)
     }
 
     /// What the loads do with these displacements or speeds: work or power.
     pub fn work(&self, along: impl Iterator<Item = f64>) -> f64 {
-        self.forces
+        self.places
             .iter()
             .zip(along)
-            .map(|(force, way)| force * way)
+            .map(|((body, coordinate), way)| self.loads[*body][*coordinate] * way)
             .sum()
     }
 
@@ -187,7 +195,7 @@ impl Loaded {
             return [0.0; 6];
         };
         let mut body = [0.0; 6];
-        for ((own, coordinate, _), value) in self.places.iter().zip(values) {
+        for ((own, coordinate), value) in self.places.iter().zip(values) {
             if *own == point.body {
                 body[*coordinate] = *value;
             }
@@ -196,87 +204,33 @@ impl Loaded {
     }
 }
 
-fn places(system: &System) -> Vec<(usize, usize, f64)> {
-    let mut places = vec![(0, 0, 1.0); system.layout().speeds];
-    for (number, body) in system.model().bodies.iter().enumerate() {
-        let mechanics::small::Kind::Free { mass, inertia, .. } = &body.kind else {
-            continue;
-        };
+/// Sets the loads of all bodies.
+fn put(loads: &[Six], system: &mut System) -> Result<(), Error> {
+    for (body, load) in loads.iter().enumerate() {
+        system
+            .set_load(body, *load)
+            .map_err(|error| Error::new(error.to_string()))?;
+    }
+    Ok(())
+}
+
+fn places(system: &System) -> Vec<(usize, usize)> {
+    let mut places = vec![(0, 0); system.layout().speeds];
+    for body in 0..system.bodies().len() {
         for coordinate in 0..6 {
-            if let Some(place) = system.position_of(number, coordinate) {
-                let inertia = inertia.get(coordinate.wrapping_sub(3)).unwrap_or(mass);
-                places[place] = (number, coordinate, *inertia);
+            if let Some(place) = system.position_of(body, coordinate) {
+                places[place] = (body, coordinate);
             }
         }
     }
     places
 }
 
-impl Problem for Loaded {
-    fn dimension(&self) -> usize {
-        self.system.dimension()
-    }
-
-    fn read_states(&self) -> usize {
-        self.system.read_states()
-    }
-
-    fn scales(&self) -> &[f64] {
-        self.system.scales()
-    }
-
-    fn segment(&mut self, start: f64) -> f64 {
-        self.system.segment(start)
-    }
-
-    fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]) {
-        self.system.derivative(time, x, dx);
-        let speeds = self.places.len();
-        for ((rate, force), (_, _, inertia)) in dx[speeds..].iter_mut().zip(&self.forces).zip(&self.places) {
-            *rate += force / inertia;
-        }
-    }
-
-    fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
-        self.system.linearize(time, x, dx, df_dt);
-    }
-
-    fn factor(&mut self, shift: f64) -> Result<(), Singular> {
-        self.system.factor(shift)
-    }
-
-    fn solve(&mut self, b: &mut [f64]) {
-        self.system.solve(b);
-    }
-
-    fn switch_count(&self) -> usize {
-        self.system.switch_count()
-    }
-
-    fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
-        self.system.initial_modes(time, x, modes);
-    }
-
-    fn sign_count(&self) -> usize {
-        self.system.sign_count()
-    }
-
-    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
-        self.system.signs(time, x, signs);
-    }
-
-    fn group_margins(&mut self, group: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
-        self.system.group_margins(group, signs, modes, margins);
-    }
-
-    fn next_mode(&mut self, group: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
-        self.system.next_mode(group, signs, index, mode)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+
+    use integrate::Problem;
 
     use super::*;
 
@@ -300,7 +254,7 @@ mod tests {
         let speeds: Vec<f64> = (0..truck.system.layout().speeds)
             .map(|k| number(k + 61))
             .collect();
-        truck.set_loads(&loads, [0.0; 6]);
+        truck.set_loads(&loads, [0.0; 6]).unwrap();
         let of_points: f64 = (0..4)
             .flat_map(|w| (0..2).map(move |n| (w, n)))
             .map(|(w, n)| {
@@ -325,7 +279,7 @@ mod tests {
         let mut system = truck.system.clone();
         let start = system.initial_state();
         let rest = system
-            .equilibrium(0.0, &start, mechanics::small::StaticFriction::Without)
+            .equilibrium(0.0, &start, mechanics::system::StaticFriction::Without)
             .unwrap();
         let height = rest[system.position_of(BODY, 2).unwrap()];
         // 319.175 lb s²/in · 386.09 in/s² on springs of about 51,000 lb/in, preloaded by eight times 15,403.78 lb.
@@ -337,11 +291,12 @@ mod tests {
         let mut truck = truck();
         let x = truck.system.initial_state();
         let mut without = vec![0.0; x.len()];
-        truck.segment(0.0);
-        truck.derivative(0.0, &x, &mut without);
-        truck.set_loads(&[[[0.0; 6]; 2]; 4], [0.0, 0.0, 1000.0, 0.0, 0.0, 0.0]);
+        truck.system.segment(0.0);
+        truck.system.derivative(0.0, &x, &mut without);
+        let load = [0.0, 0.0, 1000.0, 0.0, 0.0, 0.0];
+        truck.set_loads(&[[[0.0; 6]; 2]; 4], load).unwrap();
         let mut with = vec![0.0; x.len()];
-        truck.derivative(0.0, &x, &mut with);
+        truck.system.derivative(0.0, &x, &mut with);
         let speeds = truck.system.layout().speeds;
         let place = speeds + truck.system.position_of(BODY, 2).unwrap();
         // 319.175 lb s²/in in kg.

@@ -1,7 +1,7 @@
 //! The quantities of the truck.
 
 use mechanics::body::COORDINATES;
-use mechanics::small::ChannelKind;
+use mechanics::system::ChannelKind;
 use mechanics::system::scales;
 use quantity::Kind;
 
@@ -159,11 +159,11 @@ fn states(truck: &Loaded) -> Vec<Entry> {
         states.push(entry);
     };
     for channel in truck.system.channels() {
-        let text = match channel {
-            ChannelKind::InputWork => "work of prescribed motions: there are none",
+        let text = match channel.kind {
+            ChannelKind::MotionWork => "work of prescribed motions: there are none",
             _ => "energy lost",
         };
-        add(channel.name(), text);
+        add(channel.kind.name(), text);
     }
     add(
         "load_work",

@@ -7,7 +7,7 @@ mod body;
 mod entries;
 
 use integrate::{Integrator, Options, Problem, State};
-use mechanics::system::Mode;
+use mechanics::system::{Mode, System};
 use serde::{Deserialize, Serialize};
 use study::case::Case;
 
@@ -39,7 +39,7 @@ pub struct TruckState {
 /// The truck behind the variables.
 pub struct TruckElement {
     truck: Loaded,
-    integrator: Option<Integrator<Loaded>>,
+    integrator: Option<Integrator<System>>,
     time: f64,
     /// Those of the system, then the work of the loads.
     states: Vec<f64>,
@@ -53,9 +53,9 @@ fn six(values: &[f64], first: usize) -> Six {
 }
 
 /// Puts the loads that the inputs say on a truck.
-fn put_loads(truck: &mut Loaded, inputs: &[f64]) {
+fn put_loads(truck: &mut Loaded, inputs: &[f64]) -> Result<(), Error> {
     let wedges = std::array::from_fn(|wedge| [0, 6].map(|first| six(inputs, LOADS * wedge + first)));
-    truck.set_loads(&wedges, six(inputs, LOADS * WEDGES.len()));
+    truck.set_loads(&wedges, six(inputs, LOADS * WEDGES.len()))
 }
 
 impl TruckElement {
@@ -65,7 +65,7 @@ impl TruckElement {
     /// Values that are not finite; or the integrator refuses the start.
     pub fn new(case: &Case, setting: &Setting) -> Result<Self, Error> {
         let mut truck = Loaded::new(&case.parameters)?;
-        put_loads(&mut truck, &setting.inputs);
+        put_loads(&mut truck, &setting.inputs)?;
         let mut states = truck.system.initial_state();
         let speeds = truck.system.layout().speeds;
         for coordinate in 0..6 {
@@ -75,7 +75,7 @@ impl TruckElement {
                 states[speeds + place] = start(START / 2 + coordinate);
             }
         }
-        truck.segment(setting.start_time);
+        truck.system.segment(setting.start_time);
         let start_energy = truck.system.observe(setting.start_time, &states).energies.total();
         let integrator = match setting.interface {
             Interface::ModelExchange => None,
@@ -89,7 +89,7 @@ impl TruckElement {
                     maximum_steps: u64::MAX,
                     ..Options::default()
                 };
-                let made = Integrator::new(truck.clone(), options, setting.start_time, &states);
+                let made = Integrator::new(truck.system.clone(), options, setting.start_time, &states);
                 Some(made.map_err(|error| Error::new(error.to_string()))?)
             }
         };
@@ -105,7 +105,7 @@ impl TruckElement {
     }
 
     fn dimension(&self) -> usize {
-        self.truck.dimension()
+        self.truck.system.dimension()
     }
 }
 
@@ -131,8 +131,7 @@ impl Element for TruckElement {
             return Err(Error::new("an input is not finite"));
         }
         self.inputs.copy_from_slice(inputs);
-        put_loads(&mut self.truck, &self.inputs);
-        Ok(())
+        put_loads(&mut self.truck, &self.inputs)
     }
 
     fn tune(&mut self, _: &[f64]) -> Result<(), Error> {
@@ -146,7 +145,7 @@ impl Element for TruckElement {
         let Some(integrator) = &mut self.integrator else {
             return Err(Error::new("a step belongs to co-simulation"));
         };
-        put_loads(integrator.problem_mut(), end);
+        self.truck.put_loads(integrator.problem_mut())?;
         integrator.renew();
         let before = self.states[..speeds].to_vec();
         let length = time - integrator.time();
@@ -180,7 +179,7 @@ impl Element for TruckElement {
             return Err(Error::new("the rates have another number"));
         }
         let (rates, power) = out.split_at_mut(dimension);
-        self.truck.derivative(self.time, &self.states[..dimension], rates);
+        self.truck.system.derivative(self.time, &self.states[..dimension], rates);
         let speeds = self.truck.system.layout().speeds;
         power[0] = self.truck.work(self.states[speeds..2 * speeds].iter().copied());
         Ok(())
@@ -263,7 +262,8 @@ impl Element for TruckElement {
                     let expected = "0 (open), 1 (stick) or 2 (slip)";
                     return Err(damaged("a contact state of the truck", mode, expected));
                 }
-                put_loads(integrator.problem_mut(), &state.inputs);
+                put_loads(&mut self.truck, &state.inputs)?;
+                self.truck.put_loads(integrator.problem_mut())?;
                 integrator
                     .restore(saved)
                     .map_err(|error| Error::new(error.to_string()))?;

@@ -51,12 +51,14 @@ fn dual(value: f64, change: f64) -> Dual<1> {
 }
 
 impl System {
-    /// The derivatives along a direction at `time` and state `x`; `None` if the direction does not have the state's length.
+    /// The derivatives along a direction at `time` and state `x`; `None` if the direction does not have the state's length, or if there are bodies with
+    /// linearized kinematics, for which they are not made.
     ///
     /// At a kink (a corner that just touches, a bristle at its limit) they are those of the side that the state counts for.
     pub fn along(&mut self, time: f64, x: &[f64], direction: &Direction<'_>) -> Option<Along> {
         let n = x.len();
-        if n != self.layout.len() || !(direction.state.is_empty() || direction.state.len() == n) {
+        let linearized = self.free.iter().any(|free| free.linear.is_some());
+        if linearized || n != self.layout.len() || !(direction.state.is_empty() || direction.state.len() == n) {
             return None;
         }
         let mut dx = vec![0.0; n];

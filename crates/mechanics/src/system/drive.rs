@@ -21,6 +21,12 @@ pub enum DriveError {
         /// How many there are.
         count: usize,
     },
+    /// A load is given to a body whose kinematics are not linearized.
+    #[error("{body} takes no given load: its kinematics are not linearized")]
+    NotLinearized {
+        /// Its name.
+        body: String,
+    },
     /// The body was built with a frame that stands still or only translates, or has free coordinates.
     #[error(
         "{body} cannot be driven: it must be prescribed, and all its motions must be able to move from the start on"
@@ -54,6 +60,30 @@ impl System {
         }
         moved.frame.motions = motions;
         self.forget_places();
+        Ok(())
+    }
+
+    /// Sets a force (N) and a moment (N·m, about the centre of gravity) on a body with linearized kinematics, constant until the next call. Their
+    /// work is no term of the energy ledger: with constant loads it is the load times the displacement.
+    ///
+    /// # Errors
+    /// There is no such body, or its kinematics are not linearized.
+    pub fn set_load(&mut self, body: usize, load: [f64; 6]) -> Result<(), DriveError> {
+        let count = self.bodies.len();
+        match self.bodies.get(body) {
+            Some(own) if own.linearized => self.given[body] = load,
+            Some(own) => {
+                let body = own.name.clone();
+                return Err(DriveError::NotLinearized { body });
+            }
+            None => {
+                return Err(DriveError::NoSuch {
+                    what: "body",
+                    number: body,
+                    count,
+                });
+            }
+        }
         Ok(())
     }
 

@@ -5,6 +5,8 @@ use thiserror::Error;
 
 use super::System;
 use crate::body::COORDINATES;
+use crate::connection::{Grip, Grips};
+use crate::motion::Motion;
 
 /// No equilibrium was found.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -23,27 +25,84 @@ pub struct NoEquilibrium {
     pub acceleration: f64,
 }
 
+/// What friction does in a static equilibrium, where its force is not determined by the positions alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StaticFriction {
+    /// None: accumulators and bristles are relaxed to zero. The result depends on positions only, and is what a vehicle settles
+    /// to after much shaking. Directions that friction alone holds stay where they are.
+    #[default]
+    Without,
+    /// Accumulators and bristles follow the displacements from their present deflections, sticking up to their limits: the
+    /// result depends on the start.
+    Following,
+}
+
 /// Accelerations below this count as rest, m/s² or rad/s².
 const REST: f64 = 1e-7;
+/// The time by which rates of the deflections (m/s) are compared with accelerations, s.
+const SETTLING: f64 = 1e-3;
 const ITERATIONS: usize = 2000;
 
 impl System {
-    /// The state of rest near `x` at `time`, with all prescribed bodies where they are then.
+    /// The state of rest near `x` at `time`, with all prescribed bodies where they are then. Quadratures stay as they are.
     ///
     /// Implicit Euler steps from rest, of a length that grows as the accelerations fall: with long steps this is
-    /// Newton's method. The prescribed bodies should not move (their velocity would drag on the friction).
+    /// Newton's method with the Jacobian of the integration. Prescribed bodies with linearized kinematics are taken at rest; others should
+    /// not move (their velocity would drag on the friction).
     ///
     /// # Errors
     /// The accelerations do not fall below 1e-7 (m/s², rad/s²).
-    pub fn equilibrium(&mut self, time: f64, x: &[f64]) -> Result<Vec<f64>, NoEquilibrium> {
+    pub fn equilibrium(
+        &mut self,
+        time: f64,
+        x: &[f64],
+        friction: StaticFriction,
+    ) -> Result<Vec<f64>, NoEquilibrium> {
+        let before = self.connections.grips;
+        let moving: Vec<_> = self.moved.iter().map(|m| m.motions.clone()).collect();
+        // Motions have smooth pieces: the place at `time` is that of its own piece.
+        let reference = self.reference;
+        self.segment(time);
+        // the prescribed bodies held where they are
+        for moved in &mut self.moved {
+            for motion in moved.motions.iter_mut() {
+                let [value, ..] = motion.evaluate(time, self.reference);
+                *motion = Motion::Constant(value);
+            }
+        }
+        self.forget_places();
+        if friction == StaticFriction::Without {
+            self.connections.grips = Grips {
+                surfaces: Grip::Free,
+                wedges: Grip::Free,
+            };
+        }
+        let found = self.settle(time, x, friction);
+        self.connections.grips = before;
+        for (moved, motions) in self.moved.iter_mut().zip(moving) {
+            moved.motions = motions;
+        }
+        self.reference = reference;
+        self.forget_places();
+        found
+    }
+
+    fn settle(&mut self, time: f64, x: &[f64], friction: StaticFriction) -> Result<Vec<f64>, NoEquilibrium> {
         let n = self.layout.speeds;
+        let states = 2 * n..2 * n + self.layout.internals;
         let mut x = x.to_vec();
-        x[n..].fill(0.0);
+        x[n..2 * n].fill(0.0);
+        if friction == StaticFriction::Without {
+            x[states.clone()].fill(0.0);
+        }
         let mut dx = vec![0.0; x.len()];
         let mut unused = vec![0.0; x.len()];
         let mut trial = x.clone();
         self.derivative(time, &x, &mut dx);
-        let size = |dx: &[f64]| dx[n..2 * n].iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+        let size = |dx: &[f64]| {
+            let largest = |part: &[f64]| part.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+            largest(&dx[n..2 * n]).max(largest(&dx[states.clone()]) / SETTLING)
+        };
         let mut residual = size(&dx);
         let mut step = 1e-4;
         for _ in 0..ITERATIONS {
@@ -56,7 +115,7 @@ impl System {
             let mut next = f64::NAN;
             if self.factor(1.0 / step).is_ok() {
                 self.solve(&mut change);
-                for i in 0..n {
+                for i in (0..n).chain(states.clone()) {
                     trial[i] = x[i] + change[i];
                 }
                 self.derivative(time, &trial, &mut dx);

@@ -254,7 +254,25 @@ impl System {
             }
         }
         d_quadratures[WORK] = work;
+        if !self.connections.is_empty() {
+            d_quadratures[self.added.clone()].fill(0.0);
+            for free in &self.free {
+                self.loads[free.body] = self.given[free.body];
+            }
+            let (places, loads) = ((&self.positions[..], &self.rates[..]), &mut self.loads[..]);
+            self.connections
+                .forces(places, internal, d_internal, loads, d_quadratures);
+        }
         for free in &self.free {
+            if let Some(linear) = &free.linear {
+                let own = free.offset..free.offset + free.free.len();
+                d_positions[own.clone()].copy_from_slice(&speeds[own.clone()]);
+                let load = &self.loads[free.body];
+                for (j, target) in d_speeds[own].iter_mut().enumerate() {
+                    *target = (load[free.free[j]] + linear.weight[j]) / linear.inertia[j];
+                }
+                continue;
+            }
             let frame = &self.frames[free.body];
             let accelerations = accelerate(
                 &self.kinematics[free.body],

@@ -13,6 +13,7 @@ use super::chain::{Block, Chain, NO_BLOCK, Powers, add_block};
 use super::forces::Element;
 use super::{FreeBody, Mounted, System};
 use crate::body::Kinematics;
+use crate::connection;
 use crate::contact::ContactFace;
 use crate::link::{Relative, Turning};
 use crate::surface::Plane;
@@ -77,6 +78,9 @@ impl System {
         }
         for number in 0..self.free.len() {
             let free = &self.free[number];
+            if free.linear.is_some() {
+                continue;
+            }
             let kinematics = &self.kinematics[free.body];
             kinematics.mass_matrix(
                 &self.bodies[free.body],
@@ -96,6 +100,41 @@ impl System {
                 (.., 1) => self.inertia::<2>(number, x),
                 (.., 2) => self.inertia::<4>(number, x),
                 _ => self.inertia::<6>(number, x),
+            }
+        }
+    }
+
+    /// Adds the derivatives of connections, and writes those by time.
+    pub(super) fn differentiate_connections(&mut self, x: &[f64], df_dt: &mut [f64]) {
+        if self.connections.is_empty() {
+            return;
+        }
+        let [_, _, internal, _] = self.layout.split(x);
+        let [_, d_speeds, d_internal, d_quadratures] = self.layout.split_mut(df_dt);
+        for free in &self.free {
+            self.loads[free.body] = [0.0; 6];
+        }
+        let mut scene = connection::Scene {
+            positions: &self.positions,
+            rates: &self.rates,
+            accelerations: &self.accelerations,
+            internal,
+            jacobian: &mut self.jacobian,
+            loads: &mut self.loads,
+            d_internal,
+            d_quadratures,
+        };
+        self.connections.differentiate(&mut scene);
+        if self.moved.is_empty() {
+            return;
+        }
+        for free in &self.free {
+            if let Some(linear) = &free.linear {
+                let load = &self.loads[free.body];
+                let target = &mut d_speeds[free.offset..free.offset + free.free.len()];
+                for (j, target) in target.iter_mut().enumerate() {
+                    *target = load[free.free[j]] / linear.inertia[j];
+                }
             }
         }
     }

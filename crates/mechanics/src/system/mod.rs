@@ -18,6 +18,9 @@ mod placer;
 mod sense;
 mod stiffness;
 mod time;
+mod vibration;
+
+use std::ops::Range;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
 use integrate::{KinkSigns, Problem, Singular, SwitchGroup};
@@ -25,21 +28,25 @@ use integrate::{KinkSigns, Problem, Singular, SwitchGroup};
 use self::jacobian::Gathered;
 use crate::body::{Body, Kinematics, Rigid};
 use crate::coil::Coil;
+use crate::connection::{Connection, Connections, SIGNS, Signs};
 use crate::contact::ContactFace;
 use crate::frame::FrameMotion;
 use crate::friction::FrictionLaw;
 use crate::link::Mount;
+use crate::motion::Motion;
 use crate::surface::Plane;
 use crate::vector::Vector;
 
 pub use along::{Along, Direction, DriveChange};
 pub use drive::DriveError;
-pub use equilibrium::NoEquilibrium;
+pub use equilibrium::{NoEquilibrium, StaticFriction};
 pub use loads::{CoilLoad, FaceLoad, Loads};
 pub use model::{Channel, ChannelKind, Model, ModelError, Mounted};
 pub use modes::{CLOSING_GAP, Mode, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
 pub use observe::{BodyPlace, CoilState, Energies, FaceState, Observation};
+pub(crate) use model::Parts;
 pub use sense::{CoilSense, Load, PointSense, Sense};
+pub use vibration::{Held, NoVibration, Vibration, Vibrations};
 
 /// Fixed error scales, by kind of state: the error of a step is measured against `relative tolerance × scale`.
 ///
@@ -92,6 +99,22 @@ struct FreeBody {
     faces: Vec<usize>,
     /// The coils that touch it, in their order.
     coils: Vec<usize>,
+    /// What its motion depends on if its kinematics are linearized.
+    linear: Option<Linear>,
+}
+
+/// Inertia (kg, kg·m²) and weight (N, N·m) along each free coordinate of a body with linearized kinematics.
+#[derive(Clone, Debug)]
+struct Linear {
+    inertia: Vec<f64>,
+    weight: Vec<f64>,
+}
+
+/// A prescribed body with linearized kinematics that moves.
+#[derive(Clone, Debug)]
+struct MovedBody {
+    body: usize,
+    motions: Box<[Motion; 6]>,
 }
 
 /// A body's reference frame.
@@ -139,6 +162,19 @@ pub struct System {
     /// Start of the smooth piece of the motions, and a time inside it.
     reference: f64,
     kinematics: Vec<Kinematics<f64>>,
+    /// Coordinates, rates and loads (N, N·m) of bodies with linearized kinematics.
+    positions: Vec<[f64; 6]>,
+    rates: Vec<[f64; 6]>,
+    loads: Vec<[f64; 6]>,
+    /// Given loads on them.
+    given: Vec<[f64; 6]>,
+    connections: Connections,
+    moved: Vec<MovedBody>,
+    /// The free bodies that each pair of internal states depends on.
+    internal_ends: Vec<Vec<usize>>,
+    /// The quadratures that connections share.
+    added: Range<usize>,
+    /// Accelerations of free bodies where they are differentiated, and of prescribed ones with linearized kinematics.
     accelerations: Vec<[f64; 6]>,
     force: Vec<Vector<f64>>,
     moment: Vec<Vector<f64>>,
@@ -198,6 +234,21 @@ impl System {
     pub fn layout(&self) -> Layout {
         self.layout
     }
+    /// The connections.
+    #[must_use]
+    pub fn connections(&self) -> &[Connection] {
+        self.connections.all()
+    }
+    /// The connection of each contact state beyond those of the points: connections with friction, in their order.
+    #[must_use]
+    pub fn frictional_connections(&self) -> &[usize] {
+        &self.connections.switches
+    }
+    /// The first of the two accumulator deflections of a connection in the state vector, if it has any.
+    #[must_use]
+    pub fn deflection_of(&self, connection: usize) -> Option<usize> {
+        Some(2 * self.layout.speeds + self.connections.deflection_of(connection)?)
+    }
     /// Number of contact points, each a switch with the modes of [`Mode`].
     #[must_use]
     pub fn point_count(&self) -> usize {
@@ -232,6 +283,12 @@ impl System {
             .iter()
             .position(|k| *k == coordinate)
             .map(|j| free.offset + j)
+    }
+
+    /// The internal states.
+    fn internal<'x>(&self, x: &'x [f64]) -> &'x [f64] {
+        let [_, _, internal, _] = self.layout.split(x);
+        internal
     }
 
     /// Coordinates and rates of a body from the state vector.
@@ -300,14 +357,16 @@ impl Problem for System {
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         self.place(time, x);
         self.differentiate(x, dx, true);
+        self.differentiate_connections(x, df_dt);
         if self.moves {
             self.differentiate_time(time, x, df_dt);
         }
     }
 
-    fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], _: &mut [f64]) {
+    fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], unused: &mut [f64]) {
         self.place(time, x);
         self.differentiate(x, dx, false);
+        self.differentiate_connections(x, unused);
     }
 
     fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
@@ -340,38 +399,70 @@ impl Problem for System {
     }
 
     fn switch_count(&self) -> usize {
-        self.point_count()
+        self.point_count() + self.connections.switches.len()
     }
 
     fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
         self.place(time, x);
-        self.find_modes(x, modes);
+        let (points, others) = modes.split_at_mut(self.point_count());
+        self.find_modes(x, points);
+        self.connections
+            .find_modes((&self.positions, &self.rates), self.internal(x), others);
     }
 
-    /// Gap (m) and load of each point: the gaps of a face's points, their loads, and so on face by face.
+    /// Gap (m) and load of each point: the gaps of a face's points, their loads, and so on face by face; then of each connection with friction
+    /// what presses it (N) and the load of its accumulator.
     fn sign_count(&self) -> usize {
-        2 * self.point_count()
+        2 * self.point_count() + SIGNS * self.connections.switches.len()
     }
 
     fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
         self.place(time, x);
-        self.mode_signs(x, signs);
+        let (points, others) = signs.split_at_mut(2 * self.point_count());
+        self.mode_signs(x, points);
+        self.connections
+            .signs((&self.positions, &self.rates), self.internal(x), others);
     }
 
+    /// The points of each face, and all connections together.
     fn switch_groups(&self) -> Vec<SwitchGroup> {
-        self.point_groups()
+        let mut groups = self.point_groups();
+        if !self.connections.switches.is_empty() {
+            groups.push(SwitchGroup {
+                switches: self.point_count()..self.switch_count(),
+                signs: 2 * self.point_count()..self.sign_count(),
+                states: std::iter::once(0..self.read_states()).collect(),
+            });
+        }
+        groups
     }
 
     fn group_signs(&mut self, group: usize, time: f64, x: &[f64], signs: &mut [f64]) {
-        self.face_signs(group, time, x, signs);
+        if group < self.faces.len() {
+            self.face_signs(group, time, x, signs);
+        } else {
+            self.place(time, x);
+            let places = (&self.positions[..], &self.rates[..]);
+            self.connections.signs(places, self.internal(x), signs);
+        }
     }
 
     fn group_margins(&mut self, group: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
-        self.face_margins(group, signs, modes, margins);
+        if group < self.faces.len() {
+            self.face_margins(group, signs, modes, margins);
+        } else {
+            for (i, (margin, mode)) in margins.iter_mut().zip(modes).enumerate() {
+                *margin = Signs::of(signs, i).margin(Mode::from_number(*mode));
+            }
+        }
     }
 
     fn next_mode(&mut self, group: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
-        self.follow_mode(group, signs, index, mode)
+        if group < self.faces.len() {
+            self.follow_mode(group, signs, index, mode)
+        } else {
+            Signs::of(signs, index).next(Mode::from_number(mode)) as u8
+        }
     }
 }
 

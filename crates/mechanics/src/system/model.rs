@@ -6,9 +6,12 @@ use thiserror::Error;
 use super::jacobian::Gathered;
 use super::placer::Placer;
 use super::stiffness::mobility;
-use super::{FrameState, FreeBody, Move, System, is_bristle, scale_of, scales, structure};
-use crate::body::{Body, Kinematics};
+use super::{
+    FrameState, FreeBody, Linear, Move, MovedBody, System, is_bristle, scale_of, scales, structure,
+};
+use crate::body::{Body, COORDINATES, Kinematics};
 use crate::coil::Coil;
+use crate::connection::{self, Connection, ConnectionError, Options};
 use crate::contact::{ContactFace, Points};
 use crate::frame::Frame;
 use crate::friction::FrictionLaw;
@@ -19,7 +22,7 @@ use crate::tangent::{Columns, Tangent};
 use crate::vector::Vector;
 
 /// Bodies and the elements between them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     /// All bodies, free and prescribed.
     pub bodies: Vec<Body>,
@@ -30,10 +33,14 @@ pub struct Model {
     pub faces: Vec<(usize, usize, Mount, ContactFace<Plane>)>,
     /// Coils: number of the carried body (free), number of the body with the seat, mount of the seat.
     pub coils: Vec<(usize, usize, Mount, Coil)>,
+    /// Connections of bodies with linearized kinematics.
+    pub connections: Vec<Connection>,
+    /// What the laws of connections leave open.
+    pub options: Options,
 }
 
 /// Why a model makes no system.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum ModelError {
     /// An element names a body that does not exist.
     #[error("an element refers to body {number}, but there are only {count} (counted from 0)")]
@@ -58,6 +65,33 @@ pub enum ModelError {
     /// No coordinate at all is free.
     #[error("no body has a free coordinate: nothing can move")]
     NothingFree,
+    /// A contact face or a coil joins a body with linearized kinematics.
+    #[error("an element joins {body}, whose kinematics are linearized: only connections act on it")]
+    Linearized {
+        /// The body's name.
+        body: String,
+    },
+    /// A free body with linearized kinematics has a frame that moves or is turned, or does not start in the drawn layout.
+    #[error("{body} has linearized kinematics; its reference frame must stand still along the fixed axes, and all coordinates start at zero")]
+    Layout {
+        /// The body's name.
+        body: String,
+    },
+    /// A connection, or what connections leave open, is not admissible.
+    #[error(transparent)]
+    Connection(#[from] ConnectionError),
+    /// A mass or moment of inertia of a body with linearized kinematics is not positive.
+    #[error("{what} of {body} is {value}; it must be positive, because {coordinate} is free")]
+    Mass {
+        /// The body.
+        body: String,
+        /// Mass or moment of inertia.
+        what: &'static str,
+        /// Its value, SI.
+        value: f64,
+        /// The coordinate that needs it.
+        coordinate: &'static str,
+    },
     /// A free body has held coordinates in a moving frame.
     #[error(
         "{body} has held coordinates in a reference frame that moves: the work of what holds them would be missing \
@@ -122,7 +156,7 @@ pub struct Channel {
 }
 
 /// Kinds of quadratures; all in J.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ChannelKind {
     /// Work done by all prescribed motions.
     MotionWork,
@@ -134,10 +168,45 @@ pub enum ChannelKind {
     CoilDampingLoss,
     /// Work done by a coil's guiding couple.
     CoilGuideWork,
+    /// Energy lost in dampers of springs.
+    SpringDamping,
+    /// Energy lost behind gaps.
+    GapDamping,
+    /// Energy lost in surface friction.
+    SurfaceFriction,
+    /// Energy lost in the normal dampers of surface friction.
+    SurfaceDamping,
+    /// Energy lost in the friction of massless wedges on their columns.
+    ColumnFriction,
+    /// Work of massless wedges' friction on their slopes; over a cycle a loss, while the friction force rebounds it gives back.
+    SlopeFriction,
+    /// Work that goes into the simplified kinematics of massless wedges (see [`crate::connection::Wedge`]); small, of either sign.
+    WedgeKinematics,
+}
+
+impl ChannelKind {
+    /// Its name, as in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MotionWork => "input_work",
+            Self::FrictionLoss => "friction_loss",
+            Self::ContactDampingLoss => "contact_damping_loss",
+            Self::CoilDampingLoss => "coil_damping_loss",
+            Self::CoilGuideWork => "coil_guide_work",
+            Self::SpringDamping => "spring_damping_loss",
+            Self::GapDamping => "gap_damping_loss",
+            Self::SurfaceFriction => "surface_friction_loss",
+            Self::SurfaceDamping => "surface_damping_loss",
+            Self::ColumnFriction => "wedge_column_loss",
+            Self::SlopeFriction => "wedge_slope_loss",
+            Self::WedgeKinematics => "wedge_kinematics_work",
+        }
+    }
 }
 
 /// What is gathered while elements are put in place.
-pub(super) struct Parts {
+pub(crate) struct Parts {
     pub channels: Vec<Channel>,
     pub internal_pairs: Vec<Vec<usize>>,
     pub quadrature_bodies: Vec<(usize, usize)>,
@@ -150,8 +219,12 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         gravity,
         faces,
         coils,
+        connections,
+        options,
     } = model;
+    options.check()?;
     let mut free = Vec::new();
+    let mut slots = vec![[None; 6]; bodies.len()];
     let mut free_number = vec![None; bodies.len()];
     let mut offset = 0;
     for (number, body) in bodies.iter().enumerate() {
@@ -159,6 +232,14 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         if coordinates.is_empty() {
             continue;
         }
+        for (slot, &k) in coordinates.iter().enumerate() {
+            slots[number][k] = Some(slot);
+        }
+        let linear = if body.linearized {
+            Some(linear(body, &coordinates, gravity)?)
+        } else {
+            None
+        };
         if !body.frame.is_fixed() && coordinates.len() < 6 {
             return Err(ModelError::HeldInMovingFrame {
                 body: body.name.clone(),
@@ -175,13 +256,19 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             pair: 0,
             faces: Vec::new(),
             coils: Vec::new(),
+            linear,
         });
         offset += count;
     }
     if free.is_empty() {
         return Err(ModelError::NothingFree);
     }
-    let frames: Vec<FrameState> = bodies.iter().map(|body| frame_state(&body.frame)).collect();
+    // The motions of a body with linearized kinematics are its coordinates.
+    let frame_of = |body: &Body| match body.linearized {
+        true => frame_state(&Frame::fixed(body.frame.origin, body.frame.orientation)),
+        false => frame_state(&body.frame),
+    };
+    let frames: Vec<FrameState> = bodies.iter().map(frame_of).collect();
     let kinematics: Vec<Kinematics<f64>> = bodies
         .iter()
         .map(|body| Kinematics::new(body.initial, [0.0; 6], body.rolls()))
@@ -235,18 +322,33 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         mounted_coils.push(placer.place(coil, &name, body, on, mount, kinds, 0)?);
     }
 
+    for (index, connection) in connections.iter().enumerate() {
+        connection.check(index, &bodies, &options)?;
+    }
+    let owned = parts.channels.len();
+    let placer = connection::Placer::new(&bodies, &free_number, &slots, &mut parts);
+    let (mut connections, coupled) = placer.place(connections, &options);
+
     let ends = |body: usize, on: usize| Some((free_number[body]?, free_number[on]?));
     let faces_at = mounted_faces.iter().map(|m| (m.body, m.on));
     let coils_at = mounted_coils.iter().map(|m| (m.body, m.on));
     let couplings = faces_at
         .chain(coils_at)
         .filter_map(|(body, on)| ends(body, on))
+        .chain(coupled)
         .collect();
-    let jacobian = Partitioned::new(&structure(&free, couplings, &parts));
+    let mut jacobian = Partitioned::new(&structure(&free, couplings, &parts));
     let layout = jacobian.layout();
     for (number, free) in free.iter_mut().enumerate() {
         free.pair = jacobian.pair(number, number);
+        if let Some(linear) = &free.linear {
+            let n = free.free.len();
+            for (j, inertia) in linear.inertia.iter().enumerate() {
+                jacobian.mass_mut(number)[j * n + j] = *inertia;
+            }
+        }
     }
+    connections.find_pairs(&jacobian);
     for (face, mounted) in mounted_faces.iter_mut().enumerate() {
         mounted.find_pairs(&jacobian, &free_number);
         for number in mounted.touches(&free_number) {
@@ -281,9 +383,18 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         .flat_map(|free| presses(free, &mounted_faces, &frames))
         .collect();
     let (error_bounds, layer_bounds) = error_bounds(&error_scales, layout, &mounted_faces, &presses);
-    let moves = frames.iter().any(|frame| !frame.fixed);
+    let moved: Vec<MovedBody> = bodies
+        .iter()
+        .enumerate()
+        .filter(|(_, body)| body.linearized && body.is_driven())
+        .map(|(body, own)| MovedBody {
+            body,
+            motions: Box::new(own.frame.motions.clone()),
+        })
+        .collect();
+    let moves = frames.iter().any(|frame| !frame.fixed) || !moved.is_empty();
     let plain = mounted_faces.iter().all(|m| m.plain) && mounted_coils.iter().all(|m| m.plain);
-    let tells_pieces = mounted_faces.iter().all(|face| face.internal_count == 0);
+    let tells_pieces = connections.is_empty() && mounted_faces.iter().all(|face| face.internal_count == 0);
     let bounded = plain && free.iter().all(|free| frames[free.body].fixed) && tells_pieces;
     for face in &mut mounted_faces {
         let body = &bodies[face.body];
@@ -301,8 +412,21 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     let first_points = points
         .scan(0, |next, count| Some(std::mem::replace(next, *next + count)))
         .collect();
+    let nowhere = vec![[0.0; 6]; bodies.len()];
+    let positions = bodies.iter().map(|body| match body.linearized {
+        true => [0, 1, 2, 3, 4, 5].map(|k| body.frame.motions[k].evaluate(0.0, 0.0)[0]),
+        false => [0.0; 6],
+    });
     Ok(System {
-        accelerations: vec![[0.0; 6]; bodies.len()],
+        positions: positions.collect(),
+        rates: nowhere.clone(),
+        loads: nowhere.clone(),
+        given: nowhere.clone(),
+        accelerations: nowhere,
+        connections,
+        moved,
+        internal_ends: parts.internal_pairs,
+        added: owned..parts.channels.len(),
         force: vec![Vector::zero(); bodies.len()],
         moment: vec![Vector::zero(); bodies.len()],
         gathered: vec![Gathered::NONE; free.len()],
@@ -331,6 +455,35 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         placed: vec![f64::NAN; 2 * layout.speeds],
         face_placed: (0, f64::NAN),
         met: false,
+    })
+}
+
+/// Inertia and weight of a body with linearized kinematics.
+fn linear(body: &Body, free: &[usize], gravity: [f64; 3]) -> Result<Linear, ModelError> {
+    let still = body.frame.is_fixed() && body.frame.orientation == [0.0; 3];
+    if !still || body.initial != [0.0; 6] || body.center_of_gravity != [0.0; 3] {
+        let body = body.name.clone();
+        return Err(ModelError::Layout { body });
+    }
+    for &k in free {
+        let (what, value) = match k {
+            0..3 => ("the mass", body.mass),
+            _ => ("a moment of inertia", body.inertia[k - 3]),
+        };
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(ModelError::Mass {
+                body: body.name.clone(),
+                what,
+                value,
+                coordinate: COORDINATES[k],
+            });
+        }
+    }
+    let own = |k: usize| if k < 3 { body.mass } else { body.inertia[k - 3] };
+    let weight = |k: usize| gravity.get(k).map_or(0.0, |field| body.mass * field);
+    Ok(Linear {
+        inertia: free.iter().map(|k| own(*k)).collect(),
+        weight: free.iter().map(|k| weight(*k)).collect(),
     })
 }
 
@@ -401,7 +554,11 @@ fn error_bounds(
     } else {
         scales::WIDEST_TOLERANCE
     };
-    let in_layers = scales::WIDEST_TOLERANCE.min(reference / scales::VELOCITY);
+    let in_layers = if faces.is_empty() {
+        f64::INFINITY
+    } else {
+        scales::WIDEST_TOLERANCE.min(reference / scales::VELOCITY)
+    };
     let [q, u, ..] = layout.split(error_scales);
     let where_pressed = |scales: &[f64], bound: f64| -> Vec<f64> {
         let bounds = scales.iter().zip(presses);
@@ -440,6 +597,7 @@ mod tests {
             frame: place(),
             free: [free; 6],
             initial: [0.0; 6],
+            linearized: false,
         };
         let coil = Coil {
             end: Vector([0.0; 3]),
@@ -469,6 +627,7 @@ mod tests {
                 .iter()
                 .map(|&(a, b)| (a, b, mount(), coil.clone()))
                 .collect(),
+            ..Model::default()
         })
         .unwrap();
         let faces: Vec<&[usize]> = system.free.iter().map(|free| &free.faces[..]).collect();

@@ -1,7 +1,10 @@
 //! Derived quantities: everything that a state says, for outputs.
 
-use super::System;
+use integrate::Problem;
+
+use super::{ChannelKind, System};
 use crate::coil::CoilForce;
+use crate::connection::ConnectionState;
 use crate::contact::PointContact;
 use crate::link::Relative;
 use crate::vector::{Matrix, Vector};
@@ -13,6 +16,8 @@ pub struct BodyPlace {
     pub coordinates: [f64; 6],
     /// Their rates.
     pub speeds: [f64; 6],
+    /// Accelerations of the coordinates of a body with linearized kinematics; of others they are not told.
+    pub accelerations: [f64; 6],
     /// Position of the body's origin.
     pub origin: Vector<f64>,
     /// Displacement of the body's origin from its place at zero motion and zero coordinates.
@@ -25,6 +30,25 @@ pub struct BodyPlace {
     pub angular_velocity: Vector<f64>,
     /// Position of the centre of gravity.
     pub center_of_gravity: Vector<f64>,
+}
+
+impl BodyPlace {
+    /// Of a body with linearized kinematics: its centre of gravity in the drawn layout, coordinates and rates.
+    fn linearized(layout: Vector<f64>, coordinates: [f64; 6], speeds: [f64; 6]) -> Self {
+        let [x, y, z, roll, pitch, yaw] = coordinates;
+        let travel = Vector([x, y, z]);
+        Self {
+            coordinates,
+            speeds,
+            accelerations: [0.0; 6],
+            origin: layout + travel,
+            travel,
+            rotation: crate::turn::fixed([roll, pitch, yaw]),
+            velocity: Vector([speeds[0], speeds[1], speeds[2]]),
+            angular_velocity: Vector([speeds[3], speeds[4], speeds[5]]),
+            center_of_gravity: layout + travel,
+        }
+    }
 }
 
 /// A contact face in the fixed frame's axes (SI).
@@ -74,19 +98,21 @@ pub struct Energies {
     pub kinetic: f64,
     /// Potential energy in the gravity field.
     pub gravity: f64,
-    /// Energy of the coils.
+    /// Energy of the coils, those of massless wedges included.
     pub coil: f64,
     /// Energy of the contact springs.
     pub contact: f64,
-    /// Energy of the bristles.
+    /// Energy of the bristles of contact points and of the force accumulators of connections.
     pub bristle: f64,
+    /// Energy of the springs of connections, also behind gaps and under surfaces.
+    pub spring: f64,
 }
 
 impl Energies {
     /// All of it.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.kinetic + self.gravity + self.coil + self.contact + self.bristle
+        self.kinetic + self.gravity + self.coil + self.contact + self.bristle + self.spring
     }
 }
 
@@ -101,10 +127,25 @@ pub struct Observation {
     pub faces: Vec<FaceState>,
     /// All coils.
     pub coils: Vec<CoilState>,
+    /// All connections.
+    pub connections: Vec<ConnectionState>,
     /// Energies.
     pub energies: Energies,
     /// Values of the quadratures, J, in the order of [`System::channels`].
     pub quadratures: Vec<f64>,
+    /// What of them is work put in, J: that of prescribed motions, and of the coils' guiding couples.
+    pub work: f64,
+    /// What of them is lost, J.
+    pub losses: f64,
+}
+
+impl Observation {
+    /// Energy that came from nowhere since a start with the stored energy `start` (J) and quadratures at zero: work of the
+    /// motions less what is stored and lost. Zero but for the errors of the integration.
+    #[must_use]
+    pub fn residual(&self, start: f64) -> f64 {
+        self.energies.total() - start - self.work + self.losses
+    }
 }
 
 impl System {
@@ -115,8 +156,9 @@ impl System {
         let mut bodies = Vec::with_capacity(self.bodies.len());
         self.body_places(x, &mut bodies);
         let mut energies = Energies::default();
+        self.observe_linearized(time, x, &mut bodies, &mut energies);
         for (number, (body, place)) in self.bodies.iter().zip(&bodies).enumerate() {
-            if self.free_number[number].is_some() {
+            if self.free_number[number].is_some() && !body.linearized {
                 let (frame, kinematics) = (&self.frames[number].motion, &self.kinematics[number]);
                 energies.kinetic += kinematics.kinetic_energy(body, frame);
                 energies.gravity -= body.mass * self.gravity.dot::<f64, f64>(place.center_of_gravity);
@@ -145,14 +187,61 @@ impl System {
                 energy,
             });
         }
+        let places = (&self.positions[..], &self.rates[..]);
+        let connections = self
+            .connections
+            .states(&self.bodies, places, internal, &mut energies);
+        let (mut work, mut losses) = (0.0, 0.0);
+        for (channel, value) in self.channels.iter().zip(quadratures) {
+            match channel.kind {
+                ChannelKind::MotionWork | ChannelKind::CoilGuideWork => work += value,
+                _ => losses += value,
+            }
+        }
         Observation {
+            work,
+            losses,
             time,
             bodies,
             faces,
             coils,
+            connections,
             energies,
             quadratures: quadratures.to_vec(),
         }
+    }
+
+    /// The accelerations of bodies with linearized kinematics, and their kinetic energy and that in the gravity field, which is zero in the
+    /// drawn layout.
+    fn observe_linearized(&mut self, time: f64, x: &[f64], bodies: &mut [BodyPlace], energies: &mut Energies) {
+        if self.free.iter().all(|free| free.linear.is_none()) {
+            return;
+        }
+        let mut dx = vec![0.0; x.len()];
+        self.derivative(time, x, &mut dx);
+        let [_, accelerations, ..] = self.layout.split(&dx);
+        for (body, place) in bodies.iter_mut().enumerate() {
+            if self.bodies[body].linearized {
+                place.accelerations = self.accelerations[body];
+            }
+        }
+        for free in &self.free {
+            let Some(linear) = &free.linear else { continue };
+            let (place, rate) = (&self.positions[free.body], &self.rates[free.body]);
+            for (j, &k) in free.free.iter().enumerate() {
+                energies.kinetic += 0.5 * linear.inertia[j] * rate[k] * rate[k];
+                energies.gravity -= linear.weight[j] * place[k];
+                bodies[free.body].accelerations[k] = accelerations[free.offset + j];
+            }
+        }
+    }
+
+    /// The power of each massless wedge's friction on its column at `time` and state `x`, W, with the number of its connection: what
+    /// [`System::observe`] says of it, without all the rest.
+    pub fn column_powers(&mut self, time: f64, x: &[f64], each: impl FnMut(usize, f64)) {
+        self.place(time, x);
+        let places = (&self.positions[..], &self.rates[..]);
+        self.connections.column_powers(places, self.internal(x), each);
     }
 
     /// Where all bodies are, once they are placed at state `x`.
@@ -160,6 +249,14 @@ impl System {
         out.clear();
         for (number, body) in self.bodies.iter().enumerate() {
             let (frame, kinematics) = (&self.frames[number].motion, &self.kinematics[number]);
+            if body.linearized {
+                out.push(BodyPlace::linearized(
+                    Vector(body.frame.origin),
+                    self.positions[number],
+                    self.rates[number],
+                ));
+                continue;
+            }
             let (coordinates, speeds) = match self.free_number[number] {
                 Some(free) => self.coordinates(&self.free[free], x),
                 None => (body.initial, [0.0; 6]),
@@ -169,6 +266,7 @@ impl System {
             out.push(BodyPlace {
                 coordinates,
                 speeds,
+                accelerations: [0.0; 6],
                 origin,
                 travel: origin - Vector(body.frame.origin),
                 rotation: kinematics.orientation(frame),

@@ -22,6 +22,14 @@ impl System {
             for number in 0..self.frames.len() {
                 self.place_frame(number, time);
             }
+            for moved in &self.moved {
+                for (k, motion) in moved.motions.iter().enumerate() {
+                    let [value, rate, acceleration] = motion.evaluate(time, self.reference);
+                    self.positions[moved.body][k] = value;
+                    self.rates[moved.body][k] = rate;
+                    self.accelerations[moved.body][k] = acceleration;
+                }
+            }
         }
         for number in 0..self.free.len() {
             self.place_free(number, x);
@@ -86,8 +94,17 @@ impl System {
     #[inline(always)]
     pub(super) fn place_free(&mut self, number: usize, x: &[f64]) {
         let free = &self.free[number];
-        let (coordinates, speeds) = self.coordinates(free, x);
         let body = free.body;
+        if free.linear.is_some() {
+            let (positions, rates) = (&mut self.positions[body], &mut self.rates[body]);
+            let (q, u) = x.split_at(self.layout.speeds);
+            for (j, &k) in free.free.iter().enumerate() {
+                positions[k] = q[free.offset + j];
+                rates[k] = u[free.offset + j];
+            }
+            return;
+        }
+        let (coordinates, speeds) = self.coordinates(free, x);
         self.kinematics[body] = Kinematics::new(coordinates, speeds, self.bodies[body].rolls());
     }
 }

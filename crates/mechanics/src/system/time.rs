@@ -55,7 +55,7 @@ impl System {
         for coil in self.coils.iter().filter(|coil| coil.moves) {
             element_in_time(coil, scene, &mut [], &mut self.load_rate, d_quadratures);
         }
-        for free in &self.free {
+        for free in self.free.iter().filter(|free| free.linear.is_none()) {
             let (force, moments) = &self.load_rate[free.body];
             let accelerations = self.kinematics[free.body].accelerations(&free.rigid, force, *moments);
             for (j, &k) in free.free.iter().enumerate() {

@@ -3,10 +3,10 @@
 #![allow(dead_code, missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use mechanics::motion::Motion;
-use mechanics::small::{
-    Accumulator, Body, Column, Connection, Curve, GapDamper, Law, Model, Options, SpringDamper,
-    SurfaceFriction, Wedge,
-};
+use mechanics::body::Body;
+use mechanics::connection::{Accumulator, Column, Connection, GapDamper, Law, SpringDamper, SurfaceFriction, Wedge};
+use mechanics::curve::Curve;
+use mechanics::system::Model;
 
 pub const LBF: f64 = 4.448_221_615_260_5;
 pub const INCH: f64 = 0.0254;
@@ -78,7 +78,7 @@ pub fn model(constant: bool, spatial: bool) -> Model {
     let at = |x: f64, y: f64, z: f64| [x * INCH, y * INCH, z * INCH];
     let mass = LBF / INCH;
     let inertia = LBF * INCH;
-    let mut bodies = vec![Body::free(
+    let mut bodies = vec![Body::linearized(
         "bolster and half car",
         at(-35.0, 0.0, 83.0),
         ALL,
@@ -87,7 +87,7 @@ pub fn model(constant: bool, spatial: bool) -> Model {
     )];
     for (name, y) in [("left side frame", 39.5), ("right side frame", -39.5)] {
         let own = [9e2, 1.37e3, 1.37e3].map(|i| i * inertia);
-        bodies.push(Body::free(name, at(-35.0, y, 18.0), ALL, 2.98 * mass, own));
+        bodies.push(Body::linearized(name, at(-35.0, y, 18.0), ALL, 2.98 * mass, own));
     }
     bodies.push(Body::ground());
     for (name, y) in [
@@ -95,7 +95,7 @@ pub fn model(constant: bool, spatial: bool) -> Model {
         ("center input", 0.0),
         ("right input", -39.5),
     ] {
-        bodies.push(Body::prescribed(
+        bodies.push(Body::linearized_prescribed(
             name,
             at(-35.0, y, 18.0),
             vertical(sine(INCH, 2.0)),
@@ -212,7 +212,7 @@ pub fn model(constant: bool, spatial: bool) -> Model {
     Model {
         bodies,
         connections,
-        gravity: 9.80665,
-        options: Options::default(),
+        gravity: [0.0, 0.0, -9.80665],
+        ..Model::default()
     }
 }

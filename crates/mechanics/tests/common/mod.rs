@@ -48,6 +48,7 @@ pub fn body(
         frame: Frame::fixed([0.0; 3], [0.0; 3]),
         free,
         initial,
+        linearized: false,
     }
 }
 
@@ -184,6 +185,7 @@ pub fn model(bodies: Vec<Body>, gravity: [f64; 3]) -> Model {
         gravity,
         faces: Vec::new(),
         coils: Vec::new(),
+        ..Model::default()
     }
 }
 

@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 
 use mechanics::motion::Motion;
-use mechanics::small::{
-    Accumulator, Body, Column, Connection, Curve, CurveError, GapDamper, Law, Model, SpringDamper,
-    SurfaceFriction, Wedge,
-};
+use mechanics::body::Body;
+use mechanics::connection::{Accumulator, Column, Connection, GapDamper, Law, SpringDamper, SurfaceFriction, Wedge};
+use mechanics::curve::{Curve, CurveError};
+use mechanics::system::Model;
 use thiserror::Error;
 
 use super::choices::Choices;
@@ -120,10 +120,12 @@ impl Truck {
         let mut model = Model {
             bodies,
             connections,
-            gravity: GRAVITY,
+            gravity: [0.0, 0.0, -GRAVITY],
             options: choices.elements.clone(),
+            ..Model::default()
         };
-        let dropped = intended_yaw(&mut model, choices.yaw);
+        let inputs = system.bodies.len() + 1..model.bodies.len();
+        let dropped = intended_yaw(&mut model, inputs, choices.yaw);
         let left_out: Vec<u32> = dropped.iter().map(|number| ids[*number]).collect();
         ids.retain(|id| !left_out.contains(id));
         Ok(Self {
@@ -175,7 +177,7 @@ fn free_body(body: &tree::Body) -> Result<Body, BuildError> {
         free[coordinate(**dof, &by)?] = true;
     }
     let inertia = [0, 1, 2].map(|k| *body.inertia[k] * INERTIA);
-    Ok(Body::free(
+    Ok(Body::linearized(
         body.name.trim(),
         point(&body.position),
         free,
@@ -212,7 +214,7 @@ fn input_body(
         let (factor, _) = factors(coordinate);
         motions[coordinate] = motion(history, choices, factor, delay)?;
     }
-    Ok(Body::prescribed(body.name.trim(), position, motions))
+    Ok(Body::linearized_prescribed(body.name.trim(), position, motions))
 }
 
 /// The laws of one connection.

@@ -1,6 +1,6 @@
 //! What the files leave open.
 
-use mechanics::small::Options;
+use mechanics::connection::Options;
 use serde::{Deserialize, Serialize};
 
 /// The shape BEND: from zero to the amplitude within its first coefficient, then held.

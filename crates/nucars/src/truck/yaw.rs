@@ -3,8 +3,13 @@
 //! Printed: a rotation spring of 1e6 in-lb/rad is to yaw the bolster against two longitudinal springs of 1e6 lb/in at
 //! y = ±39.5 in, that is 3.12e9 in-lb/rad, and reaches 2e-6 of 0.012 rad. A translation's stiffness was copied to a rotation.
 
+
+use std::ops::Range;
+
+use mechanics::connection::Law;
+use mechanics::curve::Curve;
 use mechanics::motion::Motion;
-use mechanics::small::{Curve, Kind, Law, Model};
+use mechanics::system::Model;
 
 use super::choices::Yaw;
 use super::convert::MOMENT;
@@ -16,39 +21,43 @@ pub const DRIVEN_YAW_STIFFNESS: f64 = PRINTED_UNITS_STIFFNESS * MOMENT;
 
 /// Changes a model so that its input bodies yaw what they drive. Gives the numbers of the connections that were left out,
 /// counted before.
-pub fn intended_yaw(model: &mut Model, yaw: Yaw) -> Vec<usize> {
+///
+/// `inputs` are the input bodies.
+pub fn intended_yaw(model: &mut Model, inputs: Range<usize>, yaw: Yaw) -> Vec<usize> {
     match yaw {
         Yaw::AsPrinted => Vec::new(),
-        Yaw::Dropped => drop_springs(model),
+        Yaw::Dropped => drop_springs(model, &inputs),
         Yaw::Driven => {
-            drive_bodies(model);
+            drive_bodies(model, inputs);
             Vec::new()
         }
     }
 }
 
-/// Whether a body is moved by histories.
-fn moved(model: &Model, body: usize) -> Option<&[Motion; 6]> {
-    match &model.bodies.get(body)?.kind {
-        Kind::Prescribed { motions } => Some(motions),
-        Kind::Free { .. } => None,
-    }
+/// Whether a body is an input body: prescribed, and not at the origin.
+fn drives(model: &Model, inputs: &Range<usize>, body: usize) -> bool {
+    inputs.contains(&body) && model.bodies[body].frame.origin != [0.0; 3]
 }
 
-fn drop_springs(model: &mut Model) -> Vec<usize> {
+/// Whether a body is yawed by a history.
+fn is_yawed(model: &Model, body: usize) -> bool {
+    !model.bodies[body].frame.motions[5].is_constant()
+}
+
+fn drop_springs(model: &mut Model, inputs: &Range<usize>) -> Vec<usize> {
     let mut dropped = Vec::new();
     for (number, connection) in model.connections.iter().enumerate() {
         let Law::Springs(springs) = &connection.law else {
             continue;
         };
-        let center = |body: usize| model.bodies[body].center_of_gravity[1];
+        let center = |body: usize| model.bodies[body].frame.origin[1];
         let only = |coordinate: usize| springs.iter().all(|(own, _)| *own == coordinate);
         // Longitudinal, between an input body and a body that lies beside it.
-        let inputs = [connection.a, connection.b]
+        let driving = [connection.a, connection.b]
             .into_iter()
-            .filter(|body| drives(model, *body))
+            .filter(|body| drives(model, inputs, *body))
             .count();
-        if inputs == 1 && only(0) && (center(connection.a) - center(connection.b)).abs() > 1e-9 {
+        if driving == 1 && only(0) && (center(connection.a) - center(connection.b)).abs() > 1e-9 {
             dropped.push(number);
         }
     }
@@ -59,7 +68,7 @@ fn drop_springs(model: &mut Model) -> Vec<usize> {
         .map(|connection| {
             [connection.a, connection.b]
                 .into_iter()
-                .any(|body| moved(model, body).is_some_and(|motions| !motions[5].is_constant()))
+                .any(|body| is_yawed(model, body))
         })
         .collect();
     for (connection, yawing) in model.connections.iter_mut().zip(yawing) {
@@ -79,28 +88,22 @@ fn drop_springs(model: &mut Model) -> Vec<usize> {
     dropped
 }
 
-/// Whether a body is an input body: prescribed, and not the ground at the origin.
-fn drives(model: &Model, body: usize) -> bool {
-    moved(model, body).is_some() && model.bodies[body].center_of_gravity != [0.0; 3]
-}
-
-fn drive_bodies(model: &mut Model) {
-    let yaw = (0..model.bodies.len()).find_map(|body| {
-        let motion = &moved(model, body)?[5];
-        (!motion.is_constant()).then(|| (motion.clone(), model.bodies[body].center_of_gravity[1]))
-    });
-    let Some((yaw, middle)) = yaw else { return };
-    for body in 0..model.bodies.len() {
-        if !drives(model, body) {
+fn drive_bodies(model: &mut Model, inputs: Range<usize>) {
+    let Some(yawed) = (0..model.bodies.len()).find(|body| is_yawed(model, *body)) else {
+        return;
+    };
+    let frame = &model.bodies[yawed].frame;
+    let (yaw, middle) = (frame.motions[5].clone(), frame.origin[1]);
+    for body in inputs.clone() {
+        if !drives(model, &inputs, body) {
             continue;
         }
-        let beside = model.bodies[body].center_of_gravity[1] - middle;
+        let frame = &mut model.bodies[body].frame;
+        let beside = frame.origin[1] - middle;
         if beside == 0.0 {
             continue;
         }
-        if let Kind::Prescribed { motions } = &mut model.bodies[body].kind {
-            let own = motions[0].clone();
-            motions[0] = Motion::Sum(vec![own, yaw.scaled(-beside)]);
-        }
+        let own = frame.motions[0].clone();
+        frame.motions[0] = Motion::Sum(vec![own, yaw.scaled(-beside)]);
     }
 }

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use mechanics::output::Column;
-use mechanics::small::{Column as Face, Kind as BodyKind, Law, Wedge};
+use mechanics::connection::{Column as Face, Law, Wedge};
 use nucars::truck::Truck;
 use quantity::Kind;
 use study::truck::TruckResult;
@@ -165,7 +165,7 @@ pub fn scene(truck: &Truck) -> Option<Scene> {
     let size = wedge::thesis::parameters(Damping::Variable, 0.0, 0.0).wedge;
     let (height, width) = (size.height, size.width);
     let model = &truck.model;
-    let center = |body: usize| model.bodies[body].center_of_gravity;
+    let center = |body: usize| model.bodies[body].frame.origin;
     let mut scene = Scene {
         factor: FACTOR,
         limit: 0.15 * height,
@@ -180,18 +180,16 @@ pub fn scene(truck: &Truck) -> Option<Scene> {
     for (place, body) in model.bodies.iter().enumerate() {
         let carries = wedges.iter().any(|wedge| wedge.bolster == place);
         let held = wedges.iter().any(|wedge| wedge.side_frame == place);
-        let BodyKind::Free { free, .. } = &body.kind else {
-            continue;
-        };
+        let free = &body.free;
         if !carries && !held {
             continue;
         }
         let id = body_id(truck, place);
-        let names = mechanics::small::COORDINATES;
+        let names = mechanics::body::COORDINATES;
         let column = |k: usize| free[k].then(|| format!("{id}_{}", names[k]));
         scene.bodies.push(SceneBody {
             on: None,
-            position: body.center_of_gravity,
+            position: body.frame.origin,
             coordinates: std::array::from_fn(column),
             // The bolster goes up and down to scale.
             steady: [None, None, column(2).filter(|_| carries)],
@@ -272,7 +270,7 @@ fn distinct(all: impl Iterator<Item = usize>) -> Vec<usize> {
 /// A beam across the track, whose sides are the slopes.
 fn bolster_solid(truck: &Truck, own: &[&Seen<'_>], (bottom, height, width): (f64, f64, f64)) -> Solid {
     let place = own[0].bolster;
-    let center = truck.model.bodies[place].center_of_gravity;
+    let center = truck.model.bodies[place].frame.origin;
     let name = truck.model.bodies[place].name.clone();
     let side = |ahead: bool| -> Option<[[f64; 2]; 2]> {
         let wedge = own.iter().find(|wedge| (wedge.ahead > 0.0) == ahead)?;
@@ -314,7 +312,7 @@ fn side_frame_solids(
     own: &[&Seen<'_>],
     (seat, height): (f64, f64),
 ) -> Vec<Solid> {
-    let center = truck.model.bodies[body].center_of_gravity;
+    let center = truck.model.bodies[body].frame.origin;
     let id = body_id(truck, body);
     let thick = 0.5 * height;
     let middle_z = own[0].point[2] - center[2];
@@ -398,7 +396,7 @@ fn join(solid: &mut Solid, other: Solid) {
 
 /// The wedge in its pocket, its coil, and its two contacts.
 fn add_wedge(scene: &mut Scene, truck: &Truck, wedge: &Seen<'_>, (height, width, seat): (f64, f64, f64)) {
-    let center = |body: usize| truck.model.bodies[body].center_of_gravity;
+    let center = |body: usize| truck.model.bodies[body].frame.origin;
     let (id, bolster, side_frame) = (
         wedge.id(),
         body_id(truck, wedge.bolster),
@@ -580,11 +578,9 @@ pub fn plots(truck: &Truck) -> Vec<Plot> {
     let mut bodies: Vec<usize> = distinct(wedges.iter().map(|wedge| wedge.bolster));
     bodies.extend(distinct(wedges.iter().map(|wedge| wedge.side_frame)));
     for body in bodies {
-        let BodyKind::Free { free, .. } = &truck.model.bodies[body].kind else {
-            continue;
-        };
+        let free = &truck.model.bodies[body].free;
         let (id, name) = (body_id(truck, body), &truck.model.bodies[body].name);
-        let names = mechanics::small::COORDINATES;
+        let names = mechanics::body::COORDINATES;
         for (what, range) in [("displacements", 0..3), ("angles", 3..6)] {
             let own: Vec<String> = range
                 .clone()

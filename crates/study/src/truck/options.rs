@@ -1,7 +1,7 @@
 //! The choices as typed: `NAME=VALUE`.
 
 use input::shortened;
-use mechanics::small::{Branch, GapTension, NegativeRise};
+use mechanics::connection::{Branch, GapTension, NegativeRise};
 use nucars::truck::{Bend, Choices};
 use quantity::{Kind, Quantity, nearest};
 use thiserror::Error;

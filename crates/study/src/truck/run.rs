@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 
 use integrate::{Integrator, Options, SetupError};
 use mechanics::motion::Motion;
-use mechanics::small::{COORDINATES, Kind as BodyKind, ModelError, StaticFriction, System};
+use mechanics::body::COORDINATES;
+use mechanics::system::{ModelError, StaticFriction, System};
 use mechanics::system::NoEquilibrium;
 use quantity::Kind;
 use thiserror::Error;
@@ -273,9 +274,7 @@ fn summarize(case: &TruckCase, system: &System, works: &Works, result: &mut Truc
     }
     let mut largest = BTreeMap::new();
     for (place, number) in case.truck.bodies.iter().enumerate() {
-        let BodyKind::Free { free, .. } = &case.truck.model.bodies[place].kind else {
-            continue;
-        };
+        let free = &case.truck.model.bodies[place].free;
         for (coordinate, name) in COORDINATES.iter().enumerate().filter(|(k, _)| free[*k]) {
             let column = format!("body_{number}_{name}");
             let Some(values) = result.column(&column) else {
@@ -295,7 +294,7 @@ fn summarize(case: &TruckCase, system: &System, works: &Works, result: &mut Truc
         "accumulator_energy",
         "ledger_residual",
     ];
-    let channels = system.channels().iter().map(|channel| channel.name());
+    let channels = system.channels().iter().map(|channel| channel.kind.name());
     for name in names.into_iter().chain(channels) {
         if let Some(last) = result.column(name).and_then(<[f64]>::last) {
             ledger.insert(name.to_owned(), Measure::new(*last, Kind::Energy, units));
@@ -331,7 +330,7 @@ fn summarize(case: &TruckCase, system: &System, works: &Works, result: &mut Truc
 }
 
 fn wedge(case: &TruckCase, result: &TruckResult, works: &Works, place: usize) -> WedgeSummary {
-    use mechanics::small::Law;
+    use mechanics::connection::Law;
     use wedge::parameters::Damping;
 
     let (units, number) = (case.units, case.truck.connections[place]);

@@ -5,7 +5,8 @@
 
 use mechanics::motion::Motion;
 use mechanics::output::Column;
-use mechanics::small::{COORDINATES, Kind as BodyKind, Model, Observation, System};
+use mechanics::body::COORDINATES;
+use mechanics::system::{Model, Observation, System};
 use mechanics::system::Mode;
 use nucars::tree::{DofQuantity, ElementQuantity};
 use nucars::truck::Truck;
@@ -42,10 +43,7 @@ impl Table {
             table.wedge(place, truck.connections[place], &truck.model);
         }
         for (body, own) in truck.model.bodies.iter().enumerate() {
-            let BodyKind::Free { free, .. } = &own.kind else {
-                continue;
-            };
-            for coordinate in (0..6).filter(|k| free[*k]) {
+            for coordinate in (0..6).filter(|k| own.free[*k]) {
                 let displacement = Request::Body {
                     quantity: DofQuantity::Displacement,
                     body,
@@ -242,11 +240,8 @@ impl Table {
                         move |seen| seen.bodies[body].accelerations[coordinate],
                     ),
                     DofQuantity::Force => {
-                        let inertia = match &truck.model.bodies[body].kind {
-                            BodyKind::Free { inertia, .. } if turns => inertia[coordinate - 3],
-                            BodyKind::Free { mass, .. } => *mass,
-                            BodyKind::Prescribed { .. } => 0.0,
-                        };
+                        let own = &truck.model.bodies[body];
+                        let inertia = if turns { own.inertia[coordinate - 3] } else { own.mass };
                         self.add(
                             format!("{stem}_force"),
                             kinds(Kind::Force, Kind::Moment),
@@ -316,17 +311,17 @@ impl Table {
             ),
             (
                 "spring_energy",
-                |seen| seen.energies.springs,
+                |seen| seen.energies.spring,
                 "energy of the springs",
             ),
             (
                 "coil_energy",
-                |seen| seen.energies.coils,
+                |seen| seen.energies.coil,
                 "energy of the wedges' coils",
             ),
             (
                 "accumulator_energy",
-                |seen| seen.energies.accumulators,
+                |seen| seen.energies.bristle,
                 "energy of the force accumulators",
             ),
         ];
@@ -335,7 +330,7 @@ impl Table {
         }
         for (number, channel) in system.channels().iter().enumerate() {
             self.add(
-                channel.name(),
+                channel.kind.name(),
                 Kind::Energy,
                 "work or loss since the start",
                 move |seen| seen.quadratures[number],
@@ -352,16 +347,11 @@ impl Table {
 
 /// The first prescribed body that moves up and down.
 pub(super) fn input_body(model: &Model) -> Option<usize> {
-    model.bodies.iter().position(|body| match &body.kind {
-        BodyKind::Prescribed { motions } => !motions[2].is_constant(),
-        BodyKind::Free { .. } => false,
-    })
+    let moves = |body: &mechanics::body::Body| !body.frame.motions[2].is_constant();
+    model.bodies.iter().position(moves)
 }
 
 /// Its vertical motion.
 pub(super) fn input_motion(model: &Model) -> Option<&Motion> {
-    match &model.bodies[input_body(model)?].kind {
-        BodyKind::Prescribed { motions } => Some(&motions[2]),
-        BodyKind::Free { .. } => None,
-    }
+    Some(&model.bodies[input_body(model)?].frame.motions[2])
 }

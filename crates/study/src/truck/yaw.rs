@@ -1,6 +1,7 @@
 //! How far the yaw that input bodies command is reached.
 
-use mechanics::small::{Kind as BodyKind, Law, Model};
+use mechanics::connection::Law;
+use mechanics::system::Model;
 use nucars::truck::Truck;
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
@@ -24,11 +25,8 @@ pub struct YawSummary {
 
 /// An input body that yaws, and the free body that a yaw spring ties to it, by their places in the model.
 pub(super) fn drive(model: &Model) -> Option<(usize, usize)> {
-    let yaws = |body: usize| match &model.bodies[body].kind {
-        BodyKind::Prescribed { motions } => !motions[5].is_constant(),
-        BodyKind::Free { .. } => false,
-    };
-    let free = |body: usize| matches!(&model.bodies[body].kind, BodyKind::Free { free, .. } if free[5]);
+    let yaws = |body: usize| !model.bodies[body].frame.motions[5].is_constant();
+    let free = |body: usize| model.bodies[body].free[5];
     model.connections.iter().find_map(|connection| {
         let Law::Springs(springs) = &connection.law else {
             return None;
@@ -49,9 +47,7 @@ pub fn is_commanded(truck: &Truck) -> bool {
 /// Commanded and reached yaw of a run, if one is commanded.
 pub(super) fn summary(truck: &Truck, result: &TruckResult, units: Units) -> Option<YawSummary> {
     let (input, body) = drive(&truck.model)?;
-    let BodyKind::Prescribed { motions } = &truck.model.bodies[input].kind else {
-        return None;
-    };
+    let motions = &truck.model.bodies[input].frame.motions;
     let number = truck.bodies[body];
     let (times, yaws) = (
         result.column("time")?,

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use integrate::Problem;
-use mechanics::small::{Held, Kind, StaticFriction, System, Vibration};
+use mechanics::system::{Held, StaticFriction, System, Vibration};
 
 use crate::common::{INCH, POUND, case, result};
 
@@ -23,7 +23,7 @@ fn without_inputs(name: &str) -> System {
     let inputs: Vec<bool> = model
         .bodies
         .iter()
-        .map(|body| matches!(body.kind, Kind::Prescribed { .. }) && body.center_of_gravity != [0.0; 3])
+        .map(|body| body.is_prescribed() && body.frame.origin != [0.0; 3])
         .collect();
     model.connections.retain(|own| !inputs[own.a] && !inputs[own.b]);
     System::new(model).unwrap()
@@ -35,10 +35,7 @@ fn residuals(name: &str) -> [f64; 2] {
     let x = system.initial_state();
     let seen = system.observe(0.0, &x);
     [BODY, LEFT].map(|body| {
-        let Kind::Free { mass, .. } = system.model().bodies[body].kind else {
-            panic!("not free");
-        };
-        mass * seen.bodies[body].accelerations[2] / POUND
+        system.bodies()[body].mass * seen.bodies[body].accelerations[2] / POUND
     })
 }
 
@@ -110,17 +107,13 @@ fn variable_with_toe() -> f64 {
 
 /// The vibration whose motion is, by its energy, most of all in this coordinate of a body.
 fn mode_of(system: &System, modes: &[Vibration], body: usize, coordinate: usize) -> Vibration {
-    let model = system.model();
     let share = |mode: &Vibration| {
         let mut all = 0.0;
         let mut own = 0.0;
-        for (place, free) in model.bodies.iter().enumerate() {
-            let Kind::Free { free, mass, inertia } = &free.kind else {
-                continue;
-            };
-            for k in (0..6).filter(|k| free[*k]) {
+        for (place, free) in system.bodies().iter().enumerate() {
+            for k in (0..6).filter(|k| free.free[*k]) {
                 let entry = mode.shape[system.position_of(place, k).unwrap()];
-                let energy = if k < 3 { *mass } else { inertia[k - 3] } * entry * entry;
+                let energy = if k < 3 { free.mass } else { free.inertia[k - 3] } * entry * entry;
                 all += energy;
                 if (place, k) == (body, coordinate) {
                     own += energy;
@@ -188,7 +181,7 @@ fn without_wedges(name: &str) -> System {
     let mut model = case(name, 1.0).truck.model;
     model
         .connections
-        .retain(|own| !matches!(own.law, mechanics::small::Law::Wedge(_)));
+        .retain(|own| !matches!(own.law, mechanics::connection::Law::Wedge(_)));
     System::new(model).unwrap()
 }
 
@@ -260,7 +253,7 @@ fn solve(mut matrix: Vec<f64>, mut b: Vec<f64>) -> Vec<f64> {
 fn linear_yaw(name: &str, held: Held) -> f64 {
     let mut system = without_wedges(name);
     let x = compressed(&system);
-    let stiffness = system.stiffness(0.0, &x, held);
+    let stiffness = system.stiffness_matrix(0.0, &x, held);
     let yaw = system.position_of(BODY, 5).unwrap();
     let mut moments = vec![0.0; system.layout().speeds];
     moments[yaw] = 1e6 * POUND * INCH * 0.012;

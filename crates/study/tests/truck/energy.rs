@@ -1,6 +1,6 @@
 //! The energy ledger of all runs closes.
 
-use mechanics::small::ChannelKind;
+use mechanics::system::ChannelKind;
 use study::truck::catalog::{Entry, ToeCase, YawCase};
 
 use crate::common::run_all;

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use mechanics::small::System;
+use mechanics::system::System;
 use study::truck::catalog::{ToeCase, WedgeType, YawCase, entries, entry};
 use study::truck::run::run;
 

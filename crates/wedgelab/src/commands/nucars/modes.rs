@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use mechanics::small::{COORDINATES, Held, Kind, StaticFriction, System, Vibration};
+use mechanics::body::COORDINATES;
+use mechanics::system::{Held, StaticFriction, System, Vibration};
 use nucars::Severity;
 use nucars::check;
 use nucars::read::{FileKind, read_system};
@@ -95,7 +96,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .bodies
         .iter()
         .enumerate()
-        .filter(|(_, body)| matches!(body.kind, Kind::Free { .. }))
+        .filter(|(_, body)| !body.is_prescribed())
         .map(|(place, body)| (place, format!("{} {}", truck.bodies[place], body.name)))
         .collect();
     let mut head = vec![("frequency", "Hz")];
@@ -141,14 +142,12 @@ fn frequency(mode: &Vibration) -> String {
 
 /// Twice the kinetic energy in each free coordinate of a body at unit frequency, with the sign of its motion.
 fn energies(system: &System, mode: &Vibration, body: usize) -> Vec<(usize, f64)> {
-    let Kind::Free { free, mass, inertia } = &system.model().bodies[body].kind else {
-        return Vec::new();
-    };
+    let own = &system.bodies()[body];
     (0..6)
-        .filter(|k| free[*k])
+        .filter(|k| own.free[*k])
         .filter_map(|k| {
             let entry = mode.shape[system.position_of(body, k)?];
-            let inertia = if k < 3 { *mass } else { inertia[k - 3] };
+            let inertia = if k < 3 { own.mass } else { own.inertia[k - 3] };
             Some((k, inertia * entry * entry.abs()))
         })
         .collect()

@@ -2,9 +2,9 @@
 
 use integrate::{Integrator, Method, Options as Settings, Problem};
 use mechanics::motion::Motion;
-use mechanics::small::{
-    Body, Connection, Law, Model, Observation, Options, SpringDamper, System, Wedge, WedgeState,
-};
+use mechanics::body::Body;
+use mechanics::connection::{Connection, Law, Options, SpringDamper, Wedge, WedgeState};
+use mechanics::system::{Model, Observation, System};
 
 use crate::half_truck::{ALL, vertical};
 
@@ -22,8 +22,7 @@ pub fn model(bodies: Vec<Body>, connections: Vec<Connection>) -> Model {
     Model {
         bodies,
         connections,
-        gravity: 0.0,
-        options: Options::default(),
+        ..Model::default()
     }
 }
 
@@ -34,7 +33,7 @@ pub fn one(coordinate: usize, law: SpringDamper) -> Law {
 
 /// One law between a free unit body (A) and the ground (B), at the body's centre.
 pub fn against_ground(law: Law, options: Options) -> System {
-    let body = Body::free("body", [0.0; 3], ALL, 1.0, [1.0; 3]);
+    let body = Body::linearized("body", [0.0; 3], ALL, 1.0, [1.0; 3]);
     let mut model = model(vec![body, Body::ground()], vec![connection(0, 1, [0.0; 3], law)]);
     model.options = options;
     System::new(model).unwrap()
@@ -70,8 +69,8 @@ pub fn wedge_at(wedge: &Wedge, options: &Options, z: f64, velocity: f64) -> Wedg
 
 /// A law between a body that is moved up and down (A) and one so heavy that it stays (B).
 pub fn driven(law: Law, motion: Motion) -> System {
-    let mover = Body::prescribed("mover", [0.0; 3], vertical(motion));
-    let heavy = Body::free(
+    let mover = Body::linearized_prescribed("mover", [0.0; 3], vertical(motion));
+    let heavy = Body::linearized(
         "heavy",
         [0.0; 3],
         [true, true, true, false, false, false],

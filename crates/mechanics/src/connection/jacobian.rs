@@ -7,20 +7,20 @@ use integrate::partitioned::Partitioned;
 use integrate::scalar::Dual;
 
 use super::forces::{AxisLaw, SpatialLaw, deflection_at};
-use super::law::Grip;
-use super::place::Site;
-use super::{Axis, Spatial, System};
+use super::accumulator::Grip;
+use super::site::Site;
+use super::{Axis, Connections, Spatial};
 
 /// Everything that derivatives are taken at, and where derivatives by time are gathered.
-struct Scene<'s> {
-    positions: &'s [[f64; 6]],
-    rates: &'s [[f64; 6]],
-    accelerations: &'s [[f64; 6]],
-    internal: &'s [f64],
-    jacobian: &'s mut Partitioned,
-    loads: &'s mut [[f64; 6]],
-    d_internal: &'s mut [f64],
-    d_quadratures: &'s mut [f64],
+pub(crate) struct Scene<'s> {
+    pub positions: &'s [[f64; 6]],
+    pub rates: &'s [[f64; 6]],
+    pub accelerations: &'s [[f64; 6]],
+    pub internal: &'s [f64],
+    pub jacobian: &'s mut Partitioned,
+    pub loads: &'s mut [[f64; 6]],
+    pub d_internal: &'s mut [f64],
+    pub d_quadratures: &'s mut [f64],
 }
 
 /// Derivatives of one quantity by strokes, rates and deflections.
@@ -63,25 +63,9 @@ struct Local {
     powers: [Partial; 3],
 }
 
-impl System {
-    /// The Jacobian and the derivative by time at the state that [`System::place`] was called with.
-    pub(super) fn differentiate(&mut self, x: &[f64], df_dt: &mut [f64]) {
-        let [_, _, internal, _] = self.layout.split(x);
-        let [_, d_speeds, d_internal, d_quadratures] = self.layout.split_mut(df_dt);
-        self.jacobian.clear();
-        for free in &self.free {
-            self.loads[free.body] = [0.0; 6];
-        }
-        let mut scene = Scene {
-            positions: &self.positions,
-            rates: &self.rates,
-            accelerations: &self.accelerations,
-            internal,
-            jacobian: &mut self.jacobian,
-            loads: &mut self.loads,
-            d_internal,
-            d_quadratures,
-        };
+impl Connections {
+    /// Adds the derivatives of all connections.
+    pub fn differentiate(&self, scene: &mut Scene<'_>) {
         for spring in &self.springs {
             scene.axis(spring);
         }
@@ -93,15 +77,6 @@ impl System {
         }
         for wedge in &self.wedges {
             scene.spatial(wedge, self.grips.wedges);
-        }
-        if self.moved.iter().any(|moved| moved.moves) {
-            for free in &self.free {
-                let load = &self.loads[free.body];
-                let target = &mut d_speeds[free.offset..free.offset + free.free.len()];
-                for (j, target) in target.iter_mut().enumerate() {
-                    *target = load[free.free[j]] / free.inertia[j];
-                }
-            }
         }
     }
 }

@@ -1,157 +1,16 @@
-//! The description of a system with small displacements. Plain data, SI units; axes x forward, y left, z up.
+//! What must hold of connections and of the choices that their laws leave open.
 
 use thiserror::Error;
 
-use super::law::Accumulator;
-use super::law::gap::GapDamper;
-use super::law::spring::SpringDamper;
-use super::law::surface::SurfaceFriction;
-use super::law::wedge::{Column, Wedge};
+use super::accumulator::Accumulator;
 use super::options::{Branch, Options, SlopeDirection};
-use crate::motion::Motion;
+use super::wedge::Column;
+use super::{Connection, Law};
+use crate::body::Body;
 
-/// Names of the coordinates: translations (m), rotations (rad) about x, y, z.
-pub const COORDINATES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
-
-/// Bodies and the connections between them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Model {
-    /// All bodies.
-    pub bodies: Vec<Body>,
-    /// All connections.
-    pub connections: Vec<Connection>,
-    /// Gravity, m/s², positive downwards.
-    pub gravity: f64,
-    /// Choices that the laws leave open.
-    pub options: Options,
-}
-
-/// A body.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Body {
-    /// Its name, for messages and outputs; names need not differ.
-    pub name: String,
-    /// Its centre of gravity in the drawn layout, m.
-    pub center_of_gravity: [f64; 3],
-    /// What moves it.
-    pub kind: Kind,
-}
-
-/// What moves a body.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Kind {
-    /// Forces.
-    Free {
-        /// Which coordinates (x, y, z, roll, pitch, yaw) are free; the others stay at zero.
-        free: [bool; 6],
-        /// Mass, kg.
-        mass: f64,
-        /// Principal moments of inertia about x, y, z, kg·m².
-        inertia: [f64; 3],
-    },
-    /// Prescribed motions of its centre of gravity (x, y, z) and of its rotations (roll, pitch, yaw), from the drawn layout.
-    Prescribed {
-        /// The motions, m and rad.
-        motions: Box<[Motion; 6]>,
-    },
-}
-
-impl Body {
-    /// A free body.
-    #[must_use]
-    pub fn free(
-        name: &str,
-        center_of_gravity: [f64; 3],
-        free: [bool; 6],
-        mass: f64,
-        inertia: [f64; 3],
-    ) -> Self {
-        Self {
-            name: name.to_owned(),
-            center_of_gravity,
-            kind: Kind::Free { free, mass, inertia },
-        }
-    }
-
-    /// A body with prescribed motions.
-    #[must_use]
-    pub fn prescribed(name: &str, center_of_gravity: [f64; 3], motions: [Motion; 6]) -> Self {
-        Self {
-            name: name.to_owned(),
-            center_of_gravity,
-            kind: Kind::Prescribed {
-                motions: Box::new(motions),
-            },
-        }
-    }
-
-    /// A body that does not move, with its centre at the origin.
-    #[must_use]
-    pub fn ground() -> Self {
-        Self::prescribed("ground", [0.0; 3], std::array::from_fn(|_| Motion::Constant(0.0)))
-    }
-}
-
-/// A connection of two bodies at a point.
-///
-/// Its stroke in a coordinate is the displacement of the point on body A less that on body B: extension positive. A force f in the
-/// stroke's sense acts as -f on body A and as +f on body B.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Connection {
-    /// Its name, for messages and outputs; names need not differ.
-    pub name: String,
-    /// Number of body A.
-    pub a: usize,
-    /// Number of body B.
-    pub b: usize,
-    /// Its point in the drawn layout, m.
-    pub point: [f64; 3],
-    /// Its law.
-    pub law: Law,
-}
-
-/// The law of a connection.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Law {
-    /// Springs with dampers on single coordinates (0 to 5), independent of each other: types 1, 1.1, 1.3.
-    Springs(Vec<(usize, SpringDamper)>),
-    /// A damper behind a gap on one coordinate (0 to 5): type 1.2.
-    Gap(usize, GapDamper),
-    /// Friction on a surface: type 6.5.
-    Surface(SurfaceFriction),
-    /// A friction wedge: types 6.3, 6.7, 6.8, 6.9.
-    Wedge(Wedge),
-}
-
-impl Law {
-    /// The coordinates (0 to 5) of its components, in the order of outputs.
-    ///
-    /// A wedge with a profile: vertical, longitudinal, lateral; without: vertical, lateral.
-    #[must_use]
-    pub fn coordinates(&self) -> Vec<usize> {
-        match self {
-            Self::Springs(springs) => springs.iter().map(|(coordinate, _)| *coordinate).collect(),
-            Self::Gap(coordinate, _) => vec![*coordinate],
-            Self::Surface(surface) => surface.coordinates.to_vec(),
-            Self::Wedge(wedge) => match wedge.column {
-                Column::Plain { .. } => vec![2, 1],
-                Column::Profile { .. } => vec![2, 0, 1],
-            },
-        }
-    }
-
-    fn accumulator(&self) -> Option<Accumulator> {
-        match self {
-            Self::Surface(surface) => Some(surface.accumulator),
-            Self::Wedge(wedge) => Some(wedge.accumulator),
-            _ => None,
-        }
-    }
-}
-
-/// Why a model makes no system.
+/// Why a connection makes no element.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum ModelError {
+pub enum ConnectionError {
     /// A connection names a body that does not exist.
     #[error(
         "connection {index} ({name}) refers to body {number}, but there are only {count} (counted from 0)"
@@ -177,6 +36,19 @@ pub enum ModelError {
         a: String,
         /// Name of body B.
         b: String,
+    },
+    /// A connection joins a body whose kinematics are not linearized.
+    #[error(
+        "connection {index} ({name}) joins {body}, whose displacements are not small: strokes are those of bodies with linearized \
+         kinematics; use a contact face, a coil or another element"
+    )]
+    NotLinearized {
+        /// Number of the connection.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// The body.
+        body: String,
     },
     /// A connection joins a body to itself.
     #[error("connection {index} ({name}) joins {body} to itself: name two bodies")]
@@ -214,18 +86,6 @@ pub enum ModelError {
         /// What it must be.
         must: &'static str,
     },
-    /// A mass or moment of inertia is not positive.
-    #[error("{what} of {body} is {value}; it must be positive, because {coordinate} is free")]
-    Mass {
-        /// The body.
-        body: String,
-        /// Mass or moment of inertia.
-        what: &'static str,
-        /// Its value, SI.
-        value: f64,
-        /// The coordinate that needs it.
-        coordinate: &'static str,
-    },
     /// An option is not admissible.
     #[error("the option {name} is {value}; it must {must}")]
     Option {
@@ -236,47 +96,19 @@ pub enum ModelError {
         /// What it must be.
         must: &'static str,
     },
-    /// No coordinate at all is free.
-    #[error("no body has a free coordinate: nothing can move")]
-    NothingFree,
 }
 
-impl Model {
-    /// Checks numbers and names.
+impl Options {
+    /// Checks the choices.
     ///
     /// # Errors
-    /// The first thing that makes no system.
-    pub fn check(&self) -> Result<(), ModelError> {
-        let mut any = false;
-        for body in &self.bodies {
-            let Kind::Free { free, mass, inertia } = &body.kind else {
-                continue;
-            };
-            for k in (0..6).filter(|k| free[*k]) {
-                any = true;
-                let (what, value) = match k {
-                    0..3 => ("the mass", *mass),
-                    _ => ("a moment of inertia", inertia[k - 3]),
-                };
-                if !(value > 0.0 && value.is_finite()) {
-                    return Err(ModelError::Mass {
-                        body: body.name.clone(),
-                        what,
-                        value,
-                        coordinate: COORDINATES[k],
-                    });
-                }
-            }
-        }
-        if !any {
-            return Err(ModelError::NothingFree);
-        }
+    /// One is not admissible.
+    pub(crate) fn check(&self) -> Result<(), ConnectionError> {
         let option = |name, value: f64, holds: bool, must| match holds {
             true => Ok(()),
-            false => Err(ModelError::Option { name, value, must }),
+            false => Err(ConnectionError::Option { name, value, must }),
         };
-        let options = &self.options;
-        let (toe, damping) = (options.plain_toe_angle, options.accumulator_damping);
+        let (toe, damping) = (self.plain_toe_angle, self.accumulator_damping);
         option(
             "plain_toe_angle",
             toe,
@@ -286,11 +118,11 @@ impl Model {
         let positive = damping > 0.0 && damping.is_finite();
         option("accumulator_damping", damping, positive, "be positive and finite")?;
         let speeds = [
-            match options.branch {
+            match self.branch {
                 Branch::Velocity { reference_speed } => reference_speed,
                 Branch::FrictionForce => 1.0,
             },
-            match options.slope {
+            match self.slope {
                 SlopeDirection::OwnSlip { reference_speed } => reference_speed,
                 SlopeDirection::Toe => 1.0,
             },
@@ -304,42 +136,48 @@ impl Model {
                 "be positive and finite",
             )?;
         }
-        let connections = self.connections.iter().enumerate();
-        connections
-            .into_iter()
-            .try_for_each(|(index, connection)| self.check_connection(index, connection))
+        Ok(())
     }
+}
 
-    fn is_free(&self, body: usize) -> bool {
-        matches!(&self.bodies[body].kind, Kind::Free { free, .. } if free.contains(&true))
-    }
-
-    fn check_connection(&self, index: usize, connection: &Connection) -> Result<(), ModelError> {
-        let Connection { name, a, b, law, .. } = connection;
+impl Connection {
+    /// Checks connection number `index` of a model.
+    ///
+    /// # Errors
+    /// The first thing that makes no element.
+    pub(crate) fn check(&self, index: usize, bodies: &[Body], options: &Options) -> Result<(), ConnectionError> {
+        let Connection { name, a, b, law, .. } = self;
         let name = || name.clone();
         for number in [*a, *b] {
-            if number >= self.bodies.len() {
-                return Err(ModelError::NoSuchBody {
+            if number >= bodies.len() {
+                return Err(ConnectionError::NoSuchBody {
                     index,
                     name: name(),
                     number,
-                    count: self.bodies.len(),
+                    count: bodies.len(),
                 });
             }
         }
         if a == b {
-            return Err(ModelError::Itself {
+            return Err(ConnectionError::Itself {
                 index,
                 name: name(),
-                body: self.bodies[*a].name.clone(),
+                body: bodies[*a].name.clone(),
             });
         }
-        if !self.is_free(*a) && !self.is_free(*b) {
-            return Err(ModelError::NothingToMove {
+        if let Some(body) = [*a, *b].into_iter().find(|body| !bodies[*body].linearized) {
+            return Err(ConnectionError::NotLinearized {
                 index,
                 name: name(),
-                a: self.bodies[*a].name.clone(),
-                b: self.bodies[*b].name.clone(),
+                body: bodies[body].name.clone(),
+            });
+        }
+        if [*a, *b].iter().all(|body| bodies[*body].is_prescribed()) {
+            return Err(ConnectionError::NothingToMove {
+                index,
+                name: name(),
+                a: bodies[*a].name.clone(),
+                b: bodies[*b].name.clone(),
             });
         }
         let coordinates = law.coordinates();
@@ -350,7 +188,7 @@ impl Model {
         let surface = end == 3;
         for (i, &coordinate) in coordinates.iter().enumerate() {
             if coordinate >= end || (surface && coordinates[..i].contains(&coordinate)) {
-                return Err(ModelError::Coordinate {
+                return Err(ConnectionError::Coordinate {
                     index,
                     name: name(),
                     coordinate,
@@ -360,7 +198,7 @@ impl Model {
         }
         let rule = |parameter, value: f64, holds: bool, must| match holds {
             true => Ok(()),
-            false => Err(ModelError::Parameter {
+            false => Err(ConnectionError::Parameter {
                 index,
                 name: name(),
                 parameter,
@@ -423,7 +261,7 @@ impl Model {
                     |slope: f64| angle - libm::atan(slope) > 0.0 && angle - libm::atan(slope) < right;
                 let must = "with the column's inclination lie between 0 and π/2 rad";
                 let steepest = match &wedge.column {
-                    Column::Plain { .. } => inclined(libm::tan(self.options.plain_toe_angle)),
+                    Column::Plain { .. } => inclined(libm::tan(options.plain_toe_angle)),
                     Column::Profile { depth, direction } => {
                         rule(
                             "the column's direction",

@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use integrate::Method;
 use mechanics::motion::Motion;
-use mechanics::small::{Accumulator, ChannelKind, Column, Law, Options, Wedge};
+use mechanics::connection::{Accumulator, Column, Law, Options, Wedge};
+use mechanics::system::ChannelKind;
 
 use crate::analytic::{close, plain};
 use crate::half_truck::{INCH, LBF_INCH, LBF_PER_INCH, straight, wedge};
@@ -27,7 +28,7 @@ fn loop_energy(law: Wedge, tolerance: f64) -> [f64; 2] {
             .problem()
             .channels()
             .iter()
-            .position(|k| *k == ChannelKind::ColumnFriction)
+            .position(|own| own.kind == ChannelKind::ColumnFriction)
             .unwrap();
         let seen = seen(&done);
         let stored = seen.energies.total();

@@ -8,7 +8,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use integrate::{Integrator, Method, Options, Problem};
-use mechanics::small::{Held, StaticFriction, System};
+use mechanics::system::{Held, StaticFriction, System};
 
 /// The best of several rounds, microseconds a call.
 fn measure(mut call: impl FnMut()) -> f64 {
@@ -58,8 +58,8 @@ fn main() {
             seen.residual(energy),
             seen.quadratures[1..].iter().sum::<f64>(),
         );
-        for (kind, value) in system.channels().iter().zip(&seen.quadratures) {
-            println!("    {:22} {value:12.3} J", kind.name());
+        for (channel, value) in system.channels().iter().zip(&seen.quadratures) {
+            println!("    {:22} {value:12.3} J", channel.kind.name());
         }
         let (mut dx, mut df_dt) = (vec![0.0; x.len()], vec![0.0; x.len()]);
         let mut at = time;

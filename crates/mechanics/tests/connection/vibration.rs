@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
-use mechanics::small::{
-    Accumulator, Body, Column, Curve, Held, Law, SpringDamper, StaticFriction, SurfaceFriction, System,
-};
+use mechanics::body::Body;
+use mechanics::connection::{Accumulator, Column, Law, SpringDamper, SurfaceFriction};
+use mechanics::curve::Curve;
+use mechanics::system::{Held, StaticFriction, System};
 
 use crate::half_truck::{ALL, LBF_PER_INCH, straight, wedge};
 use crate::models::{connection, model};
@@ -20,8 +21,8 @@ fn a_chain_of_two_masses() {
     let free = [true, false, false, false, false, false];
     let bodies = vec![
         Body::ground(),
-        Body::free("a", [0.0; 3], free, m, [1.0; 3]),
-        Body::free("b", [1.0, 0.0, 0.0], free, m, [1.0; 3]),
+        Body::linearized("a", [0.0; 3], free, m, [1.0; 3]),
+        Body::linearized("b", [1.0, 0.0, 0.0], free, m, [1.0; 3]),
     ];
     let law = || Law::Springs(vec![(0, spring(k))]);
     let connections = vec![
@@ -46,7 +47,7 @@ fn a_chain_of_two_masses() {
 #[test]
 fn a_body_on_four_springs() {
     let (k, m, inertia, lever) = (1000.0, 50.0, [3.0, 5.0, 7.0], [0.6, 0.4]);
-    let bodies = vec![Body::free("b", [0.0, 0.0, 0.0], ALL, m, inertia), Body::ground()];
+    let bodies = vec![Body::linearized("b", [0.0, 0.0, 0.0], ALL, m, inertia), Body::ground()];
     let mut connections = Vec::new();
     for x in [1.0, -1.0] {
         for y in [1.0, -1.0] {
@@ -95,7 +96,7 @@ fn a_body_on_four_springs() {
 fn a_body_on_wedges() {
     let (mass, inertia) = (2000.0, [300.0, 400.0, 500.0]);
     let build = |column: &dyn Fn(f64) -> Column| {
-        let bodies = vec![Body::free("b", [0.0; 3], ALL, mass, inertia), Body::ground()];
+        let bodies = vec![Body::linearized("b", [0.0; 3], ALL, mass, inertia), Body::ground()];
         let wedges = [1.0, -1.0].map(|direction| {
             let law = Law::Wedge(wedge(false, column(direction)));
             connection(0, 1, [0.3 * direction, 0.0, 0.0], law)
@@ -120,7 +121,7 @@ fn a_body_on_wedges() {
     x[0] = 0.002;
     let found = system.vibrations(0.0, &x, Held::All).unwrap();
     assert!(found.asymmetry > 1e-6);
-    let stiffness = system.stiffness(0.0, &x, Held::All);
+    let stiffness = system.stiffness_matrix(0.0, &x, Held::All);
     let n = 6;
     let inertia: Vec<f64> = [[mass; 3], inertia].concat();
     for mode in &found.modes {
@@ -157,7 +158,7 @@ fn stiffness_is_minus_the_derivative_of_forces() {
             _ => {}
         }
     }
-    let kinds: Vec<_> = model.bodies.iter().map(|body| body.kind.clone()).collect();
+    let bodies = model.bodies.clone();
     let mut system = System::new(model).unwrap();
     let n = system.layout().speeds;
     assert_eq!(n, 18);
@@ -166,7 +167,7 @@ fn stiffness_is_minus_the_derivative_of_forces() {
     for value in &mut x[..n] {
         *value = random.between(-1e-4, 1e-4);
     }
-    let stiffness = system.stiffness(0.0, &x, Held::All);
+    let stiffness = system.stiffness_matrix(0.0, &x, Held::All);
     let h = 1e-7;
     for j in 0..n {
         let mut force = |d: f64| {
@@ -179,10 +180,8 @@ fn stiffness_is_minus_the_derivative_of_forces() {
         };
         let (up, down) = (force(h), force(-h));
         for i in 0..n {
-            let mechanics::small::Kind::Free { mass, inertia, .. } = &kinds[i / 6] else {
-                unreachable!()
-            };
-            let own = if i % 6 < 3 { *mass } else { inertia[i % 6 - 3] };
+            let body = &bodies[i / 6];
+            let own = if i % 6 < 3 { body.mass } else { body.inertia[i % 6 - 3] };
             let expected = -(up[i] - down[i]) / (2.0 * h) * own;
             let size = stiffness.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
             assert!(

@@ -6,10 +6,9 @@
 //! - it starts to slip where the load |T|/limit of its accumulator rises to [`SLIP_LOAD`], and sticks again where it falls
 //!   to [`STICK_LOAD`], the values of bristles elsewhere in this program.
 
-use super::System;
-use super::forces::{SpatialLaw, deflection_at};
-use super::law::Friction;
-use super::{Grip, Spatial};
+use super::accumulator::Friction;
+use super::forces::{Places, SpatialLaw, deflection_at};
+use super::{Connections, Grip, Spatial};
 use crate::system::{Mode, SLIP_LOAD, STICK_LOAD};
 
 /// An element closes at this normal (or coil) force, N.
@@ -21,17 +20,17 @@ const BRISTLE: usize = 1;
 
 /// What presses an element (N) and the load of its accumulator: the signs of its switch.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Signs {
+pub(crate) struct Signs {
     normal: f64,
     load: f64,
 }
 
 /// Signs of an element.
-pub(super) const SIGNS: usize = 2;
+pub(crate) const SIGNS: usize = 2;
 
 impl Signs {
     /// Those of one element among the signs of all.
-    pub(super) fn of(signs: &[f64], index: usize) -> Self {
+    pub(crate) fn of(signs: &[f64], index: usize) -> Self {
         Self {
             normal: signs[SIGNS * index],
             load: signs[SIGNS * index + 1],
@@ -39,7 +38,7 @@ impl Signs {
     }
 
     /// Positive while the mode lasts.
-    pub(super) fn margin(self, mode: Mode) -> f64 {
+    pub(crate) fn margin(self, mode: Mode) -> f64 {
         let stays_closed = (self.normal - OPENING_FORCE) / OPENING_FORCE;
         // An element without force says nothing about friction; `min` passes over NaN.
         let load = if self.normal > 0.0 { self.load } else { f64::NAN };
@@ -51,7 +50,7 @@ impl Signs {
     }
 
     /// The mode that follows one that must be left.
-    pub(super) fn next(self, mode: Mode) -> Mode {
+    pub(crate) fn next(self, mode: Mode) -> Mode {
         match mode {
             Mode::Open => self.closed(),
             _ if self.normal <= OPENING_FORCE => Mode::Open,
@@ -72,7 +71,7 @@ impl Signs {
 
 impl Friction {
     /// The mode without a history.
-    pub(super) fn mode(&self) -> Mode {
+    pub(crate) fn mode(&self) -> Mode {
         if self.normal > OPENING_FORCE {
             let (normal, load) = (self.normal, self.load);
             Signs { normal, load }.closed()
@@ -82,32 +81,34 @@ impl Friction {
     }
 }
 
-impl System {
-    fn friction<L: SpatialLaw>(&self, element: &Spatial<L>, internal: &[f64]) -> Friction {
-        let site = &element.site;
-        let (strokes, rates) = (site.strokes(&self.positions), site.strokes(&self.rates));
-        let deflection = deflection_at(element.internal, internal);
-        element.law.act(strokes, rates, deflection, Grip::Law).friction
-    }
+/// Friction of one element.
+fn friction<L: SpatialLaw>(element: &Spatial<L>, (positions, rates): Places<'_>, internal: &[f64]) -> Friction {
+    let site = &element.site;
+    let (strokes, rates) = (site.strokes(positions), site.strokes(rates));
+    let deflection = deflection_at(element.internal, internal);
+    element.law.act(strokes, rates, deflection, Grip::Law).friction
+}
 
-    /// Friction of every element with friction.
+impl Connections {
+    /// Friction of every connection with friction.
     #[inline(always)]
-    fn frictions(&self, x: &[f64], mut each: impl FnMut(usize, Friction)) {
-        let [_, _, internal, _] = self.layout.split(x);
+    fn frictions(&self, places: Places<'_>, internal: &[f64], mut each: impl FnMut(usize, Friction)) {
         for surface in &self.surfaces {
-            each(surface.switch, self.friction(surface, internal));
+            each(surface.switch, friction(surface, places, internal));
         }
         for wedge in &self.wedges {
-            each(wedge.switch, self.friction(wedge, internal));
+            each(wedge.switch, friction(wedge, places, internal));
         }
     }
 
-    pub(super) fn find_modes(&self, x: &[f64], modes: &mut [u8]) {
-        self.frictions(x, |i, friction| modes[i] = friction.mode() as u8);
+    /// Writes the contact states without a history.
+    pub fn find_modes(&self, places: Places<'_>, internal: &[f64], modes: &mut [u8]) {
+        self.frictions(places, internal, |i, friction| modes[i] = friction.mode() as u8);
     }
 
-    pub(super) fn mode_signs(&self, x: &[f64], signs: &mut [f64]) {
-        self.frictions(x, |i, friction| {
+    /// Writes what presses each connection with friction (N) and the load of its accumulator.
+    pub fn signs(&self, places: Places<'_>, internal: &[f64], signs: &mut [f64]) {
+        self.frictions(places, internal, |i, friction| {
             signs[SIGNS * i..][..SIGNS].copy_from_slice(&[friction.normal, friction.load]);
         });
     }

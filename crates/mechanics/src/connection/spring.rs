@@ -13,8 +13,8 @@
 
 use integrate::scalar::Real;
 
-use super::AxisForce;
-use crate::small::curve::Curve;
+use super::accumulator::AxisForce;
+use crate::curve::Curve;
 
 /// A spring and a damper in parallel.
 #[derive(Clone, Debug, PartialEq)]

@@ -14,9 +14,9 @@
 
 use integrate::scalar::Real;
 
-use super::AxisForce;
-use crate::small::curve::Curve;
-use crate::small::options::{GapTension, Options};
+use super::accumulator::AxisForce;
+use crate::curve::Curve;
+use super::options::{GapTension, Options};
 
 /// A spring and a damper that act outside a gap.
 #[derive(Clone, Debug, PartialEq)]

@@ -36,10 +36,10 @@
 
 use integrate::scalar::Real;
 
-use super::{Accumulator, Friction, Grip, SpatialForce, friction_of};
+use super::accumulator::{Accumulator, Friction, Grip, SpatialForce, friction_of};
 use crate::friction::Friction as Slip;
-use crate::small::curve::Curve;
-use crate::small::options::{Branch, NegativeRise, Options, SlopeDirection};
+use crate::curve::Curve;
+use super::options::{Branch, NegativeRise, Options, SlopeDirection};
 
 /// The column that the wedge slides on.
 #[derive(Clone, Debug, PartialEq)]

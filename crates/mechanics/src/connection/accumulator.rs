@@ -1,9 +1,4 @@
-//! The laws of connections, one a file. Forces are in the sense of their strokes: extension positive.
-
-pub mod gap;
-pub mod spring;
-pub mod surface;
-pub mod wedge;
+//! How the friction of a connection holds: by a force accumulator, a bristle in series with a slider, or by a damper up to the limit.
 
 use integrate::scalar::Real;
 

@@ -13,9 +13,9 @@
 
 use integrate::scalar::Real;
 
-use super::{Accumulator, Friction, Grip, SpatialForce, friction_of};
+use super::accumulator::{Accumulator, Friction, Grip, SpatialForce, friction_of};
 use crate::friction::Friction as Slip;
-use crate::small::curve::Curve;
+use crate::curve::Curve;
 
 /// Friction on a surface.
 #[derive(Clone, Debug, PartialEq)]

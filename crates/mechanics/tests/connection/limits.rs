@@ -1,7 +1,10 @@
 //! Static equilibrium, and limits that have closed forms.
 
 use mechanics::motion::Motion;
-use mechanics::small::{Body, Column, Curve, Law, SpringDamper, StaticFriction, System};
+use mechanics::body::Body;
+use mechanics::connection::{Column, Law, SpringDamper};
+use mechanics::curve::Curve;
+use mechanics::system::{StaticFriction, System};
 
 use crate::half_truck::{self, ALL, BOLSTER, INCH, LBF, LBF_PER_INCH, straight, vertical, wedge};
 use crate::models::{connection, model, rates};
@@ -11,7 +14,7 @@ use crate::models::{connection, model, rates};
 fn four_wedges_carry_a_body() {
     let weight = 4000.0 * LBF;
     let bodies = vec![
-        Body::free("body", [0.0, 0.0, 0.5], ALL, weight / 9.80665, [20.0, 30.0, 40.0]),
+        Body::linearized("body", [0.0, 0.0, 0.5], ALL, weight / 9.80665, [20.0, 30.0, 40.0]),
         Body::ground(),
     ];
     let mut connections = Vec::new();
@@ -25,7 +28,7 @@ fn four_wedges_carry_a_body() {
     let hold = [0, 1, 5].map(|k| (k, soft.clone())).to_vec();
     connections.push(connection(0, 1, [0.0, 0.0, 0.5], Law::Springs(hold)));
     let mut model = model(bodies, connections);
-    model.gravity = 9.80665;
+    model.gravity[2] = -9.80665;
     let mut system = System::new(model).unwrap();
     let x = system.initial_state();
     let rest = system.equilibrium(0.0, &x, StaticFriction::Without).unwrap();
@@ -62,7 +65,7 @@ fn four_wedges_carry_a_body() {
 #[test]
 fn a_toe_lifts_or_drags_the_bolster() {
     for toe in [0.2, -0.2] {
-        let bodies = vec![Body::free("body", [0.0; 3], ALL, 1.0, [1.0; 3]), Body::ground()];
+        let bodies = vec![Body::linearized("body", [0.0; 3], ALL, 1.0, [1.0; 3]), Body::ground()];
         let connections = [1.0, -1.0].map(|direction| {
             connection(
                 0,
@@ -147,11 +150,11 @@ fn the_half_truck_with_constant_damping_is_balanced_as_drawn() {
 /// No equilibrium: a body that nothing holds.
 #[test]
 fn a_falling_body_has_no_equilibrium() {
-    let free = Body::free("stone", [0.0; 3], ALL, 1.0, [1.0; 3]);
-    let mover = Body::prescribed("mover", [0.0; 3], vertical(Motion::Constant(0.0)));
+    let free = Body::linearized("stone", [0.0; 3], ALL, 1.0, [1.0; 3]);
+    let mover = Body::linearized_prescribed("mover", [0.0; 3], vertical(Motion::Constant(0.0)));
     let side = Law::Springs(vec![(0, SpringDamper::spring(Curve::linear(1.0)))]);
     let mut model = model(vec![free, mover], vec![connection(0, 1, [0.0; 3], side)]);
-    model.gravity = 9.8;
+    model.gravity[2] = -9.8;
     let mut system = System::new(model).unwrap();
     let x = system.initial_state();
     let error = system.equilibrium(0.0, &x, StaticFriction::Without).unwrap_err();

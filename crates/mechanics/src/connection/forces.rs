@@ -1,13 +1,13 @@
-//! The right-hand side: forces, accelerations, rates of the accumulators, powers.
+//! The forces of connections, rates of their accumulators, powers.
 
 use integrate::scalar::Real;
 
-use super::law::gap::Gap;
-use super::law::spring::Spring;
-use super::law::surface::Surface;
-use super::law::wedge::WedgeLaw;
-use super::law::{AxisForce, Grip, SpatialForce};
-use super::{Axis, Spatial, System};
+use super::accumulator::{AxisForce, Grip, SpatialForce};
+use super::gap::Gap;
+use super::spring::Spring;
+use super::surface::Surface;
+use super::wedge::WedgeLaw;
+use super::{Axis, Connections, Spatial};
 
 /// A law on one coordinate.
 pub(super) trait AxisLaw {
@@ -80,19 +80,19 @@ pub(super) fn deflection_at(internal: Option<usize>, states: &[f64]) -> [f64; 2]
 }
 
 /// Coordinates and rates of all bodies.
-type Places<'s> = (&'s [[f64; 6]], &'s [[f64; 6]]);
+pub(crate) type Places<'s> = (&'s [[f64; 6]], &'s [[f64; 6]]);
 
-impl System {
-    /// Rates of all states at the state that [`System::place`] was called with.
-    pub(super) fn forces(&mut self, x: &[f64], dx: &mut [f64]) {
-        let [_, speeds, internal, _] = self.layout.split(x);
-        let [d_positions, d_speeds, d_internal, powers] = self.layout.split_mut(dx);
-        d_positions.copy_from_slice(speeds);
-        powers.fill(0.0);
-        for free in &self.free {
-            self.loads[free.body] = [0.0; 6];
-        }
-        let (places, loads) = ((&self.positions[..], &self.rates[..]), &mut self.loads[..]);
+impl Connections {
+    /// Adds the loads on all bodies and the powers, and writes the rates of the accumulators.
+    #[inline(always)]
+    pub fn forces(
+        &self,
+        places: Places<'_>,
+        internal: &[f64],
+        d_internal: &mut [f64],
+        loads: &mut [[f64; 6]],
+        powers: &mut [f64],
+    ) {
         for spring in &self.springs {
             push_axis(spring, places, loads, powers);
         }
@@ -100,33 +100,12 @@ impl System {
             push_axis(gap, places, loads, powers);
         }
         for surface in &self.surfaces {
-            push_spatial(
-                surface,
-                places,
-                self.grips.surfaces,
-                internal,
-                d_internal,
-                loads,
-                powers,
-            );
+            let grip = self.grips.surfaces;
+            push_spatial(surface, places, grip, internal, d_internal, loads, powers);
         }
         for wedge in &self.wedges {
-            push_spatial(
-                wedge,
-                places,
-                self.grips.wedges,
-                internal,
-                d_internal,
-                loads,
-                powers,
-            );
-        }
-        for free in &self.free {
-            let load = &self.loads[free.body];
-            let target = &mut d_speeds[free.offset..free.offset + free.free.len()];
-            for (j, target) in target.iter_mut().enumerate() {
-                *target = (load[free.free[j]] + free.weight[j]) / free.inertia[j];
-            }
+            let grip = self.grips.wedges;
+            push_spatial(wedge, places, grip, internal, d_internal, loads, powers);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Results settle as the tolerance falls.
 
 use integrate::Method;
-use mechanics::small::System;
+use mechanics::system::System;
 
 use crate::half_truck;
 use crate::models::{run, seen};

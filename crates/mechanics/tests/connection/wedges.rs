@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use mechanics::quasi_static::{Direction, QuasiStaticWedge};
-use mechanics::small::{Accumulator, Branch, Column, Curve, Law, Options, SlopeDirection, System};
+use mechanics::connection::{Accumulator, Branch, Column, Law, Options, SlopeDirection};
+use mechanics::curve::Curve;
+use mechanics::system::System;
 use mechanics::system::Mode;
 
 use crate::analytic::{close, plain};

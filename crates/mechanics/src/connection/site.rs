@@ -3,9 +3,11 @@
 //! `u = x + θ lz - ψ ly`, `v = y - φ lz + ψ lx`, `w = z + φ ly - θ lx`; rotations pass through. The offset
 //! l from the centre of gravity is that of the drawn layout.
 
+use integrate::partitioned::Partitioned;
+
 /// The row of one displacement in a body's coordinates: at most three entries.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Row {
+pub(crate) struct Row {
     at: [u8; 3],
     arm: [f64; 3],
     /// The same by free coordinates; arms of held ones are zero.
@@ -81,7 +83,7 @@ impl Row {
 
 /// One end of a connection.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct End {
+pub(crate) struct End {
     /// The body.
     pub body: usize,
     /// Its number among the free bodies.
@@ -96,7 +98,7 @@ pub(super) struct End {
 
 /// Where an element with `D` coordinates and `P` powers sits.
 #[derive(Clone, Debug)]
-pub(super) struct Site<const D: usize, const P: usize> {
+pub(crate) struct Site<const D: usize, const P: usize> {
     /// Number of its connection, and of its first component there.
     pub connection: usize,
     /// First component there.
@@ -118,6 +120,18 @@ pub(super) struct Site<const D: usize, const P: usize> {
 }
 
 impl<const D: usize, const P: usize> Site<D, P> {
+    /// Looks up the coupling blocks.
+    pub fn find_pairs(&mut self, jacobian: &Partitioned) {
+        let free = self.ends.map(|end| end.free);
+        for (row, pairs) in free.iter().zip(&mut self.pairs) {
+            for (column, pair) in free.iter().zip(pairs) {
+                if let (Some(row), Some(column)) = (row, column) {
+                    *pair = jacobian.pair(*row, *column);
+                }
+            }
+        }
+    }
+
     /// Differences of both ends' displacements.
     #[inline(always)]
     pub fn strokes(&self, coordinates: &[[f64; 6]]) -> [f64; D] {

@@ -8,9 +8,11 @@ use integrate::Problem;
 use nalgebra::{Complex, DMatrix, DVector};
 use thiserror::Error;
 
-use super::{Grip, Grips, System};
+use super::System;
+use crate::connection::{Grip, Grips};
 
-/// Which closed friction elements stick in a vibration; the others have no friction.
+/// Which closed connections with friction stick in a vibration; the others have no friction. Contact points are taken as their law and
+/// their state say: bristles at rest stick, tanh has no stiffness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Held {
     /// All: small vibrations about a state of rest.
@@ -39,8 +41,8 @@ pub struct Vibration {
     pub frequency: f64,
     /// The eigenvalue λ of M⁻¹K, 1/s²: ω² of a vibration, negative where the state is unstable; real and imaginary part.
     pub eigenvalue: [f64; 2],
-    /// Its shape in all free coordinates, in the order of the positions in the state vector (m, rad; real part), the
-    /// largest of the entries times the root of their inertia being 1.
+    /// Its shape q in all free coordinates, in the order of the positions in the state vector (m, rad; real part), the
+    /// largest entry of `Lᵀ q` being 1, with the mass matrix `M = L Lᵀ`.
     pub shape: Vec<f64>,
 }
 
@@ -49,7 +51,7 @@ pub struct Vibration {
 pub struct Vibrations {
     /// By rising real part of the eigenvalue.
     pub modes: Vec<Vibration>,
-    /// The largest entry of the antisymmetric part of `M^-½ K M^-½`, relative to its largest entry.
+    /// The largest entry of the antisymmetric part of `L⁻¹ K L⁻ᵀ`, relative to its largest entry.
     pub asymmetry: f64,
 }
 
@@ -66,15 +68,14 @@ const SYMMETRIC: f64 = 1e-9;
 impl System {
     /// The stiffness matrix `-∂Q/∂q`, N/m and so on, row-major in the order of the positions.
     #[must_use]
-    pub fn stiffness(&mut self, time: f64, x: &[f64], held: Held) -> Vec<f64> {
+    pub fn stiffness_matrix(&mut self, time: f64, x: &[f64], held: Held) -> Vec<f64> {
         let n = self.layout.speeds;
-        let states = self.layout.internals;
-        let grips = std::mem::replace(&mut self.grips, held.grips());
+        let grips = std::mem::replace(&mut self.connections.grips, held.grips());
         let mut dx = vec![0.0; x.len()];
         let mut df_dt = vec![0.0; x.len()];
         self.derivative(time, x, &mut dx);
         self.linearize(time, x, &dx, &mut df_dt);
-        self.grips = grips;
+        self.connections.grips = grips;
         let mut stiffness = vec![0.0; n * n];
         let mut add = |row: usize, column: usize, value: f64| stiffness[row * n + column] += value;
         for (i, row) in self.free.iter().enumerate() {
@@ -89,18 +90,10 @@ impl System {
                 }
             }
         }
-        // An accumulator that sticks follows the bodies: e = G_u q, so that F e is a stiffness.
-        let ends = self.surfaces.iter().map(|e| (e.site.ends, e.internal));
-        let ends: Vec<_> = ends
-            .chain(self.wedges.iter().map(|e| (e.site.ends, e.internal)))
-            .collect();
-        for (ends, internal) in ends {
-            let Some(group) = internal.filter(|at| *at < states).map(|at| at / 2) else {
-                continue;
-            };
-            let free: Vec<usize> = ends.iter().filter_map(|end| end.free).collect();
-            for (row_side, &i) in free.iter().enumerate() {
-                for (column_side, &j) in free.iter().enumerate() {
+        // A bristle that sticks follows the bodies: e = G_u q, so that F e is a stiffness.
+        for (group, ends) in self.internal_ends.iter().enumerate() {
+            for (row_side, &i) in ends.iter().enumerate() {
+                for (column_side, &j) in ends.iter().enumerate() {
                     let (m, w) = (self.free[i].free.len(), self.free[j].free.len());
                     let f_t = self.jacobian.side_mut(group, row_side)[2].to_vec();
                     let [_, g_u, _] = self.jacobian.side_mut(group, column_side);
@@ -114,20 +107,33 @@ impl System {
         stiffness
     }
 
+    /// The mass matrix at the state for which the Jacobian was formed last.
+    fn mass_matrix(&mut self) -> DMatrix<f64> {
+        let n = self.layout.speeds;
+        let mut mass = DMatrix::zeros(n, n);
+        for (number, free) in self.free.iter().enumerate() {
+            let size = free.free.len();
+            let own = DMatrix::from_row_slice(size, size, self.jacobian.mass_mut(number));
+            mass.view_mut((free.offset, free.offset), (size, size))
+                .copy_from(&own);
+        }
+        mass
+    }
+
     /// The natural vibrations about a state, by rising frequency.
     ///
     /// # Errors
     /// The eigenvalues are not found.
     pub fn vibrations(&mut self, time: f64, x: &[f64], held: Held) -> Result<Vibrations, NoVibration> {
         let n = self.layout.speeds;
-        let stiffness = self.stiffness(time, x, held);
-        let inertia: Vec<f64> = self
-            .free
-            .iter()
-            .flat_map(|free| free.inertia.iter().copied())
-            .collect();
-        let root = |i: usize| inertia[i].sqrt();
-        let matrix = DMatrix::from_fn(n, n, |i, j| stiffness[i * n + j] / (root(i) * root(j)));
+        let stiffness = DMatrix::from_row_slice(n, n, &self.stiffness_matrix(time, x, held));
+        // M = L Lᵀ
+        let root = self.mass_matrix().cholesky().ok_or(NoVibration)?.l();
+        let half = root.solve_lower_triangular(&stiffness).ok_or(NoVibration)?;
+        let matrix = root
+            .solve_lower_triangular(&half.transpose())
+            .ok_or(NoVibration)?
+            .transpose();
         let largest = matrix.amax();
         if !largest.is_finite() {
             return Err(NoVibration);
@@ -138,18 +144,17 @@ impl System {
         } else {
             general(&matrix).ok_or(NoVibration)?
         };
-        let mut modes: Vec<Vibration> = pairs
-            .into_iter()
-            .map(|(value, shape)| {
-                let size = shape.amax();
-                let scaled = shape.iter().enumerate().map(|(i, y)| y / size / root(i));
-                Vibration {
-                    frequency: frequency(value),
-                    eigenvalue: [value.re, value.im],
-                    shape: scaled.collect(),
-                }
+        let upper = root.transpose();
+        let vibration = |(value, shape): (Complex<f64>, DVector<f64>)| {
+            let scaled = upper.solve_upper_triangular(&(&shape / shape.amax()))?;
+            Some(Vibration {
+                frequency: frequency(value),
+                eigenvalue: [value.re, value.im],
+                shape: scaled.iter().copied().collect(),
             })
-            .collect();
+        };
+        let modes: Option<Vec<Vibration>> = pairs.into_iter().map(vibration).collect();
+        let mut modes = modes.ok_or(NoVibration)?;
         modes.sort_by(|a, b| a.eigenvalue[0].total_cmp(&b.eigenvalue[0]));
         Ok(Vibrations { modes, asymmetry })
     }

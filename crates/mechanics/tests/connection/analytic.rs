@@ -1,8 +1,8 @@
 //! Laws against their closed forms.
 
-use mechanics::small::{
-    Accumulator, Column, Curve, GapDamper, Law, Options, SpringDamper, SurfaceFriction, System,
-};
+use mechanics::connection::{Accumulator, Column, GapDamper, Law, Options, SpringDamper, SurfaceFriction};
+use mechanics::curve::Curve;
+use mechanics::system::System;
 use mechanics::system::Mode;
 
 use crate::common::Random;
@@ -100,7 +100,7 @@ fn a_gap_is_empty_inside_and_never_pulls_at_its_lower_end() {
     assert_eq!([force(-0.2, -3.0), force(-0.2, 3.0)], [-30.0, 0.0]);
     assert_eq!([force(0.3, -3.0), force(0.3, 3.0)], [0.0, 30.0]);
     let options = Options {
-        gap_tension: mechanics::small::GapTension::Allowed,
+        gap_tension: mechanics::connection::GapTension::Allowed,
         ..Options::default()
     };
     let mut system = against_ground(Law::Gap(2, law), options);
@@ -119,12 +119,12 @@ fn strokes_follow_the_levers() {
     );
     let mut model = crate::models::model(
         vec![
-            mechanics::small::Body::free("a", [1.0, 2.0, 3.0], [true; 6], 1.0, [1.0; 3]),
-            mechanics::small::Body::ground(),
+            mechanics::body::Body::linearized("a", [1.0, 2.0, 3.0], [true; 6], 1.0, [1.0; 3]),
+            mechanics::body::Body::ground(),
         ],
         vec![crate::models::connection(0, 1, [1.5, 2.7, 3.9], law)],
     );
-    model.gravity = 9.0;
+    model.gravity[2] = -9.0;
     let mut system = System::new(model).unwrap();
     let (lx, ly, lz) = (0.5, 0.7, 0.9);
     let [x, y, z, phi, theta, psi] = [0.1, 0.2, 0.3, 0.01, 0.02, 0.03];

@@ -2,7 +2,10 @@
 //! ramp that had long ended had not begun.
 
 use mechanics::motion::{Motion, RampProfile};
-use mechanics::small::{Body, Connection, Curve, Law, Model, Options, SpringDamper, StaticFriction, System};
+use mechanics::body::Body;
+use mechanics::connection::{Connection, Law, SpringDamper};
+use mechanics::curve::Curve;
+use mechanics::system::{Model, StaticFriction, System};
 
 #[test]
 fn an_equilibrium_follows_a_motion_that_has_ended() {
@@ -13,7 +16,7 @@ fn an_equilibrium_follows_a_motion_that_has_ended() {
         duration: 0.1,
         profile: RampProfile::HalfCosine,
     };
-    let body = Body::free(
+    let body = Body::linearized(
         "body",
         [0.0; 3],
         [false, false, false, false, false, true],
@@ -22,7 +25,7 @@ fn an_equilibrium_follows_a_motion_that_has_ended() {
     );
     let spring = Law::Springs(vec![(5, SpringDamper::spring(Curve::linear(1e5)))]);
     let mut system = System::new(Model {
-        bodies: vec![body, Body::prescribed("input", [0.0; 3], motions)],
+        bodies: vec![body, Body::linearized_prescribed("input", [0.0; 3], motions)],
         connections: vec![Connection {
             name: "yaw".to_owned(),
             a: 0,
@@ -30,8 +33,7 @@ fn an_equilibrium_follows_a_motion_that_has_ended() {
             point: [0.0; 3],
             law: spring,
         }],
-        gravity: 0.0,
-        options: Options::default(),
+        ..Model::default()
     })
     .unwrap();
     let x = system.initial_state();

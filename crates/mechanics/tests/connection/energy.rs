@@ -2,16 +2,16 @@
 
 use integrate::Method;
 use mechanics::motion::Motion;
-use mechanics::small::{
-    Accumulator, Body, ChannelKind, Column, Curve, GapDamper, Law, Model, Options, SpringDamper,
-    SurfaceFriction, System,
-};
+use mechanics::body::Body;
+use mechanics::connection::{Accumulator, Column, GapDamper, Law, Options, SpringDamper, SurfaceFriction};
+use mechanics::curve::Curve;
+use mechanics::system::{ChannelKind, Model, System};
 
 use crate::half_truck::{self, ALL, INCH, LBF_PER_INCH, curve, straight, vertical, wedge};
 use crate::models::{connection, model, run, seen};
 
 /// The ledger's residual over the work done by the inputs (in and out), and the run's end.
-fn residual(system: &System, tolerance: f64, end: f64) -> (f64, mechanics::small::Observation) {
+fn residual(system: &System, tolerance: f64, end: f64) -> (f64, mechanics::system::Observation) {
     let x = system.initial_state();
     let start = system.clone().observe(0.0, &x).energies.total();
     let done = run(system, Method::Rodas5P, tolerance, &x, end);
@@ -34,9 +34,9 @@ fn body_on_wedges(constant: bool, toe: f64, options: Options) -> Model {
         phase: 1.0,
     };
     let bodies = vec![
-        Body::free("body", [0.0, 0.0, 0.2], ALL, 5000.0, [900.0, 1000.0, 1100.0]),
-        Body::free("frame", [0.0, 0.0, 0.0], ALL, 500.0, [100.0, 160.0, 160.0]),
-        Body::prescribed("input", [0.0; 3], motions),
+        Body::linearized("body", [0.0, 0.0, 0.2], ALL, 5000.0, [900.0, 1000.0, 1100.0]),
+        Body::linearized("frame", [0.0, 0.0, 0.0], ALL, 500.0, [100.0, 160.0, 160.0]),
+        Body::linearized_prescribed("input", [0.0; 3], motions),
         Body::ground(),
     ];
     let mut drive = SpringDamper::spring(Curve::linear(1e5 * LBF_PER_INCH));
@@ -100,7 +100,7 @@ fn body_on_wedges(constant: bool, toe: f64, options: Options) -> Model {
         connections.push(connection(0, 1, [0.2 * direction, 0.0, 0.0], Law::Wedge(law)));
     }
     let mut model = model(bodies, connections);
-    model.gravity = 9.80665;
+    model.gravity[2] = -9.80665;
     model.options = options;
     model
 }
@@ -120,8 +120,8 @@ fn the_ledger_closes() {
 fn the_ledger_closes_for_other_options() {
     let options = Options {
         rise_in_slip: true,
-        negative_rise: mechanics::small::NegativeRise::Stop,
-        branch: mechanics::small::Branch::Velocity {
+        negative_rise: mechanics::connection::NegativeRise::Stop,
+        branch: mechanics::connection::Branch::Velocity {
             reference_speed: 0.01,
         },
         ..Options::default()
@@ -145,7 +145,7 @@ fn the_half_trucks_ledger_closes() {
 #[test]
 fn slope_friction_by_its_own_slip_only_loses() {
     let own = Options {
-        slope: mechanics::small::SlopeDirection::OwnSlip {
+        slope: mechanics::connection::SlopeDirection::OwnSlip {
             reference_speed: 1e-5,
         },
         ..Options::default()
@@ -156,7 +156,7 @@ fn slope_friction_by_its_own_slip_only_loses() {
         let slope = system
             .channels()
             .iter()
-            .position(|kind| *kind == ChannelKind::SlopeFriction)
+            .position(|own| own.kind == ChannelKind::SlopeFriction)
             .unwrap();
         let x = system.initial_state();
         let start = system.clone().observe(0.0, &x).energies.total();
@@ -184,7 +184,7 @@ fn slope_friction_by_its_own_slip_only_loses() {
 #[test]
 fn the_ledger_closes_across_breaks() {
     let mut model = body_on_wedges(true, 0.2, Options::default());
-    model.bodies[2] = Body::prescribed(
+    model.bodies[2] = Body::linearized_prescribed(
         "input",
         [0.0; 3],
         vertical(Motion::Triangle {
@@ -210,14 +210,17 @@ fn a_ledger_without_one_entry_fails() {
     assert!(seen.residual(start).abs() < 1e-6 * size);
     let kinds = system.channels();
     assert_eq!(kinds.len(), 8);
-    for (i, kind) in kinds.iter().enumerate() {
+    for (i, kind) in kinds.iter().map(|own| own.kind).enumerate() {
         let mut without = seen.clone();
-        without.quadratures[i] = 0.0;
+        match kind {
+            ChannelKind::MotionWork => without.work -= seen.quadratures[i],
+            _ => without.losses -= seen.quadratures[i],
+        }
         let residual = without.residual(start).abs() / size;
         assert!(residual > 1e-5, "without {kind:?}: {residual:e}");
         let never_gives_back = !matches!(
             kind,
-            ChannelKind::InputWork | ChannelKind::SlopeFriction | ChannelKind::WedgeKinematics
+            ChannelKind::MotionWork | ChannelKind::SlopeFriction | ChannelKind::WedgeKinematics
         );
         if never_gives_back {
             assert!(seen.quadratures[i] > 0.0, "{kind:?}");
@@ -234,7 +237,7 @@ fn a_clamped_damper_never_gives_energy_back() {
         compression_limit: -30.0,
         extension_limit: 10.0,
     };
-    let free = Body::free(
+    let free = Body::linearized(
         "b",
         [0.0; 3],
         [false, false, true, false, false, false],
@@ -261,7 +264,7 @@ fn a_clamped_damper_never_gives_energy_back() {
 #[test]
 fn a_plain_wedge_has_no_slope_entry() {
     let system = System::new(half_truck::model(true, false)).unwrap();
-    assert!(!system.channels().contains(&ChannelKind::SlopeFriction));
+    assert!(system.channels().iter().all(|own| own.kind != ChannelKind::SlopeFriction));
     let law = Law::Wedge(wedge(true, Column::Plain { toe_out: true }));
     assert_eq!(law.coordinates(), [2, 1]);
 }

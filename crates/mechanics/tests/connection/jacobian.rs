@@ -2,10 +2,10 @@
 
 use integrate::Problem;
 use mechanics::motion::Motion;
-use mechanics::small::{
-    Accumulator, Body, Branch, Column, Curve, GapDamper, Law, Model, NegativeRise, Options, SpringDamper,
-    SurfaceFriction, System, Wedge,
-};
+use mechanics::body::Body;
+use mechanics::connection::{Accumulator, Branch, Column, GapDamper, Law, NegativeRise, Options, SpringDamper, SurfaceFriction, Wedge};
+use mechanics::curve::Curve;
+use mechanics::system::{Model, System};
 use mechanics::system::Mode;
 
 use crate::common::Random;
@@ -24,15 +24,15 @@ fn everything(options: Options, accumulator: Accumulator) -> Model {
     });
     motions[1] = Motion::Constant(0.05);
     let bodies = vec![
-        Body::free("one", [0.1, 0.2, 0.3], [true; 6], 1.5, [0.7, 0.9, 1.1]),
-        Body::free(
+        Body::linearized("one", [0.1, 0.2, 0.3], [true; 6], 1.5, [0.7, 0.9, 1.1]),
+        Body::linearized(
             "two",
             [-0.2, 0.3, 0.1],
             [true, true, true, false, true, false],
             2.5,
             [1.0; 3],
         ),
-        Body::prescribed("mover", [0.3, -0.1, 0.2], motions),
+        Body::linearized_prescribed("mover", [0.3, -0.1, 0.2], motions),
         Body::ground(),
     ];
     let curve = |points: &[[f64; 2]]| Curve::mirrored_from_origin(points.to_vec()).unwrap();
@@ -89,7 +89,7 @@ fn everything(options: Options, accumulator: Accumulator) -> Model {
         }
     }
     let mut model = model(bodies, connections);
-    model.gravity = 9.8;
+    model.gravity[2] = -9.8;
     model.options = options;
     model
 }
@@ -221,16 +221,16 @@ fn agrees_with_differences_for_other_options() {
     let options = Options {
         plain_toe_angle: 0.01,
         branch: Branch::Velocity { reference_speed: 0.3 },
-        slope: mechanics::small::SlopeDirection::Toe,
+        slope: mechanics::connection::SlopeDirection::Toe,
         rise_in_slip: true,
         negative_rise: NegativeRise::Stop,
         accumulator_damping: 0.7,
-        gap_tension: mechanics::small::GapTension::Allowed,
+        gap_tension: mechanics::connection::GapTension::Allowed,
     };
     assert!(compare(&everything(options, BRISTLE), 2).columns > 1000);
     let options = Options {
         rise_in_slip: true,
-        slope: mechanics::small::SlopeDirection::OwnSlip { reference_speed: 0.3 },
+        slope: mechanics::connection::SlopeDirection::OwnSlip { reference_speed: 0.3 },
         ..Options::default()
     };
     assert!(compare(&everything(options, BRISTLE), 3).columns > 1000);

@@ -1,16 +1,16 @@
 //! Models that make no system are refused, with words that help.
 
-use mechanics::small::{
-    Accumulator, Body, Column, Curve, CurveError, GapDamper, Law, Model, ModelError, Options, SpringDamper,
-    SurfaceFriction, System,
-};
+use mechanics::body::Body;
+use mechanics::connection::{Accumulator, ConnectionError, Column, GapDamper, Law, Options, SpringDamper, SurfaceFriction};
+use mechanics::curve::{Curve, CurveError};
+use mechanics::system::{Model, ModelError, System};
 
 use crate::half_truck::{ALL, wedge};
 use crate::models::{connection, model};
 
 fn refused(change: impl FnOnce(&mut Model)) -> ModelError {
     let bodies = vec![
-        Body::free("a", [0.0; 3], ALL, 1.0, [1.0; 3]),
+        Body::linearized("a", [0.0; 3], ALL, 1.0, [1.0; 3]),
         Body::ground(),
         Body::ground(),
     ];
@@ -21,7 +21,7 @@ fn refused(change: impl FnOnce(&mut Model)) -> ModelError {
     System::new(model).unwrap_err()
 }
 
-fn of_wedge(change: impl FnOnce(&mut mechanics::small::Wedge)) -> ModelError {
+fn of_wedge(change: impl FnOnce(&mut mechanics::connection::Wedge)) -> ModelError {
     let mut law = wedge(false, Column::Plain { toe_out: true });
     change(&mut law);
     refused(|model| model.connections[0].law = Law::Wedge(law))
@@ -32,25 +32,25 @@ fn wrong_models_are_refused() {
     let no_body = refused(|model| model.connections[0].b = 7);
     assert!(matches!(
         no_body,
-        ModelError::NoSuchBody {
+        ModelError::Connection(ConnectionError::NoSuchBody {
             number: 7,
             count: 3,
             ..
-        }
+        })
     ));
     assert!(matches!(
         refused(|model| model.connections[0].b = 0),
-        ModelError::Itself { .. }
+        ModelError::Connection(ConnectionError::Itself { .. })
     ));
     let fixed = refused(|model| (model.connections[0].a, model.connections[0].b) = (1, 2));
-    assert!(matches!(fixed, ModelError::NothingToMove { .. }));
-    let none = refused(|model| model.bodies[0] = Body::free("a", [0.0; 3], [false; 6], 1.0, [1.0; 3]));
+    assert!(matches!(fixed, ModelError::Connection(ConnectionError::NothingToMove { .. })));
+    let none = refused(|model| model.bodies[0] = Body::linearized("a", [0.0; 3], [false; 6], 1.0, [1.0; 3]));
     assert!(matches!(none, ModelError::NothingFree));
-    let light = refused(|model| model.bodies[0] = Body::free("a", [0.0; 3], ALL, 1.0, [1.0, 0.0, 1.0]));
+    let light = refused(|model| model.bodies[0] = Body::linearized("a", [0.0; 3], ALL, 1.0, [1.0, 0.0, 1.0]));
     assert!(light.to_string().contains("pitch"), "{light}");
     let spring = SpringDamper::spring(Curve::linear(1.0));
     let sixth = refused(|model| model.connections[0].law = Law::Springs(vec![(6, spring)]));
-    assert!(matches!(sixth, ModelError::Coordinate { coordinate: 6, .. }));
+    assert!(matches!(sixth, ModelError::Connection(ConnectionError::Coordinate { coordinate: 6, .. })));
     let twice = SurfaceFriction {
         coordinates: [2, 1, 1],
         spring: Curve::linear(1.0),
@@ -59,7 +59,7 @@ fn wrong_models_are_refused() {
         accumulator: Accumulator::Viscous { damping: 1.0 },
     };
     let twice = refused(|model| model.connections[0].law = Law::Surface(twice));
-    assert!(matches!(twice, ModelError::Coordinate { coordinate: 1, .. }));
+    assert!(matches!(twice, ModelError::Connection(ConnectionError::Coordinate { coordinate: 1, .. })));
     let gap = GapDamper {
         spring: None,
         damper: None,
