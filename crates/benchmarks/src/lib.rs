@@ -10,8 +10,8 @@ pub mod wedges;
 use std::hint::black_box;
 
 use integrate::Problem;
-use mechanics::system::System;
 use mechanics::system::Observation;
+use mechanics::system::System;
 use nucars::truck::Choices;
 use rustix::time::{ClockId, clock_gettime};
 use study::truck::catalog;

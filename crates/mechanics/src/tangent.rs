@@ -141,7 +141,9 @@ impl Tangent {
     #[inline(always)]
     fn seeded<const N: usize>(relative: &Relative<f64>, law: &impl Law) -> Self {
         let seed = |vector: Vector<f64>, first: usize| {
-            Vector(std::array::from_fn(|i| Dual::<N>::variable(vector.0[i], first + i)))
+            Vector(std::array::from_fn(|i| {
+                Dual::<N>::variable(vector.0[i], first + i)
+            }))
         };
         let mut rotation = Matrix::<Dual<N>>::lift(relative.rotation);
         let mut angular_velocity = Vector::lift(relative.angular_velocity);
@@ -235,9 +237,8 @@ impl Change {
         let part = |v: &Vector<Dual<1>>| Vector([0, 1, 2].map(|i| v.0[i].derivative[0]));
         let Matrix(r) = &relative.rotation;
         // δR Rᵀ is the skew matrix of φ.
-        let entry = |i: usize, j: usize| -> f64 {
-            (0..3).map(|k| r[i][k].derivative[0] * r[j][k].value).sum()
-        };
+        let entry =
+            |i: usize, j: usize| -> f64 { (0..3).map(|k| r[i][k].derivative[0] * r[j][k].value).sum() };
         Self {
             position: part(&relative.position),
             rotation: Vector([entry(2, 1), entry(0, 2), entry(1, 0)]),

@@ -179,7 +179,9 @@ impl Element for TruckElement {
             return Err(Error::new("the rates have another number"));
         }
         let (rates, power) = out.split_at_mut(dimension);
-        self.truck.system.derivative(self.time, &self.states[..dimension], rates);
+        self.truck
+            .system
+            .derivative(self.time, &self.states[..dimension], rates);
         let speeds = self.truck.system.layout().speeds;
         power[0] = self.truck.work(self.states[speeds..2 * speeds].iter().copied());
         Ok(())

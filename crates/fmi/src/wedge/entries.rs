@@ -358,11 +358,7 @@ fn states(system: &System) -> Vec<Entry> {
                 "work of the couple that guides the coil's force".to_owned(),
                 scales::ENERGY,
             ),
-            other => (
-                other.name().to_owned(),
-                "energy lost".to_owned(),
-                scales::ENERGY,
-            ),
+            other => (other.name().to_owned(), "energy lost".to_owned(), scales::ENERGY),
         };
         add(name, Kind::Energy, nominal, text);
     }

@@ -145,7 +145,12 @@ impl Connection {
     ///
     /// # Errors
     /// The first thing that makes no element.
-    pub(crate) fn check(&self, index: usize, bodies: &[Body], options: &Options) -> Result<(), ConnectionError> {
+    pub(crate) fn check(
+        &self,
+        index: usize,
+        bodies: &[Body],
+        options: &Options,
+    ) -> Result<(), ConnectionError> {
         let Connection { name, a, b, law, .. } = self;
         let name = || name.clone();
         for number in [*a, *b] {

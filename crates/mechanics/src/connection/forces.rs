@@ -84,7 +84,6 @@ pub(crate) type Places<'s> = (&'s [[f64; 6]], &'s [[f64; 6]]);
 
 impl Connections {
     /// Adds the loads on all bodies and the powers, and writes the rates of the accumulators.
-    #[inline(always)]
     pub fn forces(
         &self,
         places: Places<'_>,

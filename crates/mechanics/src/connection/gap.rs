@@ -15,8 +15,8 @@
 use integrate::scalar::Real;
 
 use super::accumulator::AxisForce;
-use crate::curve::Curve;
 use super::options::{GapTension, Options};
+use crate::curve::Curve;
 
 /// A spring and a damper that act outside a gap.
 #[derive(Clone, Debug, PartialEq)]

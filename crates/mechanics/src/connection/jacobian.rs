@@ -6,8 +6,8 @@
 use integrate::partitioned::Partitioned;
 use integrate::scalar::Dual;
 
-use super::forces::{AxisLaw, SpatialLaw, deflection_at};
 use super::accumulator::Grip;
+use super::forces::{AxisLaw, SpatialLaw, deflection_at};
 use super::site::Site;
 use super::{Axis, Connections, Spatial};
 

@@ -41,8 +41,8 @@ use spring::Spring;
 use surface::Surface;
 use wedge::WedgeLaw;
 
-pub(crate) use accumulator::Grip;
 pub use accumulator::Accumulator;
+pub(crate) use accumulator::Grip;
 pub use check::ConnectionError;
 pub use gap::GapDamper;
 pub(crate) use jacobian::Scene;
@@ -174,7 +174,9 @@ impl Connections {
 
     /// The first of the two accumulator deflections of a connection among the internal states, if it has any.
     pub fn deflection_of(&self, connection: usize) -> Option<usize> {
-        let (_, internal) = self.frictional().find(|(site, _)| site.connection == connection)?;
+        let (_, internal) = self
+            .frictional()
+            .find(|(site, _)| site.connection == connection)?;
         internal
     }
 

@@ -46,7 +46,11 @@ impl<'m> Placer<'m> {
     }
 
     /// The elements of connections that have been checked, and the pairs of free bodies that they couple.
-    pub fn place(mut self, connections: Vec<Connection>, options: &Options) -> (Connections, Vec<(usize, usize)>) {
+    pub fn place(
+        mut self,
+        connections: Vec<Connection>,
+        options: &Options,
+    ) -> (Connections, Vec<(usize, usize)>) {
         for kind in channels(&connections) {
             let element = String::new();
             self.parts.channels.push(Channel { kind, element });
@@ -64,7 +68,13 @@ impl<'m> Placer<'m> {
                     }
                 }
                 Law::Gap(coordinate, law) => {
-                    let site = placer.site(connection, index, 0, [*coordinate], [Some(ChannelKind::GapDamping)]);
+                    let site = placer.site(
+                        connection,
+                        index,
+                        0,
+                        [*coordinate],
+                        [Some(ChannelKind::GapDamping)],
+                    );
                     placer.found.gaps.push(Axis {
                         law: Gap::new(law, options),
                         site,
@@ -78,7 +88,8 @@ impl<'m> Placer<'m> {
                         None,
                     ];
                     let states = law.accumulator.states();
-                    let surface = placer.spatial(connection, index, law.coordinates, losses, prepared, states);
+                    let surface =
+                        placer.spatial(connection, index, law.coordinates, losses, prepared, states);
                     placer.found.surfaces.push(surface);
                 }
                 Law::Wedge(law) => {
@@ -89,7 +100,14 @@ impl<'m> Placer<'m> {
                         more.then_some(ChannelKind::SlopeFriction),
                         more.then_some(ChannelKind::WedgeKinematics),
                     ];
-                    let wedge = placer.spatial(connection, index, [2, 0, 1], losses, prepared, law.accumulator.states());
+                    let wedge = placer.spatial(
+                        connection,
+                        index,
+                        [2, 0, 1],
+                        losses,
+                        prepared,
+                        law.accumulator.states(),
+                    );
                     placer.found.wedges.push(wedge);
                 }
             }

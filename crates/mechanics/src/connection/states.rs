@@ -82,7 +82,11 @@ impl Friction {
 }
 
 /// Friction of one element.
-fn friction<L: SpatialLaw>(element: &Spatial<L>, (positions, rates): Places<'_>, internal: &[f64]) -> Friction {
+fn friction<L: SpatialLaw>(
+    element: &Spatial<L>,
+    (positions, rates): Places<'_>,
+    internal: &[f64],
+) -> Friction {
     let site = &element.site;
     let (strokes, rates) = (site.strokes(positions), site.strokes(rates));
     let deflection = deflection_at(element.internal, internal);

@@ -14,8 +14,8 @@
 use integrate::scalar::Real;
 
 use super::accumulator::{Accumulator, Friction, Grip, SpatialForce, friction_of};
-use crate::friction::Friction as Slip;
 use crate::curve::Curve;
+use crate::friction::Friction as Slip;
 
 /// Friction on a surface.
 #[derive(Clone, Debug, PartialEq)]

@@ -37,9 +37,9 @@
 use integrate::scalar::Real;
 
 use super::accumulator::{Accumulator, Friction, Grip, SpatialForce, friction_of};
-use crate::friction::Friction as Slip;
-use crate::curve::Curve;
 use super::options::{Branch, NegativeRise, Options, SlopeDirection};
+use crate::curve::Curve;
+use crate::friction::Friction as Slip;
 
 /// The column that the wedge slides on.
 #[derive(Clone, Debug, PartialEq)]

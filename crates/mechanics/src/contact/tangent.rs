@@ -19,7 +19,12 @@ use crate::vector::Vector;
 
 /// What the law's outputs change by with the velocity of a point.
 #[inline(always)]
-fn by_velocity(slopes: &Slopes, [normal, first, second]: [Lanes; 3], damped: bool, out: &mut [Lanes; OUTPUTS]) {
+fn by_velocity(
+    slopes: &Slopes,
+    [normal, first, second]: [Lanes; 3],
+    damped: bool,
+    out: &mut [Lanes; OUTPUTS],
+) {
     for (o, out) in out.iter_mut().enumerate() {
         // Neither the normal force nor the loss in contact damping depend on slip.
         if o != 0 && o != 4 {

@@ -58,7 +58,8 @@ impl System {
     pub fn along(&mut self, time: f64, x: &[f64], direction: &Direction<'_>) -> Option<Along> {
         let n = x.len();
         let linearized = self.free.iter().any(|free| free.linear.is_some());
-        if linearized || n != self.layout.len() || !(direction.state.is_empty() || direction.state.len() == n) {
+        if linearized || n != self.layout.len() || !(direction.state.is_empty() || direction.state.len() == n)
+        {
             return None;
         }
         let mut dx = vec![0.0; n];

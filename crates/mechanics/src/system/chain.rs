@@ -38,7 +38,12 @@ pub(super) const NO_BLOCK: Block = [[[Lanes::ZERO; 2]; 6]; 2];
 
 /// Adds a block to the blocks of a body by the `n` coordinates of another or of itself.
 #[inline(always)]
-pub(super) fn add_block(block: &Block, free: &FreeBody, n: usize, (stiffness, damping): (&mut [f64], &mut [f64])) {
+pub(super) fn add_block(
+    block: &Block,
+    free: &FreeBody,
+    n: usize,
+    (stiffness, damping): (&mut [f64], &mut [f64]),
+) {
     for row in 0..free.free.len() {
         let (part, component) = free.row(row);
         for (target, columns) in [&mut *stiffness, &mut *damping].into_iter().zip(block) {

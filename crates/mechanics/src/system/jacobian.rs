@@ -260,7 +260,9 @@ fn keep_rates<E>(
     let points = mounted.internal_count / 2;
     for (number, columns) in mounted.rate_tangents.iter().enumerate() {
         for j in 0..n {
-            let changes = chain.others(side, free, j, columns).map(|change| change.map(|c| c.to_array()));
+            let changes = chain
+                .others(side, free, j, columns)
+                .map(|change| change.map(|c| c.to_array()));
             for i in 0..LANES.min(points - LANES * number) {
                 let group = mounted.first_internal / 2 + LANES * number + i;
                 let [g_q, g_u, _] = jacobian.side_mut(group, side);
@@ -308,7 +310,12 @@ pub(super) fn differentiate_internal(
 impl<E> Mounted<E> {
     /// The power that the prescribed motion of the body under the element delivers against a force and a moment about marker A, W.
     #[inline(always)]
-    pub(super) fn drive_power(&self, relative: &Relative<f64>, force: Vector<f64>, moment: Vector<f64>) -> f64 {
+    pub(super) fn drive_power(
+        &self,
+        relative: &Relative<f64>,
+        force: Vector<f64>,
+        moment: Vector<f64>,
+    ) -> f64 {
         let about: Vector<f64> = moment + relative.position.cross::<f64, f64>(force);
         let sight = &self.sight;
         sight.mount_velocity.dot::<f64, f64>(force) + sight.mount_angular_velocity.dot::<f64, f64>(about)
@@ -316,11 +323,7 @@ impl<E> Mounted<E> {
 }
 
 /// The derivatives of the rates of internal states along a change of the relative motion, by point.
-pub(super) fn rates_along(
-    rates: &[Columns],
-    change: &crate::tangent::Change,
-    d_internal: &mut [f64],
-) {
+pub(super) fn rates_along(rates: &[Columns], change: &crate::tangent::Change, d_internal: &mut [f64]) {
     for (columns, target) in rates.iter().zip(d_internal.chunks_mut(2 * LANES)) {
         let [first, second] = columns.along(change).map(|lanes| lanes.to_array());
         for (i, pair) in target.chunks_exact_mut(2).enumerate() {

@@ -41,10 +41,10 @@ pub use along::{Along, Direction, DriveChange};
 pub use drive::DriveError;
 pub use equilibrium::{NoEquilibrium, StaticFriction};
 pub use loads::{CoilLoad, FaceLoad, Loads};
+pub(crate) use model::Parts;
 pub use model::{Channel, ChannelKind, Model, ModelError, Mounted};
 pub use modes::{CLOSING_GAP, Mode, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
 pub use observe::{BodyPlace, CoilState, Energies, FaceState, Observation};
-pub(crate) use model::Parts;
 pub use sense::{CoilSense, Load, PointSense, Sense};
 pub use vibration::{Held, NoVibration, Vibration, Vibrations};
 

@@ -6,9 +6,7 @@ use thiserror::Error;
 use super::jacobian::Gathered;
 use super::placer::Placer;
 use super::stiffness::mobility;
-use super::{
-    FrameState, FreeBody, Linear, Move, MovedBody, System, is_bristle, scale_of, scales, structure,
-};
+use super::{FrameState, FreeBody, Linear, Move, MovedBody, System, is_bristle, scale_of, scales, structure};
 use crate::body::{Body, COORDINATES, Kinematics};
 use crate::coil::Coil;
 use crate::connection::{self, Connection, ConnectionError, Options};
@@ -72,7 +70,9 @@ pub enum ModelError {
         body: String,
     },
     /// A free body with linearized kinematics has a frame that moves or is turned, or does not start in the drawn layout.
-    #[error("{body} has linearized kinematics; its reference frame must stand still along the fixed axes, and all coordinates start at zero")]
+    #[error(
+        "{body} has linearized kinematics; its reference frame must stand still along the fixed axes, and all coordinates start at zero"
+    )]
     Layout {
         /// The body's name.
         body: String,

@@ -213,7 +213,13 @@ impl System {
 
     /// The accelerations of bodies with linearized kinematics, and their kinetic energy and that in the gravity field, which is zero in the
     /// drawn layout.
-    fn observe_linearized(&mut self, time: f64, x: &[f64], bodies: &mut [BodyPlace], energies: &mut Energies) {
+    fn observe_linearized(
+        &mut self,
+        time: f64,
+        x: &[f64],
+        bodies: &mut [BodyPlace],
+        energies: &mut Energies,
+    ) {
         if self.free.iter().all(|free| free.linear.is_none()) {
             return;
         }

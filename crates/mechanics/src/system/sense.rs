@@ -7,10 +7,10 @@ use std::ops::Mul;
 use integrate::scalar::Real;
 
 use super::System;
-use crate::tangent::Action;
 use crate::body::Kinematics;
 use crate::frame::FrameMotion;
 use crate::link::{Relative, Sight};
+use crate::tangent::Action;
 use crate::vector::Vector;
 
 /// Force (N) and moment (N·m) of all elements on a body, along fixed axes, about the body's origin.

@@ -47,7 +47,11 @@ impl System {
             );
         }
         let scene = (&self.frames[..], &self.kinematics[..]);
-        for face in self.faces.iter().filter(|face| face.moves && face.points.are_active()) {
+        for face in self
+            .faces
+            .iter()
+            .filter(|face| face.moves && face.points.are_active())
+        {
             let rates = &mut d_internal[face.first_internal..][..face.internal_count];
             let load_rate = &mut self.load_rate;
             element_in_time(face, scene, rates, load_rate, d_quadratures);

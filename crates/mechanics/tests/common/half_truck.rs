@@ -2,10 +2,12 @@
 //! each; three prescribed bodies that drive the bolster; 50 connections, of them 4 wedges and 8 surfaces.
 #![allow(dead_code, missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-use mechanics::motion::Motion;
 use mechanics::body::Body;
-use mechanics::connection::{Accumulator, Column, Connection, GapDamper, Law, SpringDamper, SurfaceFriction, Wedge};
+use mechanics::connection::{
+    Accumulator, Column, Connection, GapDamper, Law, SpringDamper, SurfaceFriction, Wedge,
+};
 use mechanics::curve::Curve;
+use mechanics::motion::Motion;
 use mechanics::system::Model;
 
 pub const LBF: f64 = 4.448_221_615_260_5;

@@ -2,8 +2,8 @@
 
 use mechanics::connection::{Accumulator, Column, GapDamper, Law, Options, SpringDamper, SurfaceFriction};
 use mechanics::curve::Curve;
-use mechanics::system::System;
 use mechanics::system::Mode;
+use mechanics::system::System;
 
 use crate::common::Random;
 use crate::models::{against_ground, at, at_deflection, one};

@@ -1,10 +1,10 @@
 //! The energy ledger closes, and every entry of it is needed.
 
 use integrate::Method;
-use mechanics::motion::Motion;
 use mechanics::body::Body;
 use mechanics::connection::{Accumulator, Column, GapDamper, Law, Options, SpringDamper, SurfaceFriction};
 use mechanics::curve::Curve;
+use mechanics::motion::Motion;
 use mechanics::system::{ChannelKind, Model, System};
 
 use crate::half_truck::{self, ALL, INCH, LBF_PER_INCH, curve, straight, vertical, wedge};
@@ -264,7 +264,12 @@ fn a_clamped_damper_never_gives_energy_back() {
 #[test]
 fn a_plain_wedge_has_no_slope_entry() {
     let system = System::new(half_truck::model(true, false)).unwrap();
-    assert!(system.channels().iter().all(|own| own.kind != ChannelKind::SlopeFriction));
+    assert!(
+        system
+            .channels()
+            .iter()
+            .all(|own| own.kind != ChannelKind::SlopeFriction)
+    );
     let law = Law::Wedge(wedge(true, Column::Plain { toe_out: true }));
     assert_eq!(law.coordinates(), [2, 1]);
 }

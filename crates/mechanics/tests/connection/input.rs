@@ -1,7 +1,9 @@
 //! Models that make no system are refused, with words that help.
 
 use mechanics::body::Body;
-use mechanics::connection::{Accumulator, ConnectionError, Column, GapDamper, Law, Options, SpringDamper, SurfaceFriction};
+use mechanics::connection::{
+    Accumulator, Column, ConnectionError, GapDamper, Law, Options, SpringDamper, SurfaceFriction,
+};
 use mechanics::curve::{Curve, CurveError};
 use mechanics::system::{Model, ModelError, System};
 
@@ -43,14 +45,20 @@ fn wrong_models_are_refused() {
         ModelError::Connection(ConnectionError::Itself { .. })
     ));
     let fixed = refused(|model| (model.connections[0].a, model.connections[0].b) = (1, 2));
-    assert!(matches!(fixed, ModelError::Connection(ConnectionError::NothingToMove { .. })));
+    assert!(matches!(
+        fixed,
+        ModelError::Connection(ConnectionError::NothingToMove { .. })
+    ));
     let none = refused(|model| model.bodies[0] = Body::linearized("a", [0.0; 3], [false; 6], 1.0, [1.0; 3]));
     assert!(matches!(none, ModelError::NothingFree));
     let light = refused(|model| model.bodies[0] = Body::linearized("a", [0.0; 3], ALL, 1.0, [1.0, 0.0, 1.0]));
     assert!(light.to_string().contains("pitch"), "{light}");
     let spring = SpringDamper::spring(Curve::linear(1.0));
     let sixth = refused(|model| model.connections[0].law = Law::Springs(vec![(6, spring)]));
-    assert!(matches!(sixth, ModelError::Connection(ConnectionError::Coordinate { coordinate: 6, .. })));
+    assert!(matches!(
+        sixth,
+        ModelError::Connection(ConnectionError::Coordinate { coordinate: 6, .. })
+    ));
     let twice = SurfaceFriction {
         coordinates: [2, 1, 1],
         spring: Curve::linear(1.0),
@@ -59,7 +67,10 @@ fn wrong_models_are_refused() {
         accumulator: Accumulator::Viscous { damping: 1.0 },
     };
     let twice = refused(|model| model.connections[0].law = Law::Surface(twice));
-    assert!(matches!(twice, ModelError::Connection(ConnectionError::Coordinate { coordinate: 1, .. })));
+    assert!(matches!(
+        twice,
+        ModelError::Connection(ConnectionError::Coordinate { coordinate: 1, .. })
+    ));
     let gap = GapDamper {
         spring: None,
         damper: None,

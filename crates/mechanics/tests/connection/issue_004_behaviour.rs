@@ -1,10 +1,10 @@
 //! The equilibrium at a time beyond a break of the motions once took the piece of the motions at time zero, so that a
 //! ramp that had long ended had not begun.
 
-use mechanics::motion::{Motion, RampProfile};
 use mechanics::body::Body;
 use mechanics::connection::{Connection, Law, SpringDamper};
 use mechanics::curve::Curve;
+use mechanics::motion::{Motion, RampProfile};
 use mechanics::system::{Model, StaticFriction, System};
 
 #[test]

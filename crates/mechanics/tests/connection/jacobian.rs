@@ -1,12 +1,14 @@
 //! Every entry of the Jacobian matrix, and the derivative by time, against differences of the right-hand side.
 
 use integrate::Problem;
-use mechanics::motion::Motion;
 use mechanics::body::Body;
-use mechanics::connection::{Accumulator, Branch, Column, GapDamper, Law, NegativeRise, Options, SpringDamper, SurfaceFriction, Wedge};
+use mechanics::connection::{
+    Accumulator, Branch, Column, GapDamper, Law, NegativeRise, Options, SpringDamper, SurfaceFriction, Wedge,
+};
 use mechanics::curve::Curve;
-use mechanics::system::{Model, System};
+use mechanics::motion::Motion;
 use mechanics::system::Mode;
+use mechanics::system::{Model, System};
 
 use crate::common::Random;
 use crate::models::{connection, model, rates};

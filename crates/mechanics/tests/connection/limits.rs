@@ -1,9 +1,9 @@
 //! Static equilibrium, and limits that have closed forms.
 
-use mechanics::motion::Motion;
 use mechanics::body::Body;
 use mechanics::connection::{Column, Law, SpringDamper};
 use mechanics::curve::Curve;
+use mechanics::motion::Motion;
 use mechanics::system::{StaticFriction, System};
 
 use crate::half_truck::{self, ALL, BOLSTER, INCH, LBF, LBF_PER_INCH, straight, vertical, wedge};
@@ -65,7 +65,10 @@ fn four_wedges_carry_a_body() {
 #[test]
 fn a_toe_lifts_or_drags_the_bolster() {
     for toe in [0.2, -0.2] {
-        let bodies = vec![Body::linearized("body", [0.0; 3], ALL, 1.0, [1.0; 3]), Body::ground()];
+        let bodies = vec![
+            Body::linearized("body", [0.0; 3], ALL, 1.0, [1.0; 3]),
+            Body::ground(),
+        ];
         let connections = [1.0, -1.0].map(|direction| {
             connection(
                 0,

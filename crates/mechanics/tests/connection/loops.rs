@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use integrate::Method;
-use mechanics::motion::Motion;
 use mechanics::connection::{Accumulator, Column, Law, Options, Wedge};
+use mechanics::motion::Motion;
 use mechanics::system::ChannelKind;
 
 use crate::analytic::{close, plain};

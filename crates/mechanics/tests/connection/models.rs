@@ -1,9 +1,9 @@
 //! Small models for tests.
 
 use integrate::{Integrator, Method, Options as Settings, Problem};
-use mechanics::motion::Motion;
 use mechanics::body::Body;
 use mechanics::connection::{Connection, Law, Options, SpringDamper, Wedge, WedgeState};
+use mechanics::motion::Motion;
 use mechanics::system::{Model, Observation, System};
 
 use crate::half_truck::{ALL, vertical};

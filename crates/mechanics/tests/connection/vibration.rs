@@ -47,7 +47,10 @@ fn a_chain_of_two_masses() {
 #[test]
 fn a_body_on_four_springs() {
     let (k, m, inertia, lever) = (1000.0, 50.0, [3.0, 5.0, 7.0], [0.6, 0.4]);
-    let bodies = vec![Body::linearized("b", [0.0, 0.0, 0.0], ALL, m, inertia), Body::ground()];
+    let bodies = vec![
+        Body::linearized("b", [0.0, 0.0, 0.0], ALL, m, inertia),
+        Body::ground(),
+    ];
     let mut connections = Vec::new();
     for x in [1.0, -1.0] {
         for y in [1.0, -1.0] {
@@ -96,7 +99,10 @@ fn a_body_on_four_springs() {
 fn a_body_on_wedges() {
     let (mass, inertia) = (2000.0, [300.0, 400.0, 500.0]);
     let build = |column: &dyn Fn(f64) -> Column| {
-        let bodies = vec![Body::linearized("b", [0.0; 3], ALL, mass, inertia), Body::ground()];
+        let bodies = vec![
+            Body::linearized("b", [0.0; 3], ALL, mass, inertia),
+            Body::ground(),
+        ];
         let wedges = [1.0, -1.0].map(|direction| {
             let law = Law::Wedge(wedge(false, column(direction)));
             connection(0, 1, [0.3 * direction, 0.0, 0.0], law)
@@ -181,7 +187,11 @@ fn stiffness_is_minus_the_derivative_of_forces() {
         let (up, down) = (force(h), force(-h));
         for i in 0..n {
             let body = &bodies[i / 6];
-            let own = if i % 6 < 3 { body.mass } else { body.inertia[i % 6 - 3] };
+            let own = if i % 6 < 3 {
+                body.mass
+            } else {
+                body.inertia[i % 6 - 3]
+            };
             let expected = -(up[i] - down[i]) / (2.0 * h) * own;
             let size = stiffness.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
             assert!(

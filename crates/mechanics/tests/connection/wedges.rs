@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
-use mechanics::quasi_static::{Direction, QuasiStaticWedge};
 use mechanics::connection::{Accumulator, Branch, Column, Law, Options, SlopeDirection};
 use mechanics::curve::Curve;
-use mechanics::system::System;
+use mechanics::quasi_static::{Direction, QuasiStaticWedge};
 use mechanics::system::Mode;
+use mechanics::system::System;
 
 use crate::analytic::{close, plain};
 use crate::common::Random;

@@ -2,10 +2,12 @@
 
 use std::collections::HashMap;
 
-use mechanics::motion::Motion;
 use mechanics::body::Body;
-use mechanics::connection::{Accumulator, Column, Connection, GapDamper, Law, SpringDamper, SurfaceFriction, Wedge};
+use mechanics::connection::{
+    Accumulator, Column, Connection, GapDamper, Law, SpringDamper, SurfaceFriction, Wedge,
+};
 use mechanics::curve::{Curve, CurveError};
+use mechanics::motion::Motion;
 use mechanics::system::Model;
 use thiserror::Error;
 

@@ -3,7 +3,6 @@
 //! Printed: a rotation spring of 1e6 in-lb/rad is to yaw the bolster against two longitudinal springs of 1e6 lb/in at
 //! y = ±39.5 in, that is 3.12e9 in-lb/rad, and reaches 2e-6 of 0.012 rad. A translation's stiffness was copied to a rotation.
 
-
 use std::ops::Range;
 
 use mechanics::connection::Law;

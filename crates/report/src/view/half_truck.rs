@@ -7,8 +7,8 @@
 
 use std::collections::BTreeMap;
 
-use mechanics::output::Column;
 use mechanics::connection::{Column as Face, Law, Wedge};
+use mechanics::output::Column;
 use nucars::truck::Truck;
 use quantity::Kind;
 use study::truck::TruckResult;

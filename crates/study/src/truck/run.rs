@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use integrate::{Integrator, Options, SetupError};
-use mechanics::motion::Motion;
 use mechanics::body::COORDINATES;
-use mechanics::system::{ModelError, StaticFriction, System};
+use mechanics::motion::Motion;
 use mechanics::system::NoEquilibrium;
+use mechanics::system::{ModelError, StaticFriction, System};
 use quantity::Kind;
 use thiserror::Error;
 

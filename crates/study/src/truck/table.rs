@@ -3,11 +3,11 @@
 //! Always there: time, the vertical input, every wedge, the bodies' displacements, the energies. Forces of connections are those of the files: positive in
 //! extension, on body A they act against the stroke.
 
+use mechanics::body::COORDINATES;
 use mechanics::motion::Motion;
 use mechanics::output::Column;
-use mechanics::body::COORDINATES;
-use mechanics::system::{Model, Observation, System};
 use mechanics::system::Mode;
+use mechanics::system::{Model, Observation, System};
 use nucars::tree::{DofQuantity, ElementQuantity};
 use nucars::truck::Truck;
 use quantity::Kind;
@@ -241,7 +241,11 @@ impl Table {
                     ),
                     DofQuantity::Force => {
                         let own = &truck.model.bodies[body];
-                        let inertia = if turns { own.inertia[coordinate - 3] } else { own.mass };
+                        let inertia = if turns {
+                            own.inertia[coordinate - 3]
+                        } else {
+                            own.mass
+                        };
                         self.add(
                             format!("{stem}_force"),
                             kinds(Kind::Force, Kind::Moment),

@@ -34,9 +34,7 @@ fn residuals(name: &str) -> [f64; 2] {
     let mut system = system(name);
     let x = system.initial_state();
     let seen = system.observe(0.0, &x);
-    [BODY, LEFT].map(|body| {
-        system.bodies()[body].mass * seen.bodies[body].accelerations[2] / POUND
-    })
+    [BODY, LEFT].map(|body| system.bodies()[body].mass * seen.bodies[body].accelerations[2] / POUND)
 }
 
 #[test]
