@@ -10,6 +10,7 @@ pub mod body;
 pub mod characteristic;
 pub mod coil;
 pub mod contact;
+pub mod energy_balance;
 pub mod frame;
 pub mod friction;
 pub mod link;

@@ -5,6 +5,7 @@
 
 mod along;
 mod drive;
+mod energies;
 mod equilibrium;
 mod forces;
 mod jacobian;
