@@ -60,6 +60,14 @@ pub struct Entries {
     pub residual: f64,
 }
 
+impl Entries {
+    /// Returns the [`relative_residual`] of this time alone, where what was before is not known: an importer of an FMU may go back.
+    #[must_use]
+    pub fn relative_residual(&self) -> f64 {
+        relative_residual(self.residual, self.work, self.losses, self.stored_change)
+    }
+}
+
 /// The energy balance of a run, followed from output time to output time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyBalance {

@@ -7,6 +7,7 @@ mod body;
 mod entries;
 
 use integrate::{Integrator, Options, Problem, State};
+use mechanics::energy_balance;
 use mechanics::system::Mode;
 use serde::{Deserialize, Serialize};
 use study::case::Case;
@@ -214,7 +215,13 @@ impl Element for TruckElement {
         let seen = self.truck.system.observe(self.time, &self.states[..dimension]);
         let change = seen.energies.total() - self.start_energy;
         let residual = seen.residual(self.start_energy) - self.states[dimension];
-        for (target, value) in out.iter_mut().zip([change, residual]) {
+        let ledger = energy_balance::Entries {
+            work: self.states[dimension],
+            losses: seen.quadratures.iter().skip(1).sum(),
+            stored_change: change,
+            residual,
+        };
+        for (target, value) in out.iter_mut().zip([change, residual, ledger.relative_residual()]) {
             *target = value;
         }
     }
