@@ -1,22 +1,26 @@
-//! `cargo xtask bench`: how fast, with caveats; wall times and instruction counts side by side.
+//! `cargo xtask bench`: how fast, with caveats; writes `docs/benchmarks.md`.
 
+mod page;
+
+use std::fmt::Write;
 use std::process::{Command, ExitCode};
 
+use crate::machine::Machine;
 use crate::shell::{self, Workspace};
+use page::{INSTRUCTIONS, Printed, SECTIONS};
 
 const HELP: &str = "\
 Usage: cargo xtask bench [arguments of `cargo bench`]
 
-Without arguments: times the right-hand side, the Jacobian and the twelve thesis runs, and counts their instructions (where
-valgrind is installed). With arguments, runs `cargo bench` with them, over all crates unless some are chosen, such as
-`cargo xtask bench --package benchmarks`.";
-
-const CAVEATS: &str = "\
-Read this first: wall times depend on the machine and on what else it does. Compare within one run, and trust ratios of
-1.2 and more. Instruction counts repeat for the same binary, but are no times.";
+Without arguments: measures evaluations, the thesis's runs, studies, half-truck, truck and FMUs, counts instructions (where valgrind
+is installed), and writes docs/benchmarks.md: some minutes. With arguments, runs `cargo bench` with them, over all crates unless some
+are chosen, such as `cargo xtask bench --package benchmarks`.";
 
 /// The run whose instructions are counted: the slowest yawed one.
 const COUNTED_RUN: [&str; 3] = ["rodas4", "1e-6", "vdrun_toe_0.2_psi_0.012"];
+
+/// A line that programs print for those who run them alone; the page says it for all.
+const CAVEAT: &str = "Wall times on a machine";
 
 /// Runs the command.
 pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
@@ -39,34 +43,81 @@ pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
 }
 
 fn everything(workspace: &Workspace) -> Result<(), String> {
-    println!("{CAVEATS}\n");
-    shell::run(&mut workspace.cargo(["bench", "--package", "benchmarks", "--bench", "wedge"]))?;
-    shell::run(&mut workspace.cargo(["build", "--release", "--package", "benchmarks", "--bins"]))?;
-    let program = |name: &str| workspace.target.join("release").join(name);
-    shell::run(&mut Command::new(program("thesis_runs")))?;
-    println!("\nOne communication step of 1 ms of an FMU, yawed cases (target 50 µs):");
-    shell::run(&mut Command::new(program("steps")))?;
-    if shell::output(Command::new("valgrind").arg("--version")).is_none() {
-        println!("\nNo instruction counts: valgrind is not installed (Debian: apt-get install valgrind).");
-        return Ok(());
+    let build = ["build", "--release", "--package", "benchmarks", "--bins"];
+    shell::run(&mut workspace.cargo(build))?;
+    shell::run(&mut workspace.cargo(["bench", "--package", "benchmarks", "--bench", "wedge", "--no-run"]))?;
+    let load = std::fs::read_to_string("/proc/loadavg").ok();
+    let load = load.as_deref().and_then(|text| text.split_whitespace().next());
+    let mut printed = Vec::new();
+    for section in SECTIONS {
+        println!("\n{}:", section.heading);
+        let Some(text) = measured(workspace, section.program)? else {
+            println!("left out: valgrind is not installed (Debian: apt-get install valgrind)");
+            continue;
+        };
+        println!("{text}");
+        printed.push(Printed { section, text });
     }
+    let file = workspace.root.join("docs").join("benchmarks.md");
+    std::fs::write(&file, page::page(&Machine::here(), load, &printed))
+        .map_err(|error| format!("cannot write {}: {error}", file.display()))?;
+    println!("\n{}", file.display());
+    Ok(())
+}
+
+/// What a section's program prints; none if it is not installed.
+fn measured(workspace: &Workspace, program: &[&str]) -> Result<Option<String>, String> {
+    let binary = |name: &str| workspace.target.join("release").join(name);
+    let (name, arguments) = match program {
+        [] => {
+            let bench = ["bench", "--package", "benchmarks", "--bench", "wedge", "--"];
+            let text = stdout(workspace.cargo(bench).args(["--output-format", "bencher"]))?;
+            return Ok(Some(page::evaluations(&text)));
+        }
+        INSTRUCTIONS => return counts(workspace),
+        [name, arguments @ ..] => (name, arguments),
+    };
+    let text = stdout(Command::new(binary(name)).args(arguments))?;
+    let lines = text.lines().filter(|line| !line.starts_with(CAVEAT));
+    Ok(Some(lines.collect::<Vec<_>>().join("\n")))
+}
+
+/// What a command prints.
+fn stdout(command: &mut Command) -> Result<String, String> {
+    let output = command.output();
+    let output =
+        output.map_err(|error| format!("{} cannot be started: {error}", command.get_program().display()))?;
+    if !output.status.success() {
+        let error = String::from_utf8_lossy(&output.stderr);
+        return Err(format!(
+            "{}: {}\n{error}",
+            command.get_program().display(),
+            output.status
+        ));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// Instructions of single calls and of a run; none without valgrind.
+fn counts(workspace: &Workspace) -> Result<Option<String>, String> {
+    if shell::output(Command::new("valgrind").arg("--version")).is_none() {
+        return Ok(None);
+    }
+    // Valgrind does not know all instructions of the usual build.
+    let folder = workspace.build_portable(&["--package", "benchmarks", "--bins"])?;
     let count = |name: &str, arguments: &[&str]| {
         let mut command = Command::new("valgrind");
         command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]);
-        instructions(command.arg(program(name)).args(arguments))
+        instructions(command.arg(folder.join(name)).args(arguments))
     };
-    println!("\nInstructions (callgrind):");
+    let mut text = String::new();
     for kind in ["right-hand-side", "jacobian"] {
         let calls = count("calls", &[kind, "2000"])? - count("calls", &[kind, "1000"])?;
-        println!("  {kind:16} {:>14.0} per call", calls / 1000.0);
+        let _ = writeln!(text, "{kind:16} {:>14.0} per call", calls / 1000.0);
     }
-    println!(
-        "  {:16} {:>14.0} {}",
-        "run",
-        count("thesis_runs", &COUNTED_RUN)?,
-        COUNTED_RUN.join(" ")
-    );
-    Ok(())
+    let run = count("thesis_runs", &COUNTED_RUN)?;
+    let _ = writeln!(text, "{:16} {run:>14.0} {}", "run", COUNTED_RUN.join(" "));
+    Ok(Some(text))
 }
 
 /// The instructions that a command under callgrind reports.
@@ -75,6 +126,9 @@ fn instructions(command: &mut Command) -> Result<f64, String> {
         .output()
         .map_err(|error| format!("cannot start valgrind: {error}"))?;
     let text = String::from_utf8_lossy(&output.stderr);
+    if !output.status.success() {
+        return Err(format!("valgrind: {}\n{text}", output.status));
+    }
     let count = text
         .lines()
         .find_map(|line| line.split("Collected :").nth(1)?.trim().parse().ok());

@@ -5,6 +5,7 @@
 mod bench;
 mod debian;
 mod fuzz;
+mod machine;
 mod race;
 mod shell;
 mod test;

@@ -4,17 +4,20 @@ pub mod tools;
 
 use std::process::{Command, ExitCode};
 
+use crate::machine::Machine;
 use crate::shell::{self, Workspace};
 
 const HELP: &str = "\
-Usage: cargo xtask race [--quick] [--again] [options of the race]
+Usage: cargo xtask race [--quick | --page] [--again] [options of the race]
 
 Builds the race and its drivers, installs what they need (Debian: SUNDIALS, Octave; into target/tools: SciPy, Exudyn), runs all
-solvers on the thesis's twelve cases, the planar wedge and the stick test, and writes tables and figures into target/race.
+solvers on the thesis's twelve cases, the planar wedge and the stick test, and writes all runs into target/race. A race over all
+cases, solvers and tolerances writes docs/race.md, its figures, and its results into docs/measured/race.json.
 Octave runs with the compiled equations and, on the yawed cases, with equations in its own language.
 Runs that are there already are kept; --again begins anew.
 What is Rust is compiled for processors with AVX2; with RUSTFLAGS=\"-C target-cpu=x86-64\" for all.
 
+  --page              run nothing, write docs/race.md from docs/measured/race.json
   --quick             four cases at three tolerances, without Octave: two to three minutes
   --cases PART,...    problems whose names contain one of the parts
   --solvers PART,...  solvers likewise
@@ -53,6 +56,13 @@ pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
 
 fn start(workspace: &Workspace, arguments: &[String]) -> Result<(), String> {
     let has = |name: &str| arguments.iter().any(|argument| argument == name);
+    let docs = workspace.root.join("docs");
+    if has("--page") {
+        shell::run(&mut workspace.cargo(["build", "--release", "--package", "race"]))?;
+        let mut race = Command::new(workspace.target.join("release").join("race"));
+        let [results, page] = [docs.join("measured").join("race.json"), docs.join("race.md")];
+        return shell::run(race.arg("page").args([results, page]));
+    }
     let quick = has("--quick");
     let rest = arguments
         .iter()
@@ -67,6 +77,16 @@ fn start(workspace: &Workspace, arguments: &[String]) -> Result<(), String> {
     race.arg("all").args(tools.arguments()).arg("--out").arg(folder);
     if quick {
         race.args(QUICK);
+    } else {
+        let machine = Machine::here();
+        race.arg("--docs").arg(docs);
+        race.args([
+            "--machine",
+            &machine.processor,
+            "--cores",
+            &machine.cores.to_string(),
+        ]);
+        race.args(["--date", &machine.date, "--rustc", &machine.rustc]);
     }
     shell::run(race.args(rest))
 }

@@ -14,6 +14,7 @@ use integrate::scalar::{Dual, Real};
 use integrate::{Integrator, Method, Options, Ordinary, Problem, SetupError, StepError};
 use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLaw};
+use mechanics::energy_balance::Entries;
 use mechanics::frame::Frame;
 use mechanics::link::Mount;
 use mechanics::motion::Motion;
@@ -218,11 +219,17 @@ impl Carried {
         0.5 * (MASS * speed + spin) + self.bushing(time, x, &pose).energy
     }
 
-    /// What the energy ledger lacks, J; `start` is the energy at the start.
+    /// Returns what an energy balance takes from a state; `start` is the energy at the start, J.
     #[must_use]
-    pub fn residual(&self, time: f64, x: &[f64; STATES], start: f64) -> f64 {
-        let [.., work, losses] = x;
-        self.energy(time, x) - start - work + losses
+    pub fn ledger(&self, time: f64, x: &[f64; STATES], start: f64) -> Entries {
+        let [.., work, losses] = *x;
+        let stored_change = self.energy(time, x) - start;
+        Entries {
+            work,
+            losses,
+            stored_change,
+            residual: work - stored_change - losses,
+        }
     }
 
     /// The right-hand side.

@@ -10,6 +10,7 @@ pub mod wedges;
 use std::hint::black_box;
 
 use integrate::Problem;
+use mechanics::energy_balance::Entries;
 use mechanics::system::Observation;
 use mechanics::system::System;
 use nucars::truck::Choices;
@@ -102,12 +103,18 @@ fn least(calls: usize, mut call: impl FnMut()) -> f64 {
     rounds.fold(f64::INFINITY, f64::min)
 }
 
-/// Work of the motions, losses, and what the energy ledger lacks, J; `start` is the energy at the start.
+/// Returns what an energy balance takes from an instant; `start` is the stored energy at the start, J.
 #[must_use]
-pub fn ledger(seen: &Observation, start: f64) -> [f64; 3] {
+pub fn ledger(seen: &Observation, start: f64) -> Entries {
     let (work, losses) = seen
         .quadratures
         .split_first()
         .map_or((0.0, 0.0), |(work, losses)| (*work, losses.iter().sum::<f64>()));
-    [work, losses, seen.energies.total() - start - work + losses]
+    let stored_change = seen.energies.total() - start;
+    Entries {
+        work,
+        losses,
+        stored_change,
+        residual: work - stored_change - losses,
+    }
 }

@@ -64,7 +64,7 @@ fn energy_ledger_closes_once_round() {
         };
         let start = body.energy(0.0, &body.start());
         let x = after(body, CIRCLE);
-        let residual = body.residual(CIRCLE, &x, start);
+        let residual = body.ledger(CIRCLE, &x, start).residual;
         assert!(x[13] > 0.1, "{order:?}: {} J are lost", x[13]);
         assert!(
             residual.abs() < 1e-4 * x[13],

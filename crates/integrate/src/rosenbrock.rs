@@ -20,6 +20,7 @@ mod newton;
 mod piece;
 mod reversal;
 mod step;
+mod worst;
 
 use attempt::Attempt;
 use between::Between;

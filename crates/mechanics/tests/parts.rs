@@ -183,7 +183,9 @@ fn limits_loads_are_the_sums_over_the_points() {
         for _ in 0..60 {
             let (x, time) = (state(&system, &mut random), random.between(0.0, 1.0));
             let seen = system.clone().observe(time, &x);
+            assert_eq!(system.clone().energies(time, &x), seen.energies);
             system.loads(time, &x, &mut loads);
+            assert_eq!(system.energies(time, &x), seen.energies);
             assert_eq!(
                 (loads.faces.len(), loads.coils.len()),
                 (seen.faces.len(), seen.coils.len())

@@ -5,7 +5,7 @@
 //!   Python and Octave (`drivers/`); [`wedge_case`] for the one that has the equations in its own language.
 //! - [`own`], [`diffsol`]: the drivers in Rust; [`outcome`]: what every driver reports.
 //! - [`contest`]: who runs; [`runner`]: runs them; [`measure`], [`standings`]: errors, fronts, ratios; [`tables`], [`figures`]: what is
-//!   shown of them.
+//!   shown of them; [`page`]: `docs/race.md`.
 
 pub mod c_interface;
 pub mod clock;
@@ -18,6 +18,7 @@ pub mod figures;
 pub mod measure;
 pub mod outcome;
 pub mod own;
+pub mod page;
 pub mod problem;
 pub mod runner;
 pub mod standings;

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use integrate::Method;
 use race::contest::{SOLVERS, Tools};
 use race::outcome::{repeated, write_states};
+use race::page::{Measured, Results};
 use race::runner::{Plan, TOLERANCES};
 use race::wedge_case::WedgeCase;
 use race::{diffsol, figures, own, problem, standings, tables};
@@ -16,7 +17,9 @@ race solve SOLVER CASE TOLERANCE LIMIT FILE [ROWS]   one run of a solver that is
 race wedge CASE                                      parameters, start, scales and times of a wedge, as JSON
 race all --library FILE --drivers FOLDER --out FOLDER [--cvode FILE] [--python FILE] [--exudyn FILE]
          [--octave FILE --mex FOLDER] [--cases PART,...] [--solvers PART,...] [--tolerances T,...] [--limit SECONDS]
-         [--starts NUMBER] [--short SECONDS] [--kept-only yes]";
+         [--starts NUMBER] [--short SECONDS] [--kept-only yes]
+         [--docs FOLDER --machine TEXT --cores NUMBER --date DATE --rustc VERSION]
+race page RESULTS PAGE                               the page of stored results";
 
 /// From how many starts a case runs of which only means are compared.
 const STARTS: u32 = 5;
@@ -28,6 +31,9 @@ fn main() -> ExitCode {
         ["solve", solver, rest @ ..] => solve(solver, rest),
         ["wedge", case] => wedge(case),
         ["all", rest @ ..] => all(rest),
+        ["page", results, page] => {
+            Results::read(Path::new(results)).and_then(|results| write_page(&results, Path::new(page)))
+        }
         _ => Err(USAGE.to_owned()),
     };
     match done {
@@ -150,15 +156,49 @@ fn all(words: &[&str]) -> Result<(), String> {
         let file = folder.join(name);
         fs::write(&file, bytes).map_err(|error| format!("cannot write {}: {error}", file.display()))
     };
-    let text = tables::everything(&standings);
-    write("race.md", text.as_bytes())?;
+    write("runs.md", tables::everything(&standings).as_bytes())?;
     let json = serde_json::to_string_pretty(&standings).map_err(|error| error.to_string())?;
     write("race.json", json.as_bytes())?;
     for (name, figure) in figures::figures(&standings) {
         write(&format!("{name}.svg"), figure.to_svg().as_bytes())?;
         write(&format!("{name}.png"), &figure.to_png()?)?;
     }
-    println!("\n{}\n{}", tables::caveats(), tables::ratios(&standings));
-    println!("{}", folder.join("race.md").display());
+    println!("\n{}", tables::ratios(&standings));
+    println!("{}", folder.join("runs.md").display());
+    let Some(docs) = file("--docs") else {
+        return Ok(());
+    };
+    if ["--cases", "--solvers", "--tolerances"]
+        .iter()
+        .any(|part| options.contains_key(part))
+    {
+        println!("docs/race.md is written by a race over all cases, solvers and tolerances only.");
+        return Ok(());
+    }
+    let told = |name: &str| options.get(name).copied().unwrap_or("unknown").to_owned();
+    let measured = Measured {
+        date: told("--date"),
+        machine: told("--machine"),
+        cores: told("--cores"),
+        rustc: told("--rustc"),
+        compiled_for: tables::processors().to_owned(),
+        limit: plan.limit.to_string(),
+    };
+    let results = Results::of(&standings, measured);
+    let file = docs.join("measured").join("race.json");
+    fs::write(&file, results.to_json()?)
+        .map_err(|error| format!("cannot write {}: {error}", file.display()))?;
+    for (name, figure) in figures::figures(&standings) {
+        let file = docs.join("figures").join(format!("{name}.svg"));
+        fs::write(&file, figure.to_svg())
+            .map_err(|error| format!("cannot write {}: {error}", file.display()))?;
+    }
+    write_page(&results, &docs.join("race.md"))
+}
+
+/// Writes the page.
+fn write_page(results: &Results, page: &Path) -> Result<(), String> {
+    fs::write(page, results.page()).map_err(|error| format!("cannot write {}: {error}", page.display()))?;
+    println!("{}", page.display());
     Ok(())
 }

@@ -1,49 +1,81 @@
 //! The race's tables, as text with Markdown tables.
 
-use std::fmt::Write;
+use std::fmt::{self, Write};
 
-use crate::contest::{COMMON_OPTIONS, IN_OCTAVE, SOLVERS};
-use crate::runner::REFERENCE;
+use serde::{Deserialize, Serialize};
+
+use crate::contest::IN_OCTAVE;
+use crate::problem::is_yawed;
 use crate::standings::{Judgement, Standing};
 
-/// What must be read first.
-const CAVEATS: &str = "\
-Read this first.
+/// A table of texts. Stored as its lines: the head, then the rows.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(from = "Vec<String>", into = "Vec<String>")]
+pub struct Table {
+    /// The names of the columns.
+    pub head: Vec<String>,
+    /// The rows, as long as the head.
+    pub rows: Vec<Vec<String>>,
+}
 
-- Times are CPU times of the integration alone, the least of up to five repetitions, on a machine that may do other things: trust ratios
-  of 1.5 and more within one run of the race.
-- The drivers of the other solvers are ours (`crates/race/drivers`, `crates/race/src/diffsol.rs`). Who knows a solver better may set it
-  better.
-- All solvers but one (the last of these points) get the same compiled right-hand side and the same analytic Jacobian matrix; SciPy and
-  Octave call them from their languages, which is where most of their time goes. Others integrate positions, speeds, bristles and one energy; ours integrates all
-  energies of the ledger besides. No solver records when contacts change, but ours where its name says so, as in users' runs. It alone is told where contacts open and close and where slip
-  reverses. Its Rosenbrock methods end their steps there, and hold speeds to the reference speed of friction (0.001 in/s, where a point sticks) and the wedge's positions to 1e-6 m where a wider tolerance
-  is asked for: from 1e-3 to 1e-5 they do more than the others are asked to. Its TR-BDF2 and ESDIRK3 keep their Jacobian matrix in between
-  and look there for reversals in Newton's method; their tolerance holds for displacements alone, and their steps end at the rows.
-- The compiled solvers run at 3e-4, 3e-5, ... 3e-8 besides the decades of tolerance.
-- The equations are those of this project: nothing here says how a solver does on others.
-- Runs without bolster yaw ring and are chaotic in detail: only means are compared there, and one run alone is a matter of luck. Each
-  is made from several starts, in each of which the wedge starts a hundredth of a millimetre lower than in the one before, every solver from the
-  same ones; errors are root mean squares over the starts, each against a reference of its own, times and counts are means over them.
-- Every error is compared only down to the floor, which is how far the reference's own solver at 1e-9 and 1e-10 is from itself at 1e-11; with several
-  starts, that and twice the scatter of a root mean square over so many (with five, 1.6 times): nearer to it, luck decides who is better.
-- Octave's ode15s gets one second of simulated time, and is compared with ours over the same second, whose first part is the
-  release from the start. It runs twice: with the compiled right-hand side and Jacobian matrix, and on the yawed cases with the right-hand
-  side in Octave's own language (`wedge_rates.m`, vectorized over the eight contacts, agreeing with the compiled one to 1e-10) and a Jacobian
-  matrix by differences of its own.
-";
+/// What stands between the cells of a line.
+const BETWEEN: &str = " | ";
 
-/// What to read first, with what this program and everything in it that is Rust was compiled for.
+impl From<Vec<String>> for Table {
+    fn from(lines: Vec<String>) -> Self {
+        let cells = |line: &String| line.split(BETWEEN).map(str::to_owned).collect::<Vec<_>>();
+        let head = lines.first().map(cells).unwrap_or_default();
+        let rows = lines.iter().skip(1).map(|line| {
+            let mut row = cells(line);
+            row.resize(head.len(), String::new());
+            row
+        });
+        Self {
+            rows: rows.collect(),
+            head,
+        }
+    }
+}
+
+impl From<Table> for Vec<String> {
+    fn from(table: Table) -> Self {
+        let lines = std::iter::once(table.head).chain(table.rows);
+        let lines = lines.filter(|line| !line.is_empty());
+        // Empty cells at the end are left out.
+        lines
+            .map(|line| line.join(BETWEEN).trim_end_matches([' ', '|']).to_owned())
+            .collect()
+    }
+}
+
+impl Table {
+    fn new<S: ToString>(head: &[S]) -> Self {
+        Self {
+            head: head.iter().map(ToString::to_string).collect(),
+            rows: Vec::new(),
+        }
+    }
+}
+
+impl fmt::Display for Table {
+    /// As Markdown.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "| {} |", self.head.join(" | "))?;
+        writeln!(f, "|{}", "---|".repeat(self.head.len()))?;
+        self.rows
+            .iter()
+            .try_for_each(|row| writeln!(f, "| {} |", row.join(" | ")))
+    }
+}
+
+/// What this program and everything in it that is Rust was compiled for.
 #[must_use]
-pub fn caveats() -> String {
-    let processors = if cfg!(target_feature = "avx2") {
+pub fn processors() -> &'static str {
+    if cfg!(target_feature = "avx2") {
         "processors with AVX2"
     } else {
         "every processor of its kind"
-    };
-    format!(
-        "{CAVEATS}- What is Rust - our integrator, diffsol, the right-hand side and the Jacobian matrix - is compiled for {processors}.\n"
-    )
+    }
 }
 
 /// A time in words.
@@ -68,24 +100,9 @@ fn power(value: f64) -> String {
     format!("{value:.0e}")
 }
 
-/// The options of every solver.
-#[must_use]
-pub fn options() -> String {
-    let mut text = format!(
-        "All: {COMMON_OPTIONS}; reference: {} at {}.\n\n",
-        REFERENCE.0, REFERENCE.1
-    );
-    text.push_str("| solver | options beyond its defaults |\n|---|---|\n");
-    for solver in SOLVERS {
-        let _ = writeln!(text, "| {} | {} |", solver.name, solver.options);
-    }
-    text
-}
-
 /// How many times faster ours is, case by case and solver by solver: the least and the middle of all error levels.
 #[must_use]
-pub fn ratios(standings: &[Standing]) -> String {
-    let mut text = String::new();
+pub fn ratios(standings: &[Standing]) -> Table {
     let full = standings.iter().map(|one| one.span).fold(0.0, f64::max);
     let rows: Vec<&Standing> = standings.iter().filter(|one| one.span == full).collect();
     let mut columns: Vec<(String, Vec<&str>)> = vec![("CVODE".to_owned(), vec!["CVODE BDF"])];
@@ -97,13 +114,12 @@ pub fn ratios(standings: &[Standing]) -> String {
         "SciPy's best".to_owned(),
         vec!["SciPy LSODA", "SciPy BDF", "SciPy Radau"],
     ));
-    let heads: Vec<&str> = columns.iter().map(|(head, _)| head.as_str()).collect();
-    let _ = writeln!(
-        text,
-        "| case | floor | {} | Octave ode15s | the same, equations in Octave |",
-        heads.join(" | ")
-    );
-    let _ = writeln!(text, "|---|---|{}---|---|", "---|".repeat(columns.len()));
+    let heads = columns.iter().map(|(head, _)| head.as_str());
+    let heads = ["case", "floor"].into_iter().chain(heads);
+    let heads: Vec<&str> = heads
+        .chain(["Octave ode15s", "the same, equations in Octave"])
+        .collect();
+    let mut table = Table::new(&heads);
     for one in rows {
         let mut cells = vec![one.case.clone(), power(one.floor)];
         let (ours, took_part) = (one.ours(), one.solvers());
@@ -125,9 +141,9 @@ pub fn ratios(standings: &[Standing]) -> String {
                 Some(span) => cell(&span.ratios(&[name], &span.ours())),
             });
         }
-        let _ = writeln!(text, "| {} |", cells.join(" | "));
+        table.rows.push(cells);
     }
-    text
+    table
 }
 
 /// The least ratio with its level, and the greatest.
@@ -142,11 +158,18 @@ fn cell(ratios: &[(f64, f64)]) -> String {
 
 /// Case by case the cheapest run of each solver whose error is not above `level`, or the floor.
 #[must_use]
-pub fn at_level(standings: &[Standing], level: f64) -> String {
-    let mut text = String::from(
-        "| case | solver | tolerance | error | time | steps | right-hand sides | Jacobians | times ours |\n\
-         |---|---|---|---|---|---|---|---|---|\n",
-    );
+pub fn at_level(standings: &[Standing], level: f64) -> Table {
+    let mut table = Table::new(&[
+        "case",
+        "solver",
+        "tolerance",
+        "error",
+        "time",
+        "steps",
+        "right-hand sides",
+        "Jacobians",
+        "times ours",
+    ]);
     // Where the reference is zero there is no error to speak of.
     for one in standings.iter().filter(|one| one.floor > 0.0) {
         let ours = one.cheapest(&one.ours(), level);
@@ -156,35 +179,65 @@ pub fn at_level(standings: &[Standing], level: f64) -> String {
                 let _ = write!(case, ", {} s", one.span);
             }
             let Some(run) = one.cheapest(&[name], level) else {
-                let _ = writeln!(
-                    text,
-                    "| {case} | {name} | never as exact, or not in time | | | | | | |"
-                );
+                let mut row = vec![case, name.to_owned(), "never as exact, or not in time".to_owned()];
+                row.resize(table.head.len(), String::new());
+                table.rows.push(row);
                 continue;
             };
             let outcome = &run.entry.outcome;
             let times = ours.map_or("-".to_owned(), |ours| {
                 format!("{:.1}", outcome.cpu / ours.entry.outcome.cpu)
             });
-            let _ = writeln!(
-                text,
-                "| {case} | {name} | {} | {} | {} | {} | {} | {} | {times} |",
-                run.entry.tolerance,
+            table.rows.push(vec![
+                case,
+                name.to_owned(),
+                run.entry.tolerance.clone(),
                 power(run.error.unwrap_or(f64::INFINITY)),
                 seconds(outcome.cpu),
-                outcome.steps,
+                outcome.steps.to_string(),
                 told(outcome.derivatives),
                 told(outcome.jacobians),
-            );
+                times,
+            ]);
         }
     }
-    text
+    table
+}
+
+/// Time and error of some solvers at one tolerance, in the yawed cases, which converge.
+#[must_use]
+pub fn at_tolerance(standings: &[Standing], tolerance: &str, solvers: &[&str]) -> Table {
+    let heads: Vec<&str> = ["case"].into_iter().chain(solvers.iter().copied()).collect();
+    let mut table = Table::new(&heads);
+    let full = standings.iter().map(|one| one.span).fold(0.0, f64::max);
+    for one in standings
+        .iter()
+        .filter(|one| one.span == full && is_yawed(&one.case))
+    {
+        let cell = |solver: &&str| {
+            let same = |run: &&Judgement| run.entry.solver == *solver && run.entry.tolerance == tolerance;
+            match one.runs.iter().find(same) {
+                None => "-".to_owned(),
+                Some(run) => match run.error {
+                    Some(error) if run.finished() => {
+                        format!("{}, {error:.1e}", seconds(run.entry.outcome.cpu))
+                    }
+                    _ => "out of time".to_owned(),
+                },
+            }
+        };
+        let cells = solvers.iter().map(cell);
+        table
+            .rows
+            .push([one.case.clone()].into_iter().chain(cells).collect());
+    }
+    table
 }
 
 /// Every failure, case by case.
 #[must_use]
-pub fn failures(standings: &[Standing]) -> String {
-    let mut text = String::from("| case | solver | tolerances | why |\n|---|---|---|---|\n");
+pub fn failures(standings: &[Standing]) -> Table {
+    let mut table = Table::new(&["case", "solver", "tolerances", "why"]);
     for one in standings {
         for name in one.solvers() {
             let failed = |run: &&Judgement| run.entry.solver == name && !run.entry.outcome.failure.is_empty();
@@ -194,17 +247,16 @@ pub fn failures(standings: &[Standing]) -> String {
                 let runs: Vec<&Judgement> = one.runs.iter().filter(failed).filter(kind).collect();
                 let Some(first) = runs.first() else { continue };
                 let tolerances: Vec<&str> = runs.iter().map(|run| run.entry.tolerance.as_str()).collect();
-                let _ = writeln!(
-                    text,
-                    "| {} | {name} | {} | {} |",
-                    one.case,
+                table.rows.push(vec![
+                    one.case.clone(),
+                    name.to_owned(),
                     tolerances.join(", "),
-                    first.entry.outcome.failure
-                );
+                    first.entry.outcome.failure.clone(),
+                ]);
             }
         }
     }
-    text
+    table
 }
 
 /// All runs of a case: the cheapest of each solver at each level, and its failures.
@@ -262,21 +314,10 @@ pub fn standing(one: &Standing) -> String {
     text
 }
 
-/// The whole text.
+/// All runs of all cases.
 #[must_use]
 pub fn everything(standings: &[Standing]) -> String {
-    let mut text = format!("# The race\n\n{}\n## Options\n\n{}", caveats(), options());
-    text.push_str(
-        "\n## How many times longer the others take at equal error\n\nThe least ratio over all errors that both reach, with that error, \
-         and the greatest; each solver at its best tolerance.\n\n",
-    );
-    text.push_str(&ratios(standings));
-    let _ = write!(
-        text,
-        "\n## Each solver's cheapest run with an error of at most 1 %\n\n{}\n## Failures\n\n{}",
-        at_level(standings, 1e-2),
-        failures(standings)
-    );
+    let mut text = String::from("# All runs of the race\n");
     for one in standings {
         let _ = write!(text, "\n## {}, {} s\n\n{}", one.case, one.span, standing(one));
     }
@@ -319,7 +360,7 @@ mod tests {
                 run("SciPy LSODA", 0.5, 0.5),
             ],
         };
-        let text = ratios(&[standing]);
+        let text = ratios(&[standing]).to_string();
         let expected = "| a case | 1e-3 | 5.0 (at 3e-2) to 5.0 | - | never as exact | - | - |";
         assert!(text.lines().any(|line| line == expected), "{text}");
     }

@@ -175,6 +175,7 @@ pub(crate) fn sets<'o>(outcomes: &'o [Outcome], trucks: &'o [TruckOutcome]) -> V
                     && parameters.toe > 0.0
                     && (yaw(case) != 0.0) == yawed
                     && result.summary.complete
+                    && result.summary.failed.is_none()
             });
             let wanted = if yawed {
                 YawCase::Intended
@@ -188,6 +189,7 @@ pub(crate) fn sets<'o>(outcomes: &'o [Outcome], trucks: &'o [TruckOutcome]) -> V
                         && entry.toe == ToeCase::Out
                         && entry.yaw == wanted
                         && result.summary.complete
+                        && result.summary.failed.is_none()
                 })
                 .collect();
             // Type 6.9 first, as in the thesis's legends.

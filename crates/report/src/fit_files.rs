@@ -69,6 +69,9 @@ pub fn write(fit: &Fit, shown: &Shown<'_>, mut out: impl Write) -> io::Result<()
         "durbin_watson": fit.durbin_watson,
         "rounds": fit.rounds,
         "settled": fit.settled,
+        "largest_relative_residual": fit.largest_relative_residual,
+        "warnings": fit.warnings,
+        "failed": fit.failed,
     });
     serde_json::to_writer_pretty(&mut out, &all)?;
     out.write_all(b"\n")

@@ -229,6 +229,9 @@ fn about(result: &RunResult, variables: &[Variable]) -> String {
     if let Some(stopped) = &summary.stopped {
         text.push_str(&format!("incomplete: the run stopped at {} s\n", stopped.time));
     }
+    if let Some(reason) = &summary.failed {
+        text.push_str(&format!("failed: {reason}\n"));
+    }
     for variable in variables {
         text.push_str(&format!(
             "{} ({}): {}\n",

@@ -1,10 +1,13 @@
 //! What the summary page of a study needs of its rows, gathered in one pass and in memory that does not grow with the study:
 //! means over the values of each parameter, and of each pair of parameters.
 
+use mechanics::energy_balance::{DOUBTFUL, Verdict};
 use study::design::{Factor, Levels, Sampling, Study, Value};
 use study::measures::{COUNT, Measures};
 use study::records::{Record, Status};
 
+/// The measure of how well the energy ledger closes.
+const LEDGER_RESIDUAL: &str = "ledger_residual";
 /// A list of values longer than this is cut into parts.
 const MOST_LEVELS: usize = 40;
 const MOST_PARTS: u64 = 16;
@@ -292,10 +295,14 @@ pub struct Digest {
     pub jam: Option<Jam>,
     /// All runs together.
     pub all: [Gathered; COUNT],
-    /// Runs that are complete, refused, stopped.
-    pub ended: [u64; 3],
-    /// The first runs without measures, and why.
+    /// Runs that are complete, refused, stopped, failed.
+    pub ended: [u64; 4],
+    /// The first runs that are not complete, and why.
     pub reasons: Vec<(u64, String)>,
+    /// Complete runs whose energy ledger closes badly ([`mechanics::energy_balance::DOUBTFUL`]).
+    pub doubtful: u64,
+    /// The largest relative residual among them, and the number of its run.
+    pub worst_residual: (f64, u64),
 }
 
 impl Digest {
@@ -331,9 +338,25 @@ impl Digest {
             jam: Jam::new(study, &axes),
             axes,
             all: [Gathered::NONE; COUNT],
-            ended: [0; 3],
+            ended: [0; 4],
             reasons: Vec::new(),
+            doubtful: 0,
+            worst_residual: (0.0, 0),
         }
+    }
+
+    /// Returns the warning about runs whose energy ledger closes badly; `None` if there are none.
+    #[must_use]
+    pub fn warning(&self) -> Option<String> {
+        let (residual, number) = self.worst_residual;
+        (self.doubtful > 0).then(|| {
+            format!(
+                "the energy ledger of {} runs does not close: their relative residual (`ledger_residual`) is above {DOUBTFUL:e}, and \
+                 {residual:.2e} at most, in run {number}; compute those that matter with accuracy = \"case\" or a lower \
+                 simulation.relative_tolerance",
+                self.doubtful
+            )
+        })
     }
 
     /// Takes in a row.
@@ -343,6 +366,19 @@ impl Digest {
         if !complete && self.reasons.len() < REASONS {
             self.reasons.push((record.number, record.reason.clone()));
         }
+        let residual = record.measures.get(LEDGER_RESIDUAL).unwrap_or(0.0);
+        if complete && Verdict::of(residual) != Verdict::Closed {
+            self.doubtful += 1;
+            if residual > self.worst_residual.0 {
+                self.worst_residual = (residual, record.number);
+            }
+        }
+        // The measures of a run that failed are in the table, and nowhere else.
+        let measures = if complete {
+            &record.measures
+        } else {
+            &Measures::NONE
+        };
         let places: Vec<Option<usize>> = self
             .axes
             .iter()
@@ -350,23 +386,23 @@ impl Digest {
             .zip(values)
             .map(|((axis, factor), value)| axis.place(factor, value.as_ref()))
             .collect();
-        add(&mut self.all, &record.measures);
+        add(&mut self.all, measures);
         for (effects, place) in self.effects.iter_mut().zip(&places) {
             if let Some(cell) = place.and_then(|place| effects.get_mut(place)) {
-                add(cell, &record.measures);
+                add(cell, measures);
             }
         }
         if let Some(jam) = self.jam.as_mut().filter(|_| complete)
             && let [Some(angle), Some(friction)] = jam.factors.map(|factor| places[factor])
         {
             let cell = angle * self.axes[jam.factors[1]].len() + friction;
-            jam.add(study, values, cell, &record.measures);
+            jam.add(study, values, cell, measures);
         }
         for pair in &mut self.pairs {
             let [first, second] = pair.factors;
             if let (Some(a), Some(b)) = (places[first], places[second]) {
                 let cell = a * self.axes[second].len() + b;
-                add(&mut pair.cells[cell], &record.measures);
+                add(&mut pair.cells[cell], measures);
                 pair.failed[cell] += u64::from(!complete);
             }
         }

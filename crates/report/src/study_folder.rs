@@ -390,7 +390,8 @@ pub fn columns(study: &Study) -> Vec<Column> {
         column(
             "status".to_owned(),
             "",
-            "complete; refused: its values make no run; stopped: it did not come to its end".to_owned(),
+            "complete; refused: its values make no run; stopped: it did not come to its end; failed: its energy ledger does not close, and its measures are not to be used"
+                .to_owned(),
             Content::Text,
         ),
     ];
@@ -418,7 +419,7 @@ pub fn columns(study: &Study) -> Vec<Column> {
     columns.push(column(
         "reason".to_owned(),
         "",
-        "why there are no measures".to_owned(),
+        "why it is not complete".to_owned(),
         Content::Text,
     ));
     columns

@@ -168,6 +168,9 @@ pub fn write_mat(
     if let Some(stopped) = &own.stopped {
         about.push_str(&format!("incomplete: the run stopped at {} s\n", stopped.time));
     }
+    if let Some(reason) = &own.failed {
+        about.push_str(&format!("failed: {reason}\n"));
+    }
     if let Some(array) = ScriptArray::of(case).filter(|_| script_interval > 0.0) {
         let values = array.values(result, script_interval)?;
         let columns: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();

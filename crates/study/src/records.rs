@@ -15,8 +15,10 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use mechanics::energy_balance::{FAILED, Verdict};
+
 use crate::design::Study;
-use crate::measures::{COUNT, Measures, Unmeasured, measure};
+use crate::measures::{COUNT, Measures, Unmeasured, measure, place};
 
 const MAGIC: [u8; 4] = *b"WLR1";
 const HEAD: usize = 12;
@@ -36,6 +38,8 @@ pub enum Status {
     Refused,
     /// It stopped on its way.
     Stopped,
+    /// It came to its end, but its energy ledger does not close: it has measures, which are not to be used.
+    Failed,
 }
 
 impl Status {
@@ -46,11 +50,12 @@ impl Status {
             Self::Complete => "complete",
             Self::Refused => "refused",
             Self::Stopped => "stopped",
+            Self::Failed => "failed",
         }
     }
 
     fn from_number(number: u8) -> Option<Self> {
-        [Self::Complete, Self::Refused, Self::Stopped]
+        [Self::Complete, Self::Refused, Self::Stopped, Self::Failed]
             .into_iter()
             .find(|status| *status as u8 == number)
     }
@@ -63,7 +68,7 @@ pub struct Record {
     pub number: u64,
     /// How it ended.
     pub status: Status,
-    /// Why it has no measures; empty if it has.
+    /// Why it has no measures, or has failed; empty if it is complete.
     pub reason: String,
     /// Its measures, SI.
     pub measures: Measures,
@@ -104,7 +109,10 @@ fn compute(study: &Study, number: u64) -> Record {
 fn record(number: u64, outcome: Result<Measures, Unmeasured>) -> Record {
     let (status, reason, measures) = match outcome {
         Ok(measures) => match measures.not_finite() {
-            None => (Status::Complete, String::new(), measures),
+            None => match ledger(&measures) {
+                None => (Status::Complete, String::new(), measures),
+                Some(reason) => (Status::Failed, reason, measures),
+            },
             Some(name) => {
                 let reason = format!("`{name}` is not a finite number");
                 (Status::Stopped, reason, Measures::NONE)
@@ -119,6 +127,17 @@ fn record(number: u64, outcome: Result<Measures, Unmeasured>) -> Record {
         reason,
         measures,
     }
+}
+
+/// Returns why a variant has failed whose energy ledger does not close.
+fn ledger(measures: &Measures) -> Option<String> {
+    let residual = measures.0[place::RESIDUAL];
+    (Verdict::of(residual) == Verdict::Failed).then(|| {
+        format!(
+            "the energy ledger does not close: its relative residual is {residual:.2e} (above {FAILED:e}); compute this run with \
+             accuracy = \"case\" or a lower simulation.relative_tolerance"
+        )
+    })
 }
 
 /// Computes these variants and gives their records as bytes, in the order of the numbers: what one worker of many does. Numbers

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use integrate::{Family, Integrator, Options, SetupError, State, StepError};
+use integrate::{Family, Integrator, Options, SetupError, State};
+use mechanics::energy_balance::EnergyBalance;
 use mechanics::output::Column;
 use mechanics::system::{ChannelKind, Mode, System};
 use serde::{Deserialize, Serialize};
@@ -14,6 +15,7 @@ use wedge::{BuildError, Wedge};
 use crate::case::Case;
 use crate::finite::is_finite;
 use crate::metrics::Cycle;
+use crate::progress::{self, INTERVALS, Pace};
 use crate::result::{ContactEvent, RunResult};
 use crate::rows::Rows;
 use crate::summary::Stopped;
@@ -22,12 +24,9 @@ mod check;
 mod summarize;
 
 /// Version of [`RunState`].
-pub const RUN_STATE_VERSION: u32 = 1;
+pub const RUN_STATE_VERSION: u32 = 2;
 /// How many events are listed at most.
 pub const EVENT_CAP: usize = 500;
-
-/// A run that needs more attempted steps than this is stopped: some minutes of computing.
-pub const MAXIMUM_STEPS: u64 = 50_000_000;
 
 /// Why a run cannot begin or go on.
 #[derive(Debug, Error)]
@@ -38,11 +37,11 @@ pub enum RunError {
     /// The integrator cannot be set up.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// The integrator cannot go on.
-    #[error("{error}; contacts: {contacts}")]
+    /// The integrator cannot go on, or the run hardly progresses ([`progress`]).
+    #[error("{reason}; contacts: {contacts}")]
     Step {
-        /// What the integrator says.
-        error: StepError,
+        /// Why, with the state whose error is largest.
+        reason: String,
         /// Contact states at that time, in words.
         contacts: String,
     },
@@ -109,8 +108,10 @@ pub struct Counts {
     pub listed: Vec<ContactEvent>,
     /// Friction losses at the probes passed so far, J: for each probe (side frame, bolster).
     pub probes: Vec<[f64; 2]>,
-    /// Largest residual of the ledger at any output time, J.
-    pub largest_residual: f64,
+    /// The energy balance at the output times.
+    pub energy_balance: EnergyBalance,
+    /// How far it has come, and with how many steps.
+    pub pace: Pace,
 }
 
 /// A run under way.
@@ -146,6 +147,7 @@ impl Run {
             crept: vec![0.0; points],
             creep_speeds: vec![0.0; points],
             events: vec![[0; 4]; FACES.len()],
+            energy_balance: EnergyBalance::new(start_energy),
             ..Counts::default()
         };
         let mut run = Self::assemble(case, wedge, integrator, counts, 0);
@@ -241,13 +243,24 @@ impl Run {
     pub fn advance(&mut self) -> Result<(), RunError> {
         let limit = self.rows.limit(self.next_row, &self.integrator);
         if let Err(error) = self.integrator.step_to(limit) {
-            let contacts = self.contact_words();
-            return Err(RunError::Step { error, contacts });
+            return Err(self.cannot_go_on(progress::told(&error, |state| self.state_name(state))));
         }
         self.count_events();
         self.count_creep();
         self.probe();
-        self.emit_rows(false)
+        self.emit_rows(false)?;
+        let short = INTERVALS * self.case.simulation.output_interval;
+        let progresses = self.counts.pace.check(&self.integrator, short);
+        progresses.map_err(|stalled| self.cannot_go_on(stalled.told(|state| self.state_name(state))))
+    }
+
+    fn cannot_go_on(&self, reason: String) -> RunError {
+        let contacts = self.contact_words();
+        RunError::Step { reason, contacts }
+    }
+
+    fn state_name(&self, state: usize) -> String {
+        progress::state_name(&self.wedge.system, state)
     }
 
     /// Runs to the end and gives the result; a run that cannot go on gives an incomplete result with the reason.
@@ -427,7 +440,7 @@ impl Run {
             for (column, value) in self.values.iter_mut().zip(&self.row) {
                 column.push(*value);
             }
-            self.counts.largest_residual = self.counts.largest_residual.max(ledger.residual.abs());
+            self.counts.energy_balance.note(time, &ledger.entries());
             self.next_row += 1;
         }
         Ok(())
@@ -473,7 +486,6 @@ pub(crate) fn options(case: &Case) -> Options {
     };
     Options {
         relative_tolerance: case.simulation.relative_tolerance,
-        maximum_steps: MAXIMUM_STEPS,
         maximum_step,
         ..Options::of(method)
     }

@@ -1,6 +1,6 @@
 //! The summary of a run: what `summary.json` holds.
 //!
-//! Schema `wedgelab.summary/1`. Every dimensional number is a [`Measure`] with its unit, in the case's output units;
+//! Schema `wedgelab.summary/2`. Every dimensional number is a [`Measure`] with its unit, in the case's output units;
 //! times are seconds. A reader should ignore keys that it does not know; the number behind the slash grows when a key
 //! changes its meaning or goes.
 
@@ -15,7 +15,7 @@ use crate::metrics::Extremes;
 use crate::result::ContactEvent;
 
 /// The schema's name and version.
-pub const SCHEMA: &str = "wedgelab.summary/1";
+pub const SCHEMA: &str = "wedgelab.summary/2";
 
 /// A number with its unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -54,6 +54,9 @@ pub struct Summary {
     pub complete: bool,
     /// Why and when it stopped, if it did not.
     pub stopped: Option<Stopped>,
+    /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
+    #[serde(default)]
+    pub failed: Option<String>,
     /// What makes the numbers doubtful; empty for a sound run.
     #[serde(default)]
     pub warnings: Vec<String>,
@@ -100,6 +103,9 @@ impl Summary {
         let extremes = self.extremes.iter().find(|(_, found)| extreme(found));
         let extremes = extremes.map(|(column, _)| format!("an extreme of `{column}`"));
         let ledger = find(&self.ledger.entries).map(|entry| format!("the ledger's `{entry}`"));
+        let residual = self.ledger.largest_relative_residual;
+        let ledger =
+            ledger.or_else(|| (!is_finite(residual)).then(|| "the ledger's relative residual".to_owned()));
         energies.or(means).or(single).or(extremes).or(ledger)
     }
 }
@@ -177,9 +183,13 @@ pub struct LedgerSummary {
     pub entries: BTreeMap<String, Measure>,
     /// Energy stored at the start.
     pub stored_at_start: Measure,
-    /// Residual at the end, relative to the work done by the motions (where they do none: to the largest energy there is).
-    pub relative_residual: f64,
-    /// Largest residual at any output time, relative to the work done by the motions at the end.
+    /// Largest absolute change of the stored energy at any output time.
+    pub largest_stored_change: Measure,
+    /// Largest absolute residual at any output time.
+    pub largest_residual: Measure,
+    /// The first output time with this residual, s.
+    pub largest_residual_time: f64,
+    /// The measure of how well the ledger closes: [`mechanics::energy_balance::relative_residual`] of the largest residual.
     pub largest_relative_residual: f64,
 }
 

@@ -7,7 +7,8 @@ mod damage;
 use integrate::MOST_COUNTED;
 use serde_json::{Value, json};
 use study::case::{Case, builtin};
-use study::driven::{CoilDrive, DrivenError, DrivenState, DrivenWedge, MOST_STATE_BYTES, most_steps};
+use study::driven::{CoilDrive, DrivenError, DrivenState, DrivenWedge, MOST_STATE_BYTES};
+use study::progress::most_attempts;
 use study::run::{EVENT_CAP, Run, RunError, RunState};
 
 const YAWED: &str = "cdrun_toe_-0.2_psi_0.012";
@@ -124,7 +125,17 @@ fn issue_029_members_of_a_run_that_led_astray_are_refused_by_name() {
             "counts.listed",
         ),
         ("/counts/listed", json!([corner]), "counts.listed.corner"),
-        ("/counts/largest_residual", json!(-1.0), "counts.largest_residual"),
+        (
+            "/counts/energy_balance/largest_residual",
+            json!(-1.0),
+            "counts.energy_balance.largest_residual",
+        ),
+        ("/counts/pace/time", json!(1e300), "counts.pace.time"),
+        (
+            "/counts/pace/attempts",
+            json!(MOST_COUNTED + 1),
+            "counts.pace.attempts",
+        ),
         ("/integrator/modes/7", json!(3), "integrator.modes"),
         ("/integrator/time", json!(-1e-9), "integrator.time"),
         ("/integrator/time", json!(1e308), "integrator.time"),
@@ -199,7 +210,10 @@ fn issue_029_every_member_of_a_driven_wedge_edited_by_hand_is_refused_or_goes_on
                 tally.go_on(rise(&mut wedge, 1e-6, 1).is_ok() && wedge.reading().is_ok());
                 let after = wedge.statistics();
                 let attempts = after.steps + after.rejected() - before.steps - before.rejected();
-                assert!(attempts < most_steps(1e-6) + 1000, "{what}: {attempts} attempts");
+                assert!(
+                    attempts < most_attempts(1e-6) + 1000,
+                    "{what}: {attempts} attempts"
+                );
             }
             Err(error) => tally.refuse(&what, &error.to_string()),
         }

@@ -1,14 +1,22 @@
-//! Cases at their limits: what a warped wedge can bear.
-#![allow(clippy::unwrap_used, clippy::expect_used)]
+//! Cases at their limits: what a warped wedge can bear, and runs that hardly progress.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 #[path = "common/runs.rs"]
 mod runs;
 
 use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
+use mechanics::system::System;
+use nucars::truck::Choices;
+use quantity::Number;
 use runs::{LBF, LBF_IN, column};
 use study::case::builtin;
+use study::driven::{DrivenError, DrivenWedge};
+use study::measures::{Unmeasured, measure};
+use study::progress::{state_name, truck_state_name};
 use study::result::RunResult;
 use study::run::Run;
+use study::truck::catalog::entry;
+use wedge::Wedge;
 
 fn run(name: &str) -> RunResult {
     let result = Run::new(&builtin::case(name).unwrap()).unwrap().finish(|_| {});
@@ -94,4 +102,94 @@ fn the_warp_loop_closes() {
     // On the side frame the moment follows the bolster's yaw: it takes work from the bolster.
     assert!(work > 0.2 * most * 0.04, "{work} lbf in");
     assert!(work < most * 0.04 * 2.0, "{work} lbf in");
+}
+
+/// Contacts a million times as stiff as usual, and a tolerance to match: a million steps in a millisecond.
+const STALLS: [&str; 3] = [
+    "contact.stiffness=5e12 lbf/in",
+    "simulation.relative_tolerance=1e-12",
+    "simulation.start=touching",
+];
+
+/// One rule for all runs, and a message that says when and where it hangs; what was computed is kept. A run that was saved and
+/// continued stops at the same step.
+#[test]
+fn limits_a_run_that_hardly_progresses_stops_by_the_rule_and_says_where() {
+    let case = builtin::case_with("cdrun_toe_0.2_psi_0.012", &STALLS.map(str::to_owned)).unwrap();
+    let result = Run::new(&case).unwrap().finish(|_| {});
+    let stopped = result.summary.stopped.unwrap();
+    assert!(!result.summary.complete && result.summary.rows == 1);
+    for part in [
+        "hardly progresses",
+        &format!("at {} s", Number(stopped.time)),
+        "1100000 are admissible for 0.1 s",
+        "the largest error is that of the speed in",
+        "of the wedge",
+        "contacts: column_lower_left slip",
+    ] {
+        assert!(stopped.reason.contains(part), "{} without {part}", stopped.reason);
+    }
+    let mut run = Run::new(&case).unwrap();
+    for _ in 0..700_000 {
+        run.advance().unwrap();
+    }
+    let continued = Run::resume(&case, run.state()).unwrap().finish(|_| {});
+    assert_eq!(continued.summary.stopped.unwrap(), stopped);
+    let Err(Unmeasured::Stopped(reason)) = measure(&case) else {
+        panic!("a study goes on")
+    };
+    assert!(
+        reason.contains("hardly progresses") && reason.contains("try a softer contact.stiffness"),
+        "{reason}"
+    );
+}
+
+/// The same rule for neighbours that a caller drives: the way is the communication step.
+#[test]
+fn limits_a_communication_step_that_hardly_progresses_stops_by_the_same_rule() {
+    let case = builtin::case_with("cdrun_toe_0.2_psi_0.012", &STALLS.map(str::to_owned)).unwrap();
+    let mut wedge = DrivenWedge::new(&case).unwrap();
+    let place = *wedge.neighbours();
+    let error = wedge.step(&place, 0.01).unwrap_err();
+    let (text, attempts) = (
+        error.to_string(),
+        wedge.statistics().steps + wedge.statistics().rejected(),
+    );
+    assert!(matches!(error, DrivenError::TooLong { .. }), "{text}");
+    assert!(text.contains("the step of 0.01 s from time 0 s"), "{text}");
+    assert!(
+        text.contains("the largest error is that of the speed in"),
+        "{text}"
+    );
+    assert!((200_000..201_000).contains(&attempts), "{attempts} attempts");
+}
+
+#[test]
+fn limits_states_have_names() {
+    let bristle = ["friction.law=bristle".to_owned()];
+    let case = builtin::case_with("cdrun_toe_0_psi_0", &bristle).unwrap();
+    let wedge = Wedge::new(case.parameters).unwrap();
+    let names: Vec<String> = (0..wedge.initial_state.len())
+        .map(|state| state_name(&wedge.system, state))
+        .collect();
+    for name in [
+        "the position in x of the wedge",
+        "the speed in yaw of the wedge",
+        "the bristles at point 1 of the column",
+        "the bristles at point 4 of the slope",
+        "the work of the motions",
+    ] {
+        assert!(names.iter().any(|own| own == name), "{name} in {names:?}");
+    }
+    assert!(names.iter().all(|name| !name.starts_with("state ")), "{names:?}");
+    let case = entry("nucars_69_constant_toe_out").unwrap();
+    let case = case.case(&Choices::default(), 1.0).unwrap();
+    let system = System::new(case.truck.model.clone()).unwrap();
+    let numbers = [&*case.truck.bodies, &*case.truck.connections];
+    let names: Vec<String> = (0..system.layout().len())
+        .map(|state| truck_state_name(&system, numbers, state))
+        .collect();
+    assert!(names.iter().all(|name| !name.starts_with("state ")), "{names:?}");
+    let accumulators = |name: &String| name.starts_with("the force accumulators of connection 127 (");
+    assert!(names.iter().any(accumulators), "{names:?}");
 }

@@ -76,17 +76,9 @@ prop_compose! {
     }
 }
 
-/// The ledger's residual, relative to the energy that goes through the wedge: the largest entry.
+/// The relative residual of the ledger.
 fn residual(result: &RunResult) -> f64 {
-    let ledger = &result.summary.ledger;
-    let turnover = ledger
-        .entries
-        .iter()
-        .filter(|(name, _)| *name != "residual")
-        .fold(ledger.stored_at_start.value.abs(), |m, (_, entry)| {
-            m.max(entry.value.abs())
-        });
-    ledger.entries["residual"].value.abs() / turnover
+    result.summary.ledger.largest_relative_residual
 }
 
 #[test]

@@ -5,6 +5,7 @@
 //! same less the coil's spring force where the coil stands on the side frame (eq. 5-3). Moments act on the wedge,
 //! about its centre of gravity. Friction powers are Σ F_t·v (eqs. 5-4, 5-5), never positive with tanh.
 
+use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
 use mechanics::system::{ChannelKind, Observation, System};
 use mechanics::vector::Vector;
@@ -50,31 +51,47 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// The energy that a residual is set against, J: the work of the motions; where they do none (a wedge that hangs
-    /// free), the largest energy there is.
+    /// Returns the ledger of a state whose stored energy is `stored` more than that at the start (J), with these quadratures.
     #[must_use]
-    pub fn scale(&self, start_energy: f64) -> f64 {
-        if self.motion_work != 0.0 {
-            return self.motion_work.abs();
+    pub fn new(system: &System, stored: f64, quadratures: &[f64]) -> Self {
+        let mut ledger = Self {
+            stored,
+            ..Self::default()
+        };
+        for (channel, value) in system.channels().iter().zip(quadratures) {
+            let entry = match (channel.kind, channel.element.as_str()) {
+                (ChannelKind::MotionWork, _) => &mut ledger.motion_work,
+                (ChannelKind::FrictionLoss, "column") => &mut ledger.side_frame_friction_loss,
+                (ChannelKind::FrictionLoss, _) => &mut ledger.bolster_friction_loss,
+                (ChannelKind::ContactDampingLoss, _) => &mut ledger.contact_damping_loss,
+                (ChannelKind::CoilDampingLoss, _) => &mut ledger.coil_damping_loss,
+                (ChannelKind::CoilGuideWork, _) => &mut ledger.coil_guide_work,
+                // What connections lose: a wedge has none.
+                _ => continue,
+            };
+            *entry += value;
         }
-        let others = [
-            self.coil_guide_work,
-            self.stored,
-            self.side_frame_friction_loss,
-            self.bolster_friction_loss,
-            self.contact_damping_loss,
-            self.coil_damping_loss,
-        ];
-        let largest = others
-            .iter()
-            .fold(start_energy.abs(), |most, value| most.max(value.abs()));
-        largest.max(f64::MIN_POSITIVE)
+        ledger.residual = ledger.motion_work + ledger.coil_guide_work
+            - ledger.stored
+            - ledger.side_frame_friction_loss
+            - ledger.bolster_friction_loss
+            - ledger.contact_damping_loss
+            - ledger.coil_damping_loss;
+        ledger
     }
 
-    /// The residual over [`Ledger::scale`].
+    /// Returns what the energy balance of a run takes from it.
     #[must_use]
-    pub fn relative_residual(&self, start_energy: f64) -> f64 {
-        self.residual / self.scale(start_energy)
+    pub fn entries(&self) -> Entries {
+        Entries {
+            work: self.motion_work,
+            losses: self.side_frame_friction_loss
+                + self.bolster_friction_loss
+                + self.contact_damping_loss
+                + self.coil_damping_loss,
+            stored_change: self.stored,
+            residual: self.residual,
+        }
     }
 }
 
@@ -138,30 +155,7 @@ impl Outputs {
     /// The energy ledger at one instant.
     #[must_use]
     pub fn ledger(system: &System, seen: &Observation, start_energy: f64) -> Ledger {
-        let mut ledger = Ledger {
-            stored: seen.energies.total() - start_energy,
-            ..Ledger::default()
-        };
-        for (channel, value) in system.channels().iter().zip(&seen.quadratures) {
-            let entry = match (channel.kind, channel.element.as_str()) {
-                (ChannelKind::MotionWork, _) => &mut ledger.motion_work,
-                (ChannelKind::FrictionLoss, "column") => &mut ledger.side_frame_friction_loss,
-                (ChannelKind::FrictionLoss, _) => &mut ledger.bolster_friction_loss,
-                (ChannelKind::ContactDampingLoss, _) => &mut ledger.contact_damping_loss,
-                (ChannelKind::CoilDampingLoss, _) => &mut ledger.coil_damping_loss,
-                (ChannelKind::CoilGuideWork, _) => &mut ledger.coil_guide_work,
-                // What connections lose: a wedge has none.
-                _ => continue,
-            };
-            *entry += value;
-        }
-        ledger.residual = ledger.motion_work + ledger.coil_guide_work
-            - ledger.stored
-            - ledger.side_frame_friction_loss
-            - ledger.bolster_friction_loss
-            - ledger.contact_damping_loss
-            - ledger.coil_damping_loss;
-        ledger
+        Ledger::new(system, seen.energies.total() - start_energy, &seen.quadratures)
     }
 
     fn add(

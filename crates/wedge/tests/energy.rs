@@ -7,6 +7,7 @@ mod common;
 use common::{End, INCH, LBF, LBF_IN, LBF_PER_IN, TOE, YAW, bristle, run, with_law};
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::{CoilLaw, CoilLine};
+use mechanics::energy_balance::EnergyBalance;
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::{Motion, RampProfile};
 use mechanics::system::ChannelKind;
@@ -18,7 +19,7 @@ const BOTH: [Damping; 2] = [Damping::Variable, Damping::Constant];
 const UNTIL: f64 = 10.0;
 
 /// Runs and checks on the way: losses never negative and never falling, and with tanh no friction power into the wedge.
-/// Returns the end and the largest residual at any row, relative to the work done.
+/// Returns the end and the relative residual of the ledger.
 fn checked(parameters: Parameters, tolerance: f64, until: f64) -> (End, f64) {
     let wedge = Wedge::new(parameters).unwrap();
     let losses: Vec<usize> = (0..wedge.system.channels().len())
@@ -35,12 +36,13 @@ fn checked(parameters: Parameters, tolerance: f64, until: f64) -> (End, f64) {
     ]
     .map(|f| matches!(f.law, FrictionLaw::Tanh { .. }));
     let mut start = None;
+    let mut balance = EnergyBalance::default();
     let mut before = vec![0.0; wedge.system.channels().len()];
-    let (mut worst, mut fall) = (0.0_f64, 0.0_f64);
+    let mut fall = 0.0_f64;
     let end = run(&wedge, tolerance, (until, 0.01), |seen, _| {
         let start = *start.get_or_insert(seen.energies.total());
         let ledger = wedge::outputs::Outputs::ledger(&wedge.system, seen, start);
-        worst = worst.max(ledger.residual.abs());
+        balance.note(seen.time, &ledger.entries());
         for (face, tanh) in seen.faces.iter().zip(tanh) {
             assert!(
                 face.friction_loss >= 0.0,
@@ -56,14 +58,12 @@ fn checked(parameters: Parameters, tolerance: f64, until: f64) -> (End, f64) {
         }
         before.copy_from_slice(&seen.quadratures);
     });
-    // What went through the wedge: the work, or where it is small the largest of the other entries.
-    let l = &end.ledger;
-    let losses =
-        l.side_frame_friction_loss + l.bolster_friction_loss + l.contact_damping_loss + l.coil_damping_loss;
-    let work = l.motion_work.abs().max(losses);
+    // What went through the wedge.
+    let entries = end.ledger.entries();
+    let work = entries.work.abs().max(entries.losses);
     // Losses are integrated without an error control of their own: they may swing by as much as the ledger may be off.
     assert!(fall < 1e-5 * work, "a loss falls by {fall:e} of {work} J");
-    (end, worst / work)
+    (end, balance.relative_residual())
 }
 
 #[test]

@@ -250,6 +250,25 @@ impl NativeResult {
         stopped.map(|stopped| (stopped.time, stopped.reason.clone()))
     }
 
+    /// Why it has failed although it came to its end: its energy ledger does not close.
+    #[getter]
+    fn failed(&self) -> Option<String> {
+        match &self.table.summary {
+            AnySummary::Wedge(summary) => summary.failed.clone(),
+            AnySummary::Truck(summary) => summary.failed.clone(),
+        }
+    }
+
+    /// The warnings about its energy ledger.
+    #[getter]
+    fn energy_warnings(&self) -> Vec<String> {
+        let warnings = match &self.table.summary {
+            AnySummary::Wedge(summary) => &summary.warnings,
+            AnySummary::Truck(summary) => &summary.warnings,
+        };
+        study::energy::among(warnings).map(str::to_owned).collect()
+    }
+
     /// The summary as nested dicts, as in `summary.json`.
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let value = match &self.table.summary {

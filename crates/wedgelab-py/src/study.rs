@@ -190,8 +190,8 @@ impl NativeStudyFolder {
     }
 }
 
-/// What came out: runs complete, refused, stopped, and the first reasons.
-type Ended = ([u64; 3], Vec<(u64, String)>);
+/// What came out: runs complete, refused, stopped, failed; the first reasons; a warning about energy ledgers.
+type Ended = ([u64; 4], Vec<(u64, String)>, Option<String>);
 
 #[pymethods]
 impl NativeStudyFolder {
@@ -260,7 +260,8 @@ impl NativeStudyFolder {
     fn finish(&self, py: Python<'_>) -> PyResult<Ended> {
         let study = &self.study;
         let digest = self.with(py, |folder| study_work::finish(study, folder))?;
-        Ok((digest.ended, digest.reasons))
+        let warning = digest.warning();
+        Ok((digest.ended, digest.reasons, warning))
     }
 
     /// Lets other programs work in the folder.

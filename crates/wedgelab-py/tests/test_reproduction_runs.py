@@ -85,7 +85,7 @@ def test_the_ledger_closes(short: wl.Result) -> None:
 def test_summary_and_assumptions(short: wl.Result) -> None:
     summary = short.summary
     assert summary["averages"]["cycles"] == summary.averages.cycles
-    assert summary.schema == "wedgelab.summary/1" and summary.complete
+    assert summary.schema == "wedgelab.summary/2" and summary.complete
     assert short.assumptions == short.case.assumptions == summary.assumptions
     assert "ledger" in dir(summary) and isinstance(summary.to_dict()["ledger"], dict)
     with pytest.raises(AttributeError, match="there are"):

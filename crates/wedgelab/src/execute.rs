@@ -1,14 +1,17 @@
 //! Running one case, writing its files, and its row in the table.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use quantity::Number;
 use report::files::Folder;
 use report::run_files;
 use study::case::Case;
+use study::progress::{WHAT_TO_TRY, WHAT_TO_TRY_WITH_FILES};
 use study::result::RunResult;
 use study::run::{Run, RunError};
 use study::summary::{Measure, Stopped, Summary};
+use study::truck::TruckSummary;
 
 use crate::failure::{Failure, Message, say};
 use crate::interrupt;
@@ -74,16 +77,41 @@ fn cannot_begin(case: &Case, error: &RunError) -> Failure {
     Message::new(message, advice).into()
 }
 
-/// Why a run is incomplete, for its user; `None` if it is complete.
-pub fn incomplete(summary: &Summary, folder: &Folder) -> Option<Failure> {
-    const SUSPECTS: &str = "values far from the thesis's are the first suspects: try a softer \
-         contact.stiffness, a larger friction.reference_speed, a looser simulation.relative_tolerance";
-    let stopped = summary.stopped.as_ref()?;
-    Some(stopped_run(&summary.name, stopped, folder, SUSPECTS))
+/// Why a run is incomplete or has failed, for its user; `None` if it is sound.
+pub fn unsound(summary: &Summary, folder: &Path) -> Option<Failure> {
+    if let Some(stopped) = &summary.stopped {
+        return Some(stopped_run(&summary.name, stopped, folder, WHAT_TO_TRY));
+    }
+    let reason = summary.failed.as_ref()?;
+    Some(failed_run(&summary.name, reason, folder))
+}
+
+/// The same of a half-truck's run.
+pub fn unsound_truck(summary: &TruckSummary, folder: &Path) -> Option<Failure> {
+    if let Some(stopped) = &summary.stopped {
+        return Some(stopped_run(
+            &summary.name,
+            stopped,
+            folder,
+            WHAT_TO_TRY_WITH_FILES,
+        ));
+    }
+    let reason = summary.failed.as_ref()?;
+    Some(failed_run(&summary.name, reason, folder))
+}
+
+/// A run that came to its end but failed, and whose files are written.
+fn failed_run(name: &str, reason: &str, folder: &Path) -> Failure {
+    let message = format!("the run {name} has failed: {reason}");
+    let kept = format!(
+        "its files are in {}, marked as failed; do not use their numbers",
+        folder.display()
+    );
+    Failure::Failed(Message::new(message, kept).into())
 }
 
 /// A run that stopped and whose files are written; `suspects` says what to try if it could not go on.
-pub fn stopped_run(name: &str, stopped: &Stopped, folder: &Folder, suspects: &str) -> Failure {
+fn stopped_run(name: &str, stopped: &Stopped, folder: &Path, suspects: &str) -> Failure {
     let message = format!(
         "the run {name} stopped at {} s and is incomplete: {}",
         Number(stopped.time),
@@ -91,7 +119,7 @@ pub fn stopped_run(name: &str, stopped: &Stopped, folder: &Folder, suspects: &st
     );
     let kept = format!(
         "what was computed until then is in {}, marked as incomplete",
-        folder.path().display()
+        folder.display()
     );
     if interrupt::is_reason(Some(stopped)) {
         let advice = format!("{kept}; the same command with --force computes the whole run, from its start");
@@ -114,7 +142,7 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
             ("mean force, up", &unit(up)),
             ("mean force, down", &unit(down)),
             ("energy per cycle", &unit(energy)),
-            ("ledger residual", "of the work"),
+            ("ledger residual", "relative"),
             ("wall time", "s"),
         ],
     );
@@ -127,7 +155,7 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
             cell(up(summary)),
             cell(down(summary)),
             cell(energy(summary)),
-            residual(summary),
+            format!("{:.1e}", summary.ledger.largest_relative_residual),
             format!("{:.2}", wall.as_secs_f64()),
         ]);
     }
@@ -137,21 +165,8 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
 /// What the columns of the table are.
 pub const TABLE_NOTE: &str = "\
 Mean force: vertical wedge force (column friction on the side frame, positive up), averaged over the branch in which the
-bolster goes up or down. Energy per cycle: lost in friction at the side frame. Ledger residual: the largest at any time.";
-
-/// The residual, where there was any work that it can be compared with.
-fn residual(summary: &Summary) -> String {
-    let ledger = &summary.ledger;
-    let works = ledger
-        .entries
-        .get("motion_work")
-        .is_some_and(|work| work.value != 0.0);
-    if works && ledger.largest_relative_residual.is_finite() {
-        format!("{:.1e}", ledger.largest_relative_residual)
-    } else {
-        "-".to_owned()
-    }
-}
+bolster goes up or down. Energy per cycle: lost in friction at the side frame. Ledger residual: the largest at any output time,
+over the largest of work, losses and change of stored energy.";
 
 fn up(summary: &Summary) -> Option<&Measure> {
     summary.averages.up.get("vertical_wedge_force")

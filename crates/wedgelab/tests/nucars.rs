@@ -302,7 +302,7 @@ fn a_run_file_is_run() {
     }
     assert!(!lines[0].contains("body_1_z_rate"));
     let summary = json(folder.path(), name);
-    assert_eq!(summary["schema"], "wedgelab.truck/1");
+    assert_eq!(summary["schema"], "wedgelab.truck/2");
     assert_eq!(summary["complete"], true);
     let assumptions = summary["assumptions"].to_string();
     contains(

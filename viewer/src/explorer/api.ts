@@ -71,6 +71,7 @@ export interface Summary {
   units: "us" | "si";
   complete: boolean;
   stopped: { time: number; reason: string } | null;
+  failed: string | null;
   warnings: string[];
   averages: { missing: string; energy_per_cycle: Record<string, Measure> };
 }

@@ -237,6 +237,9 @@ class Explorer {
     this.form.complain([]);
     this.form.show(sections, this.set, first, (path) => within(this.set, path) !== within(wanted.set, path));
     const notes = summary.warnings.map((message) => ({ path: "", message, help: "" }));
+    if (summary.failed) {
+      notes.push({ path: "", message: "The run has failed: do not use its numbers.", help: "" });
+    }
     if (summary.stopped) {
       notes.unshift({ path: "", message: `The run stopped at ${summary.stopped.time.toPrecision(4)} s: ${summary.stopped.reason}`, help: "Values far from the thesis's are the first suspects." });
     }

@@ -1,13 +1,15 @@
 //! `circle [TOLERANCE [METHOD]]`: a free body once round a circle of track, in coordinates of several kinds.
 //!
 //! Circle: how far it came, in turns. Force: the largest deviation of the lateral force of the bushing from `m ω² r` at
-//! ends of steps after a quarter of the circle, relative. Residual: of the energy ledger, over the kinetic energy.
+//! ends of steps after a quarter of the circle, relative. Residual: the relative residual of the energy ledger, at the ends of
+//! steps.
 
 use std::process::ExitCode;
 
 use benchmarks::circle::{CIRCLE, Carried, Coordinates, Order, SPIN, on_core, states, steady_force, travel};
 use benchmarks::ledger;
 use integrate::{Integrator, Method, Problem};
+use mechanics::energy_balance::EnergyBalance;
 
 fn main() -> ExitCode {
     let Some(by) = arguments() else {
@@ -78,14 +80,14 @@ fn deviation(time: f64, force: f64) -> f64 {
 fn carried(name: &str, body: Carried, by: (Method, f64)) -> Result<(), String> {
     let start = body.start();
     let energy = body.energy(0.0, &start);
-    let mut worst = 0.0_f64;
+    let (mut worst, mut balance) = (0.0_f64, EnergyBalance::new(energy));
     let (run, _) = travel(body.problem(), &start, by, CIRCLE, |run| {
         let (time, x) = (run.time(), states(run.x()));
         worst = worst.max(deviation(time, body.loads(time, &x).force.0[1]));
+        balance.note(time, &body.ledger(time, &x, energy));
     })
     .map_err(|error| error.to_string())?;
-    let residual = body.residual(run.time(), &states(run.x()), energy);
-    line(name, &run, worst, residual / energy);
+    line(name, &run, worst, balance.relative_residual());
     Ok(())
 }
 
@@ -93,16 +95,16 @@ fn core(name: &str, coordinates: Coordinates, by: (Method, f64)) -> Result<(), S
     let (system, x) = on_core(coordinates)?;
     let mut observer = system.clone();
     let energy = observer.observe(0.0, &x).energies.total();
-    let (mut worst, mut lacking) = (0.0_f64, 0.0);
+    let (mut worst, mut balance) = (0.0_f64, EnergyBalance::new(energy));
     let (run, _) = travel(system, &x, by, CIRCLE, |run| {
         observer.segment_like(run.problem());
         let seen = observer.observe(run.time(), run.x());
         // The two coils across, in the seat's axes: those of the guide.
         let force = seen.coils[2].coil.force.0[1] + seen.coils[3].coil.force.0[1];
         worst = worst.max(deviation(run.time(), force));
-        [.., lacking] = ledger(&seen, energy);
+        balance.note(run.time(), &ledger(&seen, energy));
     })
     .map_err(|error| error.to_string())?;
-    line(name, &run, worst, lacking / energy);
+    line(name, &run, worst, balance.relative_residual());
     Ok(())
 }

@@ -8,7 +8,7 @@ use quantity::Kind;
 use super::body::{Loaded, WEDGES};
 use crate::element::{Entries, Entry};
 use crate::unit::Unit;
-use crate::wedge::entries::NEIGHBOURS;
+use crate::wedge::entries::{NEIGHBOURS, relative_residual};
 
 /// Inputs of one wedge: force and moment on both neighbours.
 pub(super) const LOADS: usize = 12;
@@ -181,7 +181,9 @@ fn columns() -> Vec<Entry> {
         ),
     ]
     .map(|(name, text)| Entry::real(name, unit(Kind::Energy), None, text))
-    .to_vec()
+    .into_iter()
+    .chain([relative_residual()])
+    .collect()
 }
 
 /// All quantities.

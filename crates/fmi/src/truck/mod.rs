@@ -7,9 +7,11 @@ mod body;
 mod entries;
 
 use integrate::{Integrator, Options, Problem, State};
+use mechanics::energy_balance;
 use mechanics::system::{Mode, System};
 use serde::{Deserialize, Serialize};
 use study::case::Case;
+use study::progress::{self, Pace};
 
 use crate::Error;
 use crate::element::{Element, ElementState, Entries, Interface, Setting, Slopes};
@@ -86,7 +88,6 @@ impl TruckElement {
                         .tolerance
                         .unwrap_or(simulation.relative_tolerance)
                         .clamp(1e-12, 1e-3),
-                    maximum_steps: u64::MAX,
                     ..Options::default()
                 };
                 let made = Integrator::new(truck.system.clone(), options, setting.start_time, &states);
@@ -149,18 +150,18 @@ impl Element for TruckElement {
         integrator.renew();
         let before = self.states[..speeds].to_vec();
         let length = time - integrator.time();
-        let (mut attempts, limit) = (0, study::driven::most_steps(length));
+        let mut pace = Pace::of(integrator);
         while integrator.time() < time {
-            integrator
-                .step_to(time)
-                .map_err(|error| Error::new(error.to_string()))?;
-            attempts += 1;
-            if attempts > limit {
-                return Err(Error::new(format!(
-                    "a step of {length} s to {time} s is not finished after {limit} steps of the integrator; make it shorter, or look for \
-                     inputs that are far out"
-                )));
+            let name = |state| progress::truck_state_name(&self.truck.system, [&[], &[]], state);
+            if let Err(error) = integrator.step_to(time) {
+                return Err(Error::new(progress::told(&error, name)));
             }
+            pace.check(integrator, length).map_err(|stalled| {
+                Error::new(format!(
+                    "the step of {length} s to {time} s cannot be finished: {}; make it shorter, or look for inputs that are far out",
+                    stalled.told(name)
+                ))
+            })?;
         }
         self.time = time;
         self.states[..dimension].copy_from_slice(integrator.x());
@@ -215,7 +216,13 @@ impl Element for TruckElement {
         let seen = self.truck.system.observe(self.time, &self.states[..dimension]);
         let change = seen.energies.total() - self.start_energy;
         let residual = seen.residual(self.start_energy) - self.states[dimension];
-        for (target, value) in out.iter_mut().zip([change, residual]) {
+        let ledger = energy_balance::Entries {
+            work: self.states[dimension],
+            losses: seen.quadratures.iter().skip(1).sum(),
+            stored_change: change,
+            residual,
+        };
+        for (target, value) in out.iter_mut().zip([change, residual, ledger.relative_residual()]) {
             *target = value;
         }
     }

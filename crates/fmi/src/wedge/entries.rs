@@ -64,6 +64,16 @@ pub(crate) fn column_numbers(equations: &Equations) -> Vec<usize> {
         .collect()
 }
 
+/// How well the energy ledger closes.
+pub(crate) fn relative_residual() -> Entry {
+    Entry::real(
+        "ledger_relative_residual",
+        None,
+        None,
+        "residual of the energy ledger now over the largest of work, losses and change of stored energy since the start",
+    )
+}
+
 /// All quantities of the wedge of a case.
 ///
 /// # Errors
@@ -99,6 +109,7 @@ pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
                     format!("{}{about}", column.text),
                 )
             })
+            .chain([relative_residual()])
             .collect(),
         modes: corners("_state", |corner| {
             Entry::integer(

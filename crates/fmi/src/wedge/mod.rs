@@ -255,12 +255,15 @@ impl Element for WedgeElement {
     }
 
     fn columns(&mut self, out: &mut [f64]) {
-        let row = match &mut self.core {
-            Core::Driven(wedge) => wedge.row(),
-            Core::Equations(equations) => equations.row(),
+        let (row, (_, ledger)) = match &mut self.core {
+            Core::Driven(wedge) => (wedge.row(), wedge.energies()),
+            Core::Equations(equations) => (equations.row(), equations.energies()),
         };
-        for (target, number) in out.iter_mut().zip(&self.columns) {
-            *target = row.get(*number).copied().unwrap_or(f64::NAN);
+        let columns = self.columns.iter();
+        let values = columns.map(|number| row.get(*number).copied().unwrap_or(f64::NAN));
+        let relative = ledger.entries().relative_residual();
+        for (target, value) in out.iter_mut().zip(values.chain([relative])) {
+            *target = value;
         }
     }
 

@@ -6,6 +6,7 @@
 mod along;
 mod chain;
 mod drive;
+mod energies;
 mod equilibrium;
 mod forces;
 mod jacobian;

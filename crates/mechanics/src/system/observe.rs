@@ -234,9 +234,8 @@ impl System {
         for free in &self.free {
             let Some(linear) = &free.linear else { continue };
             let (place, rate) = (&self.positions[free.body], &self.rates[free.body]);
+            linear.add_energies(&free.free, place, rate, energies);
             for (j, &k) in free.free.iter().enumerate() {
-                energies.kinetic += 0.5 * linear.inertia[j] * rate[k] * rate[k];
-                energies.gravity -= linear.weight[j] * place[k];
                 bodies[free.body].accelerations[k] = accelerations[free.offset + j];
             }
         }

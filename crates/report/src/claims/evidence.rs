@@ -207,6 +207,11 @@ impl<'a> Evidence<'a> {
                 None => return Err(format!("the run \"{source}\" was not made")),
             },
         };
+        if table.has_failed() {
+            return Err(format!(
+                "the energy ledger of the run \"{source}\" does not close"
+            ));
+        }
         if !table.is_complete() {
             let time = table.column("time").and_then(<[f64]>::last).copied();
             return Err(format!(
@@ -241,6 +246,13 @@ impl<'a> TableOf<'a> {
         match self {
             Self::Alone(result) => result.summary.complete,
             Self::Truck(result) => result.summary.complete,
+        }
+    }
+
+    fn has_failed(self) -> bool {
+        match self {
+            Self::Alone(result) => result.summary.failed.is_some(),
+            Self::Truck(result) => result.summary.failed.is_some(),
         }
     }
 
@@ -315,7 +327,7 @@ impl<'a> View<'a> {
         energy.map_or(f64::NAN, |energy| energy.value / Kind::Energy.from_si(units))
     }
 
-    /// Largest residual of the ledger over the work.
+    /// Relative residual of the energy ledger.
     pub(super) fn ledger_residual(self) -> f64 {
         match self.seen.table {
             TableOf::Alone(result) => result.summary.ledger.largest_relative_residual,

@@ -304,13 +304,10 @@ pub(super) fn amplitude(run: View<'_>) -> f64 {
     run.cycle().amplitude
 }
 
-/// Largest residual of the energy ledger at any time, over the work done by the bolster.
+/// Relative residual of the energy ledger.
 pub(super) fn ledger_residual(run: View<'_>) -> f64 {
     let value = run.ledger_residual().abs();
-    let label = format!(
-        "largest residual of the energy ledger over the work, {}",
-        run.name()
-    );
+    let label = format!("relative residual of the energy ledger, {}", run.name());
     run.note(label, value, Kind::Dimensionless)
 }
 

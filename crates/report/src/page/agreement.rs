@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 use quantity::{Kind, System as Units};
+use study::energy;
 use study::summary::Measure;
 
 use crate::agreement::{COMPONENT, Group, TruckOutcome, mean_yaw, percent};
@@ -96,8 +97,8 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
         p {
             "Wedge 127. Type 6.8 has no angle: no toe and toe out are the same to it. The yawed input as printed hardly yaws; as \
              intended the springs against it are taken out, and a slow undamped swing about the mean stays. Jammed: share of the time in which no \
-             steady sliding exists and only the limit of the files holds the normal force. Ledger: the largest difference between \
-             the work done and what became of it, over the work."
+             steady sliding exists and only the limit of the files holds the normal force. Ledger residual: the largest at any output \
+             time, over the largest of work, losses and change of stored energy."
         }
         div.wide {
             table {
@@ -110,7 +111,7 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
                         th.number scope="col" { "jammed" br; span.unit { "%" } }
                         th.number scope="col" { "largest normal force" br; span.unit { (unit(normal)) } }
                         th.number scope="col" { "mean yaw" br; span.unit { "rad" } }
-                        th.number scope="col" { "ledger" br; span.unit { "of the work" } }
+                        th.number scope="col" { "ledger residual" br; span.unit { "relative" } }
                         th.number scope="col" { "steps" }
                     }
                 }
@@ -138,6 +139,10 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
         @for (entry, result) in trucks {
             @if let Some(stopped) = &result.summary.stopped {
                 p.warning { (entry.name()) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
+            }
+            @for warning in energy::among(&result.summary.warnings) { p.warning { (entry.name()) ": " (warning) } }
+            @if result.summary.failed.is_some() {
+                p.warning { (entry.name()) (super::runs::FAILED) }
             }
         }
     }

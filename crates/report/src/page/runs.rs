@@ -26,7 +26,8 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
                 "Each run gives the bolster a vertical motion and computes the wedge. Mean force: vertical wedge force \
                  (friction of the column on the side frame, positive up), averaged over the branch in which the bolster goes \
                  up or down. Energy per cycle: lost in friction at the side frame. Equivalent damping: that energy over \
-                 π ω A². Ledger: the largest difference between the work done and what became of it, over the work."
+                 π ω A². Ledger residual: the largest at any output time, over the largest of work, losses and change of \
+                 stored energy; above 1e-3 a run has a warning, above 1e-2 it has failed."
             }
             div.wide {
                 table {
@@ -40,7 +41,7 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
                             th.number scope="col" { "mean force, down" br; span.unit { (unit(down)) } }
                             th.number scope="col" { "energy per cycle" br; span.unit { (unit(energy)) } }
                             th.number scope="col" { "equivalent damping" br; span.unit { (unit(equivalent)) } }
-                            th.number scope="col" { "ledger" br; span.unit { "of the work" } }
+                            th.number scope="col" { "ledger residual" br; span.unit { "relative" } }
                             th.number scope="col" { "steps" }
                         }
                     }
@@ -68,10 +69,14 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
                     p.warning { (case.name) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
                 }
                 @for warning in &result.summary.warnings { p.warning { (case.name) ": " (warning) } }
+                @if result.summary.failed.is_some() { p.warning { (case.name) (FAILED) } }
             }
         }
     }
 }
+
+/// What is said of a run that has failed, behind its name.
+pub(super) const FAILED: &str = " has failed: do not use its numbers";
 
 fn up(summary: &Summary) -> Option<&Measure> {
     summary.averages.up.get("vertical_wedge_force")

@@ -99,9 +99,9 @@ fn lead(study: &Study, digest: &Digest) -> String {
             "engineering accuracy (tr-bdf2, which damps the vibrations of contacts: wedges that rattle for long may have forces some 10 % off)"
         }
     };
-    let [complete, refused, stopped] = digest.ended;
+    let [complete, refused, stopped, failed] = digest.ended;
     format!(
-        "{} runs of the case {}: {how}, at {accuracy}. {complete} are complete, {refused} were refused, {stopped} stopped on their way.",
+        "{} runs of the case {}: {how}, at {accuracy}. {complete} are complete, {refused} were refused, {stopped} stopped on their way, {failed} failed.",
         study.count(),
         study.base.name
     )
@@ -165,14 +165,18 @@ fn values(levels: &Levels) -> String {
 }
 
 fn failures(digest: &Digest) -> Markup {
-    let failed = digest.ended[1] + digest.ended[2];
+    let failed: u64 = digest.ended[1..].iter().sum();
     html! {
         @if failed > 0 {
             div.warning {
-                p { (failed) " runs have no measures and are left out of all figures. The first ones:" }
+                p {
+                    (failed) " runs are left out of all figures: they have no measures, or have failed because their energy ledger \
+                     does not close. The first ones:"
+                }
                 ul { @for (number, reason) in &digest.reasons { li { "run " (number) ": " (reason) } } }
             }
         }
+        @if let Some(warning) = digest.warning() { p.warning { (warning) } }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use integrate::{Problem, SetupError, StepError, SwitchGroup};
+use integrate::{Problem, SetupError, SwitchGroup};
 use mechanics::output::Column;
 use mechanics::system::{
     Along, Direction, DriveChange, DriveError, Energies, Mode, Observation, Sense, System,
@@ -23,7 +23,7 @@ pub enum DrivenError {
     Setup(#[from] SetupError),
     /// The integrator cannot go on.
     #[error("{0}; go back to a saved state, or begin anew with smaller steps of the neighbours")]
-    Step(#[from] StepError),
+    Step(String),
     /// The system cannot be driven.
     #[error(transparent)]
     Drive(#[from] DriveError),
@@ -55,18 +55,18 @@ pub enum DrivenError {
         /// How many were given.
         found: usize,
     },
-    /// A communication step took more steps of the integrator than it may.
+    /// A communication step hardly progresses ([`crate::progress`]).
     #[error(
-        "a step of {step} s from time {time} s is not finished after {limit} steps of the integrator; make it shorter, or look \
-         for places or rates of the neighbours that are far out"
+        "the step of {step} s from time {time} s cannot be finished: {why}; make it shorter, or look for places or rates of the \
+         neighbours that are far out"
     )]
     TooLong {
         /// The step, s.
         step: f64,
         /// The time at which it began, s.
         time: f64,
-        /// How many steps are admissible.
-        limit: u64,
+        /// How little it progresses, and where.
+        why: String,
     },
     /// An earlier step failed.
     #[error("an earlier step failed; go back to a saved state, or begin anew")]

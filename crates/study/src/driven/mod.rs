@@ -33,24 +33,10 @@ use mechanics::output::Column;
 use mechanics::system::{Along, Energies, Sense, System};
 
 use crate::case::{Case, Simulation};
+use crate::progress::{self, Pace};
 use wedge::Parameters;
 use wedge::driven::COIL;
 use wedge::outputs::Ledger;
-
-/// A step that needs more steps of the integrator than this is stopped, however long it is: half a minute of computing.
-pub const MAXIMUM_STEPS: u64 = 1_000_000;
-/// The same of a step without length, and for each second of it: what rattles takes some five thousand a second.
-const SURE_STEPS: u64 = 10_000;
-const STEPS_A_SECOND: f64 = 1e6;
-
-/// How many steps of the integrator a step of this length (s) may take; what needs more is nothing that moves as wedges do, such as
-/// neighbours that go on with the speed of light.
-#[must_use]
-pub fn most_steps(duration: f64) -> u64 {
-    SURE_STEPS
-        .saturating_add((STEPS_A_SECOND * duration) as u64)
-        .min(MAXIMUM_STEPS)
-}
 
 /// A step must be longer, s: below, times are rounding.
 const SHORTEST_STEP: f64 = 1e-15;
@@ -90,8 +76,8 @@ impl DrivenWedge {
         )
     }
 
-    /// The same of parameters, options of the integrator (the largest number of steps is that of [`most_steps`] a step of the
-    /// neighbours) and a coil that may be outside.
+    /// The same of parameters, options of the integrator (the number of steps is bounded by the rule of [`progress`], for each step
+    /// of the neighbours) and a coil that may be outside.
     ///
     /// # Errors
     /// As [`DrivenWedge::starting`].
@@ -236,24 +222,21 @@ impl DrivenWedge {
         let from = *self.equations.neighbours();
         from.lead(self.integrator.problem_mut(), start, duration, end)?;
         self.integrator.renew();
-        let (first, limit) = (self.attempts(), most_steps(duration));
+        let mut pace = Pace::of(&self.integrator);
         while self.integrator.time() < time {
-            self.integrator.step_to(time)?;
-            if self.attempts() - first > limit {
-                return Err(DrivenError::TooLong {
+            let name = |state| progress::state_name(self.equations.system(), state);
+            if let Err(error) = self.integrator.step_to(time) {
+                return Err(DrivenError::Step(progress::told(&error, name)));
+            }
+            pace.check(&self.integrator, duration)
+                .map_err(|stalled| DrivenError::TooLong {
                     step: duration,
                     time: start,
-                    limit,
-                });
-            }
+                    why: stalled.told(name),
+                })?;
         }
         self.equations
             .follow(time, self.integrator.x(), self.integrator.modes(), end)
-    }
-
-    fn attempts(&self) -> u64 {
-        let statistics = self.integrator.statistics();
-        statistics.steps + statistics.rejected()
     }
 
     /// Says where the coil's force comes from, from now on.

@@ -14,6 +14,7 @@ use thiserror::Error;
 
 use crate::case::{Case, CaseError};
 use crate::design::Value;
+use crate::energy;
 use crate::run::Run;
 use least_squares::{Evaluate, Settings, minimize};
 
@@ -187,6 +188,12 @@ pub struct Fit {
     pub rounds: u32,
     /// Whether it came to rest.
     pub settled: bool,
+    /// The relative residual of the energy ledger of the run with the parameters found.
+    pub largest_relative_residual: f64,
+    /// The warnings about that ledger.
+    pub warnings: Vec<String>,
+    /// Why the fit has failed: that ledger does not close to 1e-2.
+    pub failed: Option<String>,
 }
 
 /// The column of a case's run at these times (between rows linearly), SI.
@@ -267,7 +274,19 @@ pub fn fit(
         })
     };
     let start = start(&case(&[])?, free);
-    finish(&evaluate, measured, free, &start, confidence)
+    let fit = finish(&evaluate, measured, free, &start, confidence)?;
+    // The one run that all the numbers are about is judged as any other.
+    let values: Vec<String> = (fit.parameters.iter())
+        .map(|found| found.free.set(found.value))
+        .collect();
+    let run = Run::new(&case(&values)?).map_err(|error| FitError::Model(error.to_string()))?;
+    let summary = run.finish(|_| ()).summary;
+    Ok(Fit {
+        largest_relative_residual: summary.ledger.largest_relative_residual,
+        warnings: energy::among(&summary.warnings).map(str::to_owned).collect(),
+        failed: summary.failed,
+        ..fit
+    })
 }
 
 /// Where the case stands, as far as it lies well within the bounds; the middle otherwise.
@@ -338,5 +357,8 @@ fn finish(
         values: found.values,
         rounds: found.rounds,
         settled: found.settled,
+        largest_relative_residual: 0.0,
+        warnings: Vec::new(),
+        failed: None,
     })
 }

@@ -1,9 +1,10 @@
 //! A run that keeps its measures only.
 
 use integrate::Integrator;
+use mechanics::energy_balance::EnergyBalance;
 use mechanics::quasi_static::Direction;
 use mechanics::system::{Loads, System};
-use wedge::outputs::{FACES, Outputs};
+use wedge::outputs::{FACES, Ledger};
 use wedge::resultants::Resultants;
 use wedge::{BOLSTER, Wedge};
 
@@ -12,8 +13,9 @@ use super::{Measures, place};
 use crate::case::{Case, Simulation};
 use crate::closed_form;
 use crate::metrics::{Cycle, first_harmonic};
+use crate::progress::{self, INTERVALS, Pace};
 use crate::rows::Rows;
-use crate::run::{MAXIMUM_STEPS, RunError, friction_losses, options};
+use crate::run::{RunError, friction_losses, options};
 
 /// Why a run has no measures.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,10 +26,6 @@ pub enum Unmeasured {
     Stopped(String),
 }
 
-/// Attempted steps after which a run of a study counts as failed: a hundred times what a ringing run of ten seconds needs.
-const MOST_STEPS: u64 = 5_000_000;
-const _: () = assert!(MOST_STEPS <= MAXIMUM_STEPS);
-
 /// Runs a case and measures it.
 ///
 /// # Errors
@@ -35,21 +33,27 @@ const _: () = assert!(MOST_STEPS <= MAXIMUM_STEPS);
 pub fn measure(case: &Case) -> Result<Measures, Unmeasured> {
     let refused = |error: RunError| Unmeasured::Refused(error.to_string());
     let wedge = Wedge::new(case.parameters.clone()).map_err(|error| refused(error.into()))?;
-    let options = integrate::Options {
-        maximum_steps: MOST_STEPS,
-        ..options(case)
-    };
-    let mut integrator = Integrator::new(wedge.system.clone(), options, 0.0, &wedge.initial_state)
+    let mut integrator = Integrator::new(wedge.system.clone(), options(case), 0.0, &wedge.initial_state)
         .map_err(|error| refused(error.into()))?;
     let mut measuring = Measuring::new(&case.simulation, wedge, &integrator);
+    let mut pace = Pace::of(&integrator);
     while integrator.time() < measuring.rows.end {
         let limit = measuring.rows.limit(measuring.next_row, &integrator);
         if let Err(error) = integrator.step_to(limit) {
-            return Err(Unmeasured::Stopped(error.to_string()));
+            let name = |state| progress::state_name(integrator.problem(), state);
+            return Err(stopped(&progress::told(&error, name)));
         }
         measuring.after_step(&mut integrator);
+        if let Err(stalled) = pace.check(&integrator, INTERVALS * case.simulation.output_interval) {
+            let name = |state| progress::state_name(integrator.problem(), state);
+            return Err(stopped(&stalled.told(name)));
+        }
     }
     Ok(measuring.finish(&integrator))
+}
+
+fn stopped(why: &str) -> Unmeasured {
+    Unmeasured::Stopped(format!("{why}; {}", progress::WHAT_TO_TRY))
 }
 
 /// The rows of a run, as far as measures need them.
@@ -69,6 +73,7 @@ struct Measuring {
     window: Option<(f64, f64, u32)>,
     clock: ContactClock,
     start_energy: f64,
+    balance: EnergyBalance,
     /// Friction losses at the ends of the window, by face, J.
     probes: Vec<[f64; 2]>,
     next_row: u64,
@@ -91,12 +96,13 @@ impl Measuring {
         let window = cycle.and_then(|cycle| cycle.window(rows.end));
         let averaged = window.map_or((0.0, rows.end), |(start, end, _)| (start, end));
         let start = wedge.initial_state.clone();
-        let start_energy = wedge.system.observe(0.0, &start).energies.total();
+        let start_energy = wedge.system.energies(0.0, &start).total();
         let mut this = Self {
             clock: ContactClock::new(integrator.modes(), averaged),
             cycle,
             window,
             start_energy,
+            balance: EnergyBalance::new(start_energy),
             probes: Vec::with_capacity(2),
             next_row: 0,
             rows,
@@ -151,6 +157,7 @@ impl Measuring {
 
     fn observe_row(&mut self, time: f64) {
         self.wedge.system.loads(time, &self.buffer, &mut self.loads);
+        self.balance_row(time);
         let found = Resultants::of(self.wedge.parameters.damping, &self.loads);
         let bolster = &self.loads.bodies[BOLSTER];
         let (displacement, speed) = (bolster.travel.0[2], bolster.velocity.0[2]);
@@ -177,6 +184,15 @@ impl Measuring {
         self.series.times.push(time);
         self.series.displacement.push(displacement);
         self.series.on_bolster.push(found.on_bolster.0.0[2]);
+    }
+
+    /// Takes the ledger of a row into account.
+    fn balance_row(&mut self, time: f64) {
+        let system = &mut self.wedge.system;
+        let stored = system.energies(time, &self.buffer).total() - self.start_energy;
+        let [_, _, _, quadratures] = system.layout().split(&self.buffer);
+        let ledger = Ledger::new(system, stored, quadratures);
+        self.balance.note(time, &ledger.entries());
     }
 
     /// The measures, after the last step.
@@ -209,9 +225,7 @@ impl Measuring {
         for face in 0..FACES.len() {
             values[place::WEAR + face] = (to[face] - from[face]) / period;
         }
-        let seen = self.wedge.system.observe(time, x);
-        values[place::RESIDUAL] = Outputs::ledger(&self.wedge.system, &seen, self.start_energy)
-            .relative_residual(self.start_energy);
+        values[place::RESIDUAL] = self.balance.relative_residual();
         values[place::EVENTS] = self.events as f64;
         values[place::STEPS] = integrator.statistics().steps as f64;
         measures

@@ -83,6 +83,13 @@ impl RunState {
             );
             return damaged("next_row", next, expected);
         }
+        if self.counts.pace.time > time {
+            return damaged(
+                "counts.pace.time",
+                self.counts.pace.time,
+                format!("at most the time, {time} s"),
+            );
+        }
         let probes = probe_times(case).iter().filter(|probe| **probe <= time).count();
         self.counts.check(points, probes)
     }
@@ -95,7 +102,24 @@ impl Counts {
         check_length("counts.events", self.events.len(), FACES.len())?;
         check_length("counts.probes", self.probes.len(), probes)?;
         check_finite("counts.start_energy", self.start_energy)?;
-        check_size("counts.largest_residual", self.largest_residual)?;
+        let balance = &self.energy_balance;
+        for (member, value) in [
+            ("counts.energy_balance.stored_at_start", balance.stored_at_start),
+            (
+                "counts.energy_balance.largest_stored_change",
+                balance.largest_stored_change,
+            ),
+            ("counts.energy_balance.largest_residual", balance.largest_residual),
+            (
+                "counts.energy_balance.largest_residual_time",
+                balance.largest_residual_time,
+            ),
+            ("counts.pace.time", self.pace.time),
+        ] {
+            check_size(member, value)?;
+        }
+        check_finite("counts.energy_balance.work", balance.work)?;
+        check_finite("counts.energy_balance.losses", balance.losses)?;
         self.crept
             .iter()
             .try_for_each(|value| check_size("counts.crept", *value))?;
@@ -106,10 +130,11 @@ impl Counts {
             .iter()
             .flatten()
             .try_for_each(|value| check_finite("counts.probes", *value))?;
-        let counters = self.events.iter().flatten().chain([&self.event_total]);
+        let counters = self.events.iter().flatten();
+        let counters = counters.chain([&self.event_total, &self.pace.attempts]);
         if let Some(count) = counters.copied().find(|count| *count > MOST_COUNTED) {
             return damaged(
-                "counts.events or counts.event_total",
+                "counts.events, counts.event_total or counts.pace.attempts",
                 count,
                 format!("at most {MOST_COUNTED}"),
             );

@@ -10,6 +10,7 @@ use wedge::outputs::{CORNERS, FACES, Outputs};
 
 use super::{EVENT_CAP, Run};
 use crate::assumptions;
+use crate::energy;
 use crate::metrics::{Cycle, Extremes, first_harmonic, mean};
 use crate::summary::{
     Averages, Events, FrictionSummary, LedgerSummary, Measure, SCHEMA, Solver, Stopped, Summary,
@@ -39,8 +40,9 @@ pub(super) fn summary(run: &mut Run, stopped: Option<Stopped>) -> Summary {
         }
     }
     let ledger = ledger(run);
+    let damped = run.case.simulation.method.tableau().family == Family::DiagonallyImplicit;
     Summary {
-        warnings: warnings(run, &ledger),
+        warnings: warnings(run, damped),
         schema: SCHEMA.to_owned(),
         program: format!("wedgelab {}", env!("CARGO_PKG_VERSION")),
         name: run.case.name.clone(),
@@ -48,6 +50,7 @@ pub(super) fn summary(run: &mut Run, stopped: Option<Stopped>) -> Summary {
         units,
         complete: stopped.is_none() && run.is_finished(),
         stopped,
+        failed: energy::failure(&run.counts.energy_balance, what_to_do(damped)),
         rows: time.len(),
         averages: averages(run),
         extremes,
@@ -59,32 +62,15 @@ pub(super) fn summary(run: &mut Run, stopped: Option<Stopped>) -> Summary {
     }
 }
 
-/// A ledger that does not close to this share of the energies makes a run doubtful.
-const DOUBTFUL_RESIDUAL: f64 = 1e-3;
-
-fn warnings(run: &Run, ledger: &LedgerSummary) -> Vec<String> {
+fn warnings(run: &Run, damped: bool) -> Vec<String> {
     let mut warnings = Vec::new();
-    let size = |name: &str| ledger.entries.get(name).map_or(0.0, |entry| entry.value.abs());
-    let most = ledger
-        .entries
-        .keys()
-        .map(|name| if name == "residual" { 0.0 } else { size(name) });
-    let most = most.fold(ledger.stored_at_start.value.abs(), f64::max);
-    let closes = size("residual") <= DOUBTFUL_RESIDUAL * most;
-    let share = size("residual") / most;
-    let method = run.case.simulation.method.tableau();
-    if method.family == Family::DiagonallyImplicit {
+    if damped {
         warnings.push(format!(
-            "{} damps the vibrations of contacts: read averages, not single values; the energy ledger lacks {share:.1e} of the energies",
-            method.name
-        ));
-    } else if !closes {
-        // A residual that is not a number does not close either.
-        warnings.push(format!(
-            "the energy ledger does not close: its residual is {share:.1e} of the energies; lower simulation.relative_tolerance, \
-             and look for values out of all proportion"
+            "{} damps the vibrations of contacts: read averages, not single values",
+            run.case.simulation.method.tableau().name
         ));
     }
+    warnings.extend(energy::warning(&run.counts.energy_balance, what_to_do(damped)));
     if run.integrator.statistics().events_unresolved > 0 {
         warnings.push(format!(
             "{} steps held more contact events than could be resolved: contact states are doubtful there",
@@ -92,6 +78,15 @@ fn warnings(run: &Run, ledger: &LedgerSummary) -> Vec<String> {
         ));
     }
     warnings
+}
+
+/// What to do about a ledger that does not close.
+fn what_to_do(damped: bool) -> &'static str {
+    if damped {
+        energy::WHAT_TO_DO_WHERE_DAMPED
+    } else {
+        energy::WHAT_TO_DO
+    }
 }
 
 fn averages(run: &Run) -> Averages {
@@ -245,15 +240,17 @@ fn ledger(run: &mut Run) -> LedgerSummary {
         ("coil_damping_loss", ledger.coil_damping_loss),
         ("residual", ledger.residual),
     ];
-    let work = ledger.scale(run.counts.start_energy);
+    let balance = &run.counts.energy_balance;
     LedgerSummary {
         entries: entries
             .into_iter()
             .map(|(name, value)| (name.to_owned(), measure(value)))
             .collect(),
         stored_at_start: measure(run.counts.start_energy),
-        relative_residual: ledger.residual / work,
-        largest_relative_residual: run.counts.largest_residual / work,
+        largest_stored_change: measure(balance.largest_stored_change),
+        largest_residual: measure(balance.largest_residual),
+        largest_residual_time: balance.largest_residual_time,
+        largest_relative_residual: balance.relative_residual(),
     }
 }
 

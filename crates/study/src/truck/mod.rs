@@ -80,7 +80,7 @@ impl TruckResult {
 }
 
 /// The schema's name and version.
-pub const SCHEMA: &str = "wedgelab.truck/1";
+pub const SCHEMA: &str = "wedgelab.truck/2";
 
 /// The summary of a half-truck's run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -99,6 +99,9 @@ pub struct TruckSummary {
     pub complete: bool,
     /// Why and when it stopped, if it did not.
     pub stopped: Option<Stopped>,
+    /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
+    #[serde(default)]
+    pub failed: Option<String>,
     /// What makes the numbers doubtful; empty for a sound run.
     #[serde(default)]
     pub warnings: Vec<String>,
@@ -113,7 +116,13 @@ pub struct TruckSummary {
     pub largest_displacements: BTreeMap<String, Measure>,
     /// Entries of the energy ledger at the end.
     pub ledger: BTreeMap<String, Measure>,
-    /// Largest residual of the ledger at any output time, over the largest work done by the input bodies.
+    /// Largest absolute change of the stored energy at any output time.
+    pub largest_stored_change: Measure,
+    /// Largest absolute residual at any output time.
+    pub largest_residual: Measure,
+    /// The first output time with this residual, s.
+    pub largest_residual_time: f64,
+    /// The measure of how well the ledger closes: [`mechanics::energy_balance::relative_residual`] of the largest residual.
     pub largest_relative_residual: f64,
     /// Steps and calls of the integrator.
     pub statistics: Statistics,

@@ -5,17 +5,19 @@ use std::ops::ControlFlow;
 
 use integrate::{Integrator, Options, SetupError};
 use mechanics::body::COORDINATES;
+use mechanics::energy_balance::{EnergyBalance, Entries};
 use mechanics::motion::Motion;
 use mechanics::system::NoEquilibrium;
-use mechanics::system::{ModelError, StaticFriction, System};
+use mechanics::system::{ChannelKind, ModelError, Observation, StaticFriction, System};
 use quantity::Kind;
 use thiserror::Error;
 
 use super::table::{Table, input_motion};
 use super::{SCHEMA, TruckCase, TruckResult, TruckStart, TruckSummary, WedgeSummary};
+use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::metrics::{Cycle, mean};
-use crate::run::MAXIMUM_STEPS;
+use crate::progress::{self, INTERVALS, Pace};
 use crate::summary::{Measure, Stopped};
 
 /// Why a run cannot begin.
@@ -81,12 +83,12 @@ pub fn run_while(
     let table = Table::new(&case.truck, &system, &case.requests, start_energy);
     let options = Options {
         relative_tolerance: case.relative_tolerance,
-        maximum_steps: MAXIMUM_STEPS,
         ..Options::default()
     };
     let mut works = Works::new(case);
     let mut integrator = Integrator::new(system.clone(), options, 0.0, &x)?;
     let mut values = vec![Vec::new(); table.columns.len()];
+    let mut balance = EnergyBalance::new(start_energy);
     table.read(&system.observe(0.0, &x), &mut values);
     if let Some((column, value)) = drop_not_finite(&table, &mut values) {
         return Err(TruckError::NotFinite { column, value });
@@ -95,6 +97,8 @@ pub fn run_while(
     let mut row = 1;
     let mut buffer = x;
     let mut stopped = None;
+    let mut pace = Pace::of(&integrator);
+    let numbers = [&*case.truck.bodies, &*case.truck.connections];
     let stop = |time: f64, reason: String| {
         Some(Stopped {
             time,
@@ -104,7 +108,8 @@ pub fn run_while(
     };
     'steps: while row <= count {
         if let Err(error) = integrator.step_to(case.duration) {
-            stopped = stop(integrator.time(), error.to_string());
+            let name = |state| progress::truck_state_name(integrator.problem(), numbers, state);
+            stopped = stop(integrator.time(), progress::told(&error, name));
             break;
         }
         system.segment_like(integrator.problem());
@@ -115,7 +120,8 @@ pub fn run_while(
                 break;
             }
             integrator.interpolate(time, &mut buffer);
-            table.read(&system.observe(time, &buffer), &mut values);
+            let seen = system.observe(time, &buffer);
+            table.read(&seen, &mut values);
             if let Some((column, value)) = drop_not_finite(&table, &mut values) {
                 stopped = stop(
                     time,
@@ -123,7 +129,15 @@ pub fn run_while(
                 );
                 break 'steps;
             }
+            balance.note(time, &entries(&system, &seen, start_energy));
             row += 1;
+        }
+        if let Err(stalled) = pace.check(&integrator, INTERVALS * case.interval)
+            && row <= count
+        {
+            let name = |state| progress::truck_state_name(integrator.problem(), numbers, state);
+            stopped = stop(integrator.time(), stalled.told(name));
+            break;
         }
         if let ControlFlow::Break(reason) = progress(integrator.time())
             && row <= count
@@ -132,6 +146,7 @@ pub fn run_while(
             break;
         }
     }
+    let joules = |value| Measure::new(value, Kind::Energy, case.units);
     let mut result = TruckResult {
         columns: table.columns,
         values,
@@ -143,13 +158,19 @@ pub fn run_while(
             units: case.units,
             complete: stopped.is_none(),
             stopped,
-            warnings: Vec::new(),
+            failed: energy::failure(&balance, energy::WHAT_TO_DO_WITH_FILES),
+            warnings: energy::warning(&balance, energy::WHAT_TO_DO_WITH_FILES)
+                .into_iter()
+                .collect(),
             rows: 0,
             yaw: None,
             wedges: BTreeMap::new(),
             largest_displacements: BTreeMap::new(),
             ledger: BTreeMap::new(),
-            largest_relative_residual: 0.0,
+            largest_stored_change: joules(balance.largest_stored_change),
+            largest_residual: joules(balance.largest_residual),
+            largest_residual_time: balance.largest_residual_time,
+            largest_relative_residual: balance.relative_residual(),
             statistics: integrator.statistics().clone(),
             relative_tolerance: case.relative_tolerance,
             assumptions: case.assumptions.clone(),
@@ -163,6 +184,25 @@ pub fn run_while(
         result.summary.stopped = stop(integrator.time(), format!("{what} is not a finite number"));
     }
     Ok(result)
+}
+
+/// Returns what the energy balance takes from an instant; `start` is the stored energy at the start, J.
+fn entries(system: &System, seen: &Observation, start: f64) -> Entries {
+    let mut entries = Entries {
+        work: 0.0,
+        losses: 0.0,
+        stored_change: seen.energies.total() - start,
+        residual: -seen.residual(start),
+    };
+    for (channel, value) in system.channels().iter().zip(&seen.quadratures) {
+        match channel.kind {
+            ChannelKind::MotionWork => entries.work += value,
+            // An entry of either sign, which is neither.
+            ChannelKind::WedgeKinematics => {}
+            _ => entries.losses += value,
+        }
+    }
+    entries
 }
 
 /// Takes the last row away if one of its values is not finite; gives the column and the value.
@@ -193,7 +233,9 @@ fn first_not_finite(summary: &TruckSummary) -> Option<String> {
     let wedges = summary.wedges.iter().find(|(_, found)| wedge(found));
     let wedges = wedges.map(|(number, _)| format!("an average of wedge {number}"));
     let others = find(&summary.largest_displacements).or_else(|| find(&summary.ledger));
-    wedges.or(others.map(|name| format!("`{name}`")))
+    let residual = !is_finite(summary.largest_relative_residual);
+    let residual = residual.then(|| "the ledger's relative residual".to_owned());
+    wedges.or(others.map(|name| format!("`{name}`"))).or(residual)
 }
 
 /// The cycle of the vertical input, if it is one sine.
@@ -300,11 +342,6 @@ fn summarize(case: &TruckCase, system: &System, works: &Works, result: &mut Truc
             ledger.insert(name.to_owned(), Measure::new(*last, Kind::Energy, units));
         }
     }
-    let most = |name: &str| {
-        let values = result.column(name).unwrap_or_default();
-        values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
-    };
-    let (residual, work) = (most("ledger_residual"), most("input_work"));
     let yaw = super::yaw::summary(&case.truck, result, units);
     let summary = &mut result.summary;
     if let Some(yaw) = yaw.as_ref().filter(|yaw| yaw.is_missed()) {
@@ -326,7 +363,6 @@ fn summarize(case: &TruckCase, system: &System, works: &Works, result: &mut Truc
     summary.wedges = wedges;
     summary.largest_displacements = largest;
     summary.ledger = ledger;
-    summary.largest_relative_residual = if work > 0.0 { residual / work } else { 0.0 };
 }
 
 fn wedge(case: &TruckCase, result: &TruckResult, works: &Works, place: usize) -> WedgeSummary {

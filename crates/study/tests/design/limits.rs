@@ -68,7 +68,7 @@ fn limits_measures_are_those_of_the_summary() {
             "equivalent_damping_on_bolster",
             value(&averages.equivalent_damping_on_bolster),
         );
-        same("ledger_residual", Some(summary.ledger.relative_residual));
+        same("ledger_residual", Some(summary.ledger.largest_relative_residual));
         same("contact_events", Some(summary.events.total as f64));
         same("steps", Some(summary.solver.statistics.steps as f64));
         let cycle = Cycle::of(&case.parameters);

@@ -164,3 +164,27 @@ fn limits_variants_have_the_same_records_in_any_order() {
         assert!(found.iter().any(|record| record.status == status), "{status:?}");
     }
 }
+
+/// A variant whose energy ledger does not close to 1e-2 is a record of its own kind: with its reason, and with its measures.
+#[test]
+fn energy_a_variant_whose_ledger_does_not_close_has_failed_and_keeps_its_measures() {
+    let study = study(
+        "case = \"vdrun_toe_0_psi_0.012\"\nsampling = \"full_factorial\"\naccuracy = \"engineering\"\n[vary]\nsimulation.relative_tolerance = [1.5e-5, 1e-2]\n",
+    );
+    let records = [0, 1].map(|number| records::run(&study, number));
+    assert_eq!(
+        records.each_ref().map(|record| record.status),
+        [Status::Complete, Status::Failed]
+    );
+    assert_eq!(Status::Failed.name(), "failed");
+    let residual = records[1].measures.get("ledger_residual").unwrap();
+    assert!(residual > 1e-2, "{residual}");
+    assert!(
+        records[1].reason.contains(&format!("{residual:.2e}")),
+        "{}",
+        records[1].reason
+    );
+    assert!(records[1].measures.get("energy_per_cycle_side_frame").is_some());
+    let bytes = records::run_all(&study, [0, 1]);
+    assert_eq!(records::read(study.fingerprint(), &bytes).records, records);
+}

@@ -8,6 +8,7 @@ from ._wedgelab import Quantity, __version__
 from .case import Case, Group, built_in
 from .errors import (
     CaseError,
+    EnergyWarning,
     FileError,
     Finding,
     InternalError,
@@ -55,6 +56,7 @@ __all__ = [
     "ControlCoilSection",
     "Curve",
     "DataTable",
+    "EnergyWarning",
     "EnvironmentSection",
     "Figure",
     "FileError",

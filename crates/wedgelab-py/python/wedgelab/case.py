@@ -251,8 +251,9 @@ class Case:
         """Runs the case to its end, without the interpreter lock; Ctrl-C stops it.
 
         ``columns`` are the names (without units) of those that are kept; without it, all. ``progress`` is called some 20 times
-        a second with the time reached, s; an exception in it ends the run. A run that cannot go on raises `RunError`, which has what was
-        computed as ``result``; with ``incomplete="keep"`` it is returned instead.
+        a second with the time reached, s; an exception in it ends the run. A run that cannot go on, or whose energy ledger does not close to
+        1e-2, raises `RunError`, which has what was computed as ``result``; with ``incomplete="keep"`` it is returned instead. An
+        `EnergyWarning` tells of a ledger that does not close to 1e-3.
         """
         interruptible = threading.current_thread() is threading.main_thread()
         native = self._native.run(_names(columns), progress, interruptible)

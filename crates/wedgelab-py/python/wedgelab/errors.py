@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "CaseError",
+    "EnergyWarning",
     "FileError",
     "Finding",
     "InternalError",
@@ -115,8 +116,13 @@ class CaseError(WedgelabError, ValueError):
         return super().__str__()
 
 
+class EnergyWarning(UserWarning):
+    """The energy ledger of a run does not close: its relative residual is above 1e-3."""
+
+
 class RunError(WedgelabError, RuntimeError):
-    """A run cannot begin, or cannot go on; ``result`` has what was computed until then."""
+    """A run cannot begin, cannot go on, or has failed because its energy ledger does not close to 1e-2; ``result`` has what was
+    computed."""
 
     def __init__(self, message: str, shown: str | None = None, result: AnyResult | None = None) -> None:
         super().__init__(message, shown)

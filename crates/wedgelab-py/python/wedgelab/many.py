@@ -12,7 +12,7 @@ from ._wedgelab import run_many as _run_many
 from .case import Case, _names
 from .errors import RunError, WedgelabError
 from .nucars import TruckCase
-from .result import AnyResult, Result, TruckResult, incomplete_error
+from .result import AnyResult, Result, TruckResult, is_sound, unsound_error, warn
 
 __all__ = ["run_many"]
 
@@ -86,7 +86,10 @@ def _finished(one: Any) -> AnyResult | WedgelabError:
     if isinstance(one, WedgelabError):
         return one
     result: AnyResult = TruckResult(one) if one.case is None else Result(one)
-    return result if result.is_complete else incomplete_error(result)
+    if not is_sound(result):
+        return unsound_error(result)
+    warn(result, stacklevel=4)
+    return result
 
 
 def _teller(progress: Progress, count: int) -> Callable[[int], None] | None:

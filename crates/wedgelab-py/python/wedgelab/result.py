@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Union
@@ -12,7 +13,7 @@ import numpy.typing as npt
 
 from ._optional import need
 from ._wedgelab import NativeCase, NativeResult
-from .errors import RunError, WedgelabError
+from .errors import EnergyWarning, RunError, WedgelabError
 from .figures import Figure, _figures
 
 if TYPE_CHECKING:
@@ -276,6 +277,11 @@ class _Base:
         """Whether the run came to its end."""
         return self._native.stopped is None
 
+    @property
+    def failed(self) -> str | None:
+        """Why the numbers are not to be used although the run came to its end: its energy ledger does not close to 1e-2."""
+        return self._native.failed
+
     def _energies(self) -> DataTable:
         names = ["time"] if "time" in self else []
         names += [column[0] for column in self._described() if column[1] == "energy"]
@@ -431,21 +437,36 @@ def _truck_of_parts(header: bytes, values: Floats) -> TruckResult:
 
 
 def checked(result: Any, incomplete: str) -> Any:
-    """The result, or, if it is incomplete and that is not wanted, an exception that has it."""
+    """The result, or, if it is incomplete or has failed and that is not wanted, an exception that has it."""
     if incomplete not in ("raise", "keep"):
         raise WedgelabError(f'incomplete cannot be {incomplete!r}; write "raise" or "keep"')
-    stopped = result._native.stopped
-    if stopped is None or incomplete == "keep":
+    if incomplete == "keep" or is_sound(result):
+        warn(result, stacklevel=4)
         return result
-    raise incomplete_error(result)
+    raise unsound_error(result)
 
 
-def incomplete_error(result: Any) -> RunError:
-    """Why a result is incomplete."""
+def is_sound(result: Any) -> bool:
+    """Whether a run came to its end and has not failed."""
+    return result._native.stopped is None and result._native.failed is None
+
+
+def warn(result: Any, stacklevel: int) -> None:
+    """Warns of an energy ledger that does not close."""
+    for text in result._native.energy_warnings:
+        warnings.warn(f"{result.summary.name}: {text}", EnergyWarning, stacklevel=stacklevel)
+
+
+def unsound_error(result: Any) -> RunError:
+    """Why a result is incomplete, or has failed."""
+    if result._native.stopped is None:
+        message = f"the run {result.summary.name} has failed: {result._native.failed}"
+        advice = "the exception's `result` has what was computed; do not use its numbers"
+        return RunError(message, f"  × {message}\n  help: {advice}", result)
     time, reason = result._native.stopped
     message = f"the run {result.summary.name} stopped at {time} s and is incomplete: {reason}"
     advice = (
         "the exception's `result` has what was computed until then; values far from the thesis's are the first suspects: try a softer "
-        "contact.stiffness, a larger friction.reference_speed, a looser simulation.relative_tolerance"
+        "contact.stiffness, a larger friction.reference_speed, another simulation.relative_tolerance"
     )
     return RunError(message, f"  × {message}\n  help: {advice}", result)

@@ -54,8 +54,12 @@ class StudyOutcome:
     """How many have values that make no run."""
     stopped: int
     """How many stopped on their way."""
+    failed: int
+    """How many came to their end, but their energy ledger does not close to 1e-2; their measures are in the table."""
     reasons: Mapping[int, str]
-    """Why, of the first ones without measures, by their numbers."""
+    """Why, of the first ones that are not complete, by their numbers."""
+    warnings: list[str]
+    """What makes complete runs doubtful: energy ledgers that do not close to 1e-3."""
 
 
 class Study:
@@ -161,7 +165,7 @@ def opened(study: Study, folder: PathLike | None, yes: bool) -> Iterator[tuple[N
 
 def finished(study: Study, native: NativeStudyFolder, path: Path, before: int) -> StudyOutcome:
     """Makes table and page of a study all of whose runs are kept."""
-    (complete, refused, stopped), reasons = native.finish()
+    (complete, refused, stopped, failed), reasons, warning = native.finish()
     return StudyOutcome(
         folder=path,
         table=path / "table.parquet",
@@ -171,5 +175,7 @@ def finished(study: Study, native: NativeStudyFolder, path: Path, before: int) -
         complete=complete,
         refused=refused,
         stopped=stopped,
+        failed=failed,
         reasons=MappingProxyType(dict(reasons)),
+        warnings=[] if warning is None else [warning],
     )

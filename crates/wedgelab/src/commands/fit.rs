@@ -211,7 +211,23 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         files.add(fit_files::PICTURE, |out| out.write_all(&png))
     })?;
     tell(&found, &shown, &arguments.out)?;
-    Ok(ExitCode::SUCCESS)
+    for warning in &found.warnings {
+        say(&format!("warning: the run with these values: {warning}"));
+    }
+    match &found.failed {
+        Some(reason) => Err(failed_fit(reason, &arguments.out)),
+        None => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// The fit came to its end, but its run failed; its files are written.
+fn failed_fit(reason: &str, folder: &std::path::Path) -> Failure {
+    let message = format!("the fit has failed: in the run with these values {reason}");
+    let kept = format!(
+        "its files are in {}, marked as failed; do not use their numbers",
+        folder.display()
+    );
+    Failure::Failed(Message::new(message, kept).into())
 }
 
 /// The case with values set; as [`read`], but with the errors of cases alone.

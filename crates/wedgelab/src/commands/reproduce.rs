@@ -21,7 +21,7 @@ use report::view::run::{Detail, Recording};
 use report::{beyond, run_files, sections};
 use study::case::{Case, builtin};
 
-use crate::execute::{TABLE_NOTE, execute_whole, incomplete, table};
+use crate::execute::{TABLE_NOTE, execute_whole, table, unsound, unsound_truck};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -143,7 +143,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     out.flush()?;
     let mut code = ExitCode::SUCCESS;
     for ((_, result), folder) in outcomes.iter().zip(&places.runs) {
-        if let Some(failure) = incomplete(&result.summary, folder) {
+        if let Some(failure) = unsound(&result.summary, folder.path()) {
+            code = failure.report();
+        }
+    }
+    for (_, result) in &half_trucks {
+        if let Some(failure) = unsound_truck(&result.summary, &planned.runs.join(&result.summary.name)) {
             code = failure.report();
         }
     }

@@ -10,7 +10,7 @@ use quantity::nearest;
 use report::run_files;
 use study::case::{Case, builtin};
 
-use crate::execute::{TABLE_NOTE, compute, incomplete, table, write};
+use crate::execute::{TABLE_NOTE, compute, table, unsound, write};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -65,7 +65,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         folder.path().display(),
         run_files::NAMES.join(", ")
     )?;
-    match incomplete(summary, &folder) {
+    match unsound(summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
     }

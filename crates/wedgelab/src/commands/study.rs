@@ -131,10 +131,13 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let wall = clock.elapsed().as_secs_f64();
     let digest = study_work::finish(&study, &folder)?;
     let mut out = io::stdout().lock();
-    let [complete, refused, stopped] = digest.ended;
+    let [complete, refused, stopped, failed] = digest.ended;
     write!(out, "{} runs: {complete} complete", study.count())?;
     if refused + stopped > 0 {
         write!(out, ", {refused} refused, {stopped} stopped on their way")?;
+    }
+    if failed > 0 {
+        write!(out, ", {failed} failed")?;
     }
     if done.before > 0 {
         write!(out, "; {} were there before", done.before)?;
@@ -145,6 +148,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     writeln!(out, ".")?;
     for (number, reason) in digest.reasons.iter().take(3) {
         writeln!(out, "  run {number}: {reason}")?;
+    }
+    if let Some(warning) = digest.warning() {
+        say(&format!("warning: {warning}"));
     }
     writeln!(
         out,

@@ -65,7 +65,7 @@ pub struct Answer {
     schema: &'static str,
     /// `wedgelab.view/1`.
     view: View,
-    /// `wedgelab.summary/1`, without the list of events.
+    /// `wedgelab.summary/2`, without the list of events.
     summary: Summary,
     /// The case's fields as they are now: a change may change what is completed from it.
     sections: Vec<FieldSection>,

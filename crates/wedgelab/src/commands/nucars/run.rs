@@ -18,7 +18,7 @@ use study::truck::{TruckCase, TruckStart, TruckSummary, options};
 
 use super::files::Instead;
 use super::load::tell;
-use crate::execute::stopped_run;
+use crate::execute::unsound_truck;
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -159,15 +159,16 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     table(summary).write(&mut out)?;
     writeln!(
         out,
-        "\n{TABLE_NOTE}\nResidual of the energy ledger: {:.1e} of the work of the inputs.\n\nWritten into {}: {}.",
+        "\n{TABLE_NOTE}\nRelative residual of the energy ledger: {:.1e}, the largest at any output time over the largest of work, losses and\n\
+         change of stored energy.\n\nWritten into {}: {}.",
         summary.largest_relative_residual,
         folder.path().display(),
         truck_files::NAMES.join(", ")
     )?;
-    let Some(stopped) = &summary.stopped else {
-        return Ok(ExitCode::SUCCESS);
-    };
-    Err(stopped_run(&summary.name, stopped, &folder, ""))
+    match unsound_truck(summary, folder.path()) {
+        Some(failure) => Err(failure),
+        None => Ok(ExitCode::SUCCESS),
+    }
 }
 
 impl Arguments {

@@ -10,11 +10,12 @@ use report::files::Folder;
 use report::page::Viewer;
 use report::truck_files;
 use report::view::run::{Detail, Recording};
+use study::energy;
 use study::truck::TruckCase;
 use study::truck::catalog::{self, Entry};
 use study::truck::run::run_while;
 
-use crate::failure::{Failure, Message};
+use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
@@ -94,6 +95,9 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<Kept>, Failure> {
         None => format!("{:.2} s", start.elapsed().as_secs_f64()),
     };
     progress.done(&case.name, &how);
+    for warning in energy::among(&result.summary.warnings) {
+        say(&format!("warning: {}: {warning}", case.name));
+    }
     let recording = Viewer::embedded().map(|_| Recording::of_truck(&case, &result, Detail::Thinned));
     Ok(Some(((entry, result), recording)))
 }

@@ -8,7 +8,7 @@ use report::run_files;
 use report::study_folder::SERIES;
 use study::design::Study;
 
-use crate::execute::execute_whole;
+use crate::execute::{execute_whole, unsound};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -21,7 +21,7 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         "stopping: the run under way is not written (once more: ends at once)",
         "the runs that were written before are whole; the same command computes all of them again",
     );
-    let mut written = Vec::new();
+    let (mut written, mut failures) = (Vec::new(), Vec::new());
     for number in numbers {
         let mut case = study.case(*number)?;
         case.name = format!("{}_{number}", study.name);
@@ -29,10 +29,11 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         let path = out.join(SERIES).join(number.to_string());
         // The same run gives the same files.
         let folder = folders::check(&path, &run_files::NAMES, true)?;
-        if execute_whole(&case, &folder, &progress)?.is_none() {
+        let Some(done) = execute_whole(&case, &folder, &progress)? else {
             progress.finish();
             return Err(interrupted(numbers, written.len()));
-        }
+        };
+        failures.extend(unsound(&done.result.summary, folder.path()));
         written.push(path.display().to_string());
     }
     progress.finish();
@@ -42,7 +43,11 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         written.join(", "),
         run_files::NAMES.join(", ")
     )?;
-    Ok(ExitCode::SUCCESS)
+    let mut code = ExitCode::SUCCESS;
+    for failure in failures {
+        code = failure.report();
+    }
+    Ok(code)
 }
 
 /// What is kept of these runs, of which so many are written.
