@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::SetupError;
+use crate::methods::tableau::Family;
 use crate::options::Options;
 use crate::state::check_size;
-use crate::tableau::Family;
 
 /// By this factor steps may grow more than usual behind the first one after a restart, if that was explicit: its length was a guess, and nothing
 /// stiff is near that its error would not tell of. (CVODE lets its first step grow ten thousandfold.)

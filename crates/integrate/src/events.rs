@@ -5,11 +5,11 @@ use std::ops::Range;
 use serde::{Deserialize, Serialize};
 
 use crate::lanes::LANES;
+use crate::methods::tableau::Family;
 use crate::problem::Problem;
 use crate::search::Search;
 use crate::stages::{Dense, leading_states};
 use crate::statistics::Statistics;
-use crate::tableau::Family;
 
 /// A switch changed its mode.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

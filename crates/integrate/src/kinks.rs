@@ -9,11 +9,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::SetupError;
 use crate::lanes::LANES;
+use crate::methods::tableau::Family;
 use crate::problem::Problem;
 use crate::search::Search;
 use crate::stages::{Dense, leading_states};
 use crate::state::check_length;
-use crate::tableau::Family;
 
 /// How far the dense output is continued at most, in lengths of its step.
 const REACH: f64 = 6.0;

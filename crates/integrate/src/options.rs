@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::SetupError;
+use crate::methods::Method;
+use crate::methods::tableau::Family;
 use crate::problem::Problem;
-use crate::tableau::{Family, Method};
 
 /// Settings of an integration.
 ///

@@ -5,12 +5,12 @@ use crate::error::SetupError;
 use crate::events::{Event, Switches};
 use crate::kinks::{Ahead, Kinks, Passage};
 use crate::lanes::LANES;
+use crate::methods::tableau::{Family, MAXIMUM_STAGES, Tableau};
 use crate::options::Options;
 use crate::problem::Problem;
 use crate::stages::leading_states;
 use crate::state::{STATE_VERSION, State};
 use crate::statistics::Statistics;
-use crate::tableau::{Family, MAXIMUM_STAGES, Tableau};
 
 mod attempt;
 mod between;

@@ -6,8 +6,8 @@ use wide::f64x4;
 
 // Vectors are padded with zeros to a multiple of this length.
 use crate::lanes::LANES;
+use crate::methods::tableau::{MAXIMUM_STAGES, Tableau};
 use crate::problem::Problem;
-use crate::tableau::{MAXIMUM_STAGES, Tableau};
 
 /// `out = base + scale · Σ_j weights_j stage_j`, with `stage_j` at `stages[j·stride ..]`; the length of `out` is a multiple of [`LANES`].
 #[inline]

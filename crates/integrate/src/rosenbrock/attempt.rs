@@ -2,11 +2,11 @@
 
 use super::Integrator;
 use crate::error::Reason;
-use crate::explicit::TSITOURAS;
 use crate::kinks::Ahead;
+use crate::methods::explicit::TSITOURAS;
+use crate::methods::tableau::Family;
 use crate::problem::Problem;
 use crate::stages::{add, all_finite, combine, largest, leading_states, scale};
-use crate::tableau::Family;
 
 /// Steps shorter than this, in units of the fastest answer of the problem, are explicit. The method is stable down to -3.5 on the real
 /// axis and all but stable up to 2 on the imaginary one; bounds of answers are larger than the answers.

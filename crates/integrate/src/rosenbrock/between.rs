@@ -13,9 +13,9 @@
 //! the error of the dense output itself. By Newton's method, with the matrix at `u`.
 
 use super::Integrator;
+use crate::methods::tableau::Family;
 use crate::problem::Problem;
 use crate::stages::{Dense, all_finite};
-use crate::tableau::Family;
 
 /// In a step that is shorter than this, in units of the fastest answer, nothing is settled: the dense output is as exact as its ends.
 const STIFF: f64 = 100.0;

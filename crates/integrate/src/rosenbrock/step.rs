@@ -4,9 +4,9 @@ use super::Integrator;
 use super::attempt::{Attempt, Failure, Outcome};
 use crate::error::{Reason, StepError};
 use crate::kinks::{Ahead, Layer, Passage, WHOLE_LANDING};
+use crate::methods::tableau::Family;
 use crate::problem::Problem;
 use crate::stages::Dense;
-use crate::tableau::Family;
 
 /// The part of the planned step that is tried behind a kink.
 const BEHIND_KINK: f64 = 0.5;

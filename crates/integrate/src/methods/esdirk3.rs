@@ -1,15 +1,16 @@
-//! The diagonally implicit method of order 3: it damps fast vibrations and follows the rest more closely.
+//! ESDIRK3(2)5L[2]SA of Kennedy & Carpenter: order 3(2), four implicit stages of stage order 2.
 
 use std::f64::consts::SQRT_2;
 
-use crate::tableau::{Family, Tableau};
+use super::tableau::{Family, Tableau};
 
+/// Diagonal coefficient of all implicit stages.
 const GAMMA: f64 = 9.0 / 40.0;
 
-/// Where the second and the third implicit stage stand.
+/// Abscissae of the second and the third implicit stage.
 const THIRD: f64 = 9.0 * (2.0 + SQRT_2) / 40.0;
 const FOURTH: f64 = 3.0 / 5.0;
-/// The weights before their diagonals. The first two of each stage are equal.
+/// Coefficients left of the diagonal; the first two of each stage are equal.
 const A3: f64 = 9.0 * (1.0 + SQRT_2) / 80.0;
 const A4: [f64; 2] = [
     (22.0 + 15.0 * SQRT_2) / (80.0 * (1.0 + SQRT_2)),
@@ -29,7 +30,7 @@ const EMBEDDED: [f64; 4] = [
     49_563.0 / 233_080.0,
 ];
 
-/// The polynomial of degree 3 through both ends and the stages at `9/20` and [`THIRD`].
+/// Dense output: the polynomial of degree 3 through both ends and the stages at `9/20` and [`THIRD`].
 const DENSE: [[f64; 6]; 2] = {
     let end = [B[0], B[0], B[1], B[2], GAMMA];
     let stages = [
@@ -39,7 +40,7 @@ const DENSE: [[f64; 6]; 2] = {
     let mut rows = [[0.0; 6]; 2];
     let mut j = 0;
     while j < end.len() {
-        // How they lie off the line between the ends, over `ϑ (1 - ϑ)` there.
+        // Distance of each stage from the chord between the ends, over `θ (1 - θ)`.
         let [(second, a), (third, b)] = stages;
         let first = (a[j] - second * end[j]) * (1.0 / (second * (1.0 - second)));
         let last = (b[j] - third * end[j]) * (1.0 / (third * (1.0 - third)));
@@ -50,11 +51,11 @@ const DENSE: [[f64; 6]; 2] = {
     rows
 };
 
-/// Four implicit stages of order 2, the last of which is the end of the step; the first is the last one of the step before.
+/// ESDIRK3. The first stage is the last one of the previous step (FSAL); the last stage is the new state.
 pub static ESDIRK3: Tableau = Tableau {
     name: "ESDIRK3",
-    citation: "C. A. Kennedy, M. H. Carpenter: Diagonally implicit Runge-Kutta methods for stiff ODEs, Appl. Numer. Math. 146 (2019) 221: \
-               ESDIRK3(2)5L[2]SA",
+    citation: "C. A. Kennedy, M. H. Carpenter: Diagonally implicit Runge-Kutta methods for stiff ODEs, Appl. \
+               Numer. Math. 146 (2019) 221: ESDIRK3(2)5L[2]SA",
     family: Family::DiagonallyImplicit,
     order: 3,
     embedded_order: 2,

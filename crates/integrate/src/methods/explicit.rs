@@ -1,7 +1,9 @@
-//! The explicit method for where nothing is stiff: the seventh argument is the new state, and the eighth row of `a` makes the error
-//! estimate of the seven `U`.
+//! The explicit Runge-Kutta pair of Tsitouras: order 5(4), seven stages, first same as last (FSAL).
+//!
+//! The argument of the seventh stage is the new state; the eighth row of `a` holds the weights of the error
+//! estimate. Decision 0039 compares this pair with that of Dormand & Prince.
 
-use crate::tableau::{Family, Tableau};
+use super::tableau::{Family, Tableau};
 
 /// Weights of the new state.
 const B: [f64; 6] = [
@@ -13,7 +15,7 @@ const B: [f64; 6] = [
     2.324_710_524_099_774,
 ];
 
-/// Weights of the second power in the dense output.
+/// Weights of θ² in the dense output.
 const SECOND: [f64; 7] = [
     -2.763_706_197_274_826,
     0.131_7,
@@ -24,7 +26,7 @@ const SECOND: [f64; 7] = [
     1.5,
 ];
 
-/// Weights of the fourth power.
+/// Weights of θ⁴ in the dense output.
 const FOURTH: [f64; 7] = [
     -1.053_088_497_729_021_6,
     0.101_7,
@@ -35,11 +37,11 @@ const FOURTH: [f64; 7] = [
     2.5,
 ];
 
-/// Tsitouras' method.
+/// Tsitouras 5(4).
 pub static TSITOURAS: Tableau = Tableau {
     name: "Tsitouras 5(4)",
-    citation: "Ch. Tsitouras: Runge-Kutta pairs of order 5(4) satisfying only the first column simplifying assumption, Computers & \
-               Mathematics with Applications 62 (2011) 770",
+    citation: "Ch. Tsitouras: Runge-Kutta pairs of order 5(4) satisfying only the first column simplifying \
+               assumption, Computers & Mathematics with Applications 62 (2011) 770",
     family: Family::Explicit,
     order: 5,
     embedded_order: 4,
@@ -81,7 +83,7 @@ pub static TSITOURAS: Tableau = Tableau {
     c: &[],
     alpha: &[0.0, 0.161, 0.327, 0.9, 0.980_025_540_904_509_7, 1.0, 1.0, 1.0],
     d: &[],
-    // of ϑ (1 - ϑ), ϑ² (1 - ϑ), ϑ³ (1 - ϑ)
+    // Of θ (1 - θ), θ² (1 - θ), θ³ (1 - θ).
     dense: &[
         &[1.0 - B[0], -B[1], -B[2], -B[3], -B[4], -B[5], 0.0, 0.0],
         &[
