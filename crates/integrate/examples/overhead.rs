@@ -48,16 +48,16 @@ impl Problem for Trivial {
         }
         self.lu.solve(coupled);
     }
-    fn switch_count(&self) -> usize {
+    fn discrete_state_count(&self) -> usize {
         self.switches
     }
-    fn sign_count(&self) -> usize {
+    fn event_variable_count(&self) -> usize {
         self.switches
     }
-    fn signs(&mut self, _: f64, x: &[f64], signs: &mut [f64]) {
+    fn event_variables(&mut self, _: f64, x: &[f64], signs: &mut [f64]) {
         signs.copy_from_slice(&x[..self.switches]);
     }
-    fn group_margins(&mut self, _: usize, signs: &[f64], _: &[u8], margins: &mut [f64]) {
+    fn group_event_functions(&mut self, _: usize, signs: &[f64], _: &[u8], margins: &mut [f64]) {
         for (margin, sign) in margins.iter_mut().zip(signs) {
             *margin = sign.abs() + 1.0;
         }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::dense_block::{eliminate, invert, multiply, subtract_product, subtract_row_product};
-use crate::problem::Singular;
+use crate::error::Singular;
 
 /// One elimination: a diagonal block and the neighbours that it is coupled to when its turn comes.
 #[derive(Clone, Debug)]

@@ -1,42 +1,46 @@
 //! Implicit one-step integration of stiff, kinked ordinary differential equations. Knows no physics.
-//!
-//! A [`Problem`] gives its right-hand side and brings its own structured linear algebra (for which [`BlockLu`] is at
-//! hand); an [`Integrator`] makes accepted steps with a stiffly accurate [`Method`], controls their
-//! error, gives dense output, and times the changes of discrete switches. Nothing is allocated in a step, and the
-//! same input gives the same bits on every system.
 
 #![warn(missing_docs)]
 
-mod block_lu;
-mod control;
-mod dense_block;
-mod error;
-mod events;
-mod kinks;
 pub mod lanes;
-mod layout;
-mod methods;
-mod options;
-mod ordinary;
 pub mod partitioned;
-mod problem;
 pub mod processor;
-mod rosenbrock;
 pub mod scalar;
-mod search;
-mod stages;
+
+mod block_lu;
+mod controller;
+mod dense_block;
+mod dense_output;
+mod discontinuity;
+mod discontinuity_prediction;
+mod error;
+mod event;
+mod event_detection;
+mod function_problem;
+mod integrator;
+mod layout;
+mod limits;
+mod methods;
+mod newton;
+mod options;
+mod problem;
+mod root_search;
 mod state;
 mod statistics;
+mod tuning;
+mod validation;
+mod vector;
 
 pub use block_lu::BlockLu;
-pub use error::{Reason, SetupError, StepError};
-pub use events::{Event, SwitchGroup};
-pub use kinks::KinkSigns;
+pub use discontinuity::DiscontinuityFunctions;
+pub use error::{Reason, SetupError, Singular, StepError};
+pub use event::{Event, EventGroup};
+pub use function_problem::FunctionProblem;
+pub use integrator::Integrator;
+pub use limits::{MAXIMUM_COUNT, STATE_VERSION};
 pub use methods::tableau::{Family, MAXIMUM_STAGES, Tableau};
 pub use methods::{Method, UnknownMethod};
 pub use options::Options;
-pub use ordinary::Ordinary;
-pub use problem::{Problem, Singular};
-pub use rosenbrock::Integrator;
-pub use state::{MOST_COUNTED, STATE_VERSION, State};
+pub use problem::Problem;
+pub use state::State;
 pub use statistics::Statistics;

@@ -23,7 +23,7 @@ mod single;
 use self::single::{Single, Source};
 use crate::block_lu::BlockLu;
 use crate::dense_block::{dot_of, multiply_add, rectangle_add};
-use crate::problem::Singular;
+use crate::error::Singular;
 
 /// The structured Jacobian of a second-order system, and its factors.
 #[derive(Clone, Debug)]

@@ -4,11 +4,11 @@
 
 use std::f64::consts::PI;
 
-use integrate::{Event, Integrator, Method, Options, Ordinary, State};
+use integrate::{Event, FunctionProblem, Integrator, Method, Options, State};
 
 /// x'' = -x with switches for the sign of the position and of the speed.
-fn oscillator(hysteresis: f64) -> Ordinary<'static> {
-    Ordinary::new(
+fn oscillator(hysteresis: f64) -> FunctionProblem<'static> {
+    FunctionProblem::new(
         vec![1.0; 2],
         |_, x, dx| {
             dx[0] = x[1];
@@ -16,7 +16,7 @@ fn oscillator(hysteresis: f64) -> Ordinary<'static> {
         },
         |_, _, j| j.copy_from_slice(&[0.0, 1.0, -1.0, 0.0]),
     )
-    .switches(
+    .events(
         2,
         |_, x, modes| {
             modes[0] = u8::from(x[0] < 0.0);
@@ -32,13 +32,13 @@ fn oscillator(hysteresis: f64) -> Ordinary<'static> {
 }
 
 /// Integrates to `end` with the given limits in between; all events.
-fn record(mut integrator: Integrator<Ordinary<'_>>, end: f64, limit: f64) -> Vec<Event> {
+fn record(mut integrator: Integrator<FunctionProblem<'_>>, end: f64, limit: f64) -> Vec<Event> {
     let mut events = Vec::new();
     let mut next = limit;
     while integrator.time() < end {
-        let before = integrator.modes().to_vec();
+        let before = integrator.discrete_states().to_vec();
         integrator.step_to(end.min(next)).unwrap();
-        assert_eq!(before, integrator.modes_before_step());
+        assert_eq!(before, integrator.discrete_states_before_step());
         let mut time = integrator.previous_time();
         let mut modes = before;
         for event in integrator.events() {
@@ -50,7 +50,7 @@ fn record(mut integrator: Integrator<Ordinary<'_>>, end: f64, limit: f64) -> Vec
             modes[event.index] = event.to;
             time = event.time;
         }
-        assert_eq!(modes, integrator.modes());
+        assert_eq!(modes, integrator.discrete_states());
         events.extend_from_slice(integrator.events());
         if integrator.time() >= next {
             next += limit;
@@ -113,7 +113,7 @@ fn events_are_where_the_closed_form_has_them() {
 #[test]
 fn several_events_in_one_step_are_all_found() {
     // One switch with three modes in a row (1, 2, 3 from its thresholds), passed in one long step of x = t.
-    let problem = Ordinary::new(vec![1.0], |_, _, dx| dx[0] = 1.0, |_, _, j| j[0] = 0.0).switches(
+    let problem = FunctionProblem::new(vec![1.0], |_, _, dx| dx[0] = 1.0, |_, _, j| j[0] = 0.0).events(
         2,
         |_, _, modes| modes.fill(0),
         |_, x, modes, margins| {
@@ -148,7 +148,7 @@ fn several_events_in_one_step_are_all_found() {
 
 #[test]
 fn a_switch_that_declines_to_change_and_one_that_flutters_do_not_stop_the_integration() {
-    let problem = Ordinary::new(vec![1.0], |_, _, dx| dx[0] = 1.0, |_, _, j| j[0] = 0.0).switches(
+    let problem = FunctionProblem::new(vec![1.0], |_, _, dx| dx[0] = 1.0, |_, _, j| j[0] = 0.0).events(
         2,
         |_, _, modes| modes.fill(0),
         |_, x, _, margins| margins.copy_from_slice(&[0.5 - x[0], 2.5 - x[0]]),
@@ -185,8 +185,8 @@ fn triangle(time: f64) -> f64 {
     }
 }
 
-fn driven_by_triangle(with_breaks: bool) -> Ordinary<'static> {
-    let problem = Ordinary::new(
+fn driven_by_triangle(with_breaks: bool) -> FunctionProblem<'static> {
+    let problem = FunctionProblem::new(
         vec![1.0],
         |t, x, dx| {
             let phase = t - 2.0 * (0.5 * t).floor();
@@ -202,7 +202,7 @@ fn driven_by_triangle(with_breaks: bool) -> Ordinary<'static> {
         }
     });
     if with_breaks {
-        problem.breaks((1..20).map(f64::from).collect())
+        problem.time_discontinuities((1..20).map(f64::from).collect())
     } else {
         problem
     }
@@ -245,12 +245,12 @@ fn segments_keep_the_order_across_kinks() {
 /// A kinked segment: a problem that has jumps in its right-hand side at the ends of its segments.
 #[test]
 fn steps_end_exactly_on_segments_and_limits() {
-    let problem = Ordinary::new(
+    let problem = FunctionProblem::new(
         vec![1.0],
         |t, _, dx| dx[0] = if t <= 0.1 { 1.0 } else { -1.0 },
         |_, _, j| j[0] = 0.0,
     )
-    .breaks(vec![0.1, 0.7]);
+    .time_discontinuities(vec![0.1, 0.7]);
     let mut integrator = Integrator::new(problem, Options::default(), 0.0, &[0.0]).unwrap();
     let mut times = Vec::new();
     while integrator.time() < 1.0 {
@@ -297,7 +297,7 @@ fn errors_are_proportional_to_the_tolerance() {
 
 #[test]
 fn a_state_that_is_not_controlled_does_not_matter() {
-    let problem = Ordinary::new(
+    let problem = FunctionProblem::new(
         vec![1.0, f64::INFINITY],
         |t, x, dx| {
             dx[0] = -x[0];
@@ -319,8 +319,8 @@ fn a_state_that_is_not_controlled_does_not_matter() {
 }
 
 /// Kinks, segments, events and a varying step together.
-fn everything() -> Ordinary<'static> {
-    Ordinary::new(
+fn everything() -> FunctionProblem<'static> {
+    FunctionProblem::new(
         vec![1.0, 30.0],
         |t, x, dx| {
             let phase = t - t.floor();
@@ -338,8 +338,8 @@ fn everything() -> Ordinary<'static> {
         },
     )
     .time_derivative(|t, _, f| f[1] = if t - t.floor() < 0.5 { -9.0 } else { 9.0 })
-    .breaks((1..2000).map(|k| f64::from(k) * 0.5).collect())
-    .switches(
+    .time_discontinuities((1..2000).map(|k| f64::from(k) * 0.5).collect())
+    .events(
         1,
         |_, x, modes| modes[0] = u8::from(x[0] < 0.0),
         |_, x, modes, margins| margins[0] = if modes[0] == 0 { x[0] } else { -x[0] } + 1e-6,
@@ -355,7 +355,7 @@ fn a_saved_integration_continues_with_the_same_bits() {
             maximum_step: 0.02,
             ..Options::default()
         };
-        let walk = |integrator: &mut Integrator<Ordinary<'static>>, steps: usize| {
+        let walk = |integrator: &mut Integrator<FunctionProblem<'static>>, steps: usize| {
             for _ in 0..steps {
                 integrator.step_to(f64::INFINITY).unwrap();
             }
@@ -386,6 +386,9 @@ fn a_saved_integration_continues_with_the_same_bits() {
         assert!(statistics.derivatives >= a.statistics.derivatives);
         statistics.derivatives = a.statistics.derivatives;
         assert_eq!(a.statistics, statistics);
-        assert_eq!((a.modes, a.proposed_step), (b.modes, b.proposed_step));
+        assert_eq!(
+            (a.discrete_states, a.proposed_step),
+            (b.discrete_states, b.proposed_step)
+        );
     }
 }

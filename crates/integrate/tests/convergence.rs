@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
-use integrate::{Family, Integrator, Method, Options, Ordinary};
+use integrate::{Family, FunctionProblem, Integrator, Method, Options};
 
 /// x' = x² y², y' = -x y³, solved by x = 1 + t, y = 1/(1 + t): nonlinear and autonomous.
-fn autonomous() -> Ordinary<'static> {
-    Ordinary::new(
+fn autonomous() -> FunctionProblem<'static> {
+    FunctionProblem::new(
         vec![1.0; 2],
         |_, x, dx| {
             dx[0] = x[0] * x[0] * x[1] * x[1];
@@ -26,8 +26,8 @@ fn autonomous_exact(t: f64) -> [f64; 2] {
 }
 
 /// Explicit time, nonlinear, solved by (sin t², exp(-t)).
-fn driven() -> Ordinary<'static> {
-    Ordinary::new(
+fn driven() -> FunctionProblem<'static> {
+    FunctionProblem::new(
         vec![1.0; 2],
         |t, x, dx| {
             let e = libm::exp(-t);
@@ -67,7 +67,7 @@ fn fixed(method: Method, step: f64) -> Options {
 
 /// Largest error at t = 1, and of the dense output in between, plain and settled.
 fn errors(
-    problem: Ordinary<'static>,
+    problem: FunctionProblem<'static>,
     exact: fn(f64) -> [f64; 2],
     method: Method,
     steps: u32,
@@ -103,7 +103,7 @@ fn every_method_has_its_order() {
         for (name, problem, exact) in [
             (
                 "autonomous",
-                autonomous as fn() -> Ordinary<'static>,
+                autonomous as fn() -> FunctionProblem<'static>,
                 autonomous_exact as fn(f64) -> [f64; 2],
             ),
             ("driven", driven, driven_exact),
@@ -143,12 +143,12 @@ fn the_explicit_method_has_its_order() {
     for (name, problem, exact) in [
         (
             "autonomous",
-            autonomous as fn() -> Ordinary<'static>,
+            autonomous as fn() -> FunctionProblem<'static>,
             autonomous_exact as fn(f64) -> [f64; 2],
         ),
         ("driven", driven, driven_exact),
     ] {
-        let mild = || problem().stiffness(|_, _| 1.0);
+        let mild = || problem().spectral_radius_bound(|_, _| 1.0);
         let found = [16, 32, 64].map(|steps| errors(mild(), exact, Method::Rodas4, steps));
         let order = slope(found[1].0, found[2].0);
         let dense = slope(found[1].1, found[2].1);
@@ -177,12 +177,12 @@ fn explicit_steps_follow_the_tolerance() {
             relative_tolerance: tolerance,
             ..Options::default()
         };
-        let oscillator = Ordinary::new(
+        let oscillator = FunctionProblem::new(
             vec![1.0; 2],
             |_, x, dx| (dx[0], dx[1]) = (x[1], -x[0]),
             |_, _, j| j.copy_from_slice(&[0.0, 1.0, -1.0, 0.0]),
         )
-        .stiffness(|_, _| 1.0);
+        .spectral_radius_bound(|_, _| 1.0);
         let mut integrator = Integrator::new(oscillator, options, 0.0, &[1.0, 0.0]).unwrap();
         while integrator.time() < 20.0 {
             integrator.step_to(20.0).unwrap();
@@ -202,14 +202,14 @@ fn explicit_steps_follow_the_tolerance() {
 fn steps_are_explicit_where_nothing_is_stiff_and_only_there() {
     let lambda = |t: f64| if (2.0..4.0).contains(&t) { 1e5 } else { 1.0 };
     let problem = |told: bool| {
-        Ordinary::new(
+        FunctionProblem::new(
             vec![1.0],
             move |t, x, dx| dx[0] = -lambda(t) * (x[0] - libm::cos(t)) - libm::sin(t),
             move |t, _, jacobian| jacobian[0] = -lambda(t),
         )
         .time_derivative(move |t, _, df_dt| df_dt[0] = -lambda(t) * libm::sin(t) - libm::cos(t))
-        .breaks(vec![2.0, 4.0])
-        .stiffness(move |t, _| if told { lambda(t) } else { f64::INFINITY })
+        .time_discontinuities(vec![2.0, 4.0])
+        .spectral_radius_bound(move |t, _| if told { lambda(t) } else { f64::INFINITY })
     };
     let run = |told: bool, explicit_steps: bool| {
         let options = Options {
@@ -301,7 +301,7 @@ fn coefficients_are_consistent() {
 /// Prothero & Robinson: x' = λ (x - φ(t)) + φ'(t).
 fn prothero_robinson(lambda: f64, method: Method, steps: u32, start: f64) -> f64 {
     let phi = |t: f64| libm::sin(t + 0.5);
-    let problem = Ordinary::new(
+    let problem = FunctionProblem::new(
         vec![1.0],
         move |t, x, dx| dx[0] = lambda * (x[0] - phi(t)) + libm::cos(t + 0.5),
         move |_, _, j| j[0] = lambda,

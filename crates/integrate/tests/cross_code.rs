@@ -6,7 +6,7 @@ use diffsol::{
     NalgebraLU, NalgebraMat, OdeBuilder, OdeEquationsImplicit, OdeSolverMethod, OdeSolverProblem,
     OdeSolverStopReason, Vector,
 };
-use integrate::{Integrator, Method, Options, Ordinary};
+use integrate::{FunctionProblem, Integrator, Method, Options};
 
 type Matrix = NalgebraMat<f64>;
 
@@ -34,7 +34,7 @@ where
         .collect()
 }
 
-fn run(problem: Ordinary<'_>, options: Options, x: &[f64], times: &[f64]) -> Vec<Vec<f64>> {
+fn run(problem: FunctionProblem<'_>, options: Options, x: &[f64], times: &[f64]) -> Vec<Vec<f64>> {
     let mut integrator = Integrator::new(problem, options, 0.0, x).unwrap();
     let values = times
         .iter()
@@ -49,8 +49,8 @@ fn run(problem: Ordinary<'_>, options: Options, x: &[f64], times: &[f64]) -> Vec
     values
 }
 
-fn robertson() -> Ordinary<'static> {
-    Ordinary::new(
+fn robertson() -> FunctionProblem<'static> {
+    FunctionProblem::new(
         vec![1.0, 1e-4, 1.0],
         |_, x, dx| {
             dx[0] = -0.04 * x[0] + 1e4 * x[1] * x[2];
@@ -139,7 +139,7 @@ fn van_der_pol_agrees_with_an_independent_code() {
         .unwrap();
     let independent = reference(&problem, &times);
     for method in Method::ALL {
-        let van_der_pol = Ordinary::new(
+        let van_der_pol = FunctionProblem::new(
             vec![1.0, 1.0],
             |_, x, dx| {
                 dx[0] = x[1];
@@ -177,8 +177,8 @@ const GRAVITY: f64 = 386.0886;
 const OMEGA: f64 = 879.645_943_005_142_4;
 
 /// A mass falls on a unilateral spring without loss.
-fn bounce() -> Ordinary<'static> {
-    Ordinary::new(
+fn bounce() -> FunctionProblem<'static> {
+    FunctionProblem::new(
         vec![1.0, OMEGA * 0.01],
         |_, x, dx| {
             dx[0] = x[1];
@@ -186,7 +186,7 @@ fn bounce() -> Ordinary<'static> {
         },
         |_, x, j| j.copy_from_slice(&[0.0, 1.0, if x[0] < 0.0 { -OMEGA * OMEGA } else { 0.0 }, 0.0]),
     )
-    .switches(
+    .events(
         1,
         |_, x, modes| modes[0] = u8::from(x[0] < 0.0),
         |_, x, modes, margins| margins[0] = if modes[0] == 0 { x[0] } else { -x[0] },
@@ -294,7 +294,7 @@ fn a_bouncing_mass_with_loss_agrees_with_an_independent_code() {
     problem.ode_options.max_error_test_failures = 1000;
     let independent = reference(&problem, &times);
     for method in Method::ALL {
-        let mine = Ordinary::new(
+        let mine = FunctionProblem::new(
             vec![1.0, OMEGA * 0.01],
             |_, x, dx| {
                 dx[0] = x[1];

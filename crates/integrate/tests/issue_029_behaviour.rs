@@ -4,14 +4,14 @@
 #[path = "common/damage.rs"]
 mod damage;
 
-use integrate::{Integrator, MOST_COUNTED, Method, Options, Ordinary, Reason, SetupError, State};
+use integrate::{FunctionProblem, Integrator, MAXIMUM_COUNT, Method, Options, Reason, SetupError, State};
 use serde_json::{Value, json};
 
 const LAYER: f64 = 1e-5;
 
 /// A mass shaken across a rough floor that tells its kinks: `v˙ = 3 sin 5t - tanh(v/v0)`, and the energy lost.
-fn rough() -> Ordinary<'static> {
-    Ordinary::new(
+fn rough() -> FunctionProblem<'static> {
+    FunctionProblem::new(
         vec![1.0, 1.0],
         |t, x, dx| {
             let grip = libm::tanh(x[0] / LAYER);
@@ -25,8 +25,8 @@ fn rough() -> Ordinary<'static> {
         },
     )
     .time_derivative(|t, _, df_dt| df_dt[0] = 15.0 * libm::cos(5.0 * t))
-    .kinks(0, 1, |_, x, signs| signs.directions[0] = [x[0] / LAYER, 0.0])
-    .layer_bounds(vec![LAYER, f64::INFINITY])
+    .discontinuities(0, 1, |_, x, functions| functions.slips[0] = [x[0] / LAYER, 0.0])
+    .zone_error_bounds(vec![LAYER, f64::INFINITY])
 }
 
 fn options(method: Method) -> Options {
@@ -37,7 +37,7 @@ fn options(method: Method) -> Options {
     }
 }
 
-fn resume(method: Method, state: Value) -> Result<Integrator<Ordinary<'static>>, String> {
+fn resume(method: Method, state: Value) -> Result<Integrator<FunctionProblem<'static>>, String> {
     let state: State = serde_json::from_value(state).map_err(|error| error.to_string())?;
     Integrator::resume(rough(), options(method), state).map_err(|error| error.to_string())
 }
@@ -107,12 +107,12 @@ fn issue_029_counters_at_their_end_are_refused_by_name() {
         "restarts",
     ] {
         let mut state = good.clone();
-        state["statistics"][counter] = json!(MOST_COUNTED);
+        state["statistics"][counter] = json!(MAXIMUM_COUNT);
         resume(Method::Rodas5P, state.clone())
             .unwrap()
             .step_to(5.0)
             .unwrap();
-        for found in [MOST_COUNTED + 1, u64::MAX] {
+        for found in [MAXIMUM_COUNT + 1, u64::MAX] {
             state["statistics"][counter] = json!(found);
             let reason = resume(Method::Rodas5P, state.clone()).unwrap_err();
             assert!(
@@ -168,6 +168,6 @@ fn issue_029_a_step_that_is_lost_against_the_time_is_told() {
     state["proposed_step"] = json!(1e-300);
     let mut integrator = resume(Method::Rodas5P, state).unwrap();
     let error = integrator.step_to(5.0).unwrap_err();
-    assert_eq!(error.reason, Reason::Lost);
+    assert_eq!(error.reason, Reason::StepUnderflow);
     assert!(error.to_string().contains("lost against the time"), "{error}");
 }

@@ -217,16 +217,16 @@ impl Problem for Loaded {
         self.system.dimension()
     }
 
-    fn read_states(&self) -> usize {
-        self.system.read_states()
+    fn dynamic_states(&self) -> usize {
+        self.system.dynamic_states()
     }
 
     fn scales(&self) -> &[f64] {
         self.system.scales()
     }
 
-    fn segment(&mut self, start: f64) -> f64 {
-        self.system.segment(start)
+    fn next_time_discontinuity(&mut self, start: f64) -> f64 {
+        self.system.next_time_discontinuity(start)
     }
 
     fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]) {
@@ -249,28 +249,35 @@ impl Problem for Loaded {
         self.system.solve(b);
     }
 
-    fn switch_count(&self) -> usize {
-        self.system.switch_count()
+    fn discrete_state_count(&self) -> usize {
+        self.system.discrete_state_count()
     }
 
-    fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
-        self.system.initial_modes(time, x, modes);
+    fn initial_discrete_states(&mut self, time: f64, x: &[f64], states: &mut [u8]) {
+        self.system.initial_discrete_states(time, x, states);
     }
 
-    fn sign_count(&self) -> usize {
-        self.system.sign_count()
+    fn event_variable_count(&self) -> usize {
+        self.system.event_variable_count()
     }
 
-    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
-        self.system.signs(time, x, signs);
+    fn event_variables(&mut self, time: f64, x: &[f64], variables: &mut [f64]) {
+        self.system.event_variables(time, x, variables);
     }
 
-    fn group_margins(&mut self, group: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
-        self.system.group_margins(group, signs, modes, margins);
+    fn group_event_functions(
+        &mut self,
+        group: usize,
+        variables: &[f64],
+        states: &[u8],
+        functions: &mut [f64],
+    ) {
+        self.system
+            .group_event_functions(group, variables, states, functions);
     }
 
-    fn next_mode(&mut self, group: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
-        self.system.next_mode(group, signs, index, mode)
+    fn next_discrete_state(&mut self, group: usize, variables: &[f64], index: usize, state: u8) -> u8 {
+        self.system.next_discrete_state(group, variables, index, state)
     }
 }
 
@@ -337,7 +344,7 @@ mod tests {
         let mut truck = truck();
         let x = truck.system.initial_state();
         let mut without = vec![0.0; x.len()];
-        truck.segment(0.0);
+        truck.next_time_discontinuity(0.0);
         truck.derivative(0.0, &x, &mut without);
         truck.set_loads(&[[[0.0; 6]; 2]; 4], [0.0, 0.0, 1000.0, 0.0, 0.0, 0.0]);
         let mut with = vec![0.0; x.len()];

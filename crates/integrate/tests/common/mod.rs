@@ -2,10 +2,15 @@
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
-use integrate::{Integrator, Options, Ordinary, Statistics};
+use integrate::{FunctionProblem, Integrator, Options, Statistics};
 
 /// Integrates from zero to `end`; the states there, and what it cost.
-pub fn run(problem: Ordinary<'_>, options: Options, start: &[f64], end: f64) -> (Vec<f64>, Statistics) {
+pub fn run(
+    problem: FunctionProblem<'_>,
+    options: Options,
+    start: &[f64],
+    end: f64,
+) -> (Vec<f64>, Statistics) {
     let mut integrator = Integrator::new(problem, options, 0.0, start).unwrap();
     while integrator.time() < end {
         integrator.step_to(end).unwrap();

@@ -286,7 +286,7 @@ impl Problem for System {
         self.layout.len()
     }
 
-    fn read_states(&self) -> usize {
+    fn dynamic_states(&self) -> usize {
         self.layout.len() - self.layout.quadratures
     }
 
@@ -298,7 +298,7 @@ impl Problem for System {
         &self.scales
     }
 
-    fn segment(&mut self, start: f64) -> f64 {
+    fn next_time_discontinuity(&mut self, start: f64) -> f64 {
         let motions = self.moved.iter().flat_map(|moved| moved.motions.iter());
         let end = motions
             .filter_map(|motion| motion.next_break(start))
@@ -331,32 +331,32 @@ impl Problem for System {
         self.jacobian.solve(b);
     }
 
-    fn switch_count(&self) -> usize {
+    fn discrete_state_count(&self) -> usize {
         self.switches.len()
     }
 
-    fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
+    fn initial_discrete_states(&mut self, time: f64, x: &[f64], states: &mut [u8]) {
         self.place(time, x);
-        self.find_modes(x, modes);
+        self.find_modes(x, states);
     }
 
     /// What presses each element (N) and the load of its accumulator.
-    fn sign_count(&self) -> usize {
+    fn event_variable_count(&self) -> usize {
         SIGNS * self.switches.len()
     }
 
-    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
+    fn event_variables(&mut self, time: f64, x: &[f64], variables: &mut [f64]) {
         self.place(time, x);
-        self.mode_signs(x, signs);
+        self.mode_signs(x, variables);
     }
 
-    fn group_margins(&mut self, _: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
-        for (i, (margin, mode)) in margins.iter_mut().zip(modes).enumerate() {
-            *margin = Signs::of(signs, i).margin(Mode::from_number(*mode));
+    fn group_event_functions(&mut self, _: usize, variables: &[f64], states: &[u8], functions: &mut [f64]) {
+        for (i, (function, state)) in functions.iter_mut().zip(states).enumerate() {
+            *function = Signs::of(variables, i).margin(Mode::from_number(*state));
         }
     }
 
-    fn next_mode(&mut self, _: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
-        Signs::of(signs, index).next(Mode::from_number(mode)) as u8
+    fn next_discrete_state(&mut self, _: usize, variables: &[f64], index: usize, state: u8) -> u8 {
+        Signs::of(variables, index).next(Mode::from_number(state)) as u8
     }
 }

@@ -20,7 +20,7 @@ mod stiffness;
 mod time;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
-use integrate::{KinkSigns, Problem, Singular, SwitchGroup};
+use integrate::{DiscontinuityFunctions, EventGroup, Problem, Singular};
 
 use crate::body::{Body, Kinematics, Rigid};
 use crate::coil::Coil;
@@ -255,7 +255,7 @@ impl Problem for System {
         self.layout.len()
     }
 
-    fn read_states(&self) -> usize {
+    fn dynamic_states(&self) -> usize {
         self.layout.len() - self.layout.quadratures
     }
 
@@ -271,11 +271,11 @@ impl Problem for System {
         &self.error_bounds
     }
 
-    fn layer_bounds(&self) -> &[f64] {
+    fn zone_error_bounds(&self) -> &[f64] {
         &self.layer_bounds
     }
 
-    fn segment(&mut self, start: f64) -> f64 {
+    fn next_time_discontinuity(&mut self, start: f64) -> f64 {
         let end = self
             .bodies
             .iter()
@@ -309,7 +309,7 @@ impl Problem for System {
         self.differentiate(x, dx, false);
     }
 
-    fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
+    fn spectral_radius_bound(&mut self, time: f64, x: &[f64]) -> f64 {
         if !self.bounded {
             return f64::INFINITY;
         }
@@ -325,52 +325,58 @@ impl Problem for System {
         self.jacobian.solve(b);
     }
 
-    fn kink_counts(&self) -> (usize, usize) {
+    fn discontinuity_counts(&self) -> (usize, usize) {
         (self.point_count(), self.point_count())
     }
 
-    fn kinks(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
-        self.kink_signs(time, x, signs);
+    fn discontinuities(&mut self, time: f64, x: &[f64], functions: &mut DiscontinuityFunctions) {
+        self.kink_signs(time, x, functions);
     }
 
     /// Bristles come to slip without telling. (So do coils that go solid, but they change no more than their own stiffness.)
-    fn tells_pieces(&self) -> bool {
+    fn discontinuities_complete(&self) -> bool {
         self.tells_pieces
     }
 
-    fn switch_count(&self) -> usize {
+    fn discrete_state_count(&self) -> usize {
         self.point_count()
     }
 
-    fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
+    fn initial_discrete_states(&mut self, time: f64, x: &[f64], states: &mut [u8]) {
         self.place(time, x);
-        self.find_modes(x, modes);
+        self.find_modes(x, states);
     }
 
     /// Gap (m) and load of each point: the gaps of a face's points, their loads, and so on face by face.
-    fn sign_count(&self) -> usize {
+    fn event_variable_count(&self) -> usize {
         2 * self.point_count()
     }
 
-    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
+    fn event_variables(&mut self, time: f64, x: &[f64], variables: &mut [f64]) {
         self.place(time, x);
-        self.mode_signs(x, signs);
+        self.mode_signs(x, variables);
     }
 
-    fn switch_groups(&self) -> Vec<SwitchGroup> {
+    fn event_groups(&self) -> Vec<EventGroup> {
         self.point_groups()
     }
 
-    fn group_signs(&mut self, group: usize, time: f64, x: &[f64], signs: &mut [f64]) {
-        self.face_signs(group, time, x, signs);
+    fn group_event_variables(&mut self, group: usize, time: f64, x: &[f64], variables: &mut [f64]) {
+        self.face_signs(group, time, x, variables);
     }
 
-    fn group_margins(&mut self, group: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
-        self.face_margins(group, signs, modes, margins);
+    fn group_event_functions(
+        &mut self,
+        group: usize,
+        variables: &[f64],
+        states: &[u8],
+        functions: &mut [f64],
+    ) {
+        self.face_margins(group, variables, states, functions);
     }
 
-    fn next_mode(&mut self, group: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
-        self.follow_mode(group, signs, index, mode)
+    fn next_discrete_state(&mut self, group: usize, variables: &[f64], index: usize, state: u8) -> u8 {
+        self.follow_mode(group, variables, index, state)
     }
 }
 

@@ -235,7 +235,7 @@ impl DrivenWedge {
     fn advance(&mut self, end: &Neighbours, start: f64, duration: f64, time: f64) -> Result<(), DrivenError> {
         let from = *self.equations.neighbours();
         from.lead(self.integrator.problem_mut(), start, duration, end)?;
-        self.integrator.renew();
+        self.integrator.reevaluate();
         let (first, limit) = (self.attempts(), most_steps(duration));
         while self.integrator.time() < time {
             self.integrator.step_to(time)?;
@@ -248,7 +248,7 @@ impl DrivenWedge {
             }
         }
         self.equations
-            .follow(time, self.integrator.x(), self.integrator.modes(), end)
+            .follow(time, self.integrator.x(), self.integrator.discrete_states(), end)
     }
 
     fn attempts(&self) -> u64 {
@@ -317,7 +317,7 @@ impl DrivenWedge {
         }
         state.check()?;
         // Refused before anything changes.
-        self.integrator.admits(&state.integrator)?;
+        self.integrator.check_state(&state.integrator)?;
         let mut fresh = None;
         if (state.start, state.start_coil) != (*self.equations.start(), self.equations.start_coil()) {
             let parameters = self.equations.parameters().clone();
@@ -340,7 +340,7 @@ impl DrivenWedge {
         self.equations.follow(
             time,
             self.integrator.x(),
-            self.integrator.modes(),
+            self.integrator.discrete_states(),
             &state.neighbours,
         )
     }

@@ -6,7 +6,7 @@
 mod common;
 
 use common::run;
-use integrate::{Integrator, Method, Options, Ordinary, Reason, SetupError, State};
+use integrate::{FunctionProblem, Integrator, Method, Options, Reason, SetupError, State};
 
 const DAMPING: [Method; 2] = [Method::TrBdf2, Method::Esdirk3];
 
@@ -115,8 +115,8 @@ fn convergence_coefficients_of_order_3_fulfil_their_conditions() {
 }
 
 /// A mass on a stiff spring whose support moves as sin t: x'' = -ω² (x - sin t).
-fn carried(omega: f64) -> Ordinary<'static> {
-    Ordinary::new(
+fn carried(omega: f64) -> FunctionProblem<'static> {
+    FunctionProblem::new(
         vec![1.0, 1.0],
         move |t, x, dx| {
             dx[0] = x[1];
@@ -169,7 +169,7 @@ fn limits_a_fast_vibration_is_damped_and_the_motion_is_kept() {
 fn analytic_a_sliding_mass_stops_and_sticks() {
     const REFERENCE: f64 = 1e-5;
     for method in DAMPING {
-        let problem = Ordinary::new(
+        let problem = FunctionProblem::new(
             vec![1.0, 1.0],
             |_, x, dx| {
                 dx[0] = x[1];
@@ -187,7 +187,7 @@ fn analytic_a_sliding_mass_stops_and_sticks() {
         println!("{method}: {statistics:?}");
         let attempts = statistics.steps + statistics.rejected();
         assert!(
-            attempts < 80 && statistics.rejected_unsolved == 0,
+            attempts < 80 && statistics.rejected_newton == 0,
             "{method}: {statistics:?}"
         );
     }
@@ -197,8 +197,8 @@ fn analytic_a_sliding_mass_stops_and_sticks() {
 const DRAGGED_SPEED: f64 = 1e-5;
 
 /// A mass of 1 kg under friction of 10 N on a spring of 2000 N/m whose end moves as 0.02 sin 5t: it sticks, slips and rings at 7 Hz.
-fn dragged(tells: bool) -> Ordinary<'static> {
-    let problem = Ordinary::new(
+fn dragged(tells: bool) -> FunctionProblem<'static> {
+    let problem = FunctionProblem::new(
         vec![1.0, 1.0],
         |t, x, dx| {
             dx[0] = x[1];
@@ -212,10 +212,10 @@ fn dragged(tells: bool) -> Ordinary<'static> {
     .displacements(1);
     if tells {
         problem
-            .kinks(0, 1, |_, x, signs| {
-                signs.directions[0] = [x[1] / DRAGGED_SPEED, 0.0]
+            .discontinuities(0, 1, |_, x, functions| {
+                functions.slips[0] = [x[1] / DRAGGED_SPEED, 0.0]
             })
-            .in_pieces()
+            .discontinuities_complete()
     } else {
         problem
     }
@@ -251,7 +251,7 @@ fn convergence_a_matrix_kept_on_its_piece_changes_nothing_but_its_cost() {
 #[test]
 fn convergence_a_smooth_way_is_guessed() {
     let follower = |tells: bool| {
-        let problem = Ordinary::new(
+        let problem = FunctionProblem::new(
             vec![1.0],
             |t, x, dx| dx[0] = 50.0 * (libm::sin(5.0 * t) - x[0]),
             |_, _, j| j[0] = -50.0,
@@ -259,8 +259,8 @@ fn convergence_a_smooth_way_is_guessed() {
         .displacements(1);
         if tells {
             problem
-                .kinks(1, 0, |_, _, signs| signs.values[0] = 1.0)
-                .in_pieces()
+                .discontinuities(1, 0, |_, _, functions| functions.values[0] = 1.0)
+                .discontinuities_complete()
         } else {
             problem
         }
@@ -314,16 +314,16 @@ fn reproducible_a_saved_run_goes_on_with_the_matrix_it_kept() {
 fn limits_rows_end_the_steps_of_methods_that_damp() {
     for method in Method::ALL {
         let integrator = Integrator::new(carried(100.0), options_of(method, 1e-4), 0.0, &[0.0, 1.0]).unwrap();
-        let limit = integrator.limit_before(0.5, 2.0);
+        let limit = integrator.step_limit(0.5, 2.0);
         assert_eq!(limit, if DAMPING.contains(&method) { 0.5 } else { 2.0 });
-        assert_eq!(integrator.limit_before(3.0, 2.0), 2.0);
+        assert_eq!(integrator.step_limit(3.0, 2.0), 2.0);
     }
 }
 
 /// A slope that points back to zero from both sides.
-fn points_back(speed: f64) -> Ordinary<'static> {
+fn points_back(speed: f64) -> FunctionProblem<'static> {
     let slope = move |x: f64| if x > 0.0 { -speed } else { speed };
-    Ordinary::new(
+    FunctionProblem::new(
         vec![1.0],
         move |_, x, dx| dx[0] = slope(x[0]),
         |_, _, j| j[0] = 0.0,
@@ -351,13 +351,13 @@ fn input_stages_without_solution_are_reported() {
             Err(error) => break error,
         }
     };
-    assert_eq!(error.reason, Reason::Unsolved);
+    assert_eq!(error.reason, Reason::NewtonFailure);
     assert!((error.time - 5e-4).abs() < 1e-5, "{error}");
     assert!(
         error.to_string().contains("could not be solved: look for a jump"),
         "{error}"
     );
-    assert!(integrator.statistics().rejected_unsolved > 2);
+    assert!(integrator.statistics().rejected_newton > 2);
 }
 
 /// A saved run has the slope with which its last step ended, the place of its matrix, and that step. Those that cannot be are refused.
@@ -373,7 +373,7 @@ fn input_a_damaged_slope_or_matrix_is_refused() {
         Integrator::resume(carried(100.0), options(1e-4), state).map(|_| ())
     };
     let slopes = SetupError::Dimension {
-        what: "slopes",
+        what: "stage derivatives",
         expected: 2,
         found: 1,
     };

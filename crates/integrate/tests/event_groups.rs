@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-use integrate::{Event, Integrator, Options, Problem, Singular, SwitchGroup};
+use integrate::{Event, EventGroup, Integrator, Options, Problem, Singular};
 
 /// x_i = sin(ω_i t), each a state of its own, with a switch that goes to 1 above a half and back below its negative.
 struct Waves {
@@ -77,21 +77,21 @@ impl Problem for Waves {
             *value /= shift;
         }
     }
-    fn switch_count(&self) -> usize {
+    fn discrete_state_count(&self) -> usize {
         self.dimension()
     }
-    fn sign_count(&self) -> usize {
+    fn event_variable_count(&self) -> usize {
         self.dimension()
     }
-    fn signs(&mut self, _: f64, x: &[f64], signs: &mut [f64]) {
+    fn event_variables(&mut self, _: f64, x: &[f64], signs: &mut [f64]) {
         self.together += signs.len();
         signs.copy_from_slice(x);
     }
-    fn switch_groups(&self) -> Vec<SwitchGroup> {
+    fn event_groups(&self) -> Vec<EventGroup> {
         let count = self.dimension();
-        let group = |range: std::ops::Range<usize>| SwitchGroup {
-            switches: range.clone(),
-            signs: range.clone(),
+        let group = |range: std::ops::Range<usize>| EventGroup {
+            discrete_states: range.clone(),
+            variables: range.clone(),
             states: vec![range],
         };
         if self.grouped {
@@ -100,20 +100,20 @@ impl Problem for Waves {
             vec![group(0..count)]
         }
     }
-    fn group_signs(&mut self, group: usize, time: f64, x: &[f64], signs: &mut [f64]) {
+    fn group_event_variables(&mut self, group: usize, time: f64, x: &[f64], signs: &mut [f64]) {
         if self.grouped {
             self.alone += 1;
             signs[0] = x[group];
         } else {
-            self.signs(time, x, signs);
+            self.event_variables(time, x, signs);
         }
     }
-    fn group_margins(&mut self, _: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
+    fn group_event_functions(&mut self, _: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
         for ((margin_of, mode), sign) in margins.iter_mut().zip(modes).zip(signs) {
             *margin_of = margin(*mode, *sign);
         }
     }
-    fn next_mode(&mut self, _: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
+    fn next_discrete_state(&mut self, _: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
         assert!(
             margin(mode, signs[index]) <= 0.0,
             "asked where the switch is to stay"
@@ -188,17 +188,20 @@ fn limits_the_cost_of_a_change_does_not_depend_on_the_number_of_groups() {
 
 #[test]
 fn nothing_but_events_is_missing_where_switches_are_not_recorded() {
-    let run = |record_switches: bool| {
+    let run = |record_events: bool| {
         let options = Options {
-            record_switches,
+            record_events,
             relative_tolerance: 1e-8,
             ..Options::default()
         };
         let mut integrator = Integrator::new(Waves::new(5, true), options, 0.0, &[0.0; 5]).unwrap();
         while integrator.time() < 10.0 {
             integrator.step_to(10.0).unwrap();
-            assert_eq!(integrator.modes().len(), if record_switches { 5 } else { 0 });
-            assert!(record_switches || integrator.events().is_empty());
+            assert_eq!(
+                integrator.discrete_states().len(),
+                if record_events { 5 } else { 0 }
+            );
+            assert!(record_events || integrator.events().is_empty());
         }
         (integrator.x().to_vec(), integrator.state())
     };

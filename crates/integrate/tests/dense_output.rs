@@ -1,7 +1,7 @@
 //! States between the ends of a step.
 #![allow(clippy::unwrap_used)]
 
-use integrate::{Integrator, Method, Options, Ordinary};
+use integrate::{FunctionProblem, Integrator, Method, Options};
 
 const GRAVITY: f64 = 9.81;
 const FRICTION: f64 = 0.5;
@@ -14,8 +14,8 @@ fn pull(time: f64) -> f64 {
 }
 
 /// A mass on a surface with friction by tanh: place, speed.
-fn held() -> Ordinary<'static> {
-    Ordinary::new(
+fn held() -> FunctionProblem<'static> {
+    FunctionProblem::new(
         vec![1e-3, 1e-3],
         |t, x, dx| {
             dx[0] = x[1];
@@ -135,7 +135,7 @@ fn nothing_is_settled_where_the_right_hand_side_has_changed() {
     let (mut settled, mut plain, mut after) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     run.interpolate(middle, &mut settled);
     run.interpolate_range(middle, 0, &mut plain);
-    run.renew();
+    run.reevaluate();
     run.interpolate(middle, &mut after);
     assert_ne!(settled, plain);
     assert_eq!(after, plain);

@@ -4,14 +4,14 @@
 mod common;
 
 use common::run;
-use integrate::{Family, Integrator, Method, Options, Ordinary, Statistics};
+use integrate::{Family, FunctionProblem, Integrator, Method, Options, Statistics};
 
 const GRAVITY: f64 = 9.81;
 const OMEGA: f64 = 500.0;
 
 /// A mass that falls on a spring, from 0.5 m.
-fn bounce() -> Ordinary<'static> {
-    Ordinary::new(
+fn bounce() -> FunctionProblem<'static> {
+    FunctionProblem::new(
         vec![1.0, OMEGA * 0.01],
         |_, x, dx| {
             dx[0] = x[1];
@@ -22,9 +22,9 @@ fn bounce() -> Ordinary<'static> {
 }
 
 /// A mass shaken across a rough floor: `v˙ = 3 sin 5t - tanh(v/v0)`, and the energy lost.
-fn rough() -> Ordinary<'static> {
+fn rough() -> FunctionProblem<'static> {
     const LAYER: f64 = 1e-5;
-    Ordinary::new(
+    FunctionProblem::new(
         vec![1.0, 1.0],
         |t, x, dx| {
             let grip = libm::tanh(x[0] / LAYER);
@@ -40,12 +40,12 @@ fn rough() -> Ordinary<'static> {
     .time_derivative(|t, _, df_dt| df_dt[0] = 15.0 * libm::cos(5.0 * t))
 }
 
-fn rough_and_told() -> Ordinary<'static> {
-    rough().kinks(0, 1, |_, x, signs| signs.directions[0] = [x[0] / 1e-5, 0.0])
+fn rough_and_told() -> FunctionProblem<'static> {
+    rough().discontinuities(0, 1, |_, x, functions| functions.slips[0] = [x[0] / 1e-5, 0.0])
 }
 
-fn bounded() -> Ordinary<'static> {
-    rough_and_told().layer_bounds(vec![1e-5, f64::INFINITY])
+fn bounded() -> FunctionProblem<'static> {
+    rough_and_told().zone_error_bounds(vec![1e-5, f64::INFINITY])
 }
 
 fn options(method: Method, relative_tolerance: f64) -> Options {
@@ -67,7 +67,7 @@ fn a_contact_that_is_foreseen_costs_fewer_attempts_and_the_motion_is_the_same() 
             continue; // it goes across
         }
         let (x, blind) = run(bounce(), options(method, 1e-8), &[0.5, 0.0], end);
-        let told = bounce().kinks(1, 0, |_, x, signs| signs.values[0] = x[0]);
+        let told = bounce().discontinuities(1, 0, |_, x, functions| functions.values[0] = x[0]);
         let (y, told) = run(told, options(method, 1e-8), &[0.5, 0.0], end);
         for state in [&x, &y] {
             assert!(
@@ -75,7 +75,7 @@ fn a_contact_that_is_foreseen_costs_fewer_attempts_and_the_motion_is_the_same() 
                 "{method}: {state:?}"
             );
         }
-        assert!(told.kinks_foreseen >= 12, "{method}: {told:?}");
+        assert!(told.discontinuities_predicted >= 12, "{method}: {told:?}");
         let attempts = |statistics: &Statistics| statistics.steps + statistics.rejected();
         println!(
             "{method}: {} attempts instead of {}",
@@ -100,7 +100,7 @@ fn friction_that_reverses_is_foreseen() {
         }
     }
     // It reverses 12 times.
-    assert!(told.kinks_foreseen >= 12, "{told:?}");
+    assert!(told.discontinuities_predicted >= 12, "{told:?}");
     assert!(
         told.rejected() + told.steps < blind.rejected() + blind.steps,
         "{told:?} instead of {blind:?}"
@@ -134,15 +134,15 @@ fn bounds_hold_in_layers_and_widen_outside() {
 fn bounds_in_layers_widen_with_the_slowest_direction() {
     // A circle; two directions of constant size, which have nothing to do with it.
     let steps = |sizes: [f64; 2]| {
-        let circle = Ordinary::new(
+        let circle = FunctionProblem::new(
             vec![1.0; 2],
             |_, x, dx| dx.copy_from_slice(&[-x[1], x[0]]),
             |_, _, j| j.copy_from_slice(&[0.0, -1.0, 1.0, 0.0]),
         )
-        .kinks(0, 2, move |_, _, signs| {
-            signs.directions.copy_from_slice(&sizes.map(|size| [size, 0.0]))
+        .discontinuities(0, 2, move |_, _, functions| {
+            functions.slips.copy_from_slice(&sizes.map(|size| [size, 0.0]))
         })
-        .layer_bounds(vec![1e-8; 2]);
+        .zone_error_bounds(vec![1e-8; 2]);
         run(circle, options(Method::Rodas5P, 1e-4), &[1.0, 0.0], 20.0)
             .1
             .steps
@@ -163,14 +163,14 @@ fn bounds_in_layers_widen_with_the_slowest_direction() {
 #[test]
 fn a_direction_that_only_turns_is_no_kink() {
     // x turns in a circle of radius 1000: its parts change sign, but it never comes near zero.
-    let circle = Ordinary::new(
+    let circle = FunctionProblem::new(
         vec![1.0; 2],
         |_, x, dx| dx.copy_from_slice(&[-3.0 * x[1], 3.0 * x[0]]),
         |_, _, j| j.copy_from_slice(&[0.0, -3.0, 3.0, 0.0]),
     )
-    .kinks(0, 1, |_, x, signs| signs.directions[0] = [x[0], x[1]]);
+    .discontinuities(0, 1, |_, x, functions| functions.slips[0] = [x[0], x[1]]);
     let (_, statistics) = run(circle, options(Method::Rodas5P, 1e-4), &[1000.0, 0.0], 10.0);
-    assert_eq!(statistics.kinks_foreseen, 0);
+    assert_eq!(statistics.discontinuities_predicted, 0);
 }
 
 #[test]
@@ -187,11 +187,11 @@ fn a_saved_state_continues_with_the_same_bits_also_before_a_kink() {
         assert_eq!(again.state(), whole.state());
         resumed += 1;
     }
-    assert!(resumed > 40 && whole.statistics().kinks_foreseen > 2);
+    assert!(resumed > 40 && whole.statistics().discontinuities_predicted > 2);
 }
 
 /// The largest error of a single step, in tolerances: each is made again at a tolerance of 1e-12.
-fn worst_step(problem: fn() -> Ordinary<'static>, method: Method, tolerance: f64) -> (f64, u64) {
+fn worst_step(problem: fn() -> FunctionProblem<'static>, method: Method, tolerance: f64) -> (f64, u64) {
     let mut integrator = Integrator::new(problem(), options(method, tolerance), 0.0, &[0.0, 0.0]).unwrap();
     let mut worst = 0.0_f64;
     while integrator.time() < 4.0 {
@@ -228,7 +228,7 @@ fn issue_007_behaviour_a_step_that_breaks_away_is_as_exact_as_others() {
 fn issue_007_behaviour_a_fast_reversal_is_foreseen() {
     const LAYER: f64 = 1e-7;
     let shaken = || {
-        Ordinary::new(
+        FunctionProblem::new(
             vec![1.0],
             |t, x, dx| dx[0] = 3.0 * libm::sin(5.0 * t) - libm::tanh(x[0] / LAYER),
             |_, x, j| {
@@ -238,23 +238,23 @@ fn issue_007_behaviour_a_fast_reversal_is_foreseen() {
         )
         .time_derivative(|t, _, df_dt| df_dt[0] = 15.0 * libm::cos(5.0 * t))
     };
-    let told = shaken().kinks(0, 1, |_, x, signs| signs.directions[0] = [x[0] / LAYER, 0.0]);
+    let told = shaken().discontinuities(0, 1, |_, x, functions| functions.slips[0] = [x[0] / LAYER, 0.0]);
     let (exact, _) = run(shaken(), options(Method::Rodas5P, 1e-11), &[0.0], 8.0);
     let (x, statistics) = run(told, options(Method::Rodas5P, 1e-4), &[0.0], 8.0);
     assert!((x[0] - exact[0]).abs() < 1e-3, "{x:?} {exact:?}");
     // It reverses 12 times.
-    assert!(statistics.kinks_foreseen >= 12, "{statistics:?}");
+    assert!(statistics.discontinuities_predicted >= 12, "{statistics:?}");
 }
 
 /// A mass that strikes again and again, with explicit steps: behind each strike as long as those of the last one.
 #[test]
 fn issue_007_behaviour_strikes_cost_few_rejections() {
     let struck = bounce()
-        .kinks(1, 0, |_, x, signs| signs.values[0] = x[0])
-        .stiffness(|_, x| if x[0] < 0.0 { OMEGA } else { 0.0 });
+        .discontinuities(1, 0, |_, x, functions| functions.values[0] = x[0])
+        .spectral_radius_bound(|_, x| if x[0] < 0.0 { OMEGA } else { 0.0 });
     let (_, statistics) = run(struck, options(Method::Rodas5P, 1e-7), &[0.5, 0.0], 20.0);
     // 31 strikes, nearly all by explicit steps; with steps behind them half as long as those before there were ten rejections each.
-    assert!(statistics.kinks_foreseen >= 62, "{statistics:?}");
+    assert!(statistics.discontinuities_predicted >= 62, "{statistics:?}");
     assert!(
         10 * statistics.explicit_steps > 9 * statistics.steps,
         "{statistics:?}"
