@@ -47,10 +47,10 @@ struct Update {
 /// A block-sparse matrix with a symmetric block pattern and its LU factors.
 ///
 /// The matrix is kept when it is factored. Blocks are eliminated in an order of minimum degree, found once;
-/// rows are exchanged inside the diagonal blocks only, never between blocks. That suits matrices
-/// `shift·I - J` whose diagonal blocks dominate for the shifts in use. Diagonal blocks up to 6×6
-/// are inverted (Gauss-Jordan with row exchange, whose forward error is that of Gaussian elimination:
-/// N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, section 14.4): a solution is then a product.
+/// rows are exchanged inside the diagonal blocks only, never between blocks. That suits matrices `shift·I -
+/// J` whose diagonal blocks dominate for the shifts in use. Diagonal blocks up to 6×6 are inverted
+/// (Gauss-Jordan with row exchange, whose forward error is that of Gaussian elimination: N. J. Higham,
+/// *Accuracy and Stability of Numerical Algorithms*, section 14.4): a solution is then a product.
 ///
 /// ```
 /// use integrate::BlockLu;
@@ -84,8 +84,8 @@ pub struct BlockLu {
 }
 
 impl BlockLu {
-    /// A zero matrix of diagonal blocks of the given sizes, coupled as in `couplings` (each coupling stands for
-    /// both blocks `(i, j)` and `(j, i)`; repetitions and `(i, i)` are allowed).
+    /// A zero matrix of diagonal blocks of the given sizes, coupled as in `couplings` (each coupling stands
+    /// for both blocks `(i, j)` and `(j, i)`; repetitions and `(i, i)` are allowed).
     ///
     /// # Panics
     /// If a coupling names a block that does not exist.
@@ -219,7 +219,8 @@ impl BlockLu {
         self.matrix.len()
     }
 
-    /// Handle of block `(i, j)` for [`BlockLu::at_mut`], valid as long as the matrix lives; none outside the pattern.
+    /// Handle of block `(i, j)` for [`BlockLu::at_mut`], valid as long as the matrix lives; none outside the
+    /// pattern.
     #[must_use]
     pub fn find(&self, i: usize, j: usize) -> Option<usize> {
         let row = self.rows.get(i)?;

@@ -9,11 +9,11 @@ use crate::options::Options;
 use crate::tuning::controller as tuning;
 use crate::validation::check_not_negative;
 
-/// Proportional-integral controller: K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit
-/// Runge-Kutta methods*, ACM TOMS 20 (1994), in the form of Hairer & Wanner (1996), section IV.8.
+/// Proportional-integral controller: K. Gustafsson, *Control-theoretic techniques for stepsize selection in
+/// implicit Runge-Kutta methods*, ACM TOMS 20 (1994), in the form of Hairer & Wanner (1996), section IV.8.
 ///
-/// It works on the error root `error^(1/(q+1))`, q the order of the embedded solution: a number proportional to the
-/// step.
+/// It works on the error root `error^(1/(q+1))`, q the order of the embedded solution: a number proportional
+/// to the step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Controller {
     /// Length of the last accepted step; zero: there was none since the last restart.
@@ -44,8 +44,8 @@ impl Controller {
         Ok(())
     }
 
-    /// After an accepted step: returns the factor for the next step, and whether it is a prediction (not the largest
-    /// factor).
+    /// After an accepted step: returns the factor for the next step, and whether it is a prediction (not the
+    /// largest factor).
     ///
     /// If the problem predicts its discontinuities, the step before a rejection is left out of the trend: a
     /// discontinuity lies between.

@@ -42,7 +42,8 @@ impl DenseOutput<'_> {
         }
     }
 
-    /// Writes the leading states, as many as `out` holds (a multiple of [`LANES`]), at a fraction of the step.
+    /// Writes the leading states, as many as `out` holds (a multiple of [`LANES`]), at a fraction of the
+    /// step.
     #[inline]
     pub fn evaluate(&self, theta: f64, out: &mut [f64]) {
         let all = 0..out.len();
@@ -83,8 +84,8 @@ impl DenseOutput<'_> {
         }
     }
 
-    /// Writes the states from `first` on, as many as `out` holds (a multiple of [`LANES`]), from the weights of the
-    /// stages at θ.
+    /// Writes the states from `first` on, as many as `out` holds (a multiple of [`LANES`]), from the weights
+    /// of the stages at θ.
     #[inline(always)]
     fn sum_stages(&self, theta: f64, weights: &[f64; MAXIMUM_STAGES], first: usize, out: &mut [f64]) {
         let weights = &weights[..self.tableau.stages()];

@@ -12,9 +12,9 @@ use crate::validation::{check_finite, check_positive};
 pub struct DiscontinuityFunctions {
     /// Smooth functions across whose zeros a derivative of the right-hand side jumps (the gap of a contact).
     pub values: Vec<f64>,
-    /// Slips: dimensionless plane vectors around whose zero, in a circle of radius 1 (the *regularization zone*),
-    /// the right-hand side changes almost like a jump. The slip velocity of a contact point over the reference
-    /// speed of its regularized friction law is one. Not a number where there is no friction.
+    /// Slips: dimensionless plane vectors around whose zero, in a circle of radius 1 (the *regularization
+    /// zone*), the right-hand side changes almost like a jump. The slip velocity of a contact point over the
+    /// reference speed of its regularized friction law is one. Not a number where there is no friction.
     pub slips: Vec<[f64; 2]>,
 }
 

@@ -1,10 +1,10 @@
 //! Prediction of discontinuities by extrapolating the dense output of the last step beyond its end.
 //!
-//! A step across a discontinuity has an error of low order, and a Rosenbrock step has the Jacobian matrix of the
-//! wrong side: it is rejected, several times, until the step has shrunk to the discontinuity. A step that ends just
-//! after a discontinuity, or just before a regularization zone in which a slip reverses, costs nothing, and the next
-//! step begins on the right side. A prediction chooses only the length of the next step; the error is controlled as
-//! in any other. Decision 0012.
+//! A step across a discontinuity has an error of low order, and a Rosenbrock step has the Jacobian matrix of
+//! the wrong side: it is rejected, several times, until the step has shrunk to the discontinuity. A step that
+//! ends just after a discontinuity, or just before a regularization zone in which a slip reverses, costs
+//! nothing, and the next step begins on the right side. A prediction chooses only the length of the next
+//! step; the error is controlled as in any other. Decision 0012.
 
 use crate::dense_output::DenseOutput;
 use crate::discontinuity::{DiscontinuityFunctions, Prediction, RegularizationZone, square};
@@ -81,8 +81,8 @@ impl DiscontinuityPredictor {
         self.update_directions();
     }
 
-    /// As [`DiscontinuityPredictor::evaluate`], if the last [`DiscontinuityPredictor::evaluate_trial`] was at the same
-    /// point.
+    /// As [`DiscontinuityPredictor::evaluate`], if the last [`DiscontinuityPredictor::evaluate_trial`] was at
+    /// the same point.
     pub fn accept_trial(&mut self) {
         if !self.is_active() {
             return;
@@ -123,8 +123,8 @@ impl DiscontinuityPredictor {
 
     /// Returns whether a stick-to-slip transition lies between here and the trial.
     ///
-    /// The Jacobian matrix at the start of the step knows only the sticking friction, which damps the slip like a
-    /// weld. The stages of a Rosenbrock step and its error estimate are damped with it.
+    /// The Jacobian matrix at the start of the step knows only the sticking friction, which damps the slip
+    /// like a weld. The stages of a Rosenbrock step and its error estimate are damped with it.
     pub fn trial_leaves_stick(&self) -> bool {
         let mut pairs = self.here.slips.iter().zip(&self.trial.slips);
         pairs.any(|(from, to)| {
@@ -133,8 +133,8 @@ impl DiscontinuityPredictor {
         })
     }
 
-    /// Returns whether friction held a slip here or at the start of the last step, if only by the tail of its law;
-    /// true if the problem has no slips.
+    /// Returns whether friction held a slip here or at the start of the last step, if only by the tail of its
+    /// law; true if the problem has no slips.
     pub fn any_slip_held(&self) -> bool {
         let mut all = self.here.slips.iter().chain(&self.before.slips);
         self.here.slips.is_empty() || all.any(|slip| square(slip) < tuning::TAIL * tuning::TAIL)
@@ -145,8 +145,8 @@ impl DiscontinuityPredictor {
         (self.smallest_slip * tuning::BOUND_WIDENING).max(1.0)
     }
 
-    /// Returns whether a predicted zone has been reached. (An extrapolation too far predicts zones that are not
-    /// there.)
+    /// Returns whether a predicted zone has been reached. (An extrapolation too far predicts zones that are
+    /// not there.)
     pub fn has_reached(&self, zone: &RegularizationZone) -> bool {
         square(&self.here.slips[zone.slip]).sqrt()
             < tuning::REVERSAL_WIDTH.max(tuning::ZONE_REACHED * zone.edge_slip)
@@ -235,8 +235,8 @@ impl DiscontinuityPredictor {
         largest < tuning::REVERSAL_WIDTH * tuning::REVERSAL_WIDTH
     }
 
-    /// Returns whether no function can reach zero within `horizon` lengths of the last step, if none changes more than
-    /// a few times as fast as in that step.
+    /// Returns whether no function can reach zero within `horizon` lengths of the last step, if none changes
+    /// more than a few times as fast as in that step.
     fn all_far(&self, horizon: f64) -> bool {
         let growth = tuning::RATE_GROWTH * horizon;
         let mut values = self.here.values.iter().zip(&self.before.values);
@@ -250,7 +250,8 @@ impl DiscontinuityPredictor {
             })
     }
 
-    /// Evaluates the functions on the extrapolation, for the search; returns whether one has changed its sign.
+    /// Evaluates the functions on the extrapolation, for the search; returns whether one has changed its
+    /// sign.
     fn evaluate_at<P: Problem>(&mut self, problem: &mut P, dense: &DenseOutput<'_>, theta: f64) -> bool {
         dense.evaluate(theta, &mut self.x[..self.leading]);
         let time = dense.start + theta * dense.step;
@@ -265,7 +266,8 @@ impl DiscontinuityPredictor {
         any_sign_change(&self.functions[..functions], self.search.values_mut())
     }
 
-    /// Returns a short bracket around the first zero up to `high`; without width if it is certain to lie beyond `far`.
+    /// Returns a short bracket around the first zero up to `high`; without width if it is certain to lie
+    /// beyond `far`.
     fn locate<P: Problem>(
         &mut self,
         problem: &mut P,
@@ -357,8 +359,8 @@ fn combine(from: &DiscontinuityFunctions, directions: &[[f64; 2]], functions: &m
     }
 }
 
-/// Returns how far after a discontinuity a step should end, in lengths of the last step, if the error of that step
-/// has grown by `growth`.
+/// Returns how far after a discontinuity a step should end, in lengths of the last step, if the error of that
+/// step has grown by `growth`.
 fn overshoot(error: f64, growth: f64) -> f64 {
     tuning::OVERSHOOT * (tuning::OVERSHOOT_SAFETY * error * growth).clamp(tuning::MINIMUM_OVERSHOOT, 1.0)
 }

@@ -76,14 +76,18 @@ pub enum SetupError {
         end: f64,
     },
     /// A saved state comes from another version of this library.
-    #[error("the saved state has version {found}; this program reads version {expected}", expected = STATE_VERSION)]
+    #[error(
+        "the saved state has version {found}; this program reads version {expected}",
+        expected = STATE_VERSION
+    )]
     Version {
         /// Version of the saved state.
         found: u32,
     },
     /// A member of a saved state has a value that it cannot have.
     #[error(
-        "the saved state is damaged: `{name}` is {value}; continue from the state as it was saved, or begin anew"
+        "the saved state is damaged: `{name}` is {value}; continue from the state as it was saved, or begin \
+         anew"
     )]
     Damaged {
         /// The member.
@@ -149,8 +153,8 @@ pub struct StepError {
     pub reason: Reason,
     /// Index of the state with the largest error, or of the first one that is not finite.
     pub index: Option<usize>,
-    /// Error of that state in units of the tolerance, in the last attempt rejected because of its error; NaN if not
-    /// finite.
+    /// Error of that state in units of the tolerance, in the last attempt rejected because of its error; NaN
+    /// if not finite.
     pub scaled_error: f64,
 }
 
@@ -171,11 +175,13 @@ impl std::fmt::Display for StepError {
             Reason::Error => {
                 write!(
                     f,
-                    "at time {time:?} even a step of {step:?} has {scaled_error:.3e} times the admissible error"
+                    "at time {time:?} even a step of {step:?} has {scaled_error:.3e} times the admissible \
+                     error"
                 )?;
                 state(f, " in")?;
                 f.write_str(
-                    ": loosen the tolerance or enlarge this state's error scale, or look for a jump in the problem",
+                    ": loosen the tolerance or enlarge this state's error scale, or look for a jump in the \
+                     problem",
                 )
             }
             Reason::NotFinite => {
@@ -195,21 +201,22 @@ impl std::fmt::Display for StepError {
             ),
             Reason::NewtonFailure => write!(
                 f,
-                "at time {time:?} the equations of a step of {step:?} could not be solved: look for a jump in the \
-                 problem, or choose another method"
+                "at time {time:?} the equations of a step of {step:?} could not be solved: look for a jump in \
+                 the problem, or choose another method"
             ),
             Reason::MaximumSteps { maximum } => {
                 write!(
                     f,
-                    "at time {time:?} the {maximum} admissible steps are used up (the last one was {step:?} long)"
+                    "at time {time:?} the {maximum} admissible steps are used up (the last one was {step:?} \
+                     long)"
                 )?;
                 state(f, ", the largest error being in")?;
                 f.write_str(": allow more steps, loosen the tolerance, or regularize the problem")
             }
             Reason::StepUnderflow => write!(
                 f,
-                "at time {time:?} a step of {step:?} is lost against the time, which cannot tell its end from its \
-                 start: look for what makes steps so short, or begin anew at an earlier time"
+                "at time {time:?} a step of {step:?} is lost against the time, which cannot tell its end from \
+                 its start: look for what makes steps so short, or begin anew at an earlier time"
             ),
             Reason::Limit { limit } => write!(f, "a step from time {time:?} cannot end at {limit:?}"),
             Reason::TimeDiscontinuity { end } => {

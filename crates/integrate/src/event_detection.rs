@@ -22,8 +22,8 @@ pub(crate) struct EventDetector {
     groups: Vec<Group>,
     /// Event variables at the point evaluated last.
     variables: Vec<f64>,
-    /// Event variables at the start of the step, at the point up to which events are being located, at the end of the
-    /// step, and at the high end of the bracket.
+    /// Event variables at the start of the step, at the point up to which events are being located, at the
+    /// end of the step, and at the high end of the bracket.
     at_start: Vec<f64>,
     at_target: Vec<f64>,
     at_end: Vec<f64>,
@@ -33,7 +33,8 @@ pub(crate) struct EventDetector {
     /// Event functions at the variables evaluated last, for the current discrete states.
     functions: Vec<f64>,
     search: RootSearch,
-    /// Discrete states that are not checked again in this step: `next_discrete_state` returned the same state.
+    /// Discrete states that are not checked again in this step: `next_discrete_state` returned the same
+    /// state.
     muted: Vec<bool>,
     /// Discrete states that have changed at the current instant.
     changed: Vec<bool>,
@@ -95,8 +96,8 @@ impl EventDetector {
         self.start_known = false;
     }
 
-    /// Evaluates the event variables at the end of a step, before [`EventDetector::detect`]. A separate call: right
-    /// after other functions were evaluated at the same state it may cost the problem little.
+    /// Evaluates the event variables at the end of a step, before [`EventDetector::detect`]. A separate call:
+    /// right after other functions were evaluated at the same state it may cost the problem little.
     pub fn evaluate_end<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
         problem.event_variables(time, x, &mut self.at_end);
     }
@@ -146,7 +147,8 @@ impl EventDetector {
         self.detect_up_to(problem, dense, 1.0, maximum)
     }
 
-    /// Locates the events of all groups up to a fraction of the step, whose event variables are in `at_target`.
+    /// Locates the events of all groups up to a fraction of the step, whose event variables are in
+    /// `at_target`.
     fn detect_up_to<P: Problem>(
         &mut self,
         problem: &mut P,
@@ -163,8 +165,8 @@ impl EventDetector {
         Ok(())
     }
 
-    /// Evaluates the event functions of a group from the variables in `at_target`; returns whether a discrete state
-    /// must change there.
+    /// Evaluates the event functions of a group from the variables in `at_target`; returns whether a discrete
+    /// state must change there.
     #[inline(always)]
     fn changes_at_target<P: Problem>(&mut self, problem: &mut P, number: usize) -> bool {
         let group = &self.groups[number];
@@ -219,8 +221,8 @@ impl EventDetector {
         Ok(())
     }
 
-    /// Returns the first fraction of the step up to `to` at which a discrete state of a group must change, given that
-    /// one must at `to`. Leaves the event variables there in `at_high`, and the event functions.
+    /// Returns the first fraction of the step up to `to` at which a discrete state of a group must change,
+    /// given that one must at `to`. Leaves the event variables there in `at_high`, and the event functions.
     fn locate<P: Problem>(
         &mut self,
         problem: &mut P,
@@ -273,8 +275,8 @@ impl EventDetector {
         self.search.ends().1
     }
 
-    /// Returns the discrete states of a group that must change at the high end of the bracket, by their index in the
-    /// group.
+    /// Returns the discrete states of a group that must change at the high end of the bracket, by their index
+    /// in the group.
     #[inline]
     fn crossing(&self, number: usize) -> impl Iterator<Item = usize> {
         let muted = &self.muted[self.groups[number].discrete_states.clone()];
@@ -283,7 +285,8 @@ impl EventDetector {
             .map(|(index, _)| index)
     }
 
-    /// Returns where the first event function of a group is expected to reach zero, and the uncertainty of that.
+    /// Returns where the first event function of a group is expected to reach zero, and the uncertainty of
+    /// that.
     fn first_zero(&self, number: usize) -> (f64, f64) {
         self.crossing(number)
             .map(|index| self.search.zero_and_doubt(index))
@@ -298,8 +301,8 @@ impl EventDetector {
             .any(|index| self.search.confirms(index, resolution))
     }
 
-    /// Changes all discrete states of a group that must change at an instant, each once, by the event variables in
-    /// `at_high` and the event functions there.
+    /// Changes all discrete states of a group that must change at an instant, each once, by the event
+    /// variables in `at_high` and the event functions there.
     fn change<P: Problem>(
         &mut self,
         problem: &mut P,

@@ -72,8 +72,9 @@ impl std::fmt::Debug for FunctionProblem<'_> {
 }
 
 impl<'a> FunctionProblem<'a> {
-    /// Returns a problem with as many states as there are error scales. `derivative(t, x, dx)` writes the right-hand
-    /// side, `jacobian(t, x, matrix)` its partial derivatives row by row (the matrix is filled with zeros before).
+    /// Returns a problem with as many states as there are error scales. `derivative(t, x, dx)` writes the
+    /// right-hand side, `jacobian(t, x, matrix)` its partial derivatives row by row (the matrix is filled
+    /// with zeros before).
     pub fn new(
         scales: Vec<f64>,
         derivative: impl FnMut(f64, &[f64], &mut [f64]) + Send + 'a,
@@ -138,7 +139,8 @@ impl<'a> FunctionProblem<'a> {
         self
     }
 
-    /// Sets the number of leading states that are displacements, see [`Problem::displacements`]; by default all are.
+    /// Sets the number of leading states that are displacements, see [`Problem::displacements`]; by default
+    /// all are.
     #[must_use]
     pub fn displacements(mut self, count: usize) -> Self {
         self.displacements = count;
@@ -152,9 +154,9 @@ impl<'a> FunctionProblem<'a> {
         self
     }
 
-    /// Adds so many discrete states: `initial(t, x, states)` writes them at the start, `functions(t, x, states,
-    /// functions)` their event functions, `next(t, x, index, state)` returns the successor of one. See
-    /// [`Problem::group_event_functions`] and [`Problem::next_discrete_state`].
+    /// Adds so many discrete states: `initial(t, x, states)` writes them at the start, `functions(t, x,
+    /// states, functions)` their event functions, `next(t, x, index, state)` returns the successor of one.
+    /// See [`Problem::group_event_functions`] and [`Problem::next_discrete_state`].
     #[must_use]
     pub fn events(
         mut self,

@@ -1,7 +1,8 @@
-//! Four numbers side by side, with and without derivatives: a law written over [`Number`] does four points at once.
+//! Four numbers side by side, with and without derivatives: a law written over [`Number`] does four points at
+//! once.
 //!
-//! The lanes are explicit (`wide`): nothing is left to the compiler's vectorizer. Every lane gives the same bits wherever it stands;
-//! elementary functions agree with those of single numbers to rounding.
+//! The lanes are explicit (`wide`): nothing is left to the compiler's vectorizer. Every lane gives the same
+//! bits wherever it stands; elementary functions agree with those of single numbers to rounding.
 
 mod dual;
 

@@ -36,8 +36,8 @@ pub struct Options {
     /// Largest step; may be infinite. (None stands for infinite in formats that cannot write it.)
     #[serde(with = "infinite_as_none")]
     pub maximum_step: f64,
-    /// A step that would have to be shorter than this after a rejection is an error. The resolution of the time is
-    /// another bound.
+    /// A step that would have to be shorter than this after a rejection is an error. The resolution of the
+    /// time is another bound.
     pub minimum_step: f64,
     /// Largest number of attempted steps since the start of the run, rejected ones included.
     pub maximum_steps: u64,
@@ -73,8 +73,8 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Returns the defaults for a method. Steps of an ESDIRK method grow slowly, so that its stage predictor is near
-    /// enough.
+    /// Returns the defaults for a method. Steps of an ESDIRK method grow slowly, so that its stage predictor
+    /// is near enough.
     #[must_use]
     pub fn of(method: Method) -> Self {
         let options = Self {

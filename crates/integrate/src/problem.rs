@@ -14,8 +14,8 @@ use crate::lanes::LANES;
 /// ([`Problem::discrete_state_count`] and after). [`crate::FunctionProblem`] makes a problem from closures.
 ///
 /// All functions are pure: with the same arguments (since the same call of
-/// [`Problem::next_time_discontinuity`]) they return the same bits. They take `&mut self` so that they can use
-/// scratch memory without allocation.
+/// [`Problem::next_time_discontinuity`]) they return the same bits. They take `&mut self` so that they can
+/// use scratch memory without allocation.
 pub trait Problem {
     /// Returns the number of states.
     fn dimension(&self) -> usize;
@@ -28,18 +28,21 @@ pub trait Problem {
 
     /// Returns the number of leading states that are displacements: the rate of each is another state.
     ///
-    /// ESDIRK methods, which damp fast vibrations instead of following them, control the error of these alone.
+    /// ESDIRK methods, which damp fast vibrations instead of following them, control the error of these
+    /// alone.
     fn displacements(&self) -> usize {
         self.dynamic_states()
     }
 
     /// Returns the error scale of each state, positive; infinite: the error of the state is not controlled.
     ///
-    /// The norm of an error is `max |error_i| / (relative_tolerance · scale_i)`. It holds the tolerance in every
-    /// state, however many other states are at rest. The integrator reads the scales once, when it starts.
+    /// The norm of an error is `max |error_i| / (relative_tolerance · scale_i)`. It holds the tolerance in
+    /// every state, however many other states are at rest. The integrator reads the scales once, when it
+    /// starts.
     fn scales(&self) -> &[f64];
 
-    /// Returns an upper bound of the admissible error of each state, whatever the tolerance; empty: no bounds.
+    /// Returns an upper bound of the admissible error of each state, whatever the tolerance; empty: no
+    /// bounds.
     ///
     /// For problems that a larger error would change in kind.
     fn error_bounds(&self) -> &[f64] {
@@ -47,17 +50,17 @@ pub trait Problem {
     }
 
     /// Returns an upper bound of the admissible error of each state while a slip of
-    /// [`Problem::discontinuities`] is in its regularization zone; empty: no bounds. If the smallest slip has the
-    /// size s > 20 the bounds are s/20 times as wide.
+    /// [`Problem::discontinuities`] is in its regularization zone; empty: no bounds. If the smallest slip has
+    /// the size s > 20 the bounds are s/20 times as wide.
     ///
-    /// For speeds under regularized friction: an error as large as the reference speed makes a sticking contact
-    /// slide to and fro, but hardly changes the force on one that slides a thousand times as fast.
+    /// For speeds under regularized friction: an error as large as the reference speed makes a sticking
+    /// contact slide to and fro, but hardly changes the force on one that slides a thousand times as fast.
     fn zone_error_bounds(&self) -> &[f64] {
         &[]
     }
 
-    /// Starts the smooth interval of the explicit time dependence that begins at `start`; returns its end, the
-    /// first time after `start` at which f or a derivative of f jumps in time (infinite: there is none).
+    /// Starts the smooth interval of the explicit time dependence that begins at `start`; returns its end,
+    /// the first time after `start` at which f or a derivative of f jumps in time (infinite: there is none).
     ///
     /// A step ends exactly there. When the next step begins, the integrator calls this again and restarts the
     /// step-size controller; the states are continuous. Until that call f at the end itself is the limit from
@@ -77,17 +80,18 @@ pub trait Problem {
     /// `df_dt` is filled with zeros before: an autonomous problem need not write it.
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]);
 
-    /// Evaluates and stores an approximation of J that suffices for Newton's method: small terms may be missing.
-    /// `scratch` has the length of `dx`; its content is not used.
+    /// Evaluates and stores an approximation of J that suffices for Newton's method: small terms may be
+    /// missing. `scratch` has the length of `dx`; its content is not used.
     fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], scratch: &mut [f64]) {
         scratch.fill(0.0);
         self.linearize(time, x, dx, scratch);
     }
 
-    /// Returns an upper bound of the spectral radius of ∂f/∂x at `(time, x)`, 1/s. It need not be sharp. Returns
-    /// infinity if unknown.
+    /// Returns an upper bound of the spectral radius of ∂f/∂x at `(time, x)`, 1/s. It need not be sharp.
+    /// Returns infinity if unknown.
     ///
-    /// With it, Rosenbrock methods make short steps by an explicit method of order 5(4), which needs no Jacobian.
+    /// With it, Rosenbrock methods make short steps by an explicit method of order 5(4), which needs no
+    /// Jacobian.
     fn spectral_radius_bound(&mut self, time: f64, x: &[f64]) -> f64 {
         let _ = (time, x);
         f64::INFINITY
@@ -107,20 +111,20 @@ pub trait Problem {
         (0, 0)
     }
 
-    /// Writes the functions from which discontinuities of f are predicted. Rosenbrock methods end a step where the
-    /// first one is expected, instead of being rejected across it.
+    /// Writes the functions from which discontinuities of f are predicted. Rosenbrock methods end a step
+    /// where the first one is expected, instead of being rejected across it.
     fn discontinuities(&mut self, time: f64, x: &[f64], functions: &mut DiscontinuityFunctions) {
         let _ = (time, x, functions);
     }
 
-    /// Returns whether [`Problem::discontinuities`] covers all discontinuities of f. Newton's method then uses a
-    /// Jacobian matrix again in other stages and steps, as long as the contact state is the same.
+    /// Returns whether [`Problem::discontinuities`] covers all discontinuities of f. Newton's method then
+    /// uses a Jacobian matrix again in other stages and steps, as long as the contact state is the same.
     fn discontinuities_complete(&self) -> bool {
         false
     }
 
-    /// Returns the number of discrete states (a contact point that is open, sticking or slipping has one). They are
-    /// recorded with the times of their changes, and do not change f.
+    /// Returns the number of discrete states (a contact point that is open, sticking or slipping has one).
+    /// They are recorded with the times of their changes, and do not change f.
     fn discrete_state_count(&self) -> usize {
         0
     }
@@ -141,9 +145,9 @@ pub trait Problem {
         let _ = (time, x, variables);
     }
 
-    /// Returns groups of discrete states that do not depend on each other: all discrete states and event variables
-    /// in their order, each in one group. Events are located group by group, which for many groups costs much less.
-    /// By default all are one group.
+    /// Returns groups of discrete states that do not depend on each other: all discrete states and event
+    /// variables in their order, each in one group. Events are located group by group, which for many groups
+    /// costs much less. By default all are one group.
     fn event_groups(&self) -> Vec<EventGroup> {
         let all = EventGroup {
             discrete_states: 0..self.discrete_state_count(),
@@ -153,16 +157,16 @@ pub trait Problem {
         vec![all]
     }
 
-    /// Writes the event variables of one group, with the same bits as [`Problem::event_variables`]; of `x` only
-    /// the states of this group are valid.
+    /// Writes the event variables of one group, with the same bits as [`Problem::event_variables`]; of `x`
+    /// only the states of this group are valid.
     fn group_event_variables(&mut self, group: usize, time: f64, x: &[f64], variables: &mut [f64]) {
         let _ = group;
         self.event_variables(time, x, variables);
     }
 
     /// Writes the event function of each discrete state of a group: positive while the state lasts, zero or
-    /// negative if it must change. `variables` and `discrete_states` are those of the group. Event functions are
-    /// continuous in the variables.
+    /// negative if it must change. `variables` and `discrete_states` are those of the group. Event functions
+    /// are continuous in the variables.
     fn group_event_functions(
         &mut self,
         group: usize,

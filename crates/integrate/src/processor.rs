@@ -1,7 +1,8 @@
 //! Whether the processor has the instructions that the program was compiled for.
 //!
-//! The repository's `.cargo/config.toml` compiles for processors of the kind x86-64-v3 (AVX2; Intel since 2013, AMD since 2015). On an older one such a program
-//! would be stopped by the system at its first vector instruction, without a word: the command and FMUs ask here first.
+//! The repository's `.cargo/config.toml` compiles for processors of the kind x86-64-v3 (AVX2; Intel since
+//! 2013, AMD since 2015). On an older one such a program would be stopped by the system at its first vector
+//! instruction, without a word: the command and FMUs ask here first.
 
 /// The processor lacks instructions that the program was compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -12,8 +13,8 @@ pub struct OldProcessor;
 
 impl OldProcessor {
     /// What to do about it.
-    pub const ADVICE: &str = "Compile it for all processors: `RUSTFLAGS=\"-C target-cpu=x86-64\" cargo build --release`. It computes the \
-        same numbers, in a quarter more time.";
+    pub const ADVICE: &str = "Compile it for all processors: `RUSTFLAGS=\"-C target-cpu=x86-64\" cargo build \
+        --release`. It computes the same numbers, in a quarter more time.";
 }
 
 /// Whether the program can run here.
@@ -28,7 +29,8 @@ pub fn check() -> Result<(), OldProcessor> {
     Ok(())
 }
 
-/// Asked of the processor itself: the standard library's macro takes for granted what the program was compiled for.
+/// Asked of the processor itself: the standard library's macro takes for granted what the program was
+/// compiled for.
 #[cfg(target_arch = "x86_64")]
 fn has_avx2() -> bool {
     use std::arch::x86_64::{__cpuid, __cpuid_count};

@@ -1,5 +1,5 @@
-//! Search for the first zero of several functions along a dense output, where evaluations are expensive: a bracket
-//! that closes around it, with polynomial interpolation guarded by bisection.
+//! Search for the first zero of several functions along a dense output, where evaluations are expensive: a
+//! bracket that closes around it, with polynomial interpolation guarded by bisection.
 
 use crate::tuning::root_search as tuning;
 
@@ -28,8 +28,8 @@ pub(crate) struct RootSearch {
     checked_width: f64,
     /// Whether the last point was the midpoint, because the bracket closed too slowly.
     halved: bool,
-    /// The end that the last point was intended to move, and how often in a row the other end moved instead, by less
-    /// than the resolution.
+    /// The end that the last point was intended to move, and how often in a row the other end moved instead,
+    /// by less than the resolution.
     intended: Option<usize>,
     misses: i32,
 }
@@ -122,8 +122,8 @@ impl RootSearch {
         &self.values[self.rows[point] * self.count..][..self.count]
     }
 
-    /// Returns the next point to evaluate, if a zero is expected at `expected` and the bracket is wider than the
-    /// resolution.
+    /// Returns the next point to evaluate, if a zero is expected at `expected` and the bracket is wider than
+    /// the resolution.
     pub fn next_point(&mut self, expected: f64, resolution: f64) -> f64 {
         let (low, high) = self.ends();
         let width = high - low;
@@ -138,8 +138,8 @@ impl RootSearch {
                 return 0.5 * (low + high);
             }
         }
-        // Beyond the zero as seen from the nearer end, so that the farther end comes near, too; farther each time
-        // the values are so small that their rounding errors decide.
+        // Beyond the zero as seen from the nearer end, so that the farther end comes near, too; farther each
+        // time the values are so small that their rounding errors decide.
         let (to_low, to_high) = (expected - low, high - expected);
         if to_low.min(to_high) > resolution {
             self.misses = 0;
@@ -160,9 +160,9 @@ impl RootSearch {
         }
     }
 
-    /// Returns the point just after a zero that is nearly certain; `doubt` is the uncertainty of `expected`. If that
-    /// point becomes the high end and [`RootSearch::confirms`] it, the search may stop without an evaluation just
-    /// before the zero.
+    /// Returns the point just after a zero that is nearly certain; `doubt` is the uncertainty of `expected`.
+    /// If that point becomes the high end and [`RootSearch::confirms`] it, the search may stop without an
+    /// evaluation just before the zero.
     pub fn point_after(&mut self, expected: f64, doubt: f64, resolution: f64) -> Option<f64> {
         if self.iteration > tuning::BISECT_AFTER
             || doubt > tuning::CERTAIN * resolution
@@ -175,22 +175,22 @@ impl RootSearch {
         Some(expected + tuning::NUDGE * resolution)
     }
 
-    /// Returns whether a function fell to the high end, a point of [`RootSearch::point_after`], by about as much as
-    /// expected. One that stays near zero may have reached it long before.
+    /// Returns whether a function fell to the high end, a point of [`RootSearch::point_after`], by about as
+    /// much as expected. One that stays near zero may have reached it long before.
     pub fn confirms(&self, index: usize, resolution: f64) -> bool {
         let (low, high) = self.ends();
         let (first, last) = (self.low()[index], self.high()[index]);
         -last * (high - low) > tuning::CONFIRMED * tuning::NUDGE * resolution * (first - last)
     }
 
-    /// Returns the expected zero of a function that changes its sign in the bracket: that of the polynomial through
-    /// all points.
+    /// Returns the expected zero of a function that changes its sign in the bracket: that of the polynomial
+    /// through all points.
     pub fn zero(&self, index: usize) -> f64 {
         self.zero_and_doubt(index).0
     }
 
-    /// Returns [`RootSearch::zero`] and its distance from the zero of the polynomial of a degree less (infinite if
-    /// there is none).
+    /// Returns [`RootSearch::zero`] and its distance from the zero of the polynomial of a degree less
+    /// (infinite if there is none).
     pub fn zero_and_doubt(&self, index: usize) -> (f64, f64) {
         let at = |point: usize| (self.points[point], self.row(point)[index]);
         let ((low, first), (high, last)) = (at(LOW), at(HIGH));
@@ -240,8 +240,8 @@ mod tests {
 
     type Function<'a> = &'a dyn Fn(f64) -> f64;
 
-    /// Returns the first zero of two functions and the number of evaluations; enclosed on both sides, or confirmed from
-    /// one side.
+    /// Returns the first zero of two functions and the number of evaluations; enclosed on both sides, or
+    /// confirmed from one side.
     fn find(functions: [Function<'_>; 2], resolution: f64, one_sided: bool) -> (f64, usize) {
         let mut search = RootSearch::new(2);
         let write = |search: &mut RootSearch, at: f64| {

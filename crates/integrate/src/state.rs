@@ -12,9 +12,9 @@ use crate::validation::{check_not_negative, check_positive, first_not_finite};
 
 /// All that is needed to continue an integration with the same bits.
 ///
-/// The problem and the options are not part of it. Text formats must write floating-point numbers such that they
-/// read back exactly. The names of the members in such formats are those of version 13 and differ from the names of
-/// some fields here.
+/// The problem and the options are not part of it. Text formats must write floating-point numbers such that
+/// they read back exactly. The names of the members in such formats are those of version 13 and differ from
+/// the names of some fields here.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Version of the layout, [`STATE_VERSION`].
@@ -42,7 +42,8 @@ pub struct State {
     /// h·ρ of the last explicit step that was limited by its error; zero: there was none.
     #[serde(rename = "reach")]
     pub(crate) explicit_h_rho: f64,
-    /// Derivative in the last stage of an ESDIRK method, the first stage of the next step; empty for other methods.
+    /// Derivative in the last stage of an ESDIRK method, the first stage of the next step; empty for other
+    /// methods.
     #[serde(rename = "slope")]
     pub(crate) last_stage_derivative: Vec<f64>,
     /// Last step, for the stage predictor; none: it extrapolates linearly.
@@ -56,7 +57,8 @@ pub struct State {
 }
 
 impl State {
-    /// Checks the state for a problem with so many states, discrete states and slips. Nothing is checked later.
+    /// Checks the state for a problem with so many states, discrete states and slips. Nothing is checked
+    /// later.
     pub(crate) fn check(
         &self,
         dimension: usize,

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::error::SetupError;
 use crate::validation::{check_count, check_not_negative};
 
-/// Counters of an integration. Calls for interpolated states ([`crate::Integrator::interpolate`]) are not counted:
-/// they depend on how many states are asked for.
+/// Counters of an integration. Calls for interpolated states ([`crate::Integrator::interpolate`]) are not
+/// counted: they depend on how many states are asked for.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Accepted steps.

@@ -15,8 +15,8 @@ pub mod options {
     pub const SAFETY: f64 = 0.9;
     /// Smallest factor by which the controller changes a step. Hairer & Wanner (1996), section IV.8.
     pub const MINIMUM_FACTOR: f64 = 0.2;
-    /// Largest factor by which the controller enlarges a step. Hairer & Wanner (1996), code RODAS; factors 3, 2
-    /// and 1.5 give fewer rejections and more steps, no gain (benchmarks).
+    /// Largest factor by which the controller enlarges a step. Hairer & Wanner (1996), code RODAS; factors 3,
+    /// 2 and 1.5 give fewer rejections and more steps, no gain (benchmarks).
     pub const MAXIMUM_FACTOR: f64 = 6.0;
     /// Safety factor for ESDIRK methods. With [`ESDIRK_MAXIMUM_FACTOR`]: 61,600 instead of 68,500 right-hand
     /// sides for the six yawed runs of the thesis, the same errors (benchmarks).
@@ -32,20 +32,21 @@ pub mod options {
 
 /// Step-size controller.
 pub mod controller {
-    /// Extra growth allowed after the first step after a restart, if that step was explicit: the length of the
-    /// first step was a guess. Growth to 6 · 10: 2 to 4 % fewer right-hand sides (benchmarks). CVODE allows
-    /// 10,000 (SUNDIALS, `ETAMX1`).
+    /// Extra growth allowed after the first step after a restart, if that step was explicit: the length of
+    /// the first step was a guess. Growth to 6 · 10: 2 to 4 % fewer right-hand sides (benchmarks). CVODE
+    /// allows 10,000 (SUNDIALS, `ETAMX1`).
     pub const FIRST_STEP_GROWTH: f64 = 10.0;
-    /// The smallest error root that enters the trend (integral part). It is the root of an error of 0.01, below
-    /// which errors do not count: 0.01 as in Hairer & Wanner's RADAU5 and RODAS (`ERRACC = max(0.01, ERR)`).
+    /// The smallest error root that enters the trend (integral part). It is the root of an error of 0.01,
+    /// below which errors do not count: 0.01 as in Hairer & Wanner's RADAU5 and RODAS (`ERRACC = max(0.01,
+    /// ERR)`).
     pub const MINIMUM_ERROR_ROOT: f64 = 0.3;
-    /// Largest factor after a second rejection in a row: at a discontinuity the error has low order in h, so the
-    /// factor of the controller would creep towards it. Chosen, not measured.
+    /// Largest factor after a second rejection in a row: at a discontinuity the error has low order in h, so
+    /// the factor of the controller would creep towards it. Chosen, not measured.
     pub const REPEATED_REJECTION_FACTOR: f64 = 0.5;
     /// Growth of Rosenbrock steps is the root of what the error would allow up to this factor, and
-    /// `1/√SLOW_GROWTH_LIMIT` of it beyond. Errors where friction sticks grow with h⁸ to h¹⁵. Powers of 0.7, 0.4,
-    /// 0.3 and 0.2 instead of 0.5 were compared: decision 0029. Low gain smooths: G. Söderlind, ACM TOMS 29
-    /// (2003) 1.
+    /// `1/√SLOW_GROWTH_LIMIT` of it beyond. Errors where friction sticks grow with h⁸ to h¹⁵. Powers of 0.7,
+    /// 0.4, 0.3 and 0.2 instead of 0.5 were compared: decision 0029. Low gain smooths: G. Söderlind, ACM TOMS
+    /// 29 (2003) 1.
     pub const SLOW_GROWTH_LIMIT: f64 = 2.0;
 }
 
@@ -72,8 +73,8 @@ pub mod step {
     /// A step that would go beyond this part of the distance to the next limit is cut to this part: two equal
     /// steps instead of a long and a short one. Chosen, not measured.
     pub const HALVE: f64 = 0.5;
-    /// A step shorter than this part of the planned step counts as truncated; rounding alone shortens steps by
-    /// less. Decision 0028.
+    /// A step shorter than this part of the planned step counts as truncated; rounding alone shortens steps
+    /// by less. Decision 0028.
     pub const TRUNCATED: f64 = 1.0 - 1e-6;
     /// Factor after a singular matrix. Chosen, not measured.
     pub const SINGULAR_FACTOR: f64 = 0.5;
@@ -88,21 +89,21 @@ pub mod step {
     pub const AFTER_DISCONTINUITY: f64 = 0.5;
     /// After a step to a discontinuity crossed it, this part of the distance is tried. Decision 0028.
     pub const RETRY_BEFORE_DISCONTINUITY: f64 = 0.8;
-    /// If ρ grows by this factor across a discontinuity, a contact closed; if it falls by this factor, a contact
-    /// opened. Decision 0028.
+    /// If ρ grows by this factor across a discontinuity, a contact closed; if it falls by this factor, a
+    /// contact opened. Decision 0028.
     pub const CONTACT_CHANGE: f64 = 1.5;
     /// First step after a contact opened, as a part of the longest explicit step: it may close again soon.
     /// 2 to 4 % fewer right-hand sides (benchmarks).
     pub const AFTER_OPENING: f64 = 0.1;
-    /// Explicit steps with a larger error (in tolerances) were limited by their error; h·ρ of the last such step
-    /// is remembered. Decision 0028.
+    /// Explicit steps with a larger error (in tolerances) were limited by their error; h·ρ of the last such
+    /// step is remembered. Decision 0028.
     pub const ERROR_LIMITED: f64 = 0.1;
-    /// A zone crossing without slip reversal (slip that comes to stick) ends when the error falls below this, in
-    /// tolerances, and the slip has stopped changing (decision 0028). The number: chosen, not measured.
+    /// A zone crossing without slip reversal (slip that comes to stick) ends when the error falls below this,
+    /// in tolerances, and the slip has stopped changing (decision 0028). The number: chosen, not measured.
     pub const CROSSING_SETTLED: f64 = 0.001;
-    /// Largest part of the planned step that a Rosenbrock step to a discontinuity may take in one go: stages are
-    /// less exact than the end of the step and would cross it. Beyond, half of the distance is taken first.
-    /// Decision 0012.
+    /// Largest part of the planned step that a Rosenbrock step to a discontinuity may take in one go: stages
+    /// are less exact than the end of the step and would cross it. Beyond, half of the distance is taken
+    /// first. Decision 0012.
     pub const WHOLE_APPROACH: f64 = 0.7;
     /// The part of the distance taken first. Decision 0012.
     pub const PART_APPROACH: f64 = 0.5;
@@ -110,23 +111,23 @@ pub mod step {
 
 /// Attempts of Rosenbrock and explicit steps.
 pub mod attempt {
-    /// Steps with h·ρ up to this are explicit. Tsitouras' pair is stable down to -3.5 on the real axis and nearly
-    /// so up to 2 on the imaginary one; bounds ρ are 2.3 to 4.3 times the largest eigenvalue. Bounds of 1, 2, 3,
-    /// 5 and 8 were compared: decision 0023.
+    /// Steps with h·ρ up to this are explicit. Tsitouras' pair is stable down to -3.5 on the real axis and
+    /// nearly so up to 2 on the imaginary one; bounds ρ are 2.3 to 4.3 times the largest eigenvalue. Bounds
+    /// of 1, 2, 3, 5 and 8 were compared: decision 0023.
     pub const EXPLICIT_H_RHO: f64 = 3.0;
     /// Errors of explicit steps are multiplied by this. Their estimate is about five times the error, that of
-    /// Rosenbrock methods ten to twenty times, and the energy balance is to close alike. Factors 3, 4, 6 and 8
-    /// were compared: decision 0039.
+    /// Rosenbrock methods ten to twenty times, and the energy balance is to close alike. Factors 3, 4, 6 and
+    /// 8 were compared: decision 0039.
     pub const EXPLICIT_ERROR_WEIGHT: f64 = 4.0;
-    /// Errors of Rosenbrock steps with a stick-to-slip transition are multiplied by this: they are up to 400 times
-    /// the estimate. Factors 1, 10 and 30 were compared: decision 0027.
+    /// Errors of Rosenbrock steps with a stick-to-slip transition are multiplied by this: they are up to 400
+    /// times the estimate. Factors 1, 10 and 30 were compared: decision 0027.
     pub const STICK_TO_SLIP_ERROR_WEIGHT: f64 = 10.0;
 }
 
 /// Correction of the dense output.
 pub mod dense_output {
-    /// Nothing is corrected in steps with h·ρ below this: the dense output is as exact as the ends of the step.
-    /// Decision 0029.
+    /// Nothing is corrected in steps with h·ρ below this: the dense output is as exact as the ends of the
+    /// step. Decision 0029.
     pub const STIFF_H_RHO: f64 = 100.0;
     /// Nothing is corrected in a step whose correction at its midpoint is below this, in tolerances.
     /// Decision 0029.
@@ -169,15 +170,15 @@ pub mod newton {
     /// The matrix is used again while corrections shrink by this factor; 0.3 and 0.5 are no cheaper: decision
     /// 0033.
     pub const CONTRACTION: f64 = 0.2;
-    /// A line search starts if the next correction points back by more than this part of the last one, and ends
-    /// where it is smaller. 0.3 and 0.5 give 7 to 35 % more matrices: decision 0033.
+    /// A line search starts if the next correction points back by more than this part of the last one, and
+    /// ends where it is smaller. 0.3 and 0.5 give 7 to 35 % more matrices: decision 0033.
     pub const LINE_SEARCH: f64 = 0.1;
     /// Largest number of Jacobian matrices per stage. Chosen, not measured.
     pub const MAXIMUM_MATRICES: u32 = 8;
     /// Largest number of evaluations in a line search. Chosen, not measured.
     pub const MAXIMUM_LINE_SEARCH: u32 = 12;
-    /// The first evaluations of a line search are placed by the model of slip reversal; they suffice after 1.2 on
-    /// average (decision 0033). The number itself: chosen, not measured.
+    /// The first evaluations of a line search are placed by the model of slip reversal; they suffice after
+    /// 1.2 on average (decision 0033). The number itself: chosen, not measured.
     pub const MODEL_EVALUATIONS: u32 = 4;
 }
 
@@ -193,8 +194,8 @@ pub mod slip_reversal {
 
 /// Contact state (active set) for which a Jacobian matrix is valid.
 pub mod contact_state {
-    /// Entries of ∂φ/∂u may differ by this. 0.2 saves a sixth of the matrices, but the energy balance then closes
-    /// to 1.5e-3 of the work instead of 0.9e-3: decision 0034.
+    /// Entries of ∂φ/∂u may differ by this. 0.2 saves a sixth of the matrices, but the energy balance then
+    /// closes to 1.5e-3 of the work instead of 0.9e-3: decision 0034.
     pub const TANGENT_DIFFERENCE: f64 = 0.1;
     /// Components of φ may differ by this. Decision 0034.
     pub const FORCE_DIFFERENCE: f64 = 0.5;
@@ -208,12 +209,12 @@ pub mod discontinuity {
     /// The same after an explicit step: [`super::options::MAXIMUM_FACTOR`] times
     /// [`super::controller::FIRST_STEP_GROWTH`]. As there.
     pub const EXPLICIT_HORIZON: f64 = 60.0;
-    /// The extrapolation ends where its error, that of the step times the fifth power of the extrapolated length,
-    /// reaches this, in tolerances. Chosen, not measured.
+    /// The extrapolation ends where its error, that of the step times the fifth power of the extrapolated
+    /// length, reaches this, in tolerances. Chosen, not measured.
     pub const MAXIMUM_ERROR: f64 = 100.0;
-    /// Largest distance after a discontinuity at which a step ends, and largest width of the bracket around it,
-    /// in lengths of the last step; in proportion to the error of the extrapolation below. Decision 0012; other
-    /// values changed nothing beyond the scatter (benchmarks).
+    /// Largest distance after a discontinuity at which a step ends, and largest width of the bracket around
+    /// it, in lengths of the last step; in proportion to the error of the extrapolation below. Decision 0012;
+    /// other values changed nothing beyond the scatter (benchmarks).
     pub const OVERSHOOT: f64 = 2e-3;
     /// Smallest part of [`OVERSHOOT`]. As above.
     pub const MINIMUM_OVERSHOOT: f64 = 1e-6;
@@ -224,26 +225,27 @@ pub mod discontinuity {
     pub const NEAREST: f64 = 1e-4;
     /// The same for the edge of a zone: the next step starts in the zone. Chosen, not measured.
     pub const NEAREST_ZONE: f64 = 0.05;
-    /// After an explicit step, functions that would not reach zero even at this multiple of their last rate are
-    /// not evaluated on the extrapolation: 20,800 to 17,200 evaluations (benchmarks). The number: chosen, not
-    /// measured.
+    /// After an explicit step, functions that would not reach zero even at this multiple of their last rate
+    /// are not evaluated on the extrapolation: 20,800 to 17,200 evaluations (benchmarks). The number: chosen,
+    /// not measured.
     pub const RATE_GROWTH: f64 = 4.0;
     /// Largest number of evaluations of a search. Chosen, not measured.
     pub const MAXIMUM_ITERATIONS: usize = 15;
-    /// A discontinuity beyond [`super::step::WHOLE_APPROACH`] is located only until its distance changes by less
-    /// than this part from one iteration to the next. Chosen, not measured.
+    /// A discontinuity beyond [`super::step::WHOLE_APPROACH`] is located only until its distance changes by
+    /// less than this part from one iteration to the next. Chosen, not measured.
     pub const ROUGH: f64 = 0.01;
 
-    /// Edge of a regularization zone: the slip at which the step should end before a reversal. The force is then
-    /// saturated, tanh(4) = 0.9993. Chosen, not measured.
+    /// Edge of a regularization zone: the slip at which the step should end before a reversal. The force is
+    /// then saturated, tanh(4) = 0.9993. Chosen, not measured.
     pub const ZONE_EDGE: f64 = 4.0;
     /// Slips above this are watched for reversal: twice [`ZONE_EDGE`]. Chosen, not measured.
     pub const WATCHED: f64 = 2.0 * ZONE_EDGE;
-    /// Reversal is predicted if the component across the old direction is smaller than this at the edge; otherwise
-    /// the slip only turns. Decision 0012 ("within a few reference speeds"); the number: chosen, not measured.
+    /// Reversal is predicted if the component across the old direction is smaller than this at the edge;
+    /// otherwise the slip only turns. Decision 0012 ("within a few reference speeds"); the number: chosen,
+    /// not measured.
     pub const REVERSAL_WIDTH: f64 = 5.0 * ZONE_EDGE;
-    /// A predicted zone is reached if the slip is below this multiple of its size at the predicted edge. Decision
-    /// 0028; the number: chosen, not measured.
+    /// A predicted zone is reached if the slip is below this multiple of its size at the predicted edge.
+    /// Decision 0028; the number: chosen, not measured.
     pub const ZONE_REACHED: f64 = 2.0;
     /// A zone is crossed when the slip is larger than this ...
     pub const CROSSED_SIZE: f64 = 3.0;
@@ -252,8 +254,8 @@ pub mod discontinuity {
     /// A slip that changed by more than this in a step is still crossing its zone. Decision 0028.
     pub const STILL_CHANGING: f64 = 0.5;
 
-    /// Error bounds in zones widen in proportion to the smallest slip: an error may be this part of it. Decision
-    /// 0012.
+    /// Error bounds in zones widen in proportion to the smallest slip: an error may be this part of it.
+    /// Decision 0012.
     pub const BOUND_WIDENING: f64 = 0.05;
     /// Stick-to-slip transition: the slip was below this at the start of the step ...
     pub const STICKING: f64 = 3.0;
@@ -261,15 +263,16 @@ pub mod discontinuity {
     pub const RELEASE_GROWTH: f64 = 1.0;
     /// ... and by this factor at its end. All three: decision 0027.
     pub const RELEASE_FACTOR: f64 = 1.5;
-    /// The friction law still holds slips below this, if only by the tail of tanh: such steps have their dense
-    /// output corrected. Decision 0029.
+    /// The friction law still holds slips below this, if only by the tail of tanh: such steps have their
+    /// dense output corrected. Decision 0029.
     pub const TAIL: f64 = 12.0;
 }
 
 /// Location of events in a step.
 pub mod events {
-    /// Event functions of implicit steps are evaluated at these fractions of the step besides its end. Explicit
-    /// steps, a radian of the fastest oscillation long, are evaluated at their end alone: decision 0029.
+    /// Event functions of implicit steps are evaluated at these fractions of the step besides its end.
+    /// Explicit steps, a radian of the fastest oscillation long, are evaluated at their end alone: decision
+    /// 0029.
     pub const INTERMEDIATE: &[f64] = &[0.5];
     /// Width of the bracket around an event, as a fraction of the step. 1e-7 saves 1.2 % of the instructions,
     /// 1e-9 1 % with larger errors in the times (benchmarks).
@@ -283,25 +286,25 @@ pub mod root_search {
     /// The next point lies this far beyond the expected zero, in units of the resolution, so that the bracket
     /// closes from both sides. Chosen, not measured.
     pub const NUDGE: f64 = 0.4;
-    /// The nudge grows by this power of two each time the intended end of the bracket did not move. Chosen, not
-    /// measured.
+    /// The nudge grows by this power of two each time the intended end of the bracket did not move. Chosen,
+    /// not measured.
     pub const NUDGE_GROWTH_BITS: i32 = 2;
     /// The growth of the nudge stops after this many times. Chosen, not measured.
     pub const MAXIMUM_NUDGE_GROWTH: i32 = 10;
     /// A zero is certain if two polynomials agree on it to this part of the resolution. Decision 0040.
     pub const CERTAIN: f64 = 0.1;
-    /// A certain zero is confirmed if the function fell by this part of what it was expected to fall. Decision
-    /// 0040.
+    /// A certain zero is confirmed if the function fell by this part of what it was expected to fall.
+    /// Decision 0040.
     pub const CONFIRMED: f64 = 0.1;
     /// Every this many iterations the bracket must have shrunk ...
     pub const CHECK_INTERVAL: u32 = 3;
-    /// ... to this part, which bisection would have reached, or it is halved: the idea of R. P. Brent, *Algorithms
-    /// for Minimization without Derivatives* (1973), chapter 4.
+    /// ... to this part, which bisection would have reached, or it is halved: the idea of R. P. Brent,
+    /// *Algorithms for Minimization without Derivatives* (1973), chapter 4.
     pub const CHECK_SHRINKAGE: f64 = 0.125;
     /// After this many iterations every one halves the bracket. Chosen, not measured.
     pub const BISECT_AFTER: u32 = 24;
-    /// Points keep at least this distance from the ends of the bracket, in units of the resolution or its width.
-    /// Chosen, not measured.
+    /// Points keep at least this distance from the ends of the bracket, in units of the resolution or its
+    /// width. Chosen, not measured.
     pub const END_DISTANCE: f64 = 0.25;
     /// Newton iterations for the zero of the cubic, from that of the parabola. Chosen, not measured.
     pub const CUBIC_ITERATIONS: usize = 2;

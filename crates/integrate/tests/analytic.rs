@@ -2,8 +2,12 @@
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
+mod common;
+
 use std::f64::consts::PI;
 
+use common::problems::{BouncingBall, prothero_robinson, prothero_robinson_solution};
+use common::run;
 use integrate::{Event, FunctionProblem, Integrator, Method, Options, State};
 
 /// x'' = -x with switches for the sign of the position and of the speed.
@@ -81,7 +85,8 @@ fn events_are_where_the_closed_form_has_them() {
                 let x = [libm::cos(start), -libm::sin(start)];
                 let integrator = Integrator::new(oscillator(hysteresis), options, 0.0, &x).unwrap();
                 let events = record(integrator, 20.0, limit);
-                // x = cos(t + start): position events at phases π/2 + asin(hysteresis) + kπ, speed events a quarter later
+                // x = cos(t + start): position events at phases π/2 + asin(hysteresis) + kπ, speed events a
+                // quarter later
                 let late = libm::asin(hysteresis);
                 let mut exact: Vec<(f64, usize)> = (0..9)
                     .flat_map(|k| {
@@ -98,7 +103,8 @@ fn events_are_where_the_closed_form_has_them() {
                 );
                 for (event, (time, index)) in events.iter().zip(exact) {
                     assert_eq!(event.index, index);
-                    // Errors are held in proportion to the step: over many steps the lower order has more of them.
+                    // Errors are held in proportion to the step: over many steps the lower order has more of
+                    // them.
                     let admissible = if method == Method::TrBdf2 { 2e-6 } else { 2e-8 };
                     assert!(
                         (event.time - time).abs() < admissible,
@@ -169,7 +175,8 @@ fn a_switch_that_declines_to_change_and_one_that_flutters_do_not_stop_the_integr
     assert_eq!(integrator.statistics().events_unresolved, 1);
 }
 
-/// x' = s(t) - x with the triangular wave s of period 2 between 0 and 1, from x(0) = 0; exact, piece by piece.
+/// x' = s(t) - x with the triangular wave s of period 2 between 0 and 1, from x(0) = 0; exact, piece by
+/// piece.
 fn triangle(time: f64) -> f64 {
     let (mut x, mut start, mut rising) = (0.0, 0.0, true);
     loop {
@@ -390,5 +397,65 @@ fn a_saved_integration_continues_with_the_same_bits() {
             (a.discrete_states, a.proposed_step),
             (b.discrete_states, b.proposed_step)
         );
+    }
+}
+
+#[test]
+fn a_bouncing_ball_follows_its_closed_form() {
+    // Inches; 140 Hz on the spring.
+    let ball = BouncingBall {
+        gravity: 386.0886,
+        omega: 879.645_943_005_142_4,
+        height: 0.5,
+    };
+    let ((fall, _), (contact, flight)) = (ball.fall(), ball.contact_and_flight());
+    for method in Method::ALL {
+        let options = Options {
+            method,
+            relative_tolerance: 1e-8,
+            ..Options::default()
+        };
+        let mut integrator = Integrator::new(ball.problem(), options, 0.0, &[ball.height, 0.0]).unwrap();
+        let (mut changes, mut expected) = (0, fall);
+        while integrator.time() < 1.0 {
+            integrator.step_to(1.0).unwrap();
+            for event in integrator.events() {
+                assert!(
+                    (event.time - expected).abs() < 1e-6,
+                    "{method}: {event:?}, expected at {expected}"
+                );
+                assert_eq!(event.to, 1 - changes % 2);
+                expected += if changes % 2 == 0 { contact } else { flight };
+                changes += 1;
+            }
+            let error = integrator.x()[0] - ball.solution(integrator.time());
+            assert!(error.abs() < 3e-5, "{method} at {}: {error}", integrator.time());
+        }
+        assert_eq!(u64::from(changes), integrator.statistics().events);
+        assert!(changes >= 18);
+    }
+}
+
+/// The transient decays within 1/λ; after it the solution is φ.
+#[test]
+fn the_prothero_robinson_problem_follows_its_closed_form() {
+    for method in Method::ALL {
+        for lambda in [-1.0, -1e3, -1e6] {
+            let options = Options {
+                method,
+                relative_tolerance: 1e-7,
+                ..Options::default()
+            };
+            let start = prothero_robinson_solution(0.0) + 1.0;
+            let (x, statistics) = run(prothero_robinson(lambda), options, &[start], 2.0);
+            let exact = prothero_robinson_solution(2.0) + libm::exp(2.0 * lambda);
+            let error = (x[0] - exact).abs();
+            println!(
+                "{method}, λ = {lambda}: error {error:.1e}, {} steps",
+                statistics.steps
+            );
+            assert!(error < 2e-5, "{method}, λ = {lambda}: {error}");
+            assert!(statistics.steps < 3000, "{method}, λ = {lambda}: {statistics:?}");
+        }
     }
 }

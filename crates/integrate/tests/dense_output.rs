@@ -32,8 +32,8 @@ fn held() -> FunctionProblem<'static> {
     })
 }
 
-/// The largest difference of friction and pull, in units of the weight, at four times within each step, and the number of steps: interpolated
-/// (settled), and by the plain dense output.
+/// The largest difference of friction and pull, in units of the weight, at four times within each step, and
+/// the number of steps: interpolated (settled), and by the plain dense output.
 fn off_balance(method: Method, tolerance: f64) -> ([f64; 2], u64) {
     let options = Options {
         method,
@@ -61,8 +61,9 @@ fn off_balance(method: Method, tolerance: f64) -> ([f64; 2], u64) {
     (most, run.statistics().steps)
 }
 
-/// The acceleration of what creeps is nothing beside the pull, 1e-5 of the weight, so friction is what pulls. In the middle of a step the plain
-/// dense output is off by up to 6 % of the weight (the friction of wedges was off by up to a quarter in single rows).
+/// The acceleration of what creeps is nothing beside the pull, 1e-5 of the weight, so friction is what pulls.
+/// In the middle of a step the plain dense output is off by up to 6 % of the weight (the friction of wedges
+/// was off by up to a quarter in single rows).
 #[test]
 fn issue_007_behaviour_what_sticks_is_interpolated_as_friction_holds_it() {
     for (method, tolerance) in [

@@ -1,52 +1,19 @@
-//! analytic: kinks that are foreseen. Steps end behind them instead of being rejected across them; what comes out stays what it was.
+//! analytic: kinks that are foreseen. Steps end behind them instead of being rejected across them; what comes
+//! out stays what it was.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 mod common;
 
+use common::problems::{BouncingBall, shaken, shaken_with_bound, shaken_with_slip};
 use common::run;
 use integrate::{Family, FunctionProblem, Integrator, Method, Options, Statistics};
 
-const GRAVITY: f64 = 9.81;
-const OMEGA: f64 = 500.0;
-
-/// A mass that falls on a spring, from 0.5 m.
-fn bounce() -> FunctionProblem<'static> {
-    FunctionProblem::new(
-        vec![1.0, OMEGA * 0.01],
-        |_, x, dx| {
-            dx[0] = x[1];
-            dx[1] = -GRAVITY - OMEGA * OMEGA * x[0].min(0.0);
-        },
-        |_, x, j| j.copy_from_slice(&[0.0, 1.0, if x[0] < 0.0 { -OMEGA * OMEGA } else { 0.0 }, 0.0]),
-    )
-}
-
-/// A mass shaken across a rough floor: `v˙ = 3 sin 5t - tanh(v/v0)`, and the energy lost.
-fn rough() -> FunctionProblem<'static> {
-    const LAYER: f64 = 1e-5;
-    FunctionProblem::new(
-        vec![1.0, 1.0],
-        |t, x, dx| {
-            let grip = libm::tanh(x[0] / LAYER);
-            dx[0] = 3.0 * libm::sin(5.0 * t) - grip;
-            dx[1] = grip * x[0];
-        },
-        |_, x, j| {
-            let grip = libm::tanh(x[0] / LAYER);
-            let slope = (1.0 - grip * grip) / LAYER;
-            j.copy_from_slice(&[-slope, 0.0, slope * x[0] + grip, 0.0]);
-        },
-    )
-    .time_derivative(|t, _, df_dt| df_dt[0] = 15.0 * libm::cos(5.0 * t))
-}
-
-fn rough_and_told() -> FunctionProblem<'static> {
-    rough().discontinuities(0, 1, |_, x, functions| functions.slips[0] = [x[0] / 1e-5, 0.0])
-}
-
-fn bounded() -> FunctionProblem<'static> {
-    rough_and_told().zone_error_bounds(vec![1e-5, f64::INFINITY])
-}
+/// Meters.
+const BALL: BouncingBall = BouncingBall {
+    gravity: 9.81,
+    omega: 500.0,
+    height: 0.5,
+};
 
 fn options(method: Method, relative_tolerance: f64) -> Options {
     Options {
@@ -59,15 +26,16 @@ fn options(method: Method, relative_tolerance: f64) -> Options {
 #[test]
 fn a_contact_that_is_foreseen_costs_fewer_attempts_and_the_motion_is_the_same() {
     // In the middle of the sixth flight: the height follows from the energy.
-    let fall = (2.0 * 0.5 / GRAVITY).sqrt();
-    let contact = 2.0 * (std::f64::consts::PI - libm::atan(GRAVITY * fall * OMEGA / GRAVITY)) / OMEGA;
-    let end = fall + 6.0 * (contact + 2.0 * fall) - fall;
+    let ((fall, _), (contact, flight)) = (BALL.fall(), BALL.contact_and_flight());
+    let end = fall + 6.0 * (contact + flight) - fall;
     for method in Method::ALL {
         if method.tableau().family != Family::LinearlyImplicit {
             continue; // it goes across
         }
-        let (x, blind) = run(bounce(), options(method, 1e-8), &[0.5, 0.0], end);
-        let told = bounce().discontinuities(1, 0, |_, x, functions| functions.values[0] = x[0]);
+        let (x, blind) = run(BALL.problem(), options(method, 1e-8), &[0.5, 0.0], end);
+        let told = BALL
+            .problem()
+            .discontinuities(1, 0, |_, x, functions| functions.values[0] = x[0]);
         let (y, told) = run(told, options(method, 1e-8), &[0.5, 0.0], end);
         for state in [&x, &y] {
             assert!(
@@ -91,9 +59,14 @@ fn a_contact_that_is_foreseen_costs_fewer_attempts_and_the_motion_is_the_same() 
 
 #[test]
 fn friction_that_reverses_is_foreseen() {
-    let (exact, _) = run(rough(), options(Method::Rodas5P, 1e-10), &[0.0, 0.0], 8.0);
-    let (x, blind) = run(rough(), options(Method::Rodas5P, 1e-6), &[0.0, 0.0], 8.0);
-    let (y, told) = run(rough_and_told(), options(Method::Rodas5P, 1e-6), &[0.0, 0.0], 8.0);
+    let (exact, _) = run(shaken(), options(Method::Rodas5P, 1e-10), &[0.0, 0.0], 8.0);
+    let (x, blind) = run(shaken(), options(Method::Rodas5P, 1e-6), &[0.0, 0.0], 8.0);
+    let (y, told) = run(
+        shaken_with_slip(),
+        options(Method::Rodas5P, 1e-6),
+        &[0.0, 0.0],
+        8.0,
+    );
     for state in [&x, &y] {
         for (value, exact) in state.iter().zip(&exact) {
             assert!((value - exact).abs() < 1e-4, "{state:?} {exact:?}");
@@ -110,11 +83,21 @@ fn friction_that_reverses_is_foreseen() {
 #[test]
 fn bounds_hold_in_layers_and_widen_outside() {
     let attempts = |statistics: &Statistics| statistics.steps + statistics.rejected();
-    let (exact, _) = run(rough(), options(Method::Rodas5P, 1e-10), &[0.0, 0.0], 8.0);
+    let (exact, _) = run(shaken(), options(Method::Rodas5P, 1e-10), &[0.0, 0.0], 8.0);
     // All the way as exact as a layer needs.
-    let (_, tight) = run(rough_and_told(), options(Method::Rodas5P, 1e-5), &[0.0, 0.0], 8.0);
+    let (_, tight) = run(
+        shaken_with_slip(),
+        options(Method::Rodas5P, 1e-5),
+        &[0.0, 0.0],
+        8.0,
+    );
     for tolerance in [1e-3, 1e-4] {
-        let (x, wide) = run(bounded(), options(Method::Rodas5P, tolerance), &[0.0, 0.0], 8.0);
+        let (x, wide) = run(
+            shaken_with_bound(),
+            options(Method::Rodas5P, tolerance),
+            &[0.0, 0.0],
+            8.0,
+        );
         println!(
             "{tolerance}: {} attempts, {} all the way",
             attempts(&wide),
@@ -151,7 +134,8 @@ fn bounds_in_layers_widen_with_the_slowest_direction() {
     assert_eq!(steps([1e6, 2e6]), none);
     let in_layer = steps([1e6, 0.0]);
     assert_eq!(steps([20.0, f64::NAN]), in_layer);
-    // Errors of order 5 in the step: 1e4 times the error makes 6.3 times the steps. A slip of 2000: a hundred times the bound.
+    // Errors of order 5 in the step: 1e4 times the error makes 6.3 times the steps. A slip of 2000: a hundred
+    // times the bound.
     assert!(in_layer > 5 * none, "{in_layer} {none}");
     let between = steps([2000.0, 1e6]);
     assert!(
@@ -176,13 +160,13 @@ fn a_direction_that_only_turns_is_no_kink() {
 #[test]
 fn a_saved_state_continues_with_the_same_bits_also_before_a_kink() {
     let options = options(Method::Rodas5P, 1e-3);
-    let mut whole = Integrator::new(bounded(), options.clone(), 0.0, &[0.0, 0.0]).unwrap();
+    let mut whole = Integrator::new(shaken_with_bound(), options.clone(), 0.0, &[0.0, 0.0]).unwrap();
     let mut resumed = 0;
     while whole.time() < 3.0 {
         let text = serde_json::to_string(&whole.state()).unwrap();
         whole.step_to(3.0).unwrap();
         let state = serde_json::from_str(&text).unwrap();
-        let mut again = Integrator::resume(bounded(), options.clone(), state).unwrap();
+        let mut again = Integrator::resume(shaken_with_bound(), options.clone(), state).unwrap();
         again.step_to(3.0).unwrap();
         assert_eq!(again.state(), whole.state());
         resumed += 1;
@@ -201,7 +185,7 @@ fn worst_step(problem: fn() -> FunctionProblem<'static>, method: Method, toleran
             initial_step: Some(1e-3 * (integrator.time() - time)),
             ..options(Method::Rodas4, 1e-12)
         };
-        let mut again = Integrator::new(rough(), fine, time, &x).unwrap();
+        let mut again = Integrator::new(shaken(), fine, time, &x).unwrap();
         while again.time() < integrator.time() {
             again.step_to(integrator.time()).unwrap();
         }
@@ -210,12 +194,13 @@ fn worst_step(problem: fn() -> FunctionProblem<'static>, method: Method, toleran
     (worst, integrator.statistics().steps)
 }
 
-/// What sticks breaks away: the Jacobian matrix of the start knows the hold alone, and the estimate of the error is damped with it.
+/// What sticks breaks away: the Jacobian matrix of the start knows the hold alone, and the estimate of the
+/// error is damped with it.
 #[test]
 fn issue_007_behaviour_a_step_that_breaks_away_is_as_exact_as_others() {
     for (method, most) in [(Method::Rodas4, 30.0), (Method::Rodas5P, 3.0)] {
-        let (blind, blind_steps) = worst_step(rough, method, 1e-5);
-        let (told, told_steps) = worst_step(bounded, method, 1e-5);
+        let (blind, blind_steps) = worst_step(shaken, method, 1e-5);
+        let (told, told_steps) = worst_step(shaken_with_bound, method, 1e-5);
         println!("{method}: {blind:.1} in {blind_steps} steps, {told:.1} in {told_steps}");
         assert!(blind > 100.0, "{method}: nothing to control here: {blind}");
         assert!(told < most, "{method}: {told}");
@@ -223,7 +208,8 @@ fn issue_007_behaviour_a_step_that_breaks_away_is_as_exact_as_others() {
     }
 }
 
-/// Slip that reverses within a fraction of a microsecond: its layer is narrower than the search for it is exact.
+/// Slip that reverses within a fraction of a microsecond: its layer is narrower than the search for it is
+/// exact.
 #[test]
 fn issue_007_behaviour_a_fast_reversal_is_foreseen() {
     const LAYER: f64 = 1e-7;
@@ -246,14 +232,17 @@ fn issue_007_behaviour_a_fast_reversal_is_foreseen() {
     assert!(statistics.discontinuities_predicted >= 12, "{statistics:?}");
 }
 
-/// A mass that strikes again and again, with explicit steps: behind each strike as long as those of the last one.
+/// A mass that strikes again and again, with explicit steps: behind each strike as long as those of the last
+/// one.
 #[test]
 fn issue_007_behaviour_strikes_cost_few_rejections() {
-    let struck = bounce()
+    let struck = BALL
+        .problem()
         .discontinuities(1, 0, |_, x, functions| functions.values[0] = x[0])
-        .spectral_radius_bound(|_, x| if x[0] < 0.0 { OMEGA } else { 0.0 });
+        .spectral_radius_bound(|_, x| if x[0] < 0.0 { BALL.omega } else { 0.0 });
     let (_, statistics) = run(struck, options(Method::Rodas5P, 1e-7), &[0.5, 0.0], 20.0);
-    // 31 strikes, nearly all by explicit steps; with steps behind them half as long as those before there were ten rejections each.
+    // 31 strikes, nearly all by explicit steps; with steps behind them half as long as those before there
+    // were ten rejections each.
     assert!(statistics.discontinuities_predicted >= 62, "{statistics:?}");
     assert!(
         10 * statistics.explicit_steps > 9 * statistics.steps,

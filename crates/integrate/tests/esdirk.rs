@@ -1,10 +1,11 @@
-//! The method that damps fast vibrations: its coefficients, what it keeps and what it damps, friction that reverses, and what it
-//! cannot solve.
+//! The method that damps fast vibrations: its coefficients, what it keeps and what it damps, friction that
+//! reverses, and what it cannot solve.
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
 mod common;
 
+use common::problems::{stick_slip, stick_slip_with_discontinuities};
 use common::run;
 use integrate::{FunctionProblem, Integrator, Method, Options, Reason, SetupError, State};
 
@@ -60,8 +61,8 @@ fn convergence_coefficients_fulfil_their_conditions() {
     }
 }
 
-/// The conditions of order 3 of ESDIRK3, of order 2 of its stages, and of its embedded solution, whose error of a cubic is what is estimated;
-/// its dense output goes through its stages.
+/// The conditions of order 3 of ESDIRK3, of order 2 of its stages, and of its embedded solution, whose error
+/// of a cubic is what is estimated; its dense output goes through its stages.
 #[test]
 fn convergence_coefficients_of_order_3_fulfil_their_conditions() {
     let tableau = Method::Esdirk3.tableau();
@@ -127,7 +128,8 @@ fn carried(omega: f64) -> FunctionProblem<'static> {
     .time_derivative(move |t, _, f| f[1] = omega * omega * libm::cos(t))
 }
 
-/// What a stiff spring holds follows its support, its speed with the order of the stages, though that is the derivative of what is held.
+/// What a stiff spring holds follows its support, its speed with the order of the stages, though that is the
+/// derivative of what is held.
 #[test]
 fn convergence_the_speed_of_what_is_held_keeps_its_order() {
     for method in DAMPING {
@@ -164,7 +166,8 @@ fn limits_a_fast_vibration_is_damped_and_the_motion_is_kept() {
     }
 }
 
-/// A mass of 1 kg slides at 1 m/s under friction of 10 N, a force of 5 N pulls it on: it stops after 0.1 m and creeps.
+/// A mass of 1 kg slides at 1 m/s under friction of 10 N, a force of 5 N pulls it on: it stops after 0.1 m
+/// and creeps.
 #[test]
 fn analytic_a_sliding_mass_stops_and_sticks() {
     const REFERENCE: f64 = 1e-5;
@@ -193,48 +196,22 @@ fn analytic_a_sliding_mass_stops_and_sticks() {
     }
 }
 
-/// The reference speed of the friction of [`dragged`].
-const DRAGGED_SPEED: f64 = 1e-5;
-
-/// A mass of 1 kg under friction of 10 N on a spring of 2000 N/m whose end moves as 0.02 sin 5t: it sticks, slips and rings at 7 Hz.
-fn dragged(tells: bool) -> FunctionProblem<'static> {
-    let problem = FunctionProblem::new(
-        vec![1.0, 1.0],
-        |t, x, dx| {
-            dx[0] = x[1];
-            dx[1] = 2000.0 * (0.02 * libm::sin(5.0 * t) - x[0]) - 10.0 * libm::tanh(x[1] / DRAGGED_SPEED);
-        },
-        |_, x, j| {
-            let cosh = libm::cosh(x[1] / DRAGGED_SPEED);
-            j.copy_from_slice(&[0.0, 1.0, -2000.0, -10.0 / (DRAGGED_SPEED * cosh * cosh)]);
-        },
-    )
-    .displacements(1);
-    if tells {
-        problem
-            .discontinuities(0, 1, |_, x, functions| {
-                functions.slips[0] = [x[1] / DRAGGED_SPEED, 0.0]
-            })
-            .discontinuities_complete()
-    } else {
-        problem
-    }
-}
-
-/// Told of pieces, Newton's method keeps its matrix on them and looks for reversals where they are: the same motion for fewer matrices.
+/// Told of pieces, Newton's method keeps its matrix on them and looks for reversals where they are: the same
+/// motion for fewer matrices.
 #[test]
 fn convergence_a_matrix_kept_on_its_piece_changes_nothing_but_its_cost() {
     let reference = Options {
         relative_tolerance: 1e-10,
         ..Options::default()
     };
-    let (exact, _) = run(dragged(false), reference, &[0.0, 0.0], 4.0);
+    let (exact, _) = run(stick_slip(), reference, &[0.0, 0.0], 4.0);
     for method in DAMPING {
         let options = Options {
             maximum_step: 0.01,
             ..options_of(method, 1e-7)
         };
-        let [alone, told] = [false, true].map(|tells| run(dragged(tells), options.clone(), &[0.0, 0.0], 4.0));
+        let [alone, told] = [stick_slip, stick_slip_with_discontinuities]
+            .map(|make| run(make(), options.clone(), &[0.0, 0.0], 4.0));
         println!("{method}: {:?}\n{:?}", alone.1, told.1);
         for (x, _) in [&alone, &told] {
             assert!((x[0] - exact[0]).abs() < 2e-5, "{method}: {x:?}, {exact:?}");
@@ -247,7 +224,8 @@ fn convergence_a_matrix_kept_on_its_piece_changes_nothing_but_its_cost() {
     }
 }
 
-/// Where the way is smooth, and a problem tells so, a stage takes one right-hand side: its guess is within the tolerance.
+/// Where the way is smooth, and a problem tells so, a stage takes one right-hand side: its guess is within
+/// the tolerance.
 #[test]
 fn convergence_a_smooth_way_is_guessed() {
     let follower = |tells: bool| {
@@ -288,8 +266,20 @@ fn convergence_a_smooth_way_is_guessed() {
 fn reproducible_a_saved_run_goes_on_with_the_matrix_it_kept() {
     for method in DAMPING {
         let options = options_of(method, 1e-6);
-        let mut whole = Integrator::new(dragged(true), options.clone(), 0.0, &[0.0, 0.0]).unwrap();
-        let mut parts = Integrator::new(dragged(true), options.clone(), 0.0, &[0.0, 0.0]).unwrap();
+        let mut whole = Integrator::new(
+            stick_slip_with_discontinuities(),
+            options.clone(),
+            0.0,
+            &[0.0, 0.0],
+        )
+        .unwrap();
+        let mut parts = Integrator::new(
+            stick_slip_with_discontinuities(),
+            options.clone(),
+            0.0,
+            &[0.0, 0.0],
+        )
+        .unwrap();
         let mut kept = 0;
         while whole.time() < 2.0 {
             whole.step_to(2.0).unwrap();
@@ -297,7 +287,8 @@ fn reproducible_a_saved_run_goes_on_with_the_matrix_it_kept() {
             let text = serde_json::to_string(&parts.state()).unwrap();
             let state: State = serde_json::from_str(&text).unwrap();
             if whole.statistics().steps.is_multiple_of(2) {
-                parts = Integrator::resume(dragged(true), options.clone(), state).unwrap();
+                parts =
+                    Integrator::resume(stick_slip_with_discontinuities(), options.clone(), state).unwrap();
             } else {
                 parts.restore(&state).unwrap();
             }
@@ -309,7 +300,8 @@ fn reproducible_a_saved_run_goes_on_with_the_matrix_it_kept() {
     }
 }
 
-/// Where a force bends, as friction that reverses does at a row of output, only the ends of steps are in balance: rows limit steps.
+/// Where a force bends, as friction that reverses does at a row of output, only the ends of steps are in
+/// balance: rows limit steps.
 #[test]
 fn limits_rows_end_the_steps_of_methods_that_damp() {
     for method in Method::ALL {
@@ -330,7 +322,8 @@ fn points_back(speed: f64) -> FunctionProblem<'static> {
     )
 }
 
-/// A slope that jumps has no solution where it points back from both sides. Within the tolerance the state rests there.
+/// A slope that jumps has no solution where it points back from both sides. Within the tolerance the state
+/// rests there.
 #[test]
 fn limits_what_points_back_from_both_sides_rests() {
     let (x, _) = run(points_back(1.0), options(1e-3), &[0.5], 1.0);
@@ -360,7 +353,8 @@ fn input_stages_without_solution_are_reported() {
     assert!(integrator.statistics().rejected_newton > 2);
 }
 
-/// A saved run has the slope with which its last step ended, the place of its matrix, and that step. Those that cannot be are refused.
+/// A saved run has the slope with which its last step ended, the place of its matrix, and that step. Those
+/// that cannot be are refused.
 #[test]
 fn input_a_damaged_slope_or_matrix_is_refused() {
     let mut integrator = Integrator::new(carried(100.0), options(1e-4), 0.0, &[0.0, 1.0]).unwrap();

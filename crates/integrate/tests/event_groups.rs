@@ -6,7 +6,9 @@ use std::f64::consts::PI;
 
 use integrate::{Event, EventGroup, Integrator, Options, Problem, Singular};
 
-/// x_i = sin(ω_i t), each a state of its own, with a switch that goes to 1 above a half and back below its negative.
+/// x_i = sin(ω_i t), each a state of its own, with a switch that goes to 1 above a half and back below its
+/// negative.
+#[derive(Clone)]
 struct Waves {
     frequencies: Vec<f64>,
     scales: Vec<f64>,
@@ -140,7 +142,7 @@ fn run(count: usize, grouped: bool) -> (Vec<Event>, Waves) {
     }
     assert_eq!(integrator.statistics().events, events.len() as u64);
     assert_eq!(integrator.statistics().events_unresolved, 0);
-    (events, integrator.into_problem())
+    (events, integrator.problem().clone())
 }
 
 #[test]

@@ -1,33 +1,13 @@
 //! Issue 29: saved states edited by hand are refused with the member's name, or go on soundly.
 #![allow(missing_docs, clippy::unwrap_used)]
 
+mod common;
 #[path = "common/damage.rs"]
 mod damage;
 
+use common::problems::shaken_with_bound;
 use integrate::{FunctionProblem, Integrator, MAXIMUM_COUNT, Method, Options, Reason, SetupError, State};
 use serde_json::{Value, json};
-
-const LAYER: f64 = 1e-5;
-
-/// A mass shaken across a rough floor that tells its kinks: `v˙ = 3 sin 5t - tanh(v/v0)`, and the energy lost.
-fn rough() -> FunctionProblem<'static> {
-    FunctionProblem::new(
-        vec![1.0, 1.0],
-        |t, x, dx| {
-            let grip = libm::tanh(x[0] / LAYER);
-            dx[0] = 3.0 * libm::sin(5.0 * t) - grip;
-            dx[1] = grip * x[0];
-        },
-        |_, x, j| {
-            let grip = libm::tanh(x[0] / LAYER);
-            let slope = (1.0 - grip * grip) / LAYER;
-            j.copy_from_slice(&[-slope, 0.0, slope * x[0] + grip, 0.0]);
-        },
-    )
-    .time_derivative(|t, _, df_dt| df_dt[0] = 15.0 * libm::cos(5.0 * t))
-    .discontinuities(0, 1, |_, x, functions| functions.slips[0] = [x[0] / LAYER, 0.0])
-    .zone_error_bounds(vec![LAYER, f64::INFINITY])
-}
 
 fn options(method: Method) -> Options {
     Options {
@@ -39,12 +19,12 @@ fn options(method: Method) -> Options {
 
 fn resume(method: Method, state: Value) -> Result<Integrator<FunctionProblem<'static>>, String> {
     let state: State = serde_json::from_value(state).map_err(|error| error.to_string())?;
-    Integrator::resume(rough(), options(method), state).map_err(|error| error.to_string())
+    Integrator::resume(shaken_with_bound(), options(method), state).map_err(|error| error.to_string())
 }
 
 /// States of a run that between them hold every member that a state can hold.
 fn states(method: Method) -> Vec<Value> {
-    let mut integrator = Integrator::new(rough(), options(method), 0.0, &[0.0, 0.0]).unwrap();
+    let mut integrator = Integrator::new(shaken_with_bound(), options(method), 0.0, &[0.0, 0.0]).unwrap();
     let wanted: &[fn(&Value) -> bool] = &[
         |state| state["time"].as_f64().is_some_and(|time| time > 0.3),
         |state| state["ahead"].get("Layer").is_some(),
@@ -141,7 +121,7 @@ fn issue_029_a_layer_of_a_direction_that_is_not_there_is_refused() {
     let mut state = with_layer.clone();
     state["passage"]["layer"]["direction"] = json!(1);
     let state: State = serde_json::from_value(state).unwrap();
-    let error = Integrator::resume(rough(), options(Method::Rodas5P), state).unwrap_err();
+    let error = Integrator::resume(shaken_with_bound(), options(Method::Rodas5P), state).unwrap_err();
     assert!(
         matches!(
             error,

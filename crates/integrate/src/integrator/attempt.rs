@@ -52,8 +52,8 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
-    /// Evaluates the derivative at the end of the attempt. It belongs to the step: a step to a state without derivative
-    /// is rejected.
+    /// Evaluates the derivative at the end of the attempt. It belongs to the step: a step to a state without
+    /// derivative is rejected.
     #[inline(always)]
     pub(super) fn evaluate_end(&mut self) -> Result<(), Failure> {
         let n = self.dimension;

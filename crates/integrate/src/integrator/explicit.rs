@@ -54,8 +54,9 @@ impl<P: Problem> Integrator<P> {
             scale(&mut rest[..stride], step, derivative);
         }
         let error = self.explicit_error()?;
-        // Across a discontinuity the error estimate of an explicit method can be small by chance, and steps are tried
-        // until it is; that of a Rosenbrock method, whose Jacobian matrix is that of the wrong side, is large.
+        // Across a discontinuity the error estimate of an explicit method can be small by chance, and steps
+        // are tried until it is; that of a Rosenbrock method, whose Jacobian matrix is that of the wrong
+        // side, is large.
         if prediction.is_some() || error > 1.0 {
             return Ok(error);
         }

@@ -1,17 +1,19 @@
-//! States between the ends of the last step: the dense output, and its correction where friction holds something.
+//! States between the ends of the last step: the dense output, and its correction where friction holds
+//! something.
 //!
-//! The ends of an implicit step lie where stiff forces are in equilibrium; the dense output between them need not. A
-//! sticking contact creeps with a part of the reference speed of its friction law, and what the polynomial misses of
-//! that changes its friction by as large a part: a step that is exact to a fifth of the tolerance at its end can be off
-//! by half of the friction force in its middle. So the states `u` of the dense output are corrected by one step of the
-//! implicit Euler method of length γh for what they miss of the equations,
+//! The ends of an implicit step lie where stiff forces are in equilibrium; the dense output between them need
+//! not. A sticking contact creeps with a part of the reference speed of its friction law, and what the
+//! polynomial misses of that changes its friction by as large a part: a step that is exact to a fifth of the
+//! tolerance at its end can be off by half of the friction force in its middle. So the states `u` of the
+//! dense output are corrected by one step of the implicit Euler method of length γh for what they miss of the
+//! equations,
 //!
 //! ```text
 //! δ/(γh) = f(u + δ) - u',
 //! ```
 //!
-//! solved by Newton's method. It brings stiff components to their equilibrium, and changes the others by no more than
-//! the error of the dense output. Decision 0029.
+//! solved by Newton's method. It brings stiff components to their equilibrium, and changes the others by no
+//! more than the error of the dense output. Decision 0029.
 
 use super::Integrator;
 use super::memory::{CorrectionMatrix, DenseCorrection};
@@ -24,9 +26,9 @@ use crate::vector::all_finite;
 impl<P: Problem> Integrator<P> {
     /// Returns the limit of the next step on the way to `end`, if states are needed at `output_time`.
     ///
-    /// For Rosenbrock methods it is `end`: [`Integrator::interpolate`] is as exact as a step. For ESDIRK methods it is
-    /// `output_time`: they control the errors of displacements alone, and only at stages are speeds in equilibrium with
-    /// friction.
+    /// For Rosenbrock methods it is `end`: [`Integrator::interpolate`] is as exact as a step. For ESDIRK
+    /// methods it is `output_time`: they control the errors of displacements alone, and only at stages are
+    /// speeds in equilibrium with friction.
     #[must_use]
     pub fn step_limit(&self, output_time: f64, end: f64) -> f64 {
         match self.tableau.family {
@@ -35,8 +37,8 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
-    /// Writes the states at a time in the last step, to the order of the method's dense output, corrected where
-    /// something stiff holds them. Call it before the next step begins: from then on it is the same as
+    /// Writes the states at a time in the last step, to the order of the method's dense output, corrected
+    /// where something stiff holds them. Call it before the next step begins: from then on it is the same as
     /// [`Integrator::interpolate_range`].
     ///
     /// # Panics
@@ -59,8 +61,8 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
-    /// Writes the states from `first` on, as many as `out` holds, at a time in the last step, by the method's dense
-    /// output without correction.
+    /// Writes the states from `first` on, as many as `out` holds, at a time in the last step, by the method's
+    /// dense output without correction.
     ///
     /// # Panics
     /// If there are not as many states.
@@ -85,8 +87,8 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
-    /// Returns whether the dense output of the last step needs a correction in its middle, by the matrix of the step.
-    /// Where everything slides fast friction hardly depends on the slip.
+    /// Returns whether the dense output of the last step needs a correction in its middle, by the matrix of
+    /// the step. Where everything slides fast friction hardly depends on the slip.
     fn needs_correction(&mut self) -> bool {
         let shift = self.correction_shift();
         let middle = 0.5 * (self.previous_time + self.time);
@@ -100,8 +102,8 @@ impl<P: Problem> Integrator<P> {
         1.0 / (self.last_method.gamma * (self.time - self.previous_time))
     }
 
-    /// Evaluates the dense output and its derivative at a time, and if the problem is stiff there the right-hand side;
-    /// returns whether it is stiff, and the right-hand side finite.
+    /// Evaluates the dense output and its derivative at a time, and if the problem is stiff there the
+    /// right-hand side; returns whether it is stiff, and the right-hand side finite.
     fn start_correction(&mut self, time: f64) -> bool {
         let mut correction = std::mem::take(&mut self.correction);
         let dense = self.dense_output();
@@ -169,8 +171,8 @@ impl<P: Problem> Integrator<P> {
         self.problem.factor(shift).is_ok()
     }
 
-    /// Evaluates a matrix at the corrected states, where the right-hand side is known; returns whether it could be
-    /// factored.
+    /// Evaluates a matrix at the corrected states, where the right-hand side is known; returns whether it
+    /// could be factored.
     fn replace_matrix(&mut self, time: f64, shift: f64) -> bool {
         let n = self.dimension;
         let DenseCorrection { x, rate, .. } = &self.correction;
@@ -180,8 +182,8 @@ impl<P: Problem> Integrator<P> {
         self.problem.factor(shift).is_ok()
     }
 
-    /// Corrects the states once, by the right-hand side there and the matrix that the problem holds; returns the norm
-    /// of the correction, infinite if a value is not finite.
+    /// Corrects the states once, by the right-hand side there and the matrix that the problem holds; returns
+    /// the norm of the correction, infinite if a value is not finite.
     fn correct_once(&mut self, shift: f64) -> f64 {
         let DenseCorrection {
             start,

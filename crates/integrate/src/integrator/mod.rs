@@ -62,8 +62,8 @@ pub struct Integrator<P: Problem> {
     spectral_radius: f64,
     /// For each stage whether its argument is that of the stage before plus the `U` of that stage.
     extends: Vec<bool>,
-    /// For each stage the length of its argument: the dynamic states, but all states where the argument becomes the
-    /// new state.
+    /// For each stage the length of its argument: the dynamic states, but all states where the argument
+    /// becomes the new state.
     widths: Vec<usize>,
     dimension: usize,
     /// Length of a padded vector.
@@ -171,12 +171,6 @@ impl<P: Problem> Integrator<P> {
     /// [`Integrator::reevaluate`].
     pub fn problem_mut(&mut self) -> &mut P {
         &mut self.problem
-    }
-
-    /// Ends the integration and returns the problem.
-    #[must_use]
-    pub fn into_problem(self) -> P {
-        self.problem
     }
 
     /// Returns the options.

@@ -1,10 +1,11 @@
-//! An attempt by an ESDIRK method: its stages are solved by Newton's method with a Jacobian cache and a line search.
+//! An attempt by an ESDIRK method: its stages are solved by Newton's method with a Jacobian cache and a line
+//! search.
 //!
-//! A stage begins at the prediction of [`crate::newton::Extrapolation`], with the cached matrix if it is valid there,
-//! otherwise with a matrix evaluated there (if the problem does not tell contact states: in the first stage). The
-//! matrix is used while corrections shrink by [`tuning::CONTRACTION`]. Where a correction crosses a discontinuity, a
-//! line search finds the point at which the next matrix is evaluated, see [`crate::newton::LineSearch`].
-//! Decisions 0026, 0033, 0035.
+//! A stage begins at the prediction of [`crate::newton::Extrapolation`], with the cached matrix if it is
+//! valid there, otherwise with a matrix evaluated there (if the problem does not tell contact states: in the
+//! first stage). The matrix is used while corrections shrink by [`tuning::CONTRACTION`]. Where a correction
+//! crosses a discontinuity, a line search finds the point at which the next matrix is evaluated, see
+//! [`crate::newton::LineSearch`]. Decisions 0026, 0033, 0035.
 
 use super::Integrator;
 use super::attempt::{not_finite, stage_time};
@@ -62,8 +63,8 @@ impl<P: Problem> Integrator<P> {
         newton.time = stage_time(tableau.alpha[i], self.time, length, target);
         let done = &self.trial_stages[..i * stride];
         combine(&mut newton.base, &self.x, 1.0, tableau.a[i], done, stride);
-        // From the last step to the first implicit stage, then from the stages before, the last of which is the
-        // argument. Without a last step only the derivative at its end is known, and the tangent is used.
+        // From the last step to the first implicit stage, then from the stages before, the last of which is
+        // the argument. Without a last step only the derivative at its end is known, and the tangent is used.
         let (way, cubic) = if i == 1 {
             self.argument.copy_from_slice(&self.x);
             let history = &newton.history;
@@ -172,8 +173,8 @@ impl<P: Problem> Integrator<P> {
         Ok(FirstCorrection::Corrected)
     }
 
-    /// Applies further corrections with the same matrix while they shrink; returns whether the stage is solved. If not,
-    /// the next matrix is to be evaluated at the argument, where the derivative is known.
+    /// Applies further corrections with the same matrix while they shrink; returns whether the stage is
+    /// solved. If not, the next matrix is to be evaluated at the argument, where the derivative is known.
     fn iterate(&mut self) -> bool {
         let size = loop {
             self.evaluate_stage();

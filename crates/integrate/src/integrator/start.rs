@@ -52,7 +52,8 @@ impl<P: Problem> Integrator<P> {
         Ok(this)
     }
 
-    /// Continues an integration from a saved state, with the same bits if the problem and the options are the same.
+    /// Continues an integration from a saved state, with the same bits if the problem and the options are the
+    /// same.
     ///
     /// # Errors
     /// If the state does not fit to this program or to the problem, and as [`Integrator::new`].
@@ -170,8 +171,8 @@ impl<P: Problem> Integrator<P> {
         check_state(state, &self.problem, self.events.discrete_states.len())
     }
 
-    /// Returns to a saved state of the same problem and options, with the same bits as [`Integrator::resume`], without
-    /// allocation. The last step is forgotten: nothing can be interpolated.
+    /// Returns to a saved state of the same problem and options, with the same bits as
+    /// [`Integrator::resume`], without allocation. The last step is forgotten: nothing can be interpolated.
     ///
     /// # Errors
     /// If the state does not fit to this program or to the problem; nothing has changed then.
@@ -226,16 +227,17 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
-    /// Continues after a change of the right-hand side without a jump: it is evaluated again, the memory of the
-    /// step-size controller is kept. A motion that a caller continues piece by piece costs no restart this way.
+    /// Continues after a change of the right-hand side without a jump: it is evaluated again, the memory of
+    /// the step-size controller is kept. A motion that a caller continues piece by piece costs no restart
+    /// this way.
     pub fn reevaluate(&mut self) {
         self.evaluate_derivative();
         self.prediction = None;
         self.zone_crossing = None;
     }
 
-    /// Continues after a jump of the right-hand side: it is evaluated again, the memory of the step-size controller is
-    /// dropped.
+    /// Continues after a jump of the right-hand side: it is evaluated again, the memory of the step-size
+    /// controller is dropped.
     pub fn restart(&mut self) {
         self.reevaluate();
         self.controller.restart();
@@ -339,8 +341,8 @@ fn weights<P: Problem>(problem: &P, tolerance: f64, stride: usize) -> (Vec<f64>,
     (weights, zone_weights)
 }
 
-/// Returns for each stage of a Rosenbrock method whether its argument is that of the stage before plus the `U` of that
-/// stage.
+/// Returns for each stage of a Rosenbrock method whether its argument is that of the stage before plus the
+/// `U` of that stage.
 fn extending_stages(tableau: &Tableau) -> Vec<bool> {
     let linearly_implicit = tableau.family == Family::LinearlyImplicit;
     (0..tableau.stages())

@@ -10,10 +10,12 @@ use crate::problem::Problem;
 use crate::tuning::step as tuning;
 
 impl<P: Problem> Integrator<P> {
-    /// Makes one accepted step that does not pass `limit` (which may be infinite) nor the next time discontinuity.
+    /// Makes one accepted step that does not pass `limit` (which may be infinite) nor the next time
+    /// discontinuity.
     ///
     /// # Errors
-    /// If the limit is not later than the time, or no step can be made; the last accepted step then stays in place.
+    /// If the limit is not later than the time, or no step can be made; the last accepted step then stays in
+    /// place.
     pub fn step_to(&mut self, limit: f64) -> Result<(), StepError> {
         self.plan(limit)?;
         loop {
@@ -158,7 +160,8 @@ impl<P: Problem> Integrator<P> {
     fn reject_error(&mut self, error: f64) -> f64 {
         self.statistics.rejected_error += 1;
         if self.attempt.prediction.is_some() {
-            // It crossed the discontinuity. From most of the distance on this side its time is predicted more exactly.
+            // It crossed the discontinuity. From most of the distance on this side its time is predicted more
+            // exactly.
             tuning::RETRY_BEFORE_DISCONTINUITY
         } else {
             let root = self.error_root(error);
@@ -201,7 +204,8 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
-    /// Returns length and end of an attempt of about this length, such that no tiny step remains before `end`.
+    /// Returns length and end of an attempt of about this length, such that no tiny step remains before
+    /// `end`.
     #[inline]
     fn fit(&self, step: f64, end: f64) -> (f64, f64) {
         let remaining = end - self.time;
@@ -262,8 +266,8 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
-    /// Evaluates the discontinuity functions at the state reached (`known`: they were evaluated for the attempt), and
-    /// the admissible errors there.
+    /// Evaluates the discontinuity functions at the state reached (`known`: they were evaluated for the
+    /// attempt), and the admissible errors there.
     #[inline]
     fn update_discontinuities(&mut self, known: bool) {
         if known {
@@ -311,8 +315,8 @@ impl<P: Problem> Integrator<P> {
                 .store_step(self.time - self.previous_time, &self.previous_x, first);
         }
         self.statistics.explicit_steps += u64::from(family == Family::Explicit);
-        // All functions are evaluated at the end of the step one after the other: what the problem computes for one
-        // serves the others.
+        // All functions are evaluated at the end of the step one after the other: what the problem computes
+        // for one serves the others.
         let radius_before = self.spectral_radius;
         self.update_spectral_radius();
         if family == Family::Explicit && !truncated && prediction.is_none() && error > tuning::ERROR_LIMITED {

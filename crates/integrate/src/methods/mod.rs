@@ -38,7 +38,8 @@ pub enum Method {
     /// Rosenbrock, order 4(3), 6 stages; no order reduction for stiff time dependence (Prothero-Robinson,
     /// parabolic problems).
     Rodas4P,
-    /// Rosenbrock, order 4(3), 6 stages; as [`Method::Rodas4P`], with smaller errors from an inexact Jacobian.
+    /// Rosenbrock, order 4(3), 6 stages; as [`Method::Rodas4P`], with smaller errors from an inexact
+    /// Jacobian.
     Rodas4P2,
     /// Rosenbrock, order 5(4), 8 stages; little order reduction; dense output of order 4.
     #[default]

@@ -1,4 +1,5 @@
-//! TR-BDF2: the trapezoidal rule and the second backward differentiation formula as one ESDIRK step of order 2.
+//! TR-BDF2: the trapezoidal rule and the second backward differentiation formula as one ESDIRK step of order
+//! 2.
 
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
@@ -19,9 +20,10 @@ const ERROR: f64 = 2.0 * (-3.0 * MIDDLE * MIDDLE + 4.0 * MIDDLE - 2.0) / (12.0 *
 
 /// TR-BDF2: the trapezoidal rule up to 0.59 of the step, then BDF2 through that point to the end of the step.
 ///
-/// The first stage is the last one of the previous step (FSAL). All stages have order 2, so a coordinate that is
-/// held by a stiff spring keeps order 2, and so does its speed. A method of order 2 whose stages have order 1
-/// (R. Alexander, SIAM J. Numer. Anal. 14 (1977) 1006) has an error of h/3 times the acceleration in that speed.
+/// The first stage is the last one of the previous step (FSAL). All stages have order 2, so a coordinate that
+/// is held by a stiff spring keeps order 2, and so does its speed. A method of order 2 whose stages have
+/// order 1 (R. Alexander, SIAM J. Numer. Anal. 14 (1977) 1006) has an error of h/3 times the acceleration in
+/// that speed.
 pub static TR_BDF2: Tableau = Tableau {
     name: "TR-BDF2",
     citation: "R. E. Bank et al.: Transient simulation of silicon devices and circuits, IEEE Trans. Electron \

@@ -1,15 +1,16 @@
-//! Contact state (active set): the part of the problem's state that decides whether a Jacobian matrix is valid.
+//! Contact state (active set): the part of the problem's state that decides whether a Jacobian matrix is
+//! valid.
 //!
-//! Contact and friction are piecewise nearly linear: while the same contacts are closed and friction holds them alike,
-//! derivatives change little. How friction with the slip `u` enters derivatives is measured by
+//! Contact and friction are piecewise nearly linear: while the same contacts are closed and friction holds
+//! them alike, derivatives change little. How friction with the slip `u` enters derivatives is measured by
 //!
 //! ```text
 //! φ = u/√(1 + u²),   ∂φ/∂u = (1 - φ φᵀ)/√(1 + u²),
 //! ```
 //!
-//! which is near to the law of regularized Coulomb friction (`tanh(|u|) u/|u|`, Steets 2007, eq. 3-8) and costs one
-//! square root: φ is the direction of the friction of a sliding contact, ∂φ/∂u the stiffness with which one that
-//! sticks is held. Decision 0034.
+//! which is near to the law of regularized Coulomb friction (`tanh(|u|) u/|u|`, Steets 2007, eq. 3-8) and
+//! costs one square root: φ is the direction of the friction of a sliding contact, ∂φ/∂u the stiffness with
+//! which one that sticks is held. Decision 0034.
 
 use crate::discontinuity::{DiscontinuityFunctions, square};
 use crate::tuning::contact_state as tuning;

@@ -1,9 +1,9 @@
-//! Jacobian cache: the matrix of Newton's method is used again in later stages and steps, as long as they are in the
-//! contact state in which it was evaluated.
+//! Jacobian cache: the matrix of Newton's method is used again in later stages and steps, as long as they are
+//! in the contact state in which it was evaluated.
 //!
-//! A matrix of another contact state does harm that corrections do not show: one from within a regularization zone is
-//! some hundred times as stiff as the same contact when it slides, so that corrections look as much too small. (Several
-//! cached matrices, one per contact state, gained nothing: decision 0043.)
+//! A matrix of another contact state does harm that corrections do not show: one from within a regularization
+//! zone is some hundred times as stiff as the same contact when it slides, so that corrections look as much
+//! too small. (Several cached matrices, one per contact state, gained nothing: decision 0043.)
 
 use serde::{Deserialize, Serialize};
 

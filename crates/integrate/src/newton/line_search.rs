@@ -1,11 +1,12 @@
 //! Line search along a correction that leads across a discontinuity.
 //!
-//! If a correction crosses a discontinuity - slip that reverses, a contact that opens - the next one points back. The
-//! zero of its component along the first correction is then located between both ends, and the Jacobian matrix is
-//! evaluated there. Without this search Newton's method alternates between both sides of a slip reversal, and steps
-//! have to be as short as the regularization zone is thin. Regula falsi with the Illinois modification (M. Dowell,
-//! P. Jarratt, BIT 11 (1971) 168), started by the model of [`SlipReversal`]. Natural corrections: P. Deuflhard, *Newton
-//! Methods for Nonlinear Problems*, Springer 2004, section 3.
+//! If a correction crosses a discontinuity - slip that reverses, a contact that opens - the next one points
+//! back. The zero of its component along the first correction is then located between both ends, and the
+//! Jacobian matrix is evaluated there. Without this search Newton's method alternates between both sides of a
+//! slip reversal, and steps have to be as short as the regularization zone is thin. Regula falsi with the
+//! Illinois modification (M. Dowell, P. Jarratt, BIT 11 (1971) 168), started by the model of
+//! [`SlipReversal`]. Natural corrections: P. Deuflhard, *Newton Methods for Nonlinear Problems*, Springer
+//! 2004, section 3.
 
 use super::SlipReversal;
 use crate::tuning::newton as tuning;

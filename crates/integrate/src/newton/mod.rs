@@ -1,8 +1,8 @@
-//! Parts of the modified Newton iteration of the ESDIRK methods that do not depend on the integrator: the stage
-//! predictor, the Jacobian cache with the contact state it is valid for, and the line search.
+//! Parts of the modified Newton iteration of the ESDIRK methods that do not depend on the integrator: the
+//! stage predictor, the Jacobian cache with the contact state it is valid for, and the line search.
 //!
-//! A stage is the zero of `F(z) = (base - z)/(hγ) + f(t, z)`; a correction is `d = (I/(hγ) - J)⁻¹ F(z)`. The iteration
-//! itself is in [`crate::integrator`]'s file `sdirk.rs`.
+//! A stage is the zero of `F(z) = (base - z)/(hγ) + f(t, z)`; a correction is `d = (I/(hγ) - J)⁻¹ F(z)`. The
+//! iteration itself is in [`crate::integrator`]'s file `sdirk.rs`.
 
 mod contact_state;
 mod jacobian_cache;
@@ -94,7 +94,8 @@ impl Newton {
         self.cache_valid && self.matrices == 1
     }
 
-    /// Stores an accepted step of length `step`, from states `x` with the first stage `first`, if it ended smoothly.
+    /// Stores an accepted step of length `step`, from states `x` with the first stage `first`, if it ended
+    /// smoothly.
     pub fn store_step(&mut self, step: f64, x: &[f64], first: &[f64]) {
         self.history_valid = self.was_smooth();
         if self.history_valid {
@@ -130,8 +131,8 @@ impl Newton {
         self.history_valid = false;
     }
 
-    /// Returns the component of the next correction along the last one, relative to the last one. `size` is the norm of
-    /// the next correction; where it is not finite, it points straight back.
+    /// Returns the component of the next correction along the last one, relative to the last one. `size` is
+    /// the norm of the next correction; where it is not finite, it points straight back.
     pub fn component_along(&self, size: f64) -> f64 {
         if !size.is_finite() {
             return -1.0;

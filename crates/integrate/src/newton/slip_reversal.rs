@@ -1,16 +1,18 @@
 //! Model of a line search across a slip reversal.
 //!
-//! Along a Newton correction `d` that reverses a slip, the component `s` of the next correction along `d` changes like
-//! a jump: outside of the regularization zone it is `1 - f` at the fraction `f` of `d`, inside of it changes its sign.
-//! With the component `u` of the slip along its change, and `m` the one across (the distance at which it passes zero),
+//! Along a Newton correction `d` that reverses a slip, the component `s` of the next correction along `d`
+//! changes like a jump: outside of the regularization zone it is `1 - f` at the fraction `f` of `d`, inside
+//! of it changes its sign. With the component `u` of the slip along its change, and `m` the one across (the
+//! distance at which it passes zero),
 //!
 //! ```text
 //! s(f) = 1 - f - B (φ(u(f)) - φ(u(0))),   φ(u) = u tanh(r)/r,  r² = u² + m²,
 //! ```
 //!
-//! by the law of regularized Coulomb friction (Steets 2007, eq. 3-8); B follows from the component found at one
-//! fraction. The zero of this model is within the tolerance of the line search after 1.2 evaluations on average, where
-//! regula falsi takes seven or eight: s is 1 at one end and -10 to -40 at the other. Decision 0033.
+//! by the law of regularized Coulomb friction (Steets 2007, eq. 3-8); B follows from the component found at
+//! one fraction. The zero of this model is within the tolerance of the line search after 1.2 evaluations on
+//! average, where regula falsi takes seven or eight: s is 1 at one end and -10 to -40 at the other. Decision
+//! 0033.
 
 use crate::discontinuity::{DiscontinuityFunctions, square};
 use crate::tuning::slip_reversal as tuning;
@@ -60,8 +62,8 @@ impl SlipReversal {
         (u * ratio, (ratio + along * along * (slope - ratio)) * change)
     }
 
-    /// Returns the fraction where the next correction has no component along this one, if it has the component
-    /// `component` at the fraction `at`. Returns none if the model has no zero.
+    /// Returns the fraction where the next correction has no component along this one, if it has the
+    /// component `component` at the fraction `at`. Returns none if the model has no zero.
     pub fn zero(&self, at: f64, component: f64) -> Option<f64> {
         let change = self.end - self.start;
         let (before, _) = self.force(0.0);

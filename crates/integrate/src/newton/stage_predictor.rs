@@ -1,16 +1,16 @@
 //! Stage predictor: extrapolation of the last step, or of the previous stages, to the next stage.
 //!
-//! The straight line is safe, with an error of second order in the step. If the solution is smooth there, the cubic
-//! through values and derivatives at both ends of the way (Hermite),
+//! The straight line is safe, with an error of second order in the step. If the solution is smooth there, the
+//! cubic through values and derivatives at both ends of the way (Hermite),
 //!
 //! ```text
 //! x(1 + s) = x₁ + s d₁ + s² (C + d₁ - Δ) + s³ C,    Δ = x₁ - x₀,  C = d₀ + d₁ - 2Δ,
 //! ```
 //!
-//! with `x₀`, `x₁`, `d₀`, `d₁` in units of the length of the way, is about ten times nearer, and the first correction
-//! is often the last. After a discontinuity it is wrong. So it is used only if the stage before needed no matrix but
-//! the cached one, if its third-order term is small, if the cached matrix is valid where it leads, and if the straight
-//! line is not near enough. Decision 0035.
+//! with `x₀`, `x₁`, `d₀`, `d₁` in units of the length of the way, is about ten times nearer, and the first
+//! correction is often the last. After a discontinuity it is wrong. So it is used only if the stage before
+//! needed no matrix but the cached one, if its third-order term is small, if the cached matrix is valid where
+//! it leads, and if the straight line is not near enough. Decision 0035.
 
 use serde::{Deserialize, Serialize};
 use wide::f64x4;
@@ -39,8 +39,8 @@ impl StepHistory {
     }
 }
 
-/// Values and derivatives at both ends of the way from which a stage is predicted; derivatives with the factors that
-/// scale them to its length. The end itself is the argument of [`Extrapolation::evaluate`].
+/// Values and derivatives at both ends of the way from which a stage is predicted; derivatives with the
+/// factors that scale them to its length. The end itself is the argument of [`Extrapolation::evaluate`].
 pub(crate) struct Extrapolation<'a> {
     pub start: &'a [f64],
     pub first: (&'a [f64], f64),
@@ -52,9 +52,9 @@ pub(crate) struct Extrapolation<'a> {
 }
 
 impl Extrapolation<'_> {
-    /// Extrapolates from the end, `x`. Writes the straight line to `line`, and to `x` the cubic if `cubic` is set and
-    /// the cubic is smooth and differs enough, otherwise the straight line. Returns whether it is the cubic. Lengths
-    /// are multiples of [`LANES`].
+    /// Extrapolates from the end, `x`. Writes the straight line to `line`, and to `x` the cubic if `cubic` is
+    /// set and the cubic is smooth and differs enough, otherwise the straight line. Returns whether it is the
+    /// cubic. Lengths are multiples of [`LANES`].
     #[inline(always)]
     pub fn evaluate(&self, cubic: bool, weights: &[f64], x: &mut [f64], line: &mut [f64]) -> bool {
         let s = f64x4::splat(self.distance);
@@ -81,7 +81,8 @@ impl Extrapolation<'_> {
             }
         }
         let most = |value: f64x4| value.to_array().into_iter().fold(0.0, f64::max);
-        // (A value that is not a number may pass; the right-hand side there then leads back to the straight line.)
+        // (A value that is not a number may pass; the right-hand side there then leads back to the straight
+        // line.)
         let curved = cubic
             && most(most_third) <= tuning::MAXIMUM_CUBIC_TERM
             && most(most_apart) > tuning::LINE_SUFFICES;

@@ -6,8 +6,8 @@
 //! q˙ = u,   M u˙ = f(t, q, u, s),   s˙ = g(t, q, u, s),   w˙ = p(t, q, u, s),
 //! ```
 //!
-//! blocks of q and u by body, M block diagonal, the internal states in pairs, each pair coupled to itself and to at
-//! most two bodies. A linearly implicit step solves `(σ I - J) k = r` many times. Here
+//! blocks of q and u by body, M block diagonal, the internal states in pairs, each pair coupled to itself and
+//! to at most two bodies. A linearly implicit step solves `(σ I - J) k = r` many times. Here
 //!
 //! - positions are eliminated: `k_q = (r_q + k_u)/σ`;
 //! - internal pairs are eliminated: `k_s = Z (r_s + G_q k_q + G_u k_u)`, `Z = (σ I - A)⁻¹`, 2 × 2;
@@ -16,14 +16,17 @@
 //! and what is factored is one block row a body,
 //! `W = σ M - D - K/σ - F Z (G_u + G_q/σ)`, with `K = ∂(f - M u˙)/∂q`, `D = ∂f/∂u`, `F = ∂f/∂s`, `A = ∂g/∂s`.
 
-pub use crate::layout::{Layout, Structure};
+mod single_body;
+mod solve;
+mod structure;
 
-mod single;
+pub use structure::{Layout, Structure};
 
-use self::single::{Single, Source};
+use structure::QuadratureOfBody;
+
 use crate::block_lu::BlockLu;
-use crate::dense_block::{dot_of, multiply_add, rectangle_add};
 use crate::error::Singular;
+use single_body::{Blocks, SingleBody};
 
 /// The structured Jacobian of a second-order system, and its factors.
 #[derive(Clone, Debug)]
@@ -34,28 +37,28 @@ pub struct Partitioned {
     speeds: usize,
     internals: usize,
     quadratures: usize,
-    pairs: Vec<Pair>,
+    pairs: Vec<CouplingBlock>,
     mass: Vec<f64>,
     stiffness: Vec<f64>,
     damping: Vec<f64>,
-    groups: Vec<Group>,
-    sides: Vec<Side>,
-    side_data: Vec<f64>,
-    rows: Vec<Row>,
+    internal_pairs: Vec<InternalPair>,
+    internal_couplings: Vec<InternalCoupling>,
+    coupling_data: Vec<f64>,
+    quadratures_of_bodies: Vec<QuadratureOfBody>,
     row_data: Vec<f64>,
-    internal_rows: Vec<InternalRow>,
+    quadratures_of_pairs: Vec<QuadratureOfPair>,
     lu: BlockLu,
-    /// Number of coordinates of every body, 0 where they differ.
+    /// Number of coordinates of every body; 0: they differ.
     uniform: usize,
-    /// What stands in for all of the factors where there is one small body and no internal state.
-    single: Option<Single>,
+    /// Replaces all factors if there is one small body and no internal state.
+    single_body: Option<SingleBody>,
     shift: f64,
     work: Vec<f64>,
 }
 
 /// A coupling block `(row, column)` of K and D.
 #[derive(Clone, Copy, Debug)]
-struct Pair {
+struct CouplingBlock {
     row: usize,
     column: usize,
     start: usize,
@@ -64,41 +67,33 @@ struct Pair {
 
 /// A pair of internal states.
 #[derive(Clone, Copy, Debug, Default)]
-struct Group {
+struct InternalPair {
     /// `∂g/∂s`, row-major.
     own: [f64; 4],
     /// `(σ I - A)⁻¹`.
     inverse: [f64; 4],
-    /// First side and number of sides.
+    /// First coupling and number of couplings.
     first: usize,
     count: usize,
 }
 
 /// The coupling of a pair of internal states to one body: `G_q` (2 × n), `G_u` (2 × n), `Fᵀ` (2 × n).
 #[derive(Clone, Copy, Debug)]
-struct Side {
-    body: usize,
-    start: usize,
-}
-
-/// The derivative of one quadrature by one body's positions (n) and speeds (n).
-#[derive(Clone, Copy, Debug)]
-struct Row {
-    quadrature: usize,
+struct InternalCoupling {
     body: usize,
     start: usize,
 }
 
 /// The derivative of one quadrature by a pair of internal states.
 #[derive(Clone, Copy, Debug)]
-struct InternalRow {
+struct QuadratureOfPair {
     quadrature: usize,
     group: usize,
     values: [f64; 2],
 }
 
 impl Partitioned {
-    /// An empty Jacobian of this structure.
+    /// Returns a zero Jacobian of this structure.
     #[must_use]
     pub fn new(structure: &Structure) -> Self {
         let sizes = structure.bodies.clone();
@@ -137,7 +132,7 @@ impl Partitioned {
         let mut entries = 0;
         let mut pairs = Vec::new();
         for &(row, column) in &couplings {
-            pairs.push(Pair {
+            pairs.push(CouplingBlock {
                 row,
                 column,
                 start: entries,
@@ -147,13 +142,13 @@ impl Partitioned {
         }
         let (mut groups, mut sides, mut side_entries) = (Vec::new(), Vec::new(), 0);
         for bodies in &structure.internal_pairs {
-            groups.push(Group {
+            groups.push(InternalPair {
                 first: sides.len(),
                 count: bodies.len(),
-                ..Group::default()
+                ..InternalPair::default()
             });
             for &body in bodies {
-                sides.push(Side {
+                sides.push(InternalCoupling {
                     body,
                     start: side_entries,
                 });
@@ -162,7 +157,7 @@ impl Partitioned {
         }
         let (mut rows, mut row_entries) = (Vec::new(), 0);
         for &(quadrature, body) in &structure.quadrature_bodies {
-            rows.push(Row {
+            rows.push(QuadratureOfBody {
                 quadrature,
                 body,
                 start: row_entries,
@@ -172,7 +167,7 @@ impl Partitioned {
         let internal_rows = structure
             .quadrature_pairs
             .iter()
-            .map(|&(quadrature, group)| InternalRow {
+            .map(|&(quadrature, group)| QuadratureOfPair {
                 quadrature,
                 group,
                 values: [0.0; 2],
@@ -182,10 +177,10 @@ impl Partitioned {
             mass: vec![0.0; sizes.iter().map(|n| n * n).sum()],
             stiffness: vec![0.0; entries],
             damping: vec![0.0; entries],
-            side_data: vec![0.0; side_entries],
+            coupling_data: vec![0.0; side_entries],
             row_data: vec![0.0; row_entries],
-            single: match sizes[..] {
-                [size] if groups.is_empty() => Single::new(size, structure.quadratures),
+            single_body: match sizes[..] {
+                [size] if groups.is_empty() => SingleBody::new(size, structure.quadratures),
                 _ => None,
             },
             internals: 2 * groups.len(),
@@ -201,16 +196,16 @@ impl Partitioned {
             mass_starts,
             speeds,
             pairs,
-            groups,
-            sides,
-            rows,
-            internal_rows,
+            internal_pairs: groups,
+            internal_couplings: sides,
+            quadratures_of_bodies: rows,
+            quadratures_of_pairs: internal_rows,
             lu,
             shift: 0.0,
         }
     }
 
-    /// The parts of the state vector.
+    /// Returns the parts of the state vector.
     #[must_use]
     pub fn layout(&self) -> Layout {
         Layout {
@@ -220,7 +215,7 @@ impl Partitioned {
         }
     }
 
-    /// The place of the coupling block of two bodies, for [`Partitioned::blocks_mut`].
+    /// Returns the index of the coupling block of two bodies, for [`Partitioned::blocks_mut`].
     ///
     /// # Panics
     /// If the structure does not couple them.
@@ -236,10 +231,10 @@ impl Partitioned {
         }
     }
 
-    /// The same, or none where the structure does not couple them.
+    /// As [`Partitioned::pair`]; none if the structure does not couple them.
     #[must_use]
     pub fn find_pair(&self, row: usize, column: usize) -> Option<usize> {
-        let same = |pair: &Pair| (pair.row, pair.column) == (row, column);
+        let same = |pair: &CouplingBlock| (pair.row, pair.column) == (row, column);
         self.pairs.iter().position(same)
     }
 
@@ -247,27 +242,27 @@ impl Partitioned {
     pub fn clear(&mut self) {
         self.stiffness.fill(0.0);
         self.damping.fill(0.0);
-        self.side_data.fill(0.0);
+        self.coupling_data.fill(0.0);
         self.row_data.fill(0.0);
-        for group in &mut self.groups {
+        for group in &mut self.internal_pairs {
             group.own = [0.0; 4];
         }
-        for row in &mut self.internal_rows {
+        for row in &mut self.quadratures_of_pairs {
             row.values = [0.0; 2];
         }
     }
 
-    /// The mass matrix of a body, row-major.
+    /// Returns the mass matrix of a body, row-major.
     #[inline(always)]
     pub fn mass_mut(&mut self, body: usize) -> &mut [f64] {
         let n = self.sizes[body];
         &mut self.mass[self.mass_starts[body]..][..n * n]
     }
 
-    /// The blocks of K and D with this index (see [`Partitioned::pair`]), row-major.
+    /// Returns the blocks of K and D with this index (see [`Partitioned::pair`]), row-major.
     #[inline(always)]
     pub fn blocks_mut(&mut self, pair: usize) -> (&mut [f64], &mut [f64]) {
-        let Pair {
+        let CouplingBlock {
             row, column, start, ..
         } = self.pairs[pair];
         let length = self.sizes[row] * self.sizes[column];
@@ -277,41 +272,44 @@ impl Partitioned {
         )
     }
 
-    /// `∂g/∂s` of a pair of internal states, row-major 2 × 2.
+    /// Returns `∂g/∂s` of a pair of internal states, row-major 2 × 2.
     #[inline(always)]
     pub fn internal_mut(&mut self, group: usize) -> &mut [f64; 4] {
-        &mut self.groups[group].own
+        &mut self.internal_pairs[group].own
     }
 
-    /// `G_q`, `G_u` and `Fᵀ` (each 2 × n, row-major) of a pair of internal states and its side number `side`.
+    /// Returns `G_q`, `G_u` and `Fᵀ` (each 2 × n, row-major) of a pair of internal states and its body number
+    /// `side`.
     #[inline(always)]
     pub fn side_mut(&mut self, group: usize, side: usize) -> [&mut [f64]; 3] {
-        let Side { body, start } = self.sides[self.groups[group].first + side];
+        let InternalCoupling { body, start } =
+            self.internal_couplings[self.internal_pairs[group].first + side];
         let n = 2 * self.sizes[body];
-        let (g_q, rest) = self.side_data[start..start + 3 * n].split_at_mut(n);
+        let (g_q, rest) = self.coupling_data[start..start + 3 * n].split_at_mut(n);
         let (g_u, f_t) = rest.split_at_mut(n);
         [g_q, g_u, f_t]
     }
 
-    /// The derivative of a quadrature by a body's positions and speeds; `row` counts the structure's
-    /// `quadrature_bodies`.
+    /// Returns the derivatives of a quadrature by a body's positions and by its speeds; `row` is an index into
+    /// the structure's `quadrature_bodies`.
     #[inline(always)]
     pub fn row_mut(&mut self, row: usize) -> (&mut [f64], &mut [f64]) {
-        let Row { body, start, .. } = self.rows[row];
+        let QuadratureOfBody { body, start, .. } = self.quadratures_of_bodies[row];
         let n = self.sizes[body];
         self.row_data[start..start + 2 * n].split_at_mut(n)
     }
 
-    /// The derivative of a quadrature by a pair of internal states; `row` counts `quadrature_pairs`.
+    /// Returns the derivative of a quadrature by a pair of internal states; `row` is an index into
+    /// `quadrature_pairs`.
     #[inline(always)]
     pub fn internal_row_mut(&mut self, row: usize) -> &mut [f64; 2] {
-        &mut self.internal_rows[row].values
+        &mut self.quadratures_of_pairs[row].values
     }
 
     /// Factors `shift · I - J`.
     ///
     /// # Errors
-    /// The matrix is singular.
+    /// If the matrix is singular.
     pub fn factor(&mut self, shift: f64) -> Result<(), Singular> {
         self.shift = shift;
         if let Some((single, source)) = self.single() {
@@ -320,7 +318,7 @@ impl Partitioned {
         }
         let inverse = 1.0 / shift;
         self.lu.clear();
-        for &Pair {
+        for &CouplingBlock {
             row,
             column,
             start,
@@ -341,7 +339,7 @@ impl Partitioned {
                 }
             }
         }
-        for index in 0..self.groups.len() {
+        for index in 0..self.internal_pairs.len() {
             self.eliminate(index, shift, inverse)?;
         }
         self.lu.factor()
@@ -349,7 +347,7 @@ impl Partitioned {
 
     /// Eliminates a pair of internal states from the speed rows.
     fn eliminate(&mut self, index: usize, shift: f64, inverse: f64) -> Result<(), Singular> {
-        let group = &mut self.groups[index];
+        let group = &mut self.internal_pairs[index];
         let [a, b, c, d] = [
             shift - group.own[0],
             -group.own[1],
@@ -362,14 +360,14 @@ impl Partitioned {
         }
         let z = [d, -b, -c, a].map(|entry| entry / determinant);
         group.inverse = z;
-        let sides = &self.sides[group.first..group.first + group.count];
+        let sides = &self.internal_couplings[group.first..group.first + group.count];
         for column in sides {
             let n = self.sizes[column.body];
-            let data = &self.side_data[column.start..][..4 * n];
+            let data = &self.coupling_data[column.start..][..4 * n];
             let g = |row: usize, j: usize| data[2 * n + row * n + j] + inverse * data[row * n + j];
             for row in sides {
                 let m = self.sizes[row.body];
-                let f_t = &self.side_data[row.start + 4 * m..][..2 * m];
+                let f_t = &self.coupling_data[row.start + 4 * m..][..2 * m];
                 let block = self.lu.at_mut(self.lu.slot(row.body, column.body));
                 for j in 0..n {
                     let (g0, g1) = (g(0, j), g(1, j));
@@ -383,136 +381,15 @@ impl Partitioned {
         Ok(())
     }
 
-    /// What stands in where there is one small body, and what it factors.
-    fn single(&mut self) -> Option<(&mut Single, Source<'_>)> {
-        let source = Source {
+    /// Returns the replacement for one small body, and the matrices that it factors.
+    fn single(&mut self) -> Option<(&mut SingleBody, Blocks<'_>)> {
+        let source = Blocks {
             mass: &self.mass,
             stiffness: &self.stiffness,
             damping: &self.damping,
-            rows: &self.rows,
+            rows: &self.quadratures_of_bodies,
             row_data: &self.row_data,
         };
-        self.single.as_mut().map(|single| (single, source))
-    }
-
-    /// Solves `(shift · I - J) y = b` in place.
-    #[inline]
-    pub fn solve(&mut self, b: &mut [f64]) {
-        if let Some(single) = &self.single {
-            single.solve(b);
-            return;
-        }
-        self.solve_any(b);
-    }
-
-    fn solve_any(&mut self, b: &mut [f64]) {
-        // Loops of a known length are unrolled: where all bodies have the same number of coordinates.
-        match self.uniform {
-            1 => self.solve_sized::<1>(b),
-            2 => self.solve_sized::<2>(b),
-            3 => self.solve_sized::<3>(b),
-            4 => self.solve_sized::<4>(b),
-            5 => self.solve_sized::<5>(b),
-            6 => self.solve_sized::<6>(b),
-            _ => self.solve_sized::<0>(b),
-        }
-    }
-
-    /// The same, where all bodies have `N` coordinates; `N = 0` stands for any numbers.
-    #[inline(always)]
-    fn solve_sized<const N: usize>(&mut self, b: &mut [f64]) {
-        let size = |n: usize| if N > 0 { N } else { n };
-        let layout = self.layout();
-        let [q, u, s, w] = layout.split_mut(b);
-        let inverse = 1.0 / self.shift;
-        let work = &mut self.work[..];
-        // Right side of the speed rows: M r_u + K r_q/σ + F Z (r_s + G_q r_q/σ).
-        work.fill(0.0);
-        for (body, &n) in self.sizes.iter().enumerate() {
-            let n = size(n);
-            let at = self.offsets[body];
-            multiply_add(
-                n,
-                &self.mass[self.mass_starts[body]..],
-                &u[at..at + n],
-                1.0,
-                &mut work[at..at + n],
-            );
-        }
-        for &Pair {
-            row, column, start, ..
-        } in &self.pairs
-        {
-            let (i, j) = (self.offsets[row], self.offsets[column]);
-            let (m, n) = (size(self.sizes[row]), size(self.sizes[column]));
-            if m == n {
-                multiply_add(
-                    n,
-                    &self.stiffness[start..],
-                    &q[j..j + n],
-                    inverse,
-                    &mut work[i..i + m],
-                );
-            } else {
-                rectangle_add(
-                    &self.stiffness[start..start + m * n],
-                    &q[j..j + n],
-                    inverse,
-                    &mut work[i..i + m],
-                );
-            }
-        }
-        for (index, group) in self.groups.iter().enumerate() {
-            let sides = &self.sides[group.first..group.first + group.count];
-            let r = &mut s[2 * index..2 * index + 2];
-            for side in sides {
-                let (at, n) = (self.offsets[side.body], size(self.sizes[side.body]));
-                let g_q = &self.side_data[side.start..][..2 * n];
-                for (target, g) in r.iter_mut().zip(g_q.chunks_exact(n)) {
-                    *target += inverse * dot_of(g, &q[at..at + n]);
-                }
-            }
-            let z = &group.inverse;
-            let zr = [z[0] * r[0] + z[1] * r[1], z[2] * r[0] + z[3] * r[1]];
-            for side in sides {
-                let (at, n) = (self.offsets[side.body], size(self.sizes[side.body]));
-                let f_t = &self.side_data[side.start + 4 * n..][..2 * n];
-                for (i, target) in work[at..at + n].iter_mut().enumerate() {
-                    *target += f_t[i] * zr[0] + f_t[n + i] * zr[1];
-                }
-            }
-        }
-        self.lu.solve(work);
-        // Back: speeds, positions, internal states, quadratures. The internal right sides hold G_q r_q/σ already.
-        for ((q, u), k) in q.iter_mut().zip(u.iter_mut()).zip(work.iter()) {
-            *u = *k;
-            *q = (*q + *k) * inverse;
-        }
-        for (index, group) in self.groups.iter().enumerate() {
-            let r = &mut s[2 * index..2 * index + 2];
-            for side in &self.sides[group.first..group.first + group.count] {
-                let (at, n) = (self.offsets[side.body], size(self.sizes[side.body]));
-                let (g_q, g_u) = self.side_data[side.start..side.start + 4 * n].split_at(2 * n);
-                for row in 0..2 {
-                    let (g_q, g_u) = (&g_q[row * n..][..n], &g_u[row * n..][..n]);
-                    let speeds = &u[at..at + n];
-                    r[row] += dot_of(g_u, speeds) + inverse * dot_of(g_q, speeds);
-                }
-            }
-            let z = &group.inverse;
-            let k = [z[0] * r[0] + z[1] * r[1], z[2] * r[0] + z[3] * r[1]];
-            r.copy_from_slice(&k);
-        }
-        for row in &self.rows {
-            let (at, n) = (self.offsets[row.body], size(self.sizes[row.body]));
-            let (p_q, p_u) = self.row_data[row.start..row.start + 2 * n].split_at(n);
-            w[row.quadrature] += dot_of(p_q, &q[at..at + n]) + dot_of(p_u, &u[at..at + n]);
-        }
-        for row in &self.internal_rows {
-            w[row.quadrature] += dot_of(&row.values, &s[2 * row.group..2 * row.group + 2]);
-        }
-        for k in w.iter_mut() {
-            *k *= inverse;
-        }
+        self.single_body.as_mut().map(|single| (single, source))
     }
 }

@@ -29,17 +29,17 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Length of the state vector.
+    /// Returns the length of the state vector.
     #[must_use]
     pub fn len(&self) -> usize {
         2 * self.speeds + self.internals + self.quadratures
     }
-    /// Whether there is no state at all.
+    /// Returns whether there is no state.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
-    /// Positions, speeds, internal states and quadratures of a state vector.
+    /// Returns positions, speeds, internal states and quadratures of a state vector.
     #[inline(always)]
     #[must_use]
     pub fn split<'x>(&self, x: &'x [f64]) -> [&'x [f64]; 4] {
@@ -48,7 +48,7 @@ impl Layout {
         let (s, w) = rest.split_at(self.internals);
         [q, u, s, w]
     }
-    /// The same, mutable.
+    /// As [`Layout::split`], mutable.
     #[inline(always)]
     pub fn split_mut<'x>(&self, x: &'x mut [f64]) -> [&'x mut [f64]; 4] {
         let (q, rest) = x.split_at_mut(self.speeds);
@@ -56,4 +56,12 @@ impl Layout {
         let (s, w) = rest.split_at_mut(self.internals);
         [q, u, s, w]
     }
+}
+
+/// The derivative of one quadrature by one body's positions (n) and speeds (n).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct QuadratureOfBody {
+    pub quadrature: usize,
+    pub body: usize,
+    pub start: usize,
 }

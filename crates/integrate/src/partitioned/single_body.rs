@@ -1,13 +1,13 @@
-//! One body of at most six coordinates and no internal states, such as one wedge: the matrices stand column by column, in pairs of rows, so that
-//! a solution takes a few dozen products of pairs.
+//! One body of at most six coordinates and no internal states, such as one wedge: the matrices are stored column
+//! by column, in pairs of rows, so that a solution takes a few dozen products of pairs.
 
 use wide::f64x2;
 
-use super::Row;
+use super::structure::QuadratureOfBody;
 use crate::dense_block::invert;
 
 /// The largest number of coordinates.
-const MOST: usize = 6;
+const MAXIMUM_SIZE: usize = 6;
 
 /// Calls a function with the number of coordinates as a constant `N`, so that its loops are unrolled.
 macro_rules! sized {
@@ -27,20 +27,20 @@ macro_rules! sized {
     };
 }
 
-/// What a factorization reads, row by row.
-pub(super) struct Source<'a> {
+/// The matrices that a factorization reads, row by row.
+pub(super) struct Blocks<'a> {
     pub mass: &'a [f64],
     pub stiffness: &'a [f64],
     pub damping: &'a [f64],
     /// Derivatives of the quadratures.
-    pub rows: &'a [Row],
+    pub rows: &'a [QuadratureOfBody],
     pub row_data: &'a [f64],
 }
 
-/// Matrices of one body. Those that a vector is multiplied with are cut into pairs of rows (the last one padded with zeros), and stand pair
-/// by pair, column by column.
+/// Matrices of one body. Those that a vector is multiplied with are cut into pairs of rows (the last one
+/// padded with zeros), and stand pair by pair, column by column.
 #[derive(Clone, Debug)]
-pub(super) struct Single {
+pub(super) struct SingleBody {
     size: usize,
     /// 1/σ.
     reciprocal: f64,
@@ -54,11 +54,11 @@ pub(super) struct Single {
     rows: Vec<[f64; 2]>,
 }
 
-impl Single {
-    /// For a body of this many coordinates; none if there are too many.
+impl SingleBody {
+    /// Returns zero matrices for a body of so many coordinates; none if there are too many.
     pub fn new(size: usize, quadratures: usize) -> Option<Self> {
         let zero = || vec![[0.0; 2]; size * size.div_ceil(2)];
-        (1..=MOST).contains(&size).then(|| Self {
+        (1..=MAXIMUM_SIZE).contains(&size).then(|| Self {
             size,
             reciprocal: 1.0,
             mass: zero(),
@@ -69,14 +69,14 @@ impl Single {
         })
     }
 
-    /// Factors; false: the matrix is singular.
-    pub fn factor(&mut self, shift: f64, source: Source<'_>) -> bool {
+    /// Factors; returns false if the matrix is singular.
+    pub fn factor(&mut self, shift: f64, source: Blocks<'_>) -> bool {
         sized!(self.size, self.factor_sized::<N>(shift, source))
     }
 
     #[inline(always)]
-    fn factor_sized<const N: usize>(&mut self, shift: f64, source: Source<'_>) -> bool {
-        let Source {
+    fn factor_sized<const N: usize>(&mut self, shift: f64, source: Blocks<'_>) -> bool {
+        let Blocks {
             mass,
             stiffness,
             damping,
@@ -118,7 +118,7 @@ impl Single {
         sized!(self.size, self.solve_sized::<N, { N.div_ceil(2) }>(b));
     }
 
-    /// The same of `N` coordinates in `P` pairs.
+    /// As [`SingleBody::solve`], for `N` coordinates in `P` pairs.
     #[inline(always)]
     fn solve_sized<const N: usize, const P: usize>(&self, b: &mut [f64]) {
         let reciprocal = f64x2::splat(self.reciprocal);
