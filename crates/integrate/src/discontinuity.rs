@@ -1,5 +1,5 @@
-//! Discontinuities of the right-hand side and of its derivatives: what a problem tells of them, and what is
-//! predicted from that.
+//! Discontinuities of the right-hand side and of its derivatives: the functions from which
+//! they are predicted, and the predictions.
 
 use serde::{Deserialize, Serialize};
 

@@ -12,12 +12,12 @@
 pub struct OldProcessor;
 
 impl OldProcessor {
-    /// What to do about it.
+    /// Advice for the user.
     pub const ADVICE: &str = "Compile it for all processors: `RUSTFLAGS=\"-C target-cpu=x86-64\" cargo build \
         --release`. It computes the same numbers, in a quarter more time.";
 }
 
-/// Whether the program can run here.
+/// Checks whether the program can run on this processor.
 ///
 /// # Errors
 /// If it was compiled for AVX2 and the processor has none.
@@ -54,7 +54,7 @@ mod tests {
     #[test]
     fn what_runs_the_tests_was_compiled_for_this_processor() {
         assert_eq!(super::check(), Ok(()));
-        // the macro tells what was found at run time only where it was not compiled in
+        // The macro reads the feature at run time only if it was not compiled in.
         #[cfg(all(target_arch = "x86_64", not(target_feature = "avx2")))]
         assert_eq!(super::has_avx2(), std::is_x86_feature_detected!("avx2"));
     }

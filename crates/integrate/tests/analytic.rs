@@ -1,4 +1,4 @@
-//! Events, segments, tolerances, limits and saved states against closed forms.
+//! Events, time discontinuities, tolerances, limits and saved states against closed forms.
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
@@ -10,7 +10,7 @@ use common::problems::{BouncingBall, prothero_robinson, prothero_robinson_soluti
 use common::run;
 use integrate::{Event, FunctionProblem, Integrator, Method, Options, State};
 
-/// x'' = -x with switches for the sign of the position and of the speed.
+/// x'' = -x with discrete states for the sign of the position and of the speed.
 fn oscillator(hysteresis: f64) -> FunctionProblem<'static> {
     FunctionProblem::new(
         vec![1.0; 2],
@@ -22,16 +22,16 @@ fn oscillator(hysteresis: f64) -> FunctionProblem<'static> {
     )
     .events(
         2,
-        |_, x, modes| {
-            modes[0] = u8::from(x[0] < 0.0);
-            modes[1] = u8::from(x[1] < 0.0);
+        |_, x, states| {
+            states[0] = u8::from(x[0] < 0.0);
+            states[1] = u8::from(x[1] < 0.0);
         },
-        move |_, x, modes, margins| {
+        move |_, x, states, functions| {
             for i in 0..2 {
-                margins[i] = if modes[i] == 0 { x[i] } else { -x[i] } + hysteresis;
+                functions[i] = if states[i] == 0 { x[i] } else { -x[i] } + hysteresis;
             }
         },
-        |_, _, _, mode| 1 - mode,
+        |_, _, _, state| 1 - state,
     )
 }
 
@@ -44,17 +44,17 @@ fn record(mut integrator: Integrator<FunctionProblem<'_>>, end: f64, limit: f64)
         integrator.step_to(end.min(next)).unwrap();
         assert_eq!(before, integrator.discrete_states_before_step());
         let mut time = integrator.previous_time();
-        let mut modes = before;
+        let mut states = before;
         for event in integrator.events() {
             assert!(
                 event.time >= time && event.time <= integrator.time(),
                 "in order of time"
             );
-            assert_eq!(modes[event.index], event.from);
-            modes[event.index] = event.to;
+            assert_eq!(states[event.index], event.from);
+            states[event.index] = event.to;
             time = event.time;
         }
-        assert_eq!(modes, integrator.discrete_states());
+        assert_eq!(states, integrator.discrete_states());
         events.extend_from_slice(integrator.events());
         if integrator.time() >= next {
             next += limit;
@@ -118,16 +118,20 @@ fn events_are_where_the_closed_form_has_them() {
 
 #[test]
 fn several_events_in_one_step_are_all_found() {
-    // One switch with three modes in a row (1, 2, 3 from its thresholds), passed in one long step of x = t.
+    // A discrete state with nine values in a row, passed in one long step of x = t.
     let problem = FunctionProblem::new(vec![1.0], |_, _, dx| dx[0] = 1.0, |_, _, j| j[0] = 0.0).events(
         2,
-        |_, _, modes| modes.fill(0),
-        |_, x, modes, margins| {
-            margins[0] = f64::from(modes[0]) * 0.1 + 0.1 - x[0];
-            // the second follows the first at once, another starts beyond its margin
-            margins[1] = if modes[0] >= 2 && modes[1] == 0 { -1.0 } else { 1.0 };
+        |_, _, states| states.fill(0),
+        |_, x, states, functions| {
+            functions[0] = f64::from(states[0]) * 0.1 + 0.1 - x[0];
+            // The second follows the first at once.
+            functions[1] = if states[0] >= 2 && states[1] == 0 {
+                -1.0
+            } else {
+                1.0
+            };
         },
-        |_, _, _, mode| mode + 1,
+        |_, _, _, state| state + 1,
     );
     let options = Options {
         fixed_step: Some(1.0),
@@ -140,7 +144,7 @@ fn several_events_in_one_step_are_all_found() {
         .iter()
         .map(|event| (event.index, event.to))
         .collect();
-    let mut expected: Vec<_> = (1..=9).map(|mode| (0, mode)).collect();
+    let mut expected: Vec<_> = (1..=9).map(|state| (0, state)).collect();
     expected.insert(2, (1, 1));
     assert_eq!(found[..10], expected);
     for event in integrator.events().iter().filter(|event| event.index == 0) {
@@ -153,12 +157,12 @@ fn several_events_in_one_step_are_all_found() {
 }
 
 #[test]
-fn a_switch_that_declines_to_change_and_one_that_flutters_do_not_stop_the_integration() {
+fn an_event_that_is_declined_and_chatter_do_not_stop_the_integration() {
     let problem = FunctionProblem::new(vec![1.0], |_, _, dx| dx[0] = 1.0, |_, _, j| j[0] = 0.0).events(
         2,
-        |_, _, modes| modes.fill(0),
-        |_, x, _, margins| margins.copy_from_slice(&[0.5 - x[0], 2.5 - x[0]]),
-        |_, _, index, mode| if index == 0 { mode } else { 1 - mode },
+        |_, _, states| states.fill(0),
+        |_, x, _, functions| functions.copy_from_slice(&[0.5 - x[0], 2.5 - x[0]]),
+        |_, _, index, state| if index == 0 { state } else { 1 - state },
     );
     let options = Options {
         fixed_step: Some(1.0),
@@ -175,14 +179,14 @@ fn a_switch_that_declines_to_change_and_one_that_flutters_do_not_stop_the_integr
     assert_eq!(integrator.statistics().events_unresolved, 1);
 }
 
-/// x' = s(t) - x with the triangular wave s of period 2 between 0 and 1, from x(0) = 0; exact, piece by
-/// piece.
+/// x' = s(t) - x with the triangular wave s of period 2 between 0 and 1, from x(0) = 0; exact in each
+/// smooth interval.
 fn triangle(time: f64) -> f64 {
     let (mut x, mut start, mut rising) = (0.0, 0.0, true);
     loop {
         let end = time.min(start + 1.0);
         let duration = end - start;
-        // particular solution on a piece s = a + b τ: a - b + b τ
+        // particular solution for s = a + b τ: a - b + b τ
         let (a, b) = if rising { (0.0, 1.0) } else { (1.0, -1.0) };
         x = (x - (a - b)) * libm::exp(-duration) + a - b + b * duration;
         if end >= time {
@@ -216,7 +220,7 @@ fn driven_by_triangle(with_breaks: bool) -> FunctionProblem<'static> {
 }
 
 #[test]
-fn segments_keep_the_order_across_kinks() {
+fn steps_end_at_time_discontinuities_and_keep_their_order() {
     for method in Method::ALL {
         let run = |with_breaks| {
             let options = Options {
@@ -237,21 +241,21 @@ fn segments_keep_the_order_across_kinks() {
         let (worst, ends, statistics) = run(true);
         let admissible = if method == Method::TrBdf2 { 1e-7 } else { 2e-9 };
         assert!(worst < admissible, "{method}: {worst}");
-        assert_eq!(ends, 9, "steps end exactly on the kinks");
+        assert_eq!(ends, 9, "steps end exactly at the discontinuities");
         assert_eq!(statistics.restarts, 9);
         // a step planned for the end of a transient may be too long for the next one
         assert!(statistics.rejected() <= 9, "{method}: {statistics:?}");
-        let (_, _, blind) = run(false);
+        let (_, _, plain) = run(false);
         assert!(
-            blind.rejected_error > 9 + statistics.rejected_error,
-            "{method}: {blind:?}"
+            plain.rejected_error > 9 + statistics.rejected_error,
+            "{method}: {plain:?}"
         );
     }
 }
 
-/// A kinked segment: a problem that has jumps in its right-hand side at the ends of its segments.
+/// The right-hand side jumps at time discontinuities.
 #[test]
-fn steps_end_exactly_on_segments_and_limits() {
+fn steps_end_exactly_at_time_discontinuities_and_limits() {
     let problem = FunctionProblem::new(
         vec![1.0],
         |t, _, dx| dx[0] = if t <= 0.1 { 1.0 } else { -1.0 },
@@ -325,7 +329,7 @@ fn a_state_that_is_not_controlled_does_not_matter() {
     assert!((integrator.x()[0] - libm::exp(-1.0)).abs() < 1e-6);
 }
 
-/// Kinks, segments, events and a varying step together.
+/// Discontinuities in state and time, events and a varying step together.
 fn everything() -> FunctionProblem<'static> {
     FunctionProblem::new(
         vec![1.0, 30.0],
@@ -348,9 +352,9 @@ fn everything() -> FunctionProblem<'static> {
     .time_discontinuities((1..2000).map(|k| f64::from(k) * 0.5).collect())
     .events(
         1,
-        |_, x, modes| modes[0] = u8::from(x[0] < 0.0),
-        |_, x, modes, margins| margins[0] = if modes[0] == 0 { x[0] } else { -x[0] } + 1e-6,
-        |_, _, _, mode| 1 - mode,
+        |_, x, states| states[0] = u8::from(x[0] < 0.0),
+        |_, x, states, functions| functions[0] = if states[0] == 0 { x[0] } else { -x[0] } + 1e-6,
+        |_, _, _, state| 1 - state,
     )
 }
 
@@ -369,7 +373,7 @@ fn a_saved_integration_continues_with_the_same_bits() {
         };
         let mut straight = Integrator::new(everything(), options.clone(), 0.0, &[1.0, 40.0]).unwrap();
         walk(&mut straight, 1000);
-        // the cut must not matter, wherever it falls: also at the end of a segment
+        // The cut must not matter, wherever it falls: also at a time discontinuity.
         let mut interrupted = Integrator::new(everything(), options.clone(), 0.0, &[1.0, 40.0]).unwrap();
         walk(&mut interrupted, 400);
         while interrupted.time() != 2.0 * (0.5 * interrupted.time()).floor()

@@ -69,7 +69,7 @@ fn fixed(method: Method, step: f64) -> Options {
     }
 }
 
-/// Largest error at t = 1, and of the dense output in between, plain and settled.
+/// Returns the largest error at t = 1, and of the dense output in between, plain and corrected.
 fn errors(
     problem: FunctionProblem<'static>,
     exact: fn(f64) -> [f64; 2],
@@ -79,7 +79,7 @@ fn errors(
     let mut integrator =
         Integrator::new(problem, fixed(method, 1.0 / f64::from(steps)), 0.0, &exact(0.0)).unwrap();
     let worst = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-    let (mut dense, mut settled, mut x) = (0.0_f64, 0.0_f64, [0.0; 2]);
+    let (mut dense, mut corrected, mut x) = (0.0_f64, 0.0_f64, [0.0; 2]);
     while integrator.time() < 1.0 {
         integrator.step_to(1.0).unwrap();
         for theta in [0.2, 0.35, 0.5, 0.65, 0.8] {
@@ -90,11 +90,11 @@ fn errors(
             integrator.interpolate_range(time, 1, &mut second);
             assert_eq!(second[0], x[1]);
             integrator.interpolate(time, &mut x);
-            settled = settled.max(worst(&x, &exact(time)));
+            corrected = corrected.max(worst(&x, &exact(time)));
         }
     }
     assert_eq!(integrator.statistics().steps, u64::from(steps));
-    (worst(integrator.x(), &exact(1.0)), dense, settled)
+    (worst(integrator.x(), &exact(1.0)), dense, corrected)
 }
 
 fn slope(coarse: f64, fine: f64) -> f64 {
@@ -118,9 +118,10 @@ fn every_method_has_its_order() {
             let found = steps.map(|steps| errors(problem(), exact, method, steps));
             let observed = slope(found[1].0, found[2].0);
             let observed_dense = slope(found[1].1, found[2].1);
-            let observed_settled = slope(found[1].2, found[2].2);
+            let observed_corrected = slope(found[1].2, found[2].2);
             println!(
-                "{method} {name}: order {observed:.2}, dense {observed_dense:.2}, settled {observed_settled:.2}, error {:.1e}, {:.1e}, {:.1e}",
+                "{method} {name}: order {observed:.2}, dense {observed_dense:.2}, corrected {observed_corrected:.2}, \
+                 error {:.1e}, {:.1e}, {:.1e}",
                 found[2].0, found[2].1, found[2].2
             );
             assert!(
@@ -132,10 +133,10 @@ fn every_method_has_its_order() {
                 observed_dense > dense_order - 0.3,
                 "{method} {name}: order of dense output {observed_dense}"
             );
-            // Nothing is stiff here: settling does no good, and no harm.
+            // Nothing is stiff here: the correction does no good, and no harm.
             assert!(
-                observed_settled > dense_order - 0.3 && found[2].2 < 3.0 * found[2].1,
-                "{method} {name}: order of settled dense output {observed_settled}"
+                observed_corrected > dense_order - 0.3 && found[2].2 < 3.0 * found[2].1,
+                "{method} {name}: order of corrected dense output {observed_corrected}"
             );
         }
     }
@@ -207,7 +208,7 @@ fn explicit_steps_follow_the_tolerance() {
 #[test]
 fn steps_are_explicit_where_nothing_is_stiff_and_only_there() {
     let lambda = |t: f64| if (2.0..4.0).contains(&t) { 1e5 } else { 1.0 };
-    let problem = |told: bool| {
+    let problem = |bounded: bool| {
         FunctionProblem::new(
             vec![1.0],
             move |t, x, dx| dx[0] = -lambda(t) * (x[0] - libm::cos(t)) - libm::sin(t),
@@ -215,15 +216,15 @@ fn steps_are_explicit_where_nothing_is_stiff_and_only_there() {
         )
         .time_derivative(move |t, _, df_dt| df_dt[0] = -lambda(t) * libm::sin(t) - libm::cos(t))
         .time_discontinuities(vec![2.0, 4.0])
-        .spectral_radius_bound(move |t, _| if told { lambda(t) } else { f64::INFINITY })
+        .spectral_radius_bound(move |t, _| if bounded { lambda(t) } else { f64::INFINITY })
     };
-    let run = |told: bool, explicit_steps: bool| {
+    let run = |bounded: bool, explicit_steps: bool| {
         let options = Options {
             explicit_steps,
             relative_tolerance: 1e-7,
             ..Options::default()
         };
-        let mut integrator = Integrator::new(problem(told), options, 0.0, &[1.5]).unwrap();
+        let mut integrator = Integrator::new(problem(bounded), options, 0.0, &[1.5]).unwrap();
         while integrator.time() < 6.0 {
             integrator.step_to(6.0).unwrap();
             let time = integrator.time();
@@ -244,8 +245,8 @@ fn steps_are_explicit_where_nothing_is_stiff_and_only_there() {
     // Explicit through the stiff part it would take two seconds times 1e5/3.3 steps.
     assert!(mixed.steps < 200, "{mixed:?}");
     assert!(mixed.jacobians < mixed.steps);
-    for (told, explicit) in [(false, true), (true, false)] {
-        let implicit = run(told, explicit);
+    for (bounded, explicit) in [(false, true), (true, false)] {
+        let implicit = run(bounded, explicit);
         assert_eq!(
             (implicit.explicit_steps, implicit.jacobians >= implicit.steps),
             (0, true)

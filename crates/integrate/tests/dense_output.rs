@@ -1,4 +1,4 @@
-//! States between the ends of a step.
+//! Dense output and its correction.
 #![allow(clippy::unwrap_used)]
 
 use integrate::{FunctionProblem, Integrator, Method, Options};
@@ -14,7 +14,7 @@ fn pull(time: f64) -> f64 {
 }
 
 /// A mass on a surface with friction by tanh: place, speed.
-fn held() -> FunctionProblem<'static> {
+fn sticking() -> FunctionProblem<'static> {
     FunctionProblem::new(
         vec![1e-3, 1e-3],
         |t, x, dx| {
@@ -33,27 +33,27 @@ fn held() -> FunctionProblem<'static> {
 }
 
 /// The largest difference of friction and pull, in units of the weight, at four times within each step, and
-/// the number of steps: interpolated (settled), and by the plain dense output.
-fn off_balance(method: Method, tolerance: f64) -> ([f64; 2], u64) {
+/// the number of steps: interpolated (corrected), and by the plain dense output.
+fn largest_error(method: Method, tolerance: f64) -> ([f64; 2], u64) {
     let options = Options {
         method,
         relative_tolerance: tolerance,
         ..Options::default()
     };
-    let mut run = Integrator::new(held(), options, 0.0, &[0.0; 2]).unwrap();
+    let mut run = Integrator::new(sticking(), options, 0.0, &[0.0; 2]).unwrap();
     let mut most = [0.0_f64; 2];
     while run.time() < 3.0 {
         run.step_to(3.0).unwrap();
-        // The beginning settles within 1e-5 s.
+        // The transient at the start takes 1e-5 s.
         if run.previous_time() < 1e-3 {
             continue;
         }
         for theta in [0.15, 0.4, 0.65, 0.9] {
             let time = run.previous_time() + theta * (run.time() - run.previous_time());
-            let (mut settled, mut plain) = ([0.0; 2], [0.0; 2]);
-            run.interpolate(time, &mut settled);
+            let (mut corrected, mut plain) = ([0.0; 2], [0.0; 2]);
+            run.interpolate(time, &mut corrected);
             run.interpolate_range(time, 0, &mut plain);
-            for (most, x) in most.iter_mut().zip([settled, plain]) {
+            for (most, x) in most.iter_mut().zip([corrected, plain]) {
                 *most = most.max((FRICTION * libm::tanh(x[1] / REFERENCE) - pull(time)).abs());
             }
         }
@@ -65,34 +65,34 @@ fn off_balance(method: Method, tolerance: f64) -> ([f64; 2], u64) {
 /// In the middle of a step the plain dense output is off by up to 6 % of the weight (the friction of wedges
 /// was off by up to a quarter in single rows).
 #[test]
-fn issue_007_behaviour_what_sticks_is_interpolated_as_friction_holds_it() {
+fn issue_007_behaviour_sticking_friction_is_interpolated_in_equilibrium() {
     for (method, tolerance) in [
         (Method::Rodas5P, 1e-3),
         (Method::Rodas5P, 1e-4),
         (Method::Rodas4, 1e-4),
     ] {
-        let ([settled, plain], steps) = off_balance(method, tolerance);
-        println!("{method} {tolerance:e}: {settled:.1e} settled, {plain:.1e} plain, {steps} steps");
+        let ([corrected, plain], steps) = largest_error(method, tolerance);
+        println!("{method} {tolerance:e}: {corrected:.1e} corrected, {plain:.1e} plain, {steps} steps");
         assert!(
-            settled < 3e-3,
-            "{method} {tolerance:e}: off by {settled} of the weight"
+            corrected < 3e-3,
+            "{method} {tolerance:e}: off by {corrected} of the weight"
         );
         assert!(
-            settled < 0.2 * plain,
-            "{method} {tolerance:e}: {settled}, without settling {plain}"
+            corrected < 0.2 * plain,
+            "{method} {tolerance:e}: {corrected}, without correction {plain}"
         );
     }
 }
 
 /// What is interpolated does not depend on what was interpolated before, and does not change the run.
 #[test]
-fn what_is_interpolated_is_the_same_whatever_was_asked_for_before() {
+fn interpolation_does_not_depend_on_earlier_interpolations() {
     let begin = || {
         let options = Options {
             relative_tolerance: 1e-4,
             ..Options::default()
         };
-        Integrator::new(held(), options, 0.0, &[0.0; 2]).unwrap()
+        Integrator::new(sticking(), options, 0.0, &[0.0; 2]).unwrap()
     };
     let (mut often, mut once, mut never) = (begin(), begin(), begin());
     let mut differ = 0;
@@ -118,26 +118,26 @@ fn what_is_interpolated_is_the_same_whatever_was_asked_for_before() {
         assert_eq!(often.state().x, never.state().x);
         assert_eq!(once.proposed_step(), never.proposed_step());
     }
-    assert!(differ > 10, "{differ} steps were settled");
+    assert!(differ > 10, "{differ} steps were corrected");
 }
 
-/// Once it is told that the right-hand side has changed, the plain dense output is what is there.
+/// After a change of the right-hand side there is only the plain dense output.
 #[test]
-fn nothing_is_settled_where_the_right_hand_side_has_changed() {
+fn nothing_is_corrected_after_a_change_of_the_right_hand_side() {
     let options = Options {
         relative_tolerance: 1e-4,
         ..Options::default()
     };
-    let mut run = Integrator::new(held(), options, 0.0, &[0.0; 2]).unwrap();
+    let mut run = Integrator::new(sticking(), options, 0.0, &[0.0; 2]).unwrap();
     for _ in 0..20 {
         run.step_to(3.0).unwrap();
     }
     let middle = 0.5 * (run.previous_time() + run.time());
-    let (mut settled, mut plain, mut after) = ([0.0; 2], [0.0; 2], [0.0; 2]);
-    run.interpolate(middle, &mut settled);
+    let (mut corrected, mut plain, mut after) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+    run.interpolate(middle, &mut corrected);
     run.interpolate_range(middle, 0, &mut plain);
     run.reevaluate();
     run.interpolate(middle, &mut after);
-    assert_ne!(settled, plain);
+    assert_ne!(corrected, plain);
     assert_eq!(after, plain);
 }

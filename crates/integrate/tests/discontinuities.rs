@@ -1,5 +1,5 @@
-//! analytic: kinks that are foreseen. Steps end behind them instead of being rejected across them; what comes
-//! out stays what it was.
+//! analytic: predicted discontinuities. Steps end after them instead of being rejected across them; the
+//! results stay the same.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 mod common;
@@ -24,7 +24,7 @@ fn options(method: Method, relative_tolerance: f64) -> Options {
 }
 
 #[test]
-fn a_contact_that_is_foreseen_costs_fewer_attempts_and_the_motion_is_the_same() {
+fn a_predicted_contact_costs_fewer_attempts_and_the_motion_is_the_same() {
     // In the middle of the sixth flight: the height follows from the energy.
     let ((fall, _), (contact, flight)) = (BALL.fall(), BALL.contact_and_flight());
     let end = fall + 6.0 * (contact + flight) - fall;
@@ -32,36 +32,39 @@ fn a_contact_that_is_foreseen_costs_fewer_attempts_and_the_motion_is_the_same() 
         if method.tableau().family != Family::LinearlyImplicit {
             continue; // it goes across
         }
-        let (x, blind) = run(BALL.problem(), options(method, 1e-8), &[0.5, 0.0], end);
-        let told = BALL
+        let (x, plain) = run(BALL.problem(), options(method, 1e-8), &[0.5, 0.0], end);
+        let predicted = BALL
             .problem()
             .discontinuities(1, 0, |_, x, functions| functions.values[0] = x[0]);
-        let (y, told) = run(told, options(method, 1e-8), &[0.5, 0.0], end);
+        let (y, predicted) = run(predicted, options(method, 1e-8), &[0.5, 0.0], end);
         for state in [&x, &y] {
             assert!(
                 (state[0] - 0.5).abs() < 1e-4 && state[1].abs() < 3e-3,
                 "{method}: {state:?}"
             );
         }
-        assert!(told.discontinuities_predicted >= 12, "{method}: {told:?}");
+        assert!(
+            predicted.discontinuities_predicted >= 12,
+            "{method}: {predicted:?}"
+        );
         let attempts = |statistics: &Statistics| statistics.steps + statistics.rejected();
         println!(
             "{method}: {} attempts instead of {}",
-            attempts(&told),
-            attempts(&blind)
+            attempts(&predicted),
+            attempts(&plain)
         );
         assert!(
-            10 * attempts(&told) < 9 * attempts(&blind),
-            "{method}: {told:?} instead of {blind:?}"
+            10 * attempts(&predicted) < 9 * attempts(&plain),
+            "{method}: {predicted:?} instead of {plain:?}"
         );
     }
 }
 
 #[test]
-fn friction_that_reverses_is_foreseen() {
+fn slip_reversals_are_predicted() {
     let (exact, _) = run(shaken(), options(Method::Rodas5P, 1e-10), &[0.0, 0.0], 8.0);
-    let (x, blind) = run(shaken(), options(Method::Rodas5P, 1e-6), &[0.0, 0.0], 8.0);
-    let (y, told) = run(
+    let (x, plain) = run(shaken(), options(Method::Rodas5P, 1e-6), &[0.0, 0.0], 8.0);
+    let (y, predicted) = run(
         shaken_with_slip(),
         options(Method::Rodas5P, 1e-6),
         &[0.0, 0.0],
@@ -73,10 +76,10 @@ fn friction_that_reverses_is_foreseen() {
         }
     }
     // It reverses 12 times.
-    assert!(told.discontinuities_predicted >= 12, "{told:?}");
+    assert!(predicted.discontinuities_predicted >= 12, "{predicted:?}");
     assert!(
-        told.rejected() + told.steps < blind.rejected() + blind.steps,
-        "{told:?} instead of {blind:?}"
+        predicted.rejected() + predicted.steps < plain.rejected() + plain.steps,
+        "{predicted:?} instead of {plain:?}"
     );
 }
 
@@ -84,7 +87,7 @@ fn friction_that_reverses_is_foreseen() {
 fn bounds_hold_in_layers_and_widen_outside() {
     let attempts = |statistics: &Statistics| statistics.steps + statistics.rejected();
     let (exact, _) = run(shaken(), options(Method::Rodas5P, 1e-10), &[0.0, 0.0], 8.0);
-    // All the way as exact as a layer needs.
+    // As exact everywhere as a zone needs.
     let (_, tight) = run(
         shaken_with_slip(),
         options(Method::Rodas5P, 1e-5),
@@ -99,7 +102,7 @@ fn bounds_hold_in_layers_and_widen_outside() {
             8.0,
         );
         println!(
-            "{tolerance}: {} attempts, {} all the way",
+            "{tolerance}: {} attempts, {} with a tight tolerance everywhere",
             attempts(&wide),
             attempts(&tight)
         );
@@ -145,8 +148,8 @@ fn bounds_in_layers_widen_with_the_slowest_direction() {
 }
 
 #[test]
-fn a_direction_that_only_turns_is_no_kink() {
-    // x turns in a circle of radius 1000: its parts change sign, but it never comes near zero.
+fn a_slip_that_only_turns_is_no_discontinuity() {
+    // x turns in a circle of radius 1000: its components change their sign, but it never comes near zero.
     let circle = FunctionProblem::new(
         vec![1.0; 2],
         |_, x, dx| dx.copy_from_slice(&[-3.0 * x[1], 3.0 * x[0]]),
@@ -158,7 +161,7 @@ fn a_direction_that_only_turns_is_no_kink() {
 }
 
 #[test]
-fn a_saved_state_continues_with_the_same_bits_also_before_a_kink() {
+fn a_saved_state_continues_with_the_same_bits_also_before_a_discontinuity() {
     let options = options(Method::Rodas5P, 1e-3);
     let mut whole = Integrator::new(shaken_with_bound(), options.clone(), 0.0, &[0.0, 0.0]).unwrap();
     let mut resumed = 0;
@@ -199,34 +202,35 @@ fn worst_step(problem: fn() -> FunctionProblem<'static>, method: Method, toleran
 #[test]
 fn issue_007_behaviour_a_step_that_breaks_away_is_as_exact_as_others() {
     for (method, most) in [(Method::Rodas4, 30.0), (Method::Rodas5P, 3.0)] {
-        let (blind, blind_steps) = worst_step(shaken, method, 1e-5);
-        let (told, told_steps) = worst_step(shaken_with_bound, method, 1e-5);
-        println!("{method}: {blind:.1} in {blind_steps} steps, {told:.1} in {told_steps}");
-        assert!(blind > 100.0, "{method}: nothing to control here: {blind}");
-        assert!(told < most, "{method}: {told}");
-        assert!(told_steps < blind_steps, "{method}");
+        let (plain, plain_steps) = worst_step(shaken, method, 1e-5);
+        let (predicted, predicted_steps) = worst_step(shaken_with_bound, method, 1e-5);
+        println!("{method}: {plain:.1} in {plain_steps} steps, {predicted:.1} in {predicted_steps}");
+        assert!(plain > 100.0, "{method}: nothing to control here: {plain}");
+        assert!(predicted < most, "{method}: {predicted}");
+        assert!(predicted_steps < plain_steps, "{method}");
     }
 }
 
 /// Slip that reverses within a fraction of a microsecond: its layer is narrower than the search for it is
 /// exact.
 #[test]
-fn issue_007_behaviour_a_fast_reversal_is_foreseen() {
-    const LAYER: f64 = 1e-7;
+fn issue_007_behaviour_a_fast_slip_reversal_is_predicted() {
+    const SPEED: f64 = 1e-7;
     let shaken = || {
         FunctionProblem::new(
             vec![1.0],
-            |t, x, dx| dx[0] = 3.0 * libm::sin(5.0 * t) - libm::tanh(x[0] / LAYER),
+            |t, x, dx| dx[0] = 3.0 * libm::sin(5.0 * t) - libm::tanh(x[0] / SPEED),
             |_, x, j| {
-                let grip = libm::tanh(x[0] / LAYER);
-                j[0] = -(1.0 - grip * grip) / LAYER;
+                let friction = libm::tanh(x[0] / SPEED);
+                j[0] = -(1.0 - friction * friction) / SPEED;
             },
         )
         .time_derivative(|t, _, df_dt| df_dt[0] = 15.0 * libm::cos(5.0 * t))
     };
-    let told = shaken().discontinuities(0, 1, |_, x, functions| functions.slips[0] = [x[0] / LAYER, 0.0]);
+    let predicted =
+        shaken().discontinuities(0, 1, |_, x, functions| functions.slips[0] = [x[0] / SPEED, 0.0]);
     let (exact, _) = run(shaken(), options(Method::Rodas5P, 1e-11), &[0.0], 8.0);
-    let (x, statistics) = run(told, options(Method::Rodas5P, 1e-4), &[0.0], 8.0);
+    let (x, statistics) = run(predicted, options(Method::Rodas5P, 1e-4), &[0.0], 8.0);
     assert!((x[0] - exact[0]).abs() < 1e-3, "{x:?} {exact:?}");
     // It reverses 12 times.
     assert!(statistics.discontinuities_predicted >= 12, "{statistics:?}");
@@ -236,11 +240,11 @@ fn issue_007_behaviour_a_fast_reversal_is_foreseen() {
 /// one.
 #[test]
 fn issue_007_behaviour_strikes_cost_few_rejections() {
-    let struck = BALL
+    let ball = BALL
         .problem()
         .discontinuities(1, 0, |_, x, functions| functions.values[0] = x[0])
         .spectral_radius_bound(|_, x| if x[0] < 0.0 { BALL.omega } else { 0.0 });
-    let (_, statistics) = run(struck, options(Method::Rodas5P, 1e-7), &[0.5, 0.0], 20.0);
+    let (_, statistics) = run(ball, options(Method::Rodas5P, 1e-7), &[0.5, 0.0], 20.0);
     // 31 strikes, nearly all by explicit steps; with steps behind them half as long as those before there
     // were ten rejections each.
     assert!(statistics.discontinuities_predicted >= 62, "{statistics:?}");

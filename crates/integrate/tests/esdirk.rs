@@ -1,5 +1,5 @@
-//! The method that damps fast vibrations: its coefficients, what it keeps and what it damps, friction that
-//! reverses, and what it cannot solve.
+//! The ESDIRK methods: their coefficients, vibrations that they damp, friction that reverses, the Jacobian
+//! cache and the stage predictor, and stages without solution.
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
@@ -196,10 +196,10 @@ fn analytic_a_sliding_mass_stops_and_sticks() {
     }
 }
 
-/// Told of pieces, Newton's method keeps its matrix on them and looks for reversals where they are: the same
-/// motion for fewer matrices.
+/// If the problem tells its slips, Newton's method uses its matrix again in the same contact state and places
+/// its line searches by the slip: the same motion for fewer matrices.
 #[test]
-fn convergence_a_matrix_kept_on_its_piece_changes_nothing_but_its_cost() {
+fn convergence_a_reused_matrix_changes_nothing_but_the_cost() {
     let reference = Options {
         relative_tolerance: 1e-10,
         ..Options::default()
@@ -210,32 +210,32 @@ fn convergence_a_matrix_kept_on_its_piece_changes_nothing_but_its_cost() {
             maximum_step: 0.01,
             ..options_of(method, 1e-7)
         };
-        let [alone, told] = [stick_slip, stick_slip_with_discontinuities]
+        let [alone, reused] = [stick_slip, stick_slip_with_discontinuities]
             .map(|make| run(make(), options.clone(), &[0.0, 0.0], 4.0));
-        println!("{method}: {:?}\n{:?}", alone.1, told.1);
-        for (x, _) in [&alone, &told] {
+        println!("{method}: {:?}\n{:?}", alone.1, reused.1);
+        for (x, _) in [&alone, &reused] {
             assert!((x[0] - exact[0]).abs() < 2e-5, "{method}: {x:?}, {exact:?}");
             assert!((x[1] - exact[1]).abs() < 1e-3, "{method}: {x:?}, {exact:?}");
         }
-        assert!(4 * told.1.jacobians < 3 * alone.1.jacobians, "{method}");
+        assert!(4 * reused.1.jacobians < 3 * alone.1.jacobians, "{method}");
         // where a matrix costs as much as two right-hand sides
-        let [one, other] = [&told.1, &alone.1].map(|s| s.derivatives + 2 * s.jacobians);
+        let [one, other] = [&reused.1, &alone.1].map(|s| s.derivatives + 2 * s.jacobians);
         assert!(one < other, "{method}: {one}, {other}");
     }
 }
 
-/// Where the way is smooth, and a problem tells so, a stage takes one right-hand side: its guess is within
-/// the tolerance.
+/// For a smooth solution, if the problem tells so, a stage takes one right-hand side: its prediction is
+/// within the tolerance.
 #[test]
-fn convergence_a_smooth_way_is_guessed() {
-    let follower = |tells: bool| {
+fn convergence_smooth_stages_are_predicted() {
+    let follower = |complete: bool| {
         let problem = FunctionProblem::new(
             vec![1.0],
             |t, x, dx| dx[0] = 50.0 * (libm::sin(5.0 * t) - x[0]),
             |_, _, j| j[0] = -50.0,
         )
         .displacements(1);
-        if tells {
+        if complete {
             problem
                 .discontinuities(1, 0, |_, _, functions| functions.values[0] = 1.0)
                 .discontinuities_complete()
@@ -250,14 +250,17 @@ fn convergence_a_smooth_way_is_guessed() {
             maximum_step: 0.01,
             ..options_of(method, 1e-3)
         };
-        let [straight, guessed] =
-            [false, true].map(|tells| run(follower(tells), options.clone(), &[0.0], 2.0));
-        println!("{method}: {:?}\n{:?}", straight.1, guessed.1);
-        for (x, _) in [&straight, &guessed] {
+        let [straight, predicted] =
+            [false, true].map(|complete| run(follower(complete), options.clone(), &[0.0], 2.0));
+        println!("{method}: {:?}\n{:?}", straight.1, predicted.1);
+        for (x, _) in [&straight, &predicted] {
             assert!((x[0] - exact).abs() < 1e-4, "{method}: {x:?}, {exact}");
         }
-        assert_eq!(straight.1.steps, guessed.1.steps, "{method}");
-        assert!(5 * guessed.1.derivatives < 3 * straight.1.derivatives, "{method}");
+        assert_eq!(straight.1.steps, predicted.1.steps, "{method}");
+        assert!(
+            5 * predicted.1.derivatives < 3 * straight.1.derivatives,
+            "{method}"
+        );
     }
 }
 

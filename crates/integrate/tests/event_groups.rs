@@ -1,4 +1,4 @@
-//! Switches in groups: what is found of many, and what that costs.
+//! Discrete states in groups: location of events, and its cost.
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
@@ -6,14 +6,14 @@ use std::f64::consts::PI;
 
 use integrate::{Event, EventGroup, Integrator, Options, Problem, Singular};
 
-/// x_i = sin(ω_i t), each a state of its own, with a switch that goes to 1 above a half and back below its
-/// negative.
+/// x_i = sin(ω_i t), each a state of its own, with a discrete state that goes to 1 above a half and back
+/// below its negative.
 #[derive(Clone)]
 struct Waves {
     frequencies: Vec<f64>,
     scales: Vec<f64>,
     grouped: bool,
-    /// How many signs were computed for all switches at once, and for single groups.
+    /// Number of event variables computed for all groups at once, and for single groups.
     together: usize,
     alone: usize,
 }
@@ -31,7 +31,7 @@ impl Waves {
         }
     }
 
-    /// The changes of a switch up to a time, by the inverse of the sine.
+    /// Returns the events of a discrete state up to a time, by the inverse of the sine.
     fn exact(&self, index: usize, end: f64) -> Vec<Event> {
         let frequency = self.frequencies[index];
         let phases = (0_i32..).map(|half| f64::from(half) * PI + libm::asin(TOP));
@@ -48,9 +48,9 @@ impl Waves {
     }
 }
 
-/// The margin of a switch.
-fn margin(mode: u8, x: f64) -> f64 {
-    if mode == 0 { TOP - x } else { TOP + x }
+/// Returns the event function of a discrete state.
+fn event_function(state: u8, x: f64) -> f64 {
+    if state == 0 { TOP - x } else { TOP + x }
 }
 
 impl Problem for Waves {
@@ -85,9 +85,9 @@ impl Problem for Waves {
     fn event_variable_count(&self) -> usize {
         self.dimension()
     }
-    fn event_variables(&mut self, _: f64, x: &[f64], signs: &mut [f64]) {
-        self.together += signs.len();
-        signs.copy_from_slice(x);
+    fn event_variables(&mut self, _: f64, x: &[f64], variables: &mut [f64]) {
+        self.together += variables.len();
+        variables.copy_from_slice(x);
     }
     fn event_groups(&self) -> Vec<EventGroup> {
         let count = self.dimension();
@@ -102,25 +102,25 @@ impl Problem for Waves {
             vec![group(0..count)]
         }
     }
-    fn group_event_variables(&mut self, group: usize, time: f64, x: &[f64], signs: &mut [f64]) {
+    fn group_event_variables(&mut self, group: usize, time: f64, x: &[f64], variables: &mut [f64]) {
         if self.grouped {
             self.alone += 1;
-            signs[0] = x[group];
+            variables[0] = x[group];
         } else {
-            self.event_variables(time, x, signs);
+            self.event_variables(time, x, variables);
         }
     }
-    fn group_event_functions(&mut self, _: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
-        for ((margin_of, mode), sign) in margins.iter_mut().zip(modes).zip(signs) {
-            *margin_of = margin(*mode, *sign);
+    fn group_event_functions(&mut self, _: usize, variables: &[f64], states: &[u8], functions: &mut [f64]) {
+        for ((function, state), variable) in functions.iter_mut().zip(states).zip(variables) {
+            *function = event_function(*state, *variable);
         }
     }
-    fn next_discrete_state(&mut self, _: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
+    fn next_discrete_state(&mut self, _: usize, variables: &[f64], index: usize, state: u8) -> u8 {
         assert!(
-            margin(mode, signs[index]) <= 0.0,
-            "asked where the switch is to stay"
+            event_function(state, variables[index]) <= 0.0,
+            "called although the state lasts"
         );
-        1 - mode
+        1 - state
     }
 }
 
@@ -146,7 +146,7 @@ fn run(count: usize, grouped: bool) -> (Vec<Event>, Waves) {
 }
 
 #[test]
-fn analytic_changes_of_many_switches_are_found_group_by_group() {
+fn analytic_events_of_many_discrete_states_are_located_group_by_group() {
     for grouped in [true, false] {
         let (found, waves) = run(40, grouped);
         let mut expected: Vec<Event> = (0..40).flat_map(|i| waves.exact(i, END)).collect();
@@ -167,29 +167,29 @@ fn analytic_changes_of_many_switches_are_found_group_by_group() {
 }
 
 #[test]
-fn limits_the_cost_of_a_change_does_not_depend_on_the_number_of_groups() {
+fn limits_the_cost_of_an_event_does_not_depend_on_the_number_of_groups() {
     let cost = |count: usize, grouped: bool| {
         let (events, waves) = run(count, grouped);
-        let looks = waves.together as f64 / count as f64;
-        (looks, waves.alone as f64 / events.len() as f64)
+        let sweeps = waves.together as f64 / count as f64;
+        (sweeps, waves.alone as f64 / events.len() as f64)
     };
-    let ((few_looks, few), (many_looks, many)) = (cost(5, true), cost(80, true));
+    let ((few_sweeps, few), (many_sweeps, many)) = (cost(5, true), cost(80, true));
     assert!(
-        few_looks == many_looks,
-        "{few_looks} and {many_looks} looks at all"
+        few_sweeps == many_sweeps,
+        "{few_sweeps} and {many_sweeps} evaluations of all"
     );
-    assert!(few < 12.0 && many < 12.0, "{few} and {many} signs a change");
-    assert!(many < 1.2 * few, "{few} and {many} signs a change");
-    // Without groups each change looks at all.
+    assert!(few < 12.0 && many < 12.0, "{few} and {many} variables an event");
+    assert!(many < 1.2 * few, "{few} and {many} variables an event");
+    // Without groups each event evaluates all.
     let (together, _) = cost(80, false);
     assert!(
-        together > 4.0 * many_looks,
-        "{together} and {many_looks} looks at all"
+        together > 4.0 * many_sweeps,
+        "{together} and {many_sweeps} evaluations of all"
     );
 }
 
 #[test]
-fn nothing_but_events_is_missing_where_switches_are_not_recorded() {
+fn steps_and_states_are_the_same_if_events_are_not_recorded() {
     let run = |record_events: bool| {
         let options = Options {
             record_events,
@@ -212,6 +212,6 @@ fn nothing_but_events_is_missing_where_switches_are_not_recorded() {
     assert_eq!(recorded.statistics.steps, bare.statistics.steps);
     assert_eq!(bare.statistics.events, 0);
     assert!(recorded.statistics.events > 10);
-    // A state without modes does not continue a run that records them.
+    // A state without discrete states does not continue a run that records them.
     assert!(Integrator::resume(Waves::new(5, true), Options::default(), bare).is_err());
 }

@@ -304,7 +304,7 @@ fn a_singular_matrix_shortens_the_step_or_is_reported() {
 }
 
 #[test]
-fn a_segment_must_not_end_before_it_starts() {
+fn a_time_discontinuity_must_be_later_than_the_start() {
     struct Backwards(FunctionProblem<'static>);
     impl integrate::Problem for Backwards {
         fn dimension(&self) -> usize {

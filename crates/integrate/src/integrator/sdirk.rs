@@ -2,7 +2,7 @@
 //! search.
 //!
 //! A stage begins at the prediction of [`crate::newton::Extrapolation`], with the cached matrix if it is
-//! valid there, otherwise with a matrix evaluated there (if the problem does not tell contact states: in the
+//! valid there, otherwise with a matrix evaluated there (if the contact state is unknown: in the
 //! first stage). The matrix is used while corrections shrink by [`tuning::CONTRACTION`]. Where a correction
 //! crosses a discontinuity, a line search finds the point at which the next matrix is evaluated, see
 //! [`crate::newton::LineSearch`]. Decisions 0026, 0033, 0035.

@@ -1,4 +1,4 @@
-//! ESDIRK3(2)5L[2]SA of Kennedy & Carpenter: order 3(2), four implicit stages of stage order 2.
+//! `ESDIRK3(2)5L[2]SA` of Kennedy & Carpenter: order 3(2), four implicit stages of stage order 2.
 
 use std::f64::consts::SQRT_2;
 

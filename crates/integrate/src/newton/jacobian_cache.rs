@@ -52,7 +52,8 @@ pub(crate) enum CacheValidity {
     Valid,
     /// It was evaluated in another contact state, or there is none.
     Invalid,
-    /// There is a matrix, but the problem does not tell its contact state.
+    /// There is a matrix, but its contact state is unknown: the problem does not report all its
+    /// discontinuities.
     Unknown,
 }
 
@@ -78,7 +79,7 @@ impl JacobianCache {
         self.filled = false;
     }
 
-    /// Computes the contact state at a point, if the problem tells it.
+    /// Computes the contact state at a point, if the problem reports all its discontinuities.
     pub fn set_contact_state<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
         if problem.discontinuities_complete() {
             problem.discontinuities(time, x, &mut self.functions);

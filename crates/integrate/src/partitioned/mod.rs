@@ -290,8 +290,8 @@ impl Partitioned {
         [g_q, g_u, f_t]
     }
 
-    /// Returns the derivatives of a quadrature by a body's positions and by its speeds; `row` is an index into
-    /// the structure's `quadrature_bodies`.
+    /// Returns the derivatives of a quadrature by a body's positions and by its speeds; `row` is an index
+    /// into the structure's `quadrature_bodies`.
     #[inline(always)]
     pub fn row_mut(&mut self, row: usize) -> (&mut [f64], &mut [f64]) {
         let QuadratureOfBody { body, start, .. } = self.quadratures_of_bodies[row];

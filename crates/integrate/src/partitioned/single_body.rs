@@ -1,5 +1,5 @@
-//! One body of at most six coordinates and no internal states, such as one wedge: the matrices are stored column
-//! by column, in pairs of rows, so that a solution takes a few dozen products of pairs.
+//! One body of at most six coordinates and no internal states, such as one wedge: the matrices are stored
+//! column by column, in pairs of rows, so that a solution takes a few dozen products of pairs.
 
 use wide::f64x2;
 
@@ -38,7 +38,7 @@ pub(super) struct Blocks<'a> {
 }
 
 /// Matrices of one body. Those that a vector is multiplied with are cut into pairs of rows (the last one
-/// padded with zeros), and stand pair by pair, column by column.
+/// padded with zeros), and are stored pair by pair, column by column.
 #[derive(Clone, Debug)]
 pub(super) struct SingleBody {
     size: usize,

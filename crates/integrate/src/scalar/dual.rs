@@ -23,7 +23,7 @@ pub struct Dual<const N: usize> {
 }
 
 impl<const N: usize> Dual<N> {
-    /// The independent variable number `index`.
+    /// Returns the independent variable number `index`.
     #[inline(always)]
     #[must_use]
     pub fn variable(value: f64, index: usize) -> Self {
