@@ -144,7 +144,8 @@ fn main() {
             let s = method.tableau().stages() as f64;
             let own = s * (derivative + solve) + linearize + factor;
             println!(
-                "{method} {discrete_states} discrete states: {step:.0} ns per step, {:.0} beyond the problem's calls",
+                "{method} {discrete_states} discrete states: {step:.0} ns per step, {:.0} beyond the \
+                 problem's calls",
                 step - own
             );
         }

@@ -201,8 +201,8 @@ impl std::fmt::Display for StepError {
             ),
             Reason::NewtonFailure => write!(
                 f,
-                "at time {time:?} the equations of a step of {step:?} could not be solved: look for a jump in \
-                 the problem, or choose another method"
+                "at time {time:?} the equations of a step of {step:?} could not be solved: look for a jump \
+                 in the problem, or choose another method"
             ),
             Reason::MaximumSteps { maximum } => {
                 write!(
@@ -215,8 +215,8 @@ impl std::fmt::Display for StepError {
             }
             Reason::StepUnderflow => write!(
                 f,
-                "at time {time:?} a step of {step:?} is lost against the time, which cannot tell its end from \
-                 its start: look for what makes steps so short, or begin anew at an earlier time"
+                "at time {time:?} a step of {step:?} is lost against the time, which cannot tell its end \
+                 from its start: look for what makes steps so short, or begin anew at an earlier time"
             ),
             Reason::Limit { limit } => write!(f, "a step from time {time:?} cannot end at {limit:?}"),
             Reason::TimeDiscontinuity { end } => {

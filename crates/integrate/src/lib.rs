@@ -45,17 +45,17 @@
 //! |---|---|
 //! | the problem: required and optional functions | [`Problem`] (`problem.rs`), [`FunctionProblem`] |
 //! | a step: attempt, error test, acceptance | [`Integrator::step_to`] (`integrator/step.rs`) |
-//! | stages of Rosenbrock, explicit and ESDIRK methods | `integrator/rosenbrock.rs`, `explicit.rs`, `sdirk.rs` |
+//! | stages of Rosenbrock, explicit and ESDIRK methods | `integrator/{rosenbrock,explicit,esdirk}.rs` |
 //! | coefficients of the methods, with citations | [`Method::tableau`] (`methods/`) |
 //! | error norm and tolerances | [`Problem::scales`], [`Problem::error_bounds`], [`Options`] |
 //! | step-size controller (PI, Gustafsson) | `controller.rs` |
 //! | modified Newton: Jacobian cache, stage predictor, line search | `newton/` |
-//! | switching between stiff and nonstiff method | [`Problem::spectral_radius_bound`] (`integrator/explicit.rs`) |
+//! | switching to a nonstiff method | [`Problem::spectral_radius_bound`] (`integrator/explicit.rs`) |
 //! | discontinuities in time | [`Problem::next_time_discontinuity`] |
-//! | discontinuities in state, predicted; slip reversal | [`Problem::discontinuities`] (`discontinuity*.rs`) |
+//! | predicted discontinuities in state; slip reversal | [`Problem::discontinuities`] (`discontinuity*.rs`) |
 //! | discrete states and events (root functions) | [`Problem::event_variables`] and after (`event*.rs`) |
 //! | root search | `root_search.rs` |
-//! | dense output, and its correction where friction sticks | [`Integrator::interpolate`] (`integrator/interpolation.rs`) |
+//! | dense output and its correction | [`Integrator::interpolate`] (`integrator/interpolation.rs`) |
 //! | save and resume with the same bits | [`State`], [`Integrator::resume`], [`Integrator::restore`] |
 //! | counters | [`Statistics`] |
 //! | block-sparse LU factorization | [`BlockLu`] |

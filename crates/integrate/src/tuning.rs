@@ -7,6 +7,12 @@
 //! Terms: h is the step, ρ a bound of the spectral radius of the Jacobian matrix (1/s), so h·ρ is the scaled
 //! step. A *slip* is a plane vector in units of the width of its regularization zone (slip velocity over the
 //! reference speed of the friction law), see [`crate::DiscontinuityFunctions`].
+//!
+//! Decision records up to 0044 use other words: kink (discontinuity), layer (regularization zone), landing
+//! (step to a discontinuity), strike (a contact closes), breaking away (stick-to-slip transition), piece
+//! (contact state), guess (stage prediction), settled (corrected dense output), sign and margin (event
+//! variable and function), switch and mode (discrete state), stiffness or fastest answer (bound of the
+//! spectral radius).
 
 /// Defaults of [`crate::Options`].
 pub mod options {
@@ -96,7 +102,7 @@ pub mod step {
     /// 2 to 4 % fewer right-hand sides (benchmarks).
     pub const AFTER_OPENING: f64 = 0.1;
     /// Explicit steps with a larger error (in tolerances) were limited by their error; h·ρ of the last such
-    /// step is remembered. Decision 0028.
+    /// step is remembered (decision 0028). The number: chosen, not measured.
     pub const ERROR_LIMITED: f64 = 0.1;
     /// A zone crossing without slip reversal (slip that comes to stick) ends when the error falls below this,
     /// in tolerances, and the slip has stopped changing (decision 0028). The number: chosen, not measured.

@@ -120,8 +120,8 @@ fn every_method_has_its_order() {
             let observed_dense = slope(found[1].1, found[2].1);
             let observed_corrected = slope(found[1].2, found[2].2);
             println!(
-                "{method} {name}: order {observed:.2}, dense {observed_dense:.2}, corrected {observed_corrected:.2}, \
-                 error {:.1e}, {:.1e}, {:.1e}",
+                "{method} {name}: order {observed:.2}, dense {observed_dense:.2}, \
+                 corrected {observed_corrected:.2}, error {:.1e}, {:.1e}, {:.1e}",
                 found[2].0, found[2].1, found[2].2
             );
             assert!(

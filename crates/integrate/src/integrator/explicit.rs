@@ -19,6 +19,8 @@ impl<P: Problem> Integrator<P> {
         self.options.explicit_steps && step * self.spectral_radius <= tuning::EXPLICIT_H_RHO
     }
 
+    /// Makes an attempt by the explicit method; returns its error in units of the tolerance. An attempt that
+    /// crosses a discontinuity is made again by the Rosenbrock method.
     #[inline(never)]
     pub(super) fn attempt_explicit(&mut self) -> Outcome {
         let (n, stride) = (self.dimension, self.stride);

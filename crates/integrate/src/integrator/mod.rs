@@ -6,7 +6,7 @@
 //! | `start.rs` | start, save, resume and restore; the first step |
 //! | `step.rs` | a step: planning, error test, acceptance, rejection |
 //! | `attempt.rs` | what attempts of all methods share |
-//! | `rosenbrock.rs`, `explicit.rs`, `sdirk.rs` | an attempt by a Rosenbrock, explicit or ESDIRK method |
+//! | `rosenbrock.rs`, `explicit.rs`, `esdirk.rs` | an attempt by a Rosenbrock, explicit or ESDIRK method |
 //! | `interpolation.rs` | dense output and its correction |
 //! | `memory.rs` | plain data |
 
@@ -22,11 +22,11 @@ use crate::problem::Problem;
 use crate::statistics::Statistics;
 
 mod attempt;
+mod esdirk;
 mod explicit;
 mod interpolation;
 mod memory;
 mod rosenbrock;
-mod sdirk;
 mod start;
 mod step;
 

@@ -8,6 +8,7 @@ use crate::tuning::attempt as tuning;
 use crate::vector::{add, all_finite, combine, max_norm};
 
 impl<P: Problem> Integrator<P> {
+    /// Makes an attempt by the Rosenbrock method; returns its error in units of the tolerance.
     #[inline(never)]
     pub(super) fn attempt_rosenbrock(&mut self) -> Outcome {
         let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);

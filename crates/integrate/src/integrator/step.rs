@@ -194,6 +194,7 @@ impl<P: Problem> Integrator<P> {
         self.error(reason, step, index, scaled_error)
     }
 
+    /// Returns the error for a step that cannot be planned.
     fn error(&self, reason: Reason, step: f64, index: Option<usize>, scaled_error: f64) -> StepError {
         StepError {
             time: self.time,
@@ -283,6 +284,7 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
+    /// Returns the index of the first state whose derivative is not finite.
     pub(super) fn first_not_finite(&self) -> Option<usize> {
         self.derivative().iter().position(|value| !value.is_finite())
     }

@@ -5,8 +5,8 @@ use super::tableau::{Family, Tableau};
 /// Rodas5P.
 pub static RODAS5P: Tableau = Tableau {
     name: "Rodas5P",
-    citation: "G. Steinebach: Construction of Rosenbrock-Wanner method Rodas5P and numerical benchmarks within \
-               the Julia Differential Equations package, BIT Numerical Mathematics 63, 27 (2023)",
+    citation: "G. Steinebach: Construction of Rosenbrock-Wanner method Rodas5P and numerical benchmarks \
+               within the Julia Differential Equations package, BIT Numerical Mathematics 63, 27 (2023)",
     family: Family::LinearlyImplicit,
     order: 5,
     embedded_order: 4,

@@ -2,7 +2,7 @@
 //! stage predictor, the Jacobian cache with the contact state it is valid for, and the line search.
 //!
 //! A stage is the zero of `F(z) = (base - z)/(hγ) + f(t, z)`; a correction is `d = (I/(hγ) - J)⁻¹ F(z)`. The
-//! iteration itself is in [`crate::integrator`]'s file `sdirk.rs`.
+//! iteration itself is in [`crate::integrator`]'s file `esdirk.rs`.
 
 mod contact_state;
 mod jacobian_cache;

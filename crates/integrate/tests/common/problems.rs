@@ -22,8 +22,8 @@ pub const PUBLISHED: [TestProblem; 4] = [ROBERTSON_40, ROBERTSON, VAN_DER_POL, H
 /// Robertson's problem over the interval of the Test Set.
 pub const ROBERTSON: TestProblem = TestProblem {
     name: "Robertson",
-    citation: "H. H. Robertson (1966); F. Mazzia, C. Magherini: Test Set for Initial Value Problem Solvers, release \
-               2.4 (2008), problem ROBER",
+    citation: "H. H. Robertson (1966); F. Mazzia, C. Magherini: Test Set for Initial Value Problem Solvers, \
+               release 2.4 (2008), problem ROBER",
     problem: robertson,
     start: &[1.0, 0.0, 0.0],
     end: 1e11,
@@ -38,7 +38,7 @@ pub const ROBERTSON: TestProblem = TestProblem {
 /// Robertson's problem at the time at which it is printed most often.
 pub const ROBERTSON_40: TestProblem = TestProblem {
     name: "Robertson to t = 40",
-    citation: "SUNDIALS, example cvRoberts_dns (7.158e-1, 9.185e-6, 2.842e-1); the digits beyond by SciPy's Radau",
+    citation: "SUNDIALS, example cvRoberts_dns (7.158e-1, 9.185e-6, 2.842e-1); more digits by SciPy's Radau",
     end: 40.0,
     reference: &[0.715_827_068_719_4, 9.185_534_764_56e-6, 0.284_163_745_745_8],
     ..ROBERTSON
@@ -58,7 +58,7 @@ pub const VAN_DER_POL: TestProblem = TestProblem {
 /// HIRES: High Irradiance RESponse of photomorphogenesis.
 pub const HIRES: TestProblem = TestProblem {
     name: "HIRES",
-    citation: "E. Schäfer (1975); Mazzia & Magherini (2008), problem HIRES; Hairer & Wanner (1996), section IV.10",
+    citation: "E. Schäfer (1975); Mazzia & Magherini (2008), problem HIRES; Hairer & Wanner (1996), IV.10",
     problem: hires,
     start: &[1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0057],
     end: 321.8122,
@@ -78,8 +78,8 @@ pub const HIRES: TestProblem = TestProblem {
 /// Stick-slip oscillator: it sticks, slips and rings at 7 Hz, see [`stick_slip`].
 pub const STICK_SLIP: TestProblem = TestProblem {
     name: "stick-slip oscillator",
-    citation: "friction of Coulomb regularized by tanh on a spring whose end moves, as in J. P. Den Hartog, Trans. \
-               ASME 53 (1931) 107; reference by SciPy's Radau at 1e-11 and 1e-12",
+    citation: "friction of Coulomb regularized by tanh on a spring whose end moves, as in J. P. Den Hartog, \
+               Trans. ASME 53 (1931) 107; reference by SciPy's Radau at 1e-11 and 1e-12",
     problem: stick_slip,
     start: &[0.0, 0.0],
     end: 4.0,

@@ -29,6 +29,7 @@ enum FirstCorrection {
 }
 
 impl<P: Problem> Integrator<P> {
+    /// Makes an attempt by the ESDIRK method; returns its error in units of the tolerance.
     #[inline(never)]
     pub(super) fn attempt_esdirk(&mut self) -> Outcome {
         let (stride, last) = (self.stride, self.tableau.stages() - 2);
