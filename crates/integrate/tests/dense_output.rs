@@ -22,9 +22,9 @@ fn sticking() -> FunctionProblem<'static> {
             dx[1] = GRAVITY * (pull(t) - FRICTION * libm::tanh(x[1] / REFERENCE));
         },
         |_, x, jacobian| {
-            let hold = libm::tanh(x[1] / REFERENCE);
+            let friction = libm::tanh(x[1] / REFERENCE);
             jacobian[1] = 1.0;
-            jacobian[3] = -GRAVITY * FRICTION / REFERENCE * (1.0 - hold * hold);
+            jacobian[3] = -GRAVITY * FRICTION / REFERENCE * (1.0 - friction * friction);
         },
     )
     .time_derivative(|t, _, df_dt| {

@@ -84,7 +84,7 @@ fn slip_reversals_are_predicted() {
 }
 
 #[test]
-fn bounds_hold_in_layers_and_widen_outside() {
+fn bounds_apply_in_zones_and_widen_outside() {
     let attempts = |statistics: &Statistics| statistics.steps + statistics.rejected();
     let (exact, _) = run(shaken(), options(Method::Rodas5P, 1e-10), &[0.0, 0.0], 8.0);
     // As exact everywhere as a zone needs.
@@ -117,7 +117,7 @@ fn bounds_hold_in_layers_and_widen_outside() {
 }
 
 #[test]
-fn bounds_in_layers_widen_with_the_slowest_direction() {
+fn zone_bounds_widen_with_the_smallest_slip() {
     // A circle; two directions of constant size, which have nothing to do with it.
     let steps = |sizes: [f64; 2]| {
         let circle = FunctionProblem::new(
@@ -135,15 +135,15 @@ fn bounds_in_layers_widen_with_the_slowest_direction() {
     };
     let none = steps([f64::NAN; 2]);
     assert_eq!(steps([1e6, 2e6]), none);
-    let in_layer = steps([1e6, 0.0]);
-    assert_eq!(steps([20.0, f64::NAN]), in_layer);
+    let in_zone = steps([1e6, 0.0]);
+    assert_eq!(steps([20.0, f64::NAN]), in_zone);
     // Errors of order 5 in the step: 1e4 times the error makes 6.3 times the steps. A slip of 2000: a hundred
     // times the bound.
-    assert!(in_layer > 5 * none, "{in_layer} {none}");
+    assert!(in_zone > 5 * none, "{in_zone} {none}");
     let between = steps([2000.0, 1e6]);
     assert!(
-        2 * none < between && 2 * between < in_layer,
-        "{in_layer} {between} {none}"
+        2 * none < between && 2 * between < in_zone,
+        "{in_zone} {between} {none}"
     );
 }
 
@@ -197,10 +197,10 @@ fn worst_step(problem: fn() -> FunctionProblem<'static>, method: Method, toleran
     (worst, integrator.statistics().steps)
 }
 
-/// What sticks breaks away: the Jacobian matrix of the start knows the hold alone, and the estimate of the
-/// error is damped with it.
+/// Stick-to-slip transition: the Jacobian matrix of the start knows only the sticking friction, and the error
+/// estimate is damped with it.
 #[test]
-fn issue_007_behaviour_a_step_that_breaks_away_is_as_exact_as_others() {
+fn issue_007_behaviour_a_step_from_stick_to_slip_is_as_exact_as_others() {
     for (method, most) in [(Method::Rodas4, 30.0), (Method::Rodas5P, 3.0)] {
         let (plain, plain_steps) = worst_step(shaken, method, 1e-5);
         let (predicted, predicted_steps) = worst_step(shaken_with_bound, method, 1e-5);
@@ -211,8 +211,8 @@ fn issue_007_behaviour_a_step_that_breaks_away_is_as_exact_as_others() {
     }
 }
 
-/// Slip that reverses within a fraction of a microsecond: its layer is narrower than the search for it is
-/// exact.
+/// Slip that reverses within a fraction of a microsecond: its zone is narrower than the resolution of the
+/// search.
 #[test]
 fn issue_007_behaviour_a_fast_slip_reversal_is_predicted() {
     const SPEED: f64 = 1e-7;
@@ -236,17 +236,16 @@ fn issue_007_behaviour_a_fast_slip_reversal_is_predicted() {
     assert!(statistics.discontinuities_predicted >= 12, "{statistics:?}");
 }
 
-/// A mass that strikes again and again, with explicit steps: behind each strike as long as those of the last
-/// one.
+/// A ball that bounces, with explicit steps: after each impact they are as long as after the last one.
 #[test]
-fn issue_007_behaviour_strikes_cost_few_rejections() {
+fn issue_007_behaviour_impacts_cost_few_rejections() {
     let ball = BALL
         .problem()
         .discontinuities(1, 0, |_, x, functions| functions.values[0] = x[0])
         .spectral_radius_bound(|_, x| if x[0] < 0.0 { BALL.omega } else { 0.0 });
     let (_, statistics) = run(ball, options(Method::Rodas5P, 1e-7), &[0.5, 0.0], 20.0);
-    // 31 strikes, nearly all by explicit steps; with steps behind them half as long as those before there
-    // were ten rejections each.
+    // 31 impacts, nearly all by explicit steps; if steps after an impact were half as long as those before
+    // it, there would be ten rejections each.
     assert!(statistics.discontinuities_predicted >= 62, "{statistics:?}");
     assert!(
         10 * statistics.explicit_steps > 9 * statistics.steps,

@@ -9,7 +9,7 @@ use common::problems::{stick_slip, stick_slip_with_discontinuities};
 use common::run;
 use integrate::{FunctionProblem, Integrator, Method, Options, Reason, SetupError, State};
 
-const DAMPING: [Method; 2] = [Method::TrBdf2, Method::Esdirk3];
+const ESDIRK: [Method; 2] = [Method::TrBdf2, Method::Esdirk3];
 
 fn options_of(method: Method, tolerance: f64) -> Options {
     Options {
@@ -23,9 +23,9 @@ fn options(tolerance: f64) -> Options {
     options_of(Method::TrBdf2, tolerance)
 }
 
-/// Both stages integrate a linear slope exactly, and the estimate is the error of a quadratic one.
+/// TR-BDF2: both stages integrate linear functions exactly; the estimate is the error for quadratic ones.
 #[test]
-fn convergence_coefficients_fulfil_their_conditions() {
+fn convergence_coefficients_of_tr_bdf2_fulfil_their_conditions() {
     let tableau = Method::TrBdf2.tableau();
     let (alpha, gamma) = (tableau.alpha, tableau.gamma);
     let sum = |weights: &[f64], power: i32| -> f64 {
@@ -61,10 +61,10 @@ fn convergence_coefficients_fulfil_their_conditions() {
     }
 }
 
-/// The conditions of order 3 of ESDIRK3, of order 2 of its stages, and of its embedded solution, whose error
-/// of a cubic is what is estimated; its dense output goes through its stages.
+/// ESDIRK3: conditions of order 3, of stage order 2, and of the embedded solution; the dense output passes
+/// through its stages.
 #[test]
-fn convergence_coefficients_of_order_3_fulfil_their_conditions() {
+fn convergence_coefficients_of_esdirk3_fulfil_their_conditions() {
     let tableau = Method::Esdirk3.tableau();
     let (alpha, count) = (tableau.alpha, 5);
     let near = |found: f64, exact: f64, what: &str| {
@@ -128,11 +128,11 @@ fn carried(omega: f64) -> FunctionProblem<'static> {
     .time_derivative(move |t, _, f| f[1] = omega * omega * libm::cos(t))
 }
 
-/// What a stiff spring holds follows its support, its speed with the order of the stages, though that is the
-/// derivative of what is held.
+/// A mass on a stiff spring follows its support; its speed, the derivative of a constrained coordinate, keeps
+/// the order of the stages.
 #[test]
-fn convergence_the_speed_of_what_is_held_keeps_its_order() {
-    for method in DAMPING {
+fn convergence_the_speed_on_a_stiff_spring_keeps_its_order() {
+    for method in ESDIRK {
         let errors = [64, 128].map(|steps| {
             let options = Options {
                 fixed_step: Some(1.0 / f64::from(steps)),
@@ -151,7 +151,7 @@ fn convergence_the_speed_of_what_is_held_keeps_its_order() {
 /// A vibration of 160 Hz under the tolerance is gone after a second of long steps; the slow motion is there.
 #[test]
 fn limits_a_fast_vibration_is_damped_and_the_motion_is_kept() {
-    for method in DAMPING {
+    for method in ESDIRK {
         let options = Options {
             maximum_step: 0.1,
             ..options_of(method, 1e-4)
@@ -171,7 +171,7 @@ fn limits_a_fast_vibration_is_damped_and_the_motion_is_kept() {
 #[test]
 fn analytic_a_sliding_mass_stops_and_sticks() {
     const REFERENCE: f64 = 1e-5;
-    for method in DAMPING {
+    for method in ESDIRK {
         let problem = FunctionProblem::new(
             vec![1.0, 1.0],
             |_, x, dx| {
@@ -205,7 +205,7 @@ fn convergence_a_reused_matrix_changes_nothing_but_the_cost() {
         ..Options::default()
     };
     let (exact, _) = run(stick_slip(), reference, &[0.0, 0.0], 4.0);
-    for method in DAMPING {
+    for method in ESDIRK {
         let options = Options {
             maximum_step: 0.01,
             ..options_of(method, 1e-7)
@@ -245,7 +245,7 @@ fn convergence_smooth_stages_are_predicted() {
     };
     // x = (sin 5t - cos 5t/10 + exp(-50t)/10)/1.01
     let exact = (libm::sin(10.0) - 0.1 * libm::cos(10.0)) / 1.01;
-    for method in DAMPING {
+    for method in ESDIRK {
         let options = Options {
             maximum_step: 0.01,
             ..options_of(method, 1e-3)
@@ -264,10 +264,10 @@ fn convergence_smooth_stages_are_predicted() {
     }
 }
 
-/// A run that was saved has the matrix that was kept.
+/// A resumed run has the Jacobian matrix of the saved one.
 #[test]
-fn reproducible_a_saved_run_goes_on_with_the_matrix_it_kept() {
-    for method in DAMPING {
+fn reproducible_a_resumed_run_has_the_cached_matrix() {
+    for method in ESDIRK {
         let options = options_of(method, 1e-6);
         let mut whole = Integrator::new(
             stick_slip_with_discontinuities(),
@@ -303,19 +303,18 @@ fn reproducible_a_saved_run_goes_on_with_the_matrix_it_kept() {
     }
 }
 
-/// Where a force bends, as friction that reverses does at a row of output, only the ends of steps are in
-/// balance: rows limit steps.
+/// Only the ends of their steps are in equilibrium with friction: output times limit steps.
 #[test]
-fn limits_rows_end_the_steps_of_methods_that_damp() {
+fn limits_output_times_end_the_steps_of_esdirk_methods() {
     for method in Method::ALL {
         let integrator = Integrator::new(carried(100.0), options_of(method, 1e-4), 0.0, &[0.0, 1.0]).unwrap();
         let limit = integrator.step_limit(0.5, 2.0);
-        assert_eq!(limit, if DAMPING.contains(&method) { 0.5 } else { 2.0 });
+        assert_eq!(limit, if ESDIRK.contains(&method) { 0.5 } else { 2.0 });
         assert_eq!(integrator.step_limit(3.0, 2.0), 2.0);
     }
 }
 
-/// A slope that points back to zero from both sides.
+/// A right-hand side that points back to zero from both sides.
 fn points_back(speed: f64) -> FunctionProblem<'static> {
     let slope = move |x: f64| if x > 0.0 { -speed } else { speed };
     FunctionProblem::new(
@@ -325,15 +324,15 @@ fn points_back(speed: f64) -> FunctionProblem<'static> {
     )
 }
 
-/// A slope that jumps has no solution where it points back from both sides. Within the tolerance the state
-/// rests there.
+/// Where the right-hand side points back from both sides there is no classical solution (a sliding mode,
+/// Filippov). The state rests there within the tolerance.
 #[test]
-fn limits_what_points_back_from_both_sides_rests() {
+fn limits_a_sliding_mode_rests_within_the_tolerance() {
     let (x, _) = run(points_back(1.0), options(1e-3), &[0.5], 1.0);
     assert!(x[0].abs() < 1e-3, "{x:?}");
 }
 
-/// Where steps may not be as short as that takes, the message says so.
+/// If steps may not be short enough for that, the error says so.
 #[test]
 fn input_stages_without_solution_are_reported() {
     let options = Options {
@@ -356,10 +355,10 @@ fn input_stages_without_solution_are_reported() {
     assert!(integrator.statistics().rejected_newton > 2);
 }
 
-/// A saved run has the slope with which its last step ended, the place of its matrix, and that step. Those
-/// that cannot be are refused.
+/// A saved state has the last stage derivative, the linearization point and the last step; impossible ones
+/// are refused.
 #[test]
-fn input_a_damaged_slope_or_matrix_is_refused() {
+fn input_a_damaged_stage_derivative_or_matrix_is_refused() {
     let mut integrator = Integrator::new(carried(100.0), options(1e-4), 0.0, &[0.0, 1.0]).unwrap();
     integrator.step_to(1.0).unwrap();
     let saved = serde_json::to_value(integrator.state()).unwrap();
