@@ -349,12 +349,9 @@ fn combine(from: &DiscontinuityFunctions, directions: &[[f64; 2]], functions: &m
     values.copy_from_slice(&from.values);
     let targets = components.iter_mut().zip(squares);
     for (((component, size), direction), slip) in targets.zip(directions).zip(&from.slips) {
-        let along = direction[0] * slip[0] + direction[1] * slip[1];
-        *component = if *direction == [0.0; 2] {
-            1.0
-        } else {
-            along - tuning::ZONE_EDGE
-        };
+        let beyond_edge = direction[0] * slip[0] + direction[1] * slip[1] - tuning::ZONE_EDGE;
+        let watched = (direction[0] != 0.0) | (direction[1] != 0.0);
+        *component = if watched { beyond_edge } else { 1.0 };
         *size = square(slip);
     }
 }
