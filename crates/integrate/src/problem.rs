@@ -26,7 +26,8 @@ pub trait Problem {
         self.dimension()
     }
 
-    /// Returns the number of leading states that are displacements: the rate of each is another state.
+    /// Returns the number of leading states that are displacements: the rate of each is another state, or
+    /// as smooth as one.
     ///
     /// ESDIRK methods, which damp fast vibrations instead of following them, control the error of these
     /// alone.

@@ -8,7 +8,7 @@
 //! [`SlipReversal`]. Natural corrections: P. Deuflhard, *Newton Methods for Nonlinear Problems*, Springer
 //! 2004, section 3.
 
-use super::SlipReversal;
+use super::slip_reversal::SlipReversal;
 use crate::tuning::newton as tuning;
 
 /// A search along a correction: fractions of it, with the component of the next correction along it there.
