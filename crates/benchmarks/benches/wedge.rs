@@ -12,7 +12,7 @@ fn wedge(c: &mut Criterion) {
     for damping in [Damping::Variable, Damping::Constant] {
         let (mut wedge, x) = sliding_wedge(damping).unwrap();
         let system = &mut wedge.system;
-        system.segment(0.0);
+        system.next_time_discontinuity(0.0);
         let (mut dx, mut df_dt) = (vec![0.0; x.len()], vec![0.0; x.len()]);
         let mut time = 2.0;
         c.bench_function(&format!("right-hand side, {damping:?}"), |b| {
@@ -44,7 +44,7 @@ fn wedge(c: &mut Criterion) {
 fn half_truck(c: &mut Criterion) {
     for name in ["nucars_68_constant_toe_out", "nucars_69_constant_toe_out"] {
         let (mut system, x) = sliding_truck(name).unwrap();
-        system.segment(0.0);
+        system.next_time_discontinuity(0.0);
         let (mut dx, mut df_dt) = (vec![0.0; x.len()], vec![0.0; x.len()]);
         let mut time = 2.0;
         c.bench_function(&format!("right-hand side, {name}"), |b| {

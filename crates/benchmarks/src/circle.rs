@@ -11,7 +11,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use integrate::scalar::{Dual, Real};
-use integrate::{Integrator, Method, Options, Ordinary, Problem, SetupError, StepError};
+use integrate::{FunctionProblem, Integrator, Method, Options, Problem, SetupError, StepError};
 use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLaw};
 use mechanics::energy_balance::Entries;
@@ -290,14 +290,14 @@ impl Carried {
 
     /// The problem for the integrator; the spin's angle is not error controlled where it is free.
     #[must_use]
-    pub fn problem(self) -> Ordinary<'static> {
+    pub fn problem(self) -> FunctionProblem<'static> {
         let mut scales = vec![
             0.1, 0.1, 0.1, 1.0, 1.0, 1.0, 10.0, 10.0, 10.0, 100.0, 100.0, 100.0, 10.0, 10.0,
         ];
         if self.order.spins() {
             scales[5] = f64::INFINITY;
         }
-        Ordinary::new(
+        FunctionProblem::new(
             scales,
             move |time, x, dx| dx.copy_from_slice(&self.rates(time, &states(x))),
             move |time, x, matrix| {

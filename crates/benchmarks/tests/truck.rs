@@ -12,7 +12,7 @@ fn analytic_side_frames_carry_their_nests() {
         let mut system = rig.system().unwrap();
         let x = system.initial_state();
         let mut dx = vec![0.0; x.len()];
-        system.segment(0.0);
+        system.next_time_discontinuity(0.0);
         system.derivative(0.0, &x, &mut dx);
         let speeds = system.layout().speeds;
         assert_eq!(speeds, 36);

@@ -7,7 +7,7 @@ use mechanics::system::System;
 
 fn rates(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
     let mut dx = vec![0.0; x.len()];
-    system.segment(0.0);
+    system.next_time_discontinuity(0.0);
     system.derivative(time, x, &mut dx);
     dx
 }

@@ -12,7 +12,7 @@ struct Trivial {
     scales: Vec<f64>,
     lu: BlockLu,
     shift: f64,
-    switches: usize,
+    discrete_states: usize,
 }
 
 impl Problem for Trivial {
@@ -48,28 +48,28 @@ impl Problem for Trivial {
         }
         self.lu.solve(coupled);
     }
-    fn switch_count(&self) -> usize {
-        self.switches
+    fn discrete_state_count(&self) -> usize {
+        self.discrete_states
     }
-    fn sign_count(&self) -> usize {
-        self.switches
+    fn event_variable_count(&self) -> usize {
+        self.discrete_states
     }
-    fn signs(&mut self, _: f64, x: &[f64], signs: &mut [f64]) {
-        signs.copy_from_slice(&x[..self.switches]);
+    fn event_variables(&mut self, _: f64, x: &[f64], variables: &mut [f64]) {
+        variables.copy_from_slice(&x[..self.discrete_states]);
     }
-    fn group_margins(&mut self, _: usize, signs: &[f64], _: &[u8], margins: &mut [f64]) {
-        for (margin, sign) in margins.iter_mut().zip(signs) {
-            *margin = sign.abs() + 1.0;
+    fn group_event_functions(&mut self, _: usize, variables: &[f64], _: &[u8], functions: &mut [f64]) {
+        for (function, variable) in functions.iter_mut().zip(variables) {
+            *function = variable.abs() + 1.0;
         }
     }
 }
 
-fn problem(switches: usize) -> Trivial {
+fn problem(discrete_states: usize) -> Trivial {
     Trivial {
         scales: vec![1.0; 14],
         lu: BlockLu::new(&[4], &[]),
         shift: 0.0,
-        switches,
+        discrete_states,
     }
 }
 
@@ -133,18 +133,19 @@ fn main() {
         chain_solve / 200.0
     );
     for method in Method::ALL {
-        for switches in [0, 4] {
+        for discrete_states in [0, 4] {
             let options = Options {
                 method,
                 fixed_step: Some(1e-9),
                 ..Options::default()
             };
-            let mut integrator = Integrator::new(problem(switches), options, 0.0, &x).unwrap();
+            let mut integrator = Integrator::new(problem(discrete_states), options, 0.0, &x).unwrap();
             let step = nanoseconds(100_000, || integrator.step_to(f64::INFINITY).unwrap());
             let s = method.tableau().stages() as f64;
             let own = s * (derivative + solve) + linearize + factor;
             println!(
-                "{method} {switches} switches: {step:.0} ns per step, {:.0} beyond the problem's calls",
+                "{method} {discrete_states} discrete states: {step:.0} ns per step, {:.0} beyond the \
+                 problem's calls",
                 step - own
             );
         }

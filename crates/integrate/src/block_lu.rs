@@ -3,38 +3,38 @@
 use std::collections::BTreeSet;
 
 use crate::dense_block::{eliminate, invert, multiply, subtract_product, subtract_row_product};
-use crate::problem::Singular;
+use crate::error::Singular;
 
-/// One elimination: a diagonal block and the neighbours that it is coupled to when its turn comes.
+/// One elimination: a diagonal block and the later blocks to which it is coupled when it is eliminated.
 #[derive(Clone, Debug)]
 struct Pivot {
-    /// Number of the block in the caller's numbering.
+    /// Index of the block in the caller's numbering.
     block: usize,
     size: usize,
-    /// Where the block's part of a vector begins.
+    /// First index of the block's part of a vector.
     row: usize,
-    /// Where the diagonal block is stored.
+    /// First index of the diagonal block in the storage.
     at: usize,
-    /// Where the row exchanges of a large block are stored.
+    /// First index of the row exchanges of a large block.
     exchange: usize,
-    /// Its neighbours in `edges`.
+    /// Range of its edges in `edges`.
     edges: (usize, usize),
-    /// Its updates in `updates`.
+    /// Range of its updates in `updates`.
     updates: (usize, usize),
 }
 
-/// A later neighbour of a pivot.
+/// A later block to which a pivot is coupled.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     size: usize,
     row: usize,
-    /// Where block (neighbour, pivot) is stored.
+    /// First index of block (neighbour, pivot) in the storage.
     lower: usize,
-    /// Where block (pivot, neighbour) is stored.
+    /// First index of block (pivot, neighbour) in the storage.
     upper: usize,
 }
 
-/// `target -= lower · upper`.
+/// The update `target -= lower · upper`.
 #[derive(Clone, Copy, Debug)]
 struct Update {
     rows: usize,
@@ -47,10 +47,10 @@ struct Update {
 /// A block-sparse matrix with a symmetric block pattern and its LU factors.
 ///
 /// The matrix is kept when it is factored. Blocks are eliminated in an order of minimum degree, found once;
-/// rows are exchanged inside the diagonal blocks only, never between blocks. That suits matrices
-/// `shift·I - J` whose diagonal blocks dominate for the shifts in use. Diagonal blocks up to 6×6
-/// are inverted (Gauss-Jordan with row exchange, whose forward error is that of Gaussian elimination:
-/// N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, section 14.4): a solution is then a product.
+/// rows are exchanged inside the diagonal blocks only, never between blocks. That suits matrices `shift·I -
+/// J` whose diagonal blocks dominate for the shifts in use. Diagonal blocks up to 6×6 are inverted
+/// (Gauss-Jordan with row exchange, whose forward error is that of Gaussian elimination: N. J. Higham,
+/// *Accuracy and Stability of Numerical Algorithms*, section 14.4): a solution is then a product.
 ///
 /// ```
 /// use integrate::BlockLu;
@@ -72,9 +72,9 @@ pub struct BlockLu {
     matrix: Vec<f64>,
     factors: Vec<f64>,
     exchanges: Vec<usize>,
-    /// Where the diagonal elements are stored.
+    /// Indices of the diagonal elements in the storage.
     diagonal: Vec<usize>,
-    /// Where the blocks are stored, and how many values they have.
+    /// First index and number of values of each block.
     slots: Vec<(usize, usize)>,
     /// For each block row, its blocks by column: (column, slot, allocated by fill only).
     rows: Vec<Vec<(usize, usize, bool)>>,
@@ -84,8 +84,8 @@ pub struct BlockLu {
 }
 
 impl BlockLu {
-    /// A zero matrix of diagonal blocks of the given sizes, coupled as in `couplings` (each coupling stands for
-    /// both blocks `(i, j)` and `(j, i)`; repetitions and `(i, i)` are allowed).
+    /// Returns a zero matrix of diagonal blocks of the given sizes, coupled as in `couplings` (each coupling
+    /// stands for both blocks `(i, j)` and `(j, i)`; repetitions and `(i, i)` are allowed).
     ///
     /// # Panics
     /// If a coupling names a block that does not exist.
@@ -199,7 +199,7 @@ impl BlockLu {
         this
     }
 
-    /// Where a block is stored that is known to exist.
+    /// Returns the slot of a block of the pattern, fill included.
     fn place(&self, i: usize, j: usize) -> usize {
         match self.rows[i].binary_search_by_key(&j, |entry| entry.0) {
             Ok(k) => self.slots[self.rows[i][k].1].0,
@@ -207,19 +207,20 @@ impl BlockLu {
         }
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     #[must_use]
     pub fn dimension(&self) -> usize {
         self.dimension
     }
 
-    /// Number of stored values, fill included.
+    /// Returns the number of stored values, fill included.
     #[must_use]
     pub fn stored(&self) -> usize {
         self.matrix.len()
     }
 
-    /// Handle of block `(i, j)` for [`BlockLu::at_mut`], valid as long as the matrix lives; none outside the pattern.
+    /// Returns the slot of block `(i, j)` for [`BlockLu::at_mut`], valid as long as the matrix lives; none
+    /// outside the pattern.
     #[must_use]
     pub fn find(&self, i: usize, j: usize) -> Option<usize> {
         let row = self.rows.get(i)?;
@@ -227,7 +228,7 @@ impl BlockLu {
         (!fill).then_some(slot)
     }
 
-    /// As [`BlockLu::find`], for a block that is known to be in the pattern.
+    /// As [`BlockLu::find`], for a block in the pattern.
     ///
     /// # Panics
     /// Outside the pattern.
@@ -237,14 +238,14 @@ impl BlockLu {
             .unwrap_or_else(|| panic!("block ({i}, {j}) is not in the pattern"))
     }
 
-    /// Block of a handle of this matrix, row by row.
+    /// Returns the block in a slot, row by row.
     #[inline]
     pub fn at_mut(&mut self, slot: usize) -> &mut [f64] {
         let (start, length) = self.slots[slot];
         &mut self.matrix[start..][..length]
     }
 
-    /// Block `(i, j)` of the matrix, row by row, in the caller's numbering; none outside the pattern.
+    /// Returns block `(i, j)` of the matrix, row by row, in the caller's numbering; none outside the pattern.
     #[must_use]
     pub fn block_mut(&mut self, i: usize, j: usize) -> Option<&mut [f64]> {
         self.find(i, j).map(|slot| self.at_mut(slot))
@@ -258,7 +259,7 @@ impl BlockLu {
     /// Factors the matrix.
     ///
     /// # Errors
-    /// If a diagonal block is singular (or not finite) when its turn comes.
+    /// If a diagonal block is singular (or not finite) when it is eliminated.
     pub fn factor(&mut self) -> Result<(), Singular> {
         self.factors.copy_from_slice(&self.matrix);
         self.decompose()
@@ -267,7 +268,7 @@ impl BlockLu {
     /// Factors `shift·I - matrix`.
     ///
     /// # Errors
-    /// If a diagonal block is singular (or not finite) when its turn comes.
+    /// If a diagonal block is singular (or not finite) when it is eliminated.
     #[inline]
     pub fn factor_shifted(&mut self, shift: f64) -> Result<(), Singular> {
         for (factor, value) in self.factors.iter_mut().zip(&self.matrix) {
@@ -311,7 +312,7 @@ impl BlockLu {
                 }
             }
             for update in &self.updates[pivot.updates.0..pivot.updates.1] {
-                // targets belong to later pivots, which are stored behind
+                // Targets belong to later pivots, which are stored after this one.
                 let (done, later) = factors.split_at_mut(update.target);
                 subtract_product(
                     update.rows,

@@ -1,6 +1,6 @@
 //! Kernels for small dense blocks, stored row by row.
 
-/// Inverts a block of at most 6×6 in place; false: it is singular.
+/// Inverts a block of at most 6×6 in place; returns false if it is singular.
 #[inline(always)]
 pub(crate) fn invert(n: usize, a: &mut [f64]) -> bool {
     match n {
@@ -81,7 +81,7 @@ fn eliminate_column<const N: usize>(
     true
 }
 
-/// `b = a·b` for a block of at most 6×6.
+/// Writes `b = a·b` for a block of at most 6×6.
 #[inline(always)]
 pub(crate) fn multiply(n: usize, a: &[f64], b: &mut [f64]) {
     match n {
@@ -116,7 +116,7 @@ fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     sum
 }
 
-/// `c -= a·b` with `a` of m×k, `b` of k×n.
+/// Subtracts `a·b` from `c`, with `a` of m×k, `b` of k×n.
 #[inline]
 pub(crate) fn subtract_product(m: usize, k: usize, n: usize, a: &[f64], b: &[f64], c: &mut [f64]) {
     if m == n && n == k {
@@ -163,7 +163,7 @@ fn subtract_product_fixed<const N: usize>(a: &[f64], b: &[f64], c: &mut [f64]) {
     }
 }
 
-/// `b[to..] -= a · b[from..][..columns]`.
+/// Subtracts `a · b[from..][..columns]` from `b[to..]`.
 #[inline]
 pub(crate) fn subtract_row_product(a: &[f64], columns: usize, b: &mut [f64], from: usize, to: usize) {
     if columns == 0 {
@@ -185,7 +185,7 @@ pub(crate) fn subtract_row_product(a: &[f64], columns: usize, b: &mut [f64], fro
     }
 }
 
-/// LU decomposition with row exchange, in place; the reciprocals of the pivots stand on the diagonal.
+/// LU decomposition with row exchange, in place; the diagonal holds the reciprocals of the pivots.
 pub(crate) fn eliminate(n: usize, a: &mut [f64], exchanges: &mut [usize]) -> bool {
     for k in 0..n {
         let mut best = k;
@@ -256,13 +256,13 @@ pub(crate) fn solve_transposed(n: usize, a: &[f64], exchanges: &[usize], b: &mut
     }
 }
 
-/// The product of two vectors.
+/// Returns the dot product of two vectors.
 #[inline(always)]
 pub(crate) fn dot_of(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// `y += factor · A x` for a square block.
+/// Adds `factor · A x` to `y`, for a square block.
 #[inline(always)]
 pub(crate) fn multiply_add(n: usize, a: &[f64], x: &[f64], factor: f64, y: &mut [f64]) {
     match n {
@@ -288,7 +288,7 @@ fn fixed_multiply_add<const N: usize>(a: &[f64], x: &[f64], factor: f64, y: &mut
     }
 }
 
-/// The same for a block of any shape.
+/// Adds `factor · A x` to `y`, for a block of any shape.
 #[inline(always)]
 pub(crate) fn rectangle_add(a: &[f64], x: &[f64], factor: f64, y: &mut [f64]) {
     for (row, y) in a.chunks_exact(x.len()).zip(y) {

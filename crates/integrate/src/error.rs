@@ -1,11 +1,19 @@
-//! What can go wrong.
+//! Errors.
 
-use crate::state::{MOST_COUNTED, STATE_VERSION};
+use crate::limits::{MAXIMUM_COUNT, STATE_VERSION};
+
+/// The matrix of a linear system is singular.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the matrix is singular in its diagonal block {block}")]
+pub struct Singular {
+    /// Index of the diagonal block without a usable pivot, in the caller's numbering.
+    pub block: usize,
+}
 
 /// An integration cannot begin.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SetupError {
-    /// A setting is not admissible.
+    /// An option is not admissible.
     #[error("`{name}` is {value}; it must {must}")]
     Option {
         /// Its name.
@@ -15,12 +23,12 @@ pub enum SetupError {
         /// What it must be.
         must: &'static str,
     },
-    /// Lengths do not fit.
+    /// A length does not fit.
     #[error("the problem has {expected} {what}, but {found} were given")]
     Dimension {
         /// What is counted.
         what: &'static str,
-        /// The number of the problem.
+        /// The number that the problem has.
         expected: usize,
         /// The given number.
         found: usize,
@@ -41,7 +49,7 @@ pub enum SetupError {
     /// The time is not finite.
     #[error("the start time is {0}")]
     Time(f64),
-    /// The start of a state is not finite.
+    /// The initial value of a state is not finite.
     #[error("state {index} starts with {value}")]
     NotFiniteState {
         /// The state.
@@ -59,23 +67,27 @@ pub enum SetupError {
         /// Its derivative.
         value: f64,
     },
-    /// The problem names an end of a segment that does not lie behind its start.
-    #[error("the problem's segment that starts at {start} ends at {end}; it must end later")]
-    Segment {
-        /// Start of the segment.
+    /// The problem's next time discontinuity is not later than the start of the interval.
+    #[error("the problem's next time discontinuity after {start} is at {end}; it must be later")]
+    TimeDiscontinuity {
+        /// Start of the interval.
         start: f64,
         /// Its end.
         end: f64,
     },
     /// A saved state comes from another version of this library.
-    #[error("the saved state has version {found}; this program reads version {expected}", expected = STATE_VERSION)]
+    #[error(
+        "the saved state has version {found}; this program reads version {expected}",
+        expected = STATE_VERSION
+    )]
     Version {
         /// Version of the saved state.
         found: u32,
     },
-    /// A saved state has a member that cannot be.
+    /// A member of a saved state has a value that it cannot have.
     #[error(
-        "the saved state is damaged: `{name}` is {value}; continue from the state as it was saved, or begin anew"
+        "the saved state is damaged: `{name}` is {value}; continue from the state as it was saved, or begin \
+         anew"
     )]
     Damaged {
         /// The member.
@@ -83,11 +95,11 @@ pub enum SetupError {
         /// Its value.
         value: f64,
     },
-    /// A counter of a saved state is beyond what any run can reach.
+    /// A counter of a saved state is larger than any run can count.
     #[error(
-        "the saved state is damaged: the counter `{name}` is {found}, and no run counts beyond {most}; \
+        "the saved state is damaged: the counter `{name}` is {found}, and no run counts beyond {maximum}; \
          continue from the state as it was saved, or begin anew",
-        most = MOST_COUNTED
+        maximum = MAXIMUM_COUNT
     )]
     Counter {
         /// The counter.
@@ -106,31 +118,31 @@ pub enum Reason {
     NotFinite,
     /// The matrix was singular.
     Singular {
-        /// Its diagonal block.
+        /// Index of the diagonal block.
         block: usize,
     },
-    /// Newton's method did not find a stage.
-    Unsolved,
-    /// The largest number of steps was exceeded.
+    /// Newton's method did not converge.
+    NewtonFailure,
+    /// The maximum number of steps is reached.
     MaximumSteps {
-        /// This number.
+        /// The maximum number.
         maximum: u64,
     },
-    /// The step to be tried is so short that the time stays what it is.
-    Lost,
-    /// The limit does not lie ahead.
+    /// The step is so short that adding it does not change the time.
+    StepUnderflow,
+    /// The limit is not later than the time.
     Limit {
         /// The limit.
         limit: f64,
     },
-    /// The problem named an end of a segment that does not lie behind its start.
-    Segment {
-        /// This end.
+    /// The problem's next time discontinuity is not later than the time.
+    TimeDiscontinuity {
+        /// The discontinuity.
         end: f64,
     },
 }
 
-/// A step could not be made. The integrator still holds the last accepted step.
+/// No step could be accepted. The integrator still holds the last accepted step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepError {
     /// Time at the start of the step.
@@ -139,9 +151,10 @@ pub struct StepError {
     pub step: f64,
     /// Why it was not accepted.
     pub reason: Reason,
-    /// The state with the largest error, or the first one that is not finite.
+    /// Index of the state with the largest error, or of the first one that is not finite.
     pub index: Option<usize>,
-    /// Its error in units of the tolerance, in the last attempt rejected because of its error; NaN if not finite.
+    /// Error of that state in units of the tolerance, in the last attempt rejected because of its error; NaN
+    /// if not finite.
     pub scaled_error: f64,
 }
 
@@ -162,11 +175,13 @@ impl std::fmt::Display for StepError {
             Reason::Error => {
                 write!(
                     f,
-                    "at time {time:?} even a step of {step:?} has {scaled_error:.3e} times the admissible error"
+                    "at time {time:?} even a step of {step:?} has {scaled_error:.3e} times the admissible \
+                     error"
                 )?;
                 state(f, " in")?;
                 f.write_str(
-                    ": loosen the tolerance or enlarge this state's error scale, or look for a jump in the problem",
+                    ": loosen the tolerance or enlarge this state's error scale, or look for a jump in the \
+                     problem",
                 )
             }
             Reason::NotFinite => {
@@ -184,29 +199,30 @@ impl std::fmt::Display for StepError {
                 "at time {time:?} the matrix of a step of {step:?} is singular in block {block}: \
                  look for an infinite or missing partial derivative"
             ),
-            Reason::Unsolved => write!(
+            Reason::NewtonFailure => write!(
                 f,
-                "at time {time:?} the equations of a step of {step:?} could not be solved: look for a jump in the problem, \
-                 or choose another method"
+                "at time {time:?} the equations of a step of {step:?} could not be solved: look for a jump \
+                 in the problem, or choose another method"
             ),
             Reason::MaximumSteps { maximum } => {
                 write!(
                     f,
-                    "at time {time:?} the {maximum} admissible steps are used up (the last one was {step:?} long)"
+                    "at time {time:?} the {maximum} admissible steps are used up (the last one was {step:?} \
+                     long)"
                 )?;
                 state(f, ", the largest error being in")?;
                 f.write_str(": allow more steps, loosen the tolerance, or regularize the problem")
             }
-            Reason::Lost => write!(
+            Reason::StepUnderflow => write!(
                 f,
-                "at time {time:?} a step of {step:?} is lost against the time, which cannot tell its end from its start: \
-                 look for what makes steps so short, or begin anew at an earlier time"
+                "at time {time:?} a step of {step:?} is lost against the time, which cannot tell its end \
+                 from its start: look for what makes steps so short, or begin anew at an earlier time"
             ),
             Reason::Limit { limit } => write!(f, "a step from time {time:?} cannot end at {limit:?}"),
-            Reason::Segment { end } => {
+            Reason::TimeDiscontinuity { end } => {
                 write!(
                     f,
-                    "the problem's segment that starts at {time:?} ends at {end:?}; it must end later"
+                    "the problem's next time discontinuity after {time:?} is at {end:?}; it must be later"
                 )
             }
         }

@@ -1,7 +1,8 @@
-//! Four numbers side by side, with and without derivatives: a law written over [`Number`] does four points at once.
+//! Four numbers side by side, with and without derivatives: a law written over [`Number`] does four points at
+//! once.
 //!
-//! The lanes are explicit (`wide`): nothing is left to the compiler's vectorizer. Every lane gives the same bits wherever it stands;
-//! elementary functions agree with those of single numbers to rounding.
+//! The lanes are explicit (`wide`): nothing is left to the compiler's vectorizer. Every lane gives the same
+//! bits wherever it stands; elementary functions agree with those of single numbers to rounding.
 
 mod dual;
 
@@ -13,10 +14,10 @@ pub use dual::LaneDual;
 
 use crate::scalar::{Blend, EIGHTH_TURN, Mask, Number, SERIES, series, small_sin_cos};
 
-/// How many numbers stand side by side in [`Lanes`].
+/// Number of lanes.
 pub const LANES: usize = 4;
 
-/// From `x = √s = 20` on, tanh is 1 to the last bit.
+/// s from which on tanh(√s) is 1 to the last bit.
 const SATURATED: f64 = 400.0;
 
 /// An operation lane by lane.
@@ -50,7 +51,7 @@ macro_rules! lane_by_lane {
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes(f64x4);
 
-/// Four answers.
+/// Four results of a comparison.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneMask(f64x4);
 
@@ -58,19 +59,19 @@ impl Lanes {
     /// Zeros.
     pub const ZERO: Self = Self(f64x4::ZERO);
 
-    /// These numbers.
+    /// Returns four numbers as lanes.
     #[inline(always)]
     #[must_use]
     pub fn new(values: [f64; LANES]) -> Self {
         Self(f64x4::new(values))
     }
-    /// The numbers.
+    /// Returns the four numbers.
     #[inline(always)]
     #[must_use]
     pub fn to_array(self) -> [f64; LANES] {
         self.0.to_array()
     }
-    /// One of the numbers.
+    /// Returns the number in a lane.
     ///
     /// # Panics
     /// If there is no such lane.
@@ -79,7 +80,7 @@ impl Lanes {
     pub fn at(self, lane: usize) -> f64 {
         self.0.to_array()[lane]
     }
-    /// Value of `tanh(√s)/√s`, and its slope by `s` if it is asked for.
+    /// Returns `tanh(√s)/√s`, and its derivative by `s` if `SLOPE` is set.
     #[inline(always)]
     fn tanh_ratio_with<const SLOPE: bool>(self) -> (Self, Self) {
         if !self.0.simd_le(f64x4::splat(SATURATED)).any() {
@@ -89,7 +90,7 @@ impl Lanes {
         self.unsaturated::<SLOPE>()
     }
 
-    /// The same where a lane needs tanh itself.
+    /// As [`Lanes::tanh_ratio_with`], where a lane needs tanh itself.
     #[inline(never)]
     fn unsaturated<const SLOPE: bool>(self) -> (Self, Self) {
         let x = self.sqrt();
@@ -213,7 +214,7 @@ impl Number for Lanes {
 }
 
 impl Lanes {
-    /// The sum of the lanes of each of four.
+    /// Returns for each of four vectors the sum of its lanes.
     #[inline(always)]
     #[must_use]
     pub fn sums(rows: [Self; LANES]) -> Self {
@@ -223,7 +224,7 @@ impl Lanes {
 }
 
 impl LaneMask {
-    /// These four answers.
+    /// Returns a mask of four results.
     #[inline(always)]
     #[must_use]
     pub fn new(answers: [bool; LANES]) -> Self {
@@ -235,13 +236,13 @@ impl LaneMask {
             bits(answers[3]),
         ]))
     }
-    /// Where both hold.
+    /// Returns the lanes in which both masks are true.
     #[inline(always)]
     #[must_use]
     pub fn and(self, o: Self) -> Self {
         Self(self.0 & o.0)
     }
-    /// Whether it holds in a lane.
+    /// Returns whether the mask is true in a lane.
     #[inline(always)]
     #[must_use]
     pub fn at(self, lane: usize) -> bool {

@@ -1,12 +1,13 @@
-//! Settings of an integration.
+//! Options of an integration.
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::SetupError;
-use crate::problem::Problem;
-use crate::tableau::{Family, Method};
+use crate::methods::Method;
+use crate::methods::tableau::Family;
+use crate::tuning::options as tuning;
 
-/// Settings of an integration.
+/// Options of an integration.
 ///
 /// ```
 /// use integrate::{Method, Options};
@@ -18,31 +19,36 @@ use crate::tableau::{Family, Method};
 pub struct Options {
     /// The method.
     pub method: Method,
-    /// Whether steps may be explicit where the problem tells that nothing is stiff ([`crate::Problem::stiffness`]).
+    /// Whether a Rosenbrock method may make explicit steps where the problem is not stiff
+    /// ([`crate::Problem::spectral_radius_bound`]).
     pub explicit_steps: bool,
-    /// Whether changes of the problem's switches are recorded and timed ([`crate::Problem::switch_count`]). Steps and states are the same without.
-    pub record_switches: bool,
-    /// Admissible local error of each state, relative to its scale.
+    /// Whether events, the changes of the problem's discrete states, are located and recorded
+    /// ([`crate::Problem::discrete_state_count`]). Steps and states are the same without.
+    #[serde(rename = "record_switches")]
+    pub record_events: bool,
+    /// Admissible local error of each state, relative to its scale ([`crate::Problem::scales`]).
     pub relative_tolerance: f64,
-    /// First step; none: estimated.
+    /// First step; none: it is estimated.
     pub initial_step: Option<f64>,
-    /// A fixed step for all steps instead of error control (steps are cut at limits and ends of segments only).
+    /// Length of all steps, instead of error control (steps are shortened only at limits and time
+    /// discontinuities).
     pub fixed_step: Option<f64>,
     /// Largest step; may be infinite. (None stands for infinite in formats that cannot write it.)
     #[serde(with = "infinite_as_none")]
     pub maximum_step: f64,
-    /// A step that would have to be shorter than this after a rejection is an error. The resolution of time is a
-    /// bound of its own.
+    /// A step that would have to be shorter than this after a rejection is an error. The resolution of the
+    /// time is another bound.
     pub minimum_step: f64,
-    /// Largest number of attempted steps, rejected ones included, since the very beginning.
+    /// Largest number of attempted steps since the start of the run, rejected ones included.
     pub maximum_steps: u64,
-    /// Factor of safety of the step-size control.
+    /// Safety factor of the step-size controller.
     pub safety: f64,
     /// Smallest factor by which a step changes because of its error.
     pub minimum_factor: f64,
-    /// Largest factor by which a step grows; ten times that after the first step behind a restart or a kink, where that was explicit.
+    /// Largest factor by which a step grows; ten times that after the first step after a restart or a
+    /// discontinuity, if that step was explicit.
     pub maximum_factor: f64,
-    /// Largest number of changes of modes within one step.
+    /// Largest number of events in one step.
     pub maximum_events: usize,
 }
 
@@ -51,24 +57,24 @@ impl Default for Options {
         Self {
             method: Method::default(),
             explicit_steps: true,
-            record_switches: true,
-            relative_tolerance: 1e-6,
+            record_events: true,
+            relative_tolerance: tuning::RELATIVE_TOLERANCE,
             initial_step: None,
             fixed_step: None,
             maximum_step: f64::INFINITY,
             minimum_step: 0.0,
             maximum_steps: u64::MAX,
-            safety: 0.9,
-            minimum_factor: 0.2,
-            maximum_factor: 6.0,
-            maximum_events: 64,
+            safety: tuning::SAFETY,
+            minimum_factor: tuning::MINIMUM_FACTOR,
+            maximum_factor: tuning::MAXIMUM_FACTOR,
+            maximum_events: tuning::MAXIMUM_EVENTS,
         }
     }
 }
 
 impl Options {
-    /// The defaults for a method. Steps of a diagonally implicit one grow slowly, so that its guesses of the next step are near enough:
-    /// on the yawed runs of the thesis it is a twelfth less work than with the other methods' control.
+    /// Returns the defaults for a method. Steps of an ESDIRK method grow slowly, so that its stage predictor
+    /// is near enough.
     #[must_use]
     pub fn of(method: Method) -> Self {
         let options = Self {
@@ -77,20 +83,11 @@ impl Options {
         };
         match method.tableau().family {
             Family::DiagonallyImplicit => Self {
-                safety: 0.8,
-                maximum_factor: 2.0,
+                safety: tuning::ESDIRK_SAFETY,
+                maximum_factor: tuning::ESDIRK_MAXIMUM_FACTOR,
                 ..options
             },
             Family::LinearlyImplicit | Family::Explicit => options,
-        }
-    }
-
-    /// How many switches of a problem are recorded.
-    pub(crate) fn switches_of<P: Problem>(&self, problem: &P) -> usize {
-        if self.record_switches {
-            problem.switch_count()
-        } else {
-            0
         }
     }
 

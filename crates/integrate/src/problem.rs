@@ -1,95 +1,99 @@
 //! What an integrator needs to know about a problem.
 
-use crate::events::SwitchGroup;
-use crate::kinks::KinkSigns;
+use crate::discontinuity::DiscontinuityFunctions;
+use crate::error::Singular;
+use crate::event::EventGroup;
+use crate::lanes::LANES;
 
-/// The matrix of a linear system is singular.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the matrix is singular in its diagonal block {block}")]
-pub struct Singular {
-    /// Number of the diagonal block without a usable pivot, in the caller's numbering.
-    pub block: usize,
-}
-
-/// A smooth-but-kinked, stiff initial value problem `x' = f(t, x)` that brings its own structured linear algebra.
+/// A stiff initial value problem `x' = f(t, x)` that brings its own structured linear algebra.
 ///
-/// All functions must be pure: called again with the same arguments (in the same segment) they give the same bits.
-/// Functions take `&mut self` so that they may use scratch memory without allocating.
+/// The right-hand side f is piecewise smooth. Six functions are required. The others have defaults and serve:
+/// quadratures and error norms ([`Problem::dynamic_states`] to [`Problem::zone_error_bounds`]), jumps in time
+/// ([`Problem::next_time_discontinuity`]), explicit steps ([`Problem::spectral_radius_bound`]), prediction of
+/// discontinuities ([`Problem::discontinuities`]), and discrete states with their events
+/// ([`Problem::discrete_state_count`] and after). [`crate::FunctionProblem`] makes a problem from closures.
+///
+/// All functions are pure: with the same arguments (since the same call of
+/// [`Problem::next_time_discontinuity`]) they return the same bits. They take `&mut self` so that they can
+/// use scratch memory without allocation.
 pub trait Problem {
-    /// Number of states.
+    /// Returns the number of states.
     fn dimension(&self) -> usize;
 
-    /// How many leading states [`Problem::derivative`], [`Problem::linearize`], [`Problem::kinks`] and the functions of switches
-    /// read: the states behind them are quadratures, on which nothing depends.
-    ///
-    /// These functions still get a vector of all states, but those behind may hold anything.
-    fn read_states(&self) -> usize {
+    /// Returns the number of leading states on which anything depends. The states after them are quadratures:
+    /// the integrator integrates them, but no function of the problem reads them, and they may hold anything.
+    fn dynamic_states(&self) -> usize {
         self.dimension()
     }
 
-    /// How many leading states are displacements: the rate of each is another state, or smooth like one.
+    /// Returns the number of leading states that are displacements: the rate of each is another state, or
+    /// as smooth as one.
     ///
-    /// A method that damps fast vibrations instead of following them ([`crate::Method::TrBdf2`], [`crate::Method::Esdirk3`]) holds the tolerance in these alone.
+    /// ESDIRK methods, which damp fast vibrations instead of following them, control the error of these
+    /// alone.
     fn displacements(&self) -> usize {
-        self.read_states()
+        self.dynamic_states()
     }
 
-    /// Fixed error scale of each state, positive; infinite: the state is not error controlled.
+    /// Returns the error scale of each state, positive; infinite: the error of the state is not controlled.
     ///
-    /// The size of an error is the maximum norm `max |error_i| / (relative_tolerance · scale_i)`: the tolerance
-    /// holds for every state, however many other states are at rest, and adding states does not loosen it.
-    /// The integrator reads the scales once, when it starts.
+    /// The norm of an error is `max |error_i| / (relative_tolerance · scale_i)`. It holds the tolerance in
+    /// every state, however many other states are at rest. The integrator reads the scales once, when it
+    /// starts.
     fn scales(&self) -> &[f64];
 
-    /// The largest admissible error of each state, however wide the tolerance; empty: no bound.
+    /// Returns an upper bound of the admissible error of each state, whatever the tolerance; empty: no
+    /// bounds.
     ///
-    /// For problems that an error above some size would change in kind: friction that reverses within a small speed.
+    /// For problems that a larger error would change in kind.
     fn error_bounds(&self) -> &[f64] {
         &[]
     }
 
-    /// The largest admissible error of each state while one of the directions of [`Problem::kinks`] is in its layer, however wide the
-    /// tolerance; empty: no bound. Where even the smallest direction is large the bound is a twentieth of it times as wide.
+    /// Returns an upper bound of the admissible error of each state while a slip of
+    /// [`Problem::discontinuities`] is in its regularization zone; empty: no bounds. If the smallest slip has
+    /// the size s > 20 the bounds are s/20 times as wide.
     ///
-    /// For speeds under friction that reverses within a small speed: an error of that size makes what sticks slide to and fro, but
-    /// it hardly turns the force on what slides a thousand times as fast.
-    fn layer_bounds(&self) -> &[f64] {
+    /// For speeds under regularized friction: an error as large as the reference speed makes a sticking
+    /// contact slide to and fro, but hardly changes the force on one that slides a thousand times as fast.
+    fn zone_error_bounds(&self) -> &[f64] {
         &[]
     }
 
-    /// Tells the problem that integration proceeds from `start` on one smooth piece of its explicit time
-    /// dependence; returns the end of this piece, later than `start` (infinite: there is none).
+    /// Starts the smooth interval of the explicit time dependence that begins at `start`; returns its end,
+    /// the first time after `start` at which f or a derivative of f jumps in time (infinite: there is none).
     ///
-    /// The integrator steps exactly to the end, calls this again when the next step begins, and restarts there:
-    /// the states are continuous, the memory of the step-size control is not. Until the next call the end
-    /// itself belongs to the piece before it.
-    fn segment(&mut self, start: f64) -> f64 {
+    /// A step ends exactly there. When the next step begins, the integrator calls this again and restarts the
+    /// step-size controller; the states are continuous. Until that call f at the end itself is the limit from
+    /// before it.
+    fn next_time_discontinuity(&mut self, start: f64) -> f64 {
         let _ = start;
         f64::INFINITY
     }
 
     /// Writes `f(time, x)` to `dx`.
     ///
-    /// Within a step that is about to be rejected `x` may be far out or not finite; so may then be `dx`.
+    /// In an attempt that is going to be rejected `x` may be far off or not finite; `dx` may then be so, too.
     fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]);
 
-    /// Evaluates and keeps the Jacobian matrix `J = ∂f/∂x` at `(time, x)`, where `f` is `dx`; writes `∂f/∂t`.
+    /// Evaluates and stores the Jacobian matrix `J = ∂f/∂x` at `(time, x)`, where f is `dx`; writes `∂f/∂t`.
     ///
-    /// `df_dt` comes filled with zeros: an autonomous problem need not touch it.
+    /// `df_dt` is filled with zeros before: an autonomous problem need not write it.
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]);
 
-    /// Evaluates and keeps a matrix that is near enough to `J` for Newton's method: small terms may be missing. `unused` has the
-    /// length of `dx`; what is written there is lost.
-    fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], unused: &mut [f64]) {
-        unused.fill(0.0);
-        self.linearize(time, x, dx, unused);
+    /// Evaluates and stores an approximation of J that suffices for Newton's method: small terms may be
+    /// missing. `scratch` has the length of `dx`; its content is not used.
+    fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], scratch: &mut [f64]) {
+        scratch.fill(0.0);
+        self.linearize(time, x, dx, scratch);
     }
 
-    /// How fast the fastest part of the problem answers near `(time, x)`, 1/s: a bound of the size of the eigenvalues of J, which need
-    /// not be sharp; infinite: not known.
+    /// Returns an upper bound of the spectral radius of ∂f/∂x at `(time, x)`, 1/s. It need not be sharp.
+    /// Returns infinity if unknown.
     ///
-    /// Steps that are short beside it are made by an explicit method of order 5(4), which needs no Jacobian matrix.
-    fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
+    /// With it, Rosenbrock methods make short steps by an explicit method of order 5(4), which needs no
+    /// Jacobian.
+    fn spectral_radius_bound(&mut self, time: f64, x: &[f64]) -> f64 {
         let _ = (time, x);
         f64::INFINITY
     }
@@ -97,87 +101,107 @@ pub trait Problem {
     /// Factors `shift·I - J`.
     ///
     /// # Errors
-    /// Where the matrix is singular; the integrator tries again with a shorter step, that is, a larger shift.
+    /// If the matrix is singular; the integrator tries again with a shorter step, that is, a larger shift.
     fn factor(&mut self, shift: f64) -> Result<(), Singular>;
 
-    /// Solves `(shift·I - J) y = b` in place, with the matrix of the last successful [`Problem::factor`].
+    /// Solves `(shift·I - J) y = b` in place, with the factors of the last successful [`Problem::factor`].
     fn solve(&mut self, b: &mut [f64]);
 
-    /// How many values and directions [`Problem::kinks`] writes.
-    fn kink_counts(&self) -> (usize, usize) {
+    /// Returns the numbers of values and of slips that [`Problem::discontinuities`] writes.
+    fn discontinuity_counts(&self) -> (usize, usize) {
         (0, 0)
     }
 
-    /// Writes what tells kinks of `f` beforehand: a step is made to end where the first one is foreseen.
-    fn kinks(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
-        let _ = (time, x, signs);
+    /// Writes the functions from which discontinuities of f are predicted. Rosenbrock methods end a step
+    /// where the first one is expected, instead of being rejected across it.
+    fn discontinuities(&mut self, time: f64, x: &[f64], functions: &mut DiscontinuityFunctions) {
+        let _ = (time, x, functions);
     }
 
-    /// Whether [`Problem::kinks`] tells all kinks there are, so that between them derivatives change little: Newton's method then keeps
-    /// its matrix while it is on its piece.
-    fn tells_pieces(&self) -> bool {
+    /// Returns whether [`Problem::discontinuities`] covers all discontinuities of f. Newton's method then
+    /// uses a Jacobian matrix again in other stages and steps, as long as the contact state is the same.
+    fn discontinuities_complete(&self) -> bool {
         false
     }
 
-    /// Number of discrete switches (contact open, sticking, slipping, ...): modes with hysteresis that are recorded
-    /// and timed. They do not change `f`.
-    fn switch_count(&self) -> usize {
+    /// Returns the number of discrete states (a contact point that is open, sticking or slipping has one).
+    /// They are recorded with the times of their changes, and do not change f.
+    fn discrete_state_count(&self) -> usize {
         0
     }
 
-    /// Writes the modes at the very beginning.
-    fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
-        let _ = (time, x, modes);
+    /// Writes the discrete states at the start of the integration.
+    fn initial_discrete_states(&mut self, time: f64, x: &[f64], discrete_states: &mut [u8]) {
+        let _ = (time, x, discrete_states);
     }
 
-    /// How many signs tell the margins and modes of all switches: gaps and loads of contacts, say.
-    fn sign_count(&self) -> usize {
+    /// Returns the number of event variables.
+    fn event_variable_count(&self) -> usize {
         0
     }
 
-    /// Writes the signs of all switches at `(time, x)`. They must be continuous in time, and do not know of modes.
-    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
-        let _ = (time, x, signs);
+    /// Writes the event variables at `(time, x)`, from which event functions are computed (gaps and loads of
+    /// contacts, say). They are continuous in time and do not depend on discrete states.
+    fn event_variables(&mut self, time: f64, x: &[f64], variables: &mut [f64]) {
+        let _ = (time, x, variables);
     }
 
-    /// How switches that have nothing to do with each other fall into groups: all switches and signs in their order, each in one group.
-    /// Changes are then searched in one group after the other, which for many groups costs much less. Without this all are one group.
-    fn switch_groups(&self) -> Vec<SwitchGroup> {
-        let all = SwitchGroup {
-            switches: 0..self.switch_count(),
-            signs: 0..self.sign_count(),
-            states: std::iter::once(0..self.read_states()).collect(),
+    /// Returns groups of discrete states that do not depend on each other: all discrete states and event
+    /// variables in their order, each in one group. Events are located group by group, which for many groups
+    /// costs much less. By default all are one group.
+    fn event_groups(&self) -> Vec<EventGroup> {
+        let all = EventGroup {
+            discrete_states: 0..self.discrete_state_count(),
+            variables: 0..self.event_variable_count(),
+            states: std::iter::once(0..self.dynamic_states()).collect(),
         };
         vec![all]
     }
 
-    /// Writes the signs of one group, the same as [`Problem::signs`] does; of `x` only the states of this group are what they should be.
-    fn group_signs(&mut self, group: usize, time: f64, x: &[f64], signs: &mut [f64]) {
+    /// Writes the event variables of one group, with the same bits as [`Problem::event_variables`]; of `x`
+    /// only the states of this group are valid.
+    fn group_event_variables(&mut self, group: usize, time: f64, x: &[f64], variables: &mut [f64]) {
         let _ = group;
-        self.signs(time, x, signs);
+        self.event_variables(time, x, variables);
     }
 
-    /// Writes, by the signs of a group, a margin for each of its switches: positive while the switch stays in `modes[i]`, not positive when
-    /// it must leave. Margins must be continuous in the signs.
-    fn group_margins(&mut self, group: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
-        let _ = (group, signs, modes, margins);
+    /// Writes the event function of each discrete state of a group: positive while the state lasts, zero or
+    /// negative if it must change. `variables` and `discrete_states` are those of the group. Event functions
+    /// are continuous in the variables.
+    fn group_event_functions(
+        &mut self,
+        group: usize,
+        variables: &[f64],
+        discrete_states: &[u8],
+        functions: &mut [f64],
+    ) {
+        let _ = (group, variables, discrete_states, functions);
     }
 
-    /// The mode to which switch `index` of a group goes from `mode` where, by these signs, its margin has come to zero or below.
+    /// Returns the successor of discrete state `index` of a group, whose event function has fallen to zero or
+    /// below.
     ///
-    /// Returning `mode` means that there is no event; the switch is then not asked again within this step.
-    fn next_mode(&mut self, group: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
-        let _ = (group, signs, index);
-        mode
+    /// If it returns `state` there is no event, and the discrete state is not checked again in this step.
+    fn next_discrete_state(&mut self, group: usize, variables: &[f64], index: usize, state: u8) -> u8 {
+        let _ = (group, variables, index);
+        state
     }
+}
+
+/// Returns the length of the part of a padded vector that holds the dynamic states.
+pub(crate) fn padded_dynamic_states<P: Problem>(problem: &P) -> usize {
+    problem
+        .dynamic_states()
+        .min(problem.dimension())
+        .next_multiple_of(LANES)
 }
 
 impl<P: Problem + ?Sized> Problem for &mut P {
     fn dimension(&self) -> usize {
         (**self).dimension()
     }
-    fn read_states(&self) -> usize {
-        (**self).read_states()
+    fn dynamic_states(&self) -> usize {
+        (**self).dynamic_states()
     }
     fn displacements(&self) -> usize {
         (**self).displacements()
@@ -188,12 +212,11 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     fn error_bounds(&self) -> &[f64] {
         (**self).error_bounds()
     }
-
-    fn layer_bounds(&self) -> &[f64] {
-        (**self).layer_bounds()
+    fn zone_error_bounds(&self) -> &[f64] {
+        (**self).zone_error_bounds()
     }
-    fn segment(&mut self, start: f64) -> f64 {
-        (**self).segment(start)
+    fn next_time_discontinuity(&mut self, start: f64) -> f64 {
+        (**self).next_time_discontinuity(start)
     }
     fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]) {
         (**self).derivative(time, x, dx);
@@ -201,11 +224,11 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         (**self).linearize(time, x, dx, df_dt);
     }
-    fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], unused: &mut [f64]) {
-        (**self).linearize_for_newton(time, x, dx, unused);
+    fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], scratch: &mut [f64]) {
+        (**self).linearize_for_newton(time, x, dx, scratch);
     }
-    fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
-        (**self).stiffness(time, x)
+    fn spectral_radius_bound(&mut self, time: f64, x: &[f64]) -> f64 {
+        (**self).spectral_radius_bound(time, x)
     }
     fn factor(&mut self, shift: f64) -> Result<(), Singular> {
         (**self).factor(shift)
@@ -213,37 +236,43 @@ impl<P: Problem + ?Sized> Problem for &mut P {
     fn solve(&mut self, b: &mut [f64]) {
         (**self).solve(b);
     }
-    fn kink_counts(&self) -> (usize, usize) {
-        (**self).kink_counts()
+    fn discontinuity_counts(&self) -> (usize, usize) {
+        (**self).discontinuity_counts()
     }
-    fn kinks(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
-        (**self).kinks(time, x, signs);
+    fn discontinuities(&mut self, time: f64, x: &[f64], functions: &mut DiscontinuityFunctions) {
+        (**self).discontinuities(time, x, functions);
     }
-    fn tells_pieces(&self) -> bool {
-        (**self).tells_pieces()
+    fn discontinuities_complete(&self) -> bool {
+        (**self).discontinuities_complete()
     }
-    fn switch_count(&self) -> usize {
-        (**self).switch_count()
+    fn discrete_state_count(&self) -> usize {
+        (**self).discrete_state_count()
     }
-    fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
-        (**self).initial_modes(time, x, modes);
+    fn initial_discrete_states(&mut self, time: f64, x: &[f64], discrete_states: &mut [u8]) {
+        (**self).initial_discrete_states(time, x, discrete_states);
     }
-    fn sign_count(&self) -> usize {
-        (**self).sign_count()
+    fn event_variable_count(&self) -> usize {
+        (**self).event_variable_count()
     }
-    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
-        (**self).signs(time, x, signs);
+    fn event_variables(&mut self, time: f64, x: &[f64], variables: &mut [f64]) {
+        (**self).event_variables(time, x, variables);
     }
-    fn switch_groups(&self) -> Vec<SwitchGroup> {
-        (**self).switch_groups()
+    fn event_groups(&self) -> Vec<EventGroup> {
+        (**self).event_groups()
     }
-    fn group_signs(&mut self, group: usize, time: f64, x: &[f64], signs: &mut [f64]) {
-        (**self).group_signs(group, time, x, signs);
+    fn group_event_variables(&mut self, group: usize, time: f64, x: &[f64], variables: &mut [f64]) {
+        (**self).group_event_variables(group, time, x, variables);
     }
-    fn group_margins(&mut self, group: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
-        (**self).group_margins(group, signs, modes, margins);
+    fn group_event_functions(
+        &mut self,
+        group: usize,
+        variables: &[f64],
+        discrete_states: &[u8],
+        functions: &mut [f64],
+    ) {
+        (**self).group_event_functions(group, variables, discrete_states, functions);
     }
-    fn next_mode(&mut self, group: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
-        (**self).next_mode(group, signs, index, mode)
+    fn next_discrete_state(&mut self, group: usize, variables: &[f64], index: usize, state: u8) -> u8 {
+        (**self).next_discrete_state(group, variables, index, state)
     }
 }

@@ -1,7 +1,8 @@
 //! Whether the processor has the instructions that the program was compiled for.
 //!
-//! The repository's `.cargo/config.toml` compiles for processors of the kind x86-64-v3 (AVX2; Intel since 2013, AMD since 2015). On an older one such a program
-//! would be stopped by the system at its first vector instruction, without a word: the command and FMUs ask here first.
+//! The repository's `.cargo/config.toml` compiles for processors of the kind x86-64-v3 (AVX2; Intel since
+//! 2013, AMD since 2015). On an older one such a program would be stopped by the system at its first vector
+//! instruction, without a word: the command and FMUs ask here first.
 
 /// The processor lacks instructions that the program was compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -11,12 +12,12 @@
 pub struct OldProcessor;
 
 impl OldProcessor {
-    /// What to do about it.
-    pub const ADVICE: &str = "Compile it for all processors: `RUSTFLAGS=\"-C target-cpu=x86-64\" cargo build --release`. It computes the \
-        same numbers, in a quarter more time.";
+    /// Advice for the user.
+    pub const ADVICE: &str = "Compile it for all processors: `RUSTFLAGS=\"-C target-cpu=x86-64\" cargo build \
+        --release`. It computes the same numbers, in a quarter more time.";
 }
 
-/// Whether the program can run here.
+/// Checks whether the program can run on this processor.
 ///
 /// # Errors
 /// If it was compiled for AVX2 and the processor has none.
@@ -28,7 +29,8 @@ pub fn check() -> Result<(), OldProcessor> {
     Ok(())
 }
 
-/// Asked of the processor itself: the standard library's macro takes for granted what the program was compiled for.
+/// Asked of the processor itself: the standard library's macro takes for granted what the program was
+/// compiled for.
 #[cfg(target_arch = "x86_64")]
 fn has_avx2() -> bool {
     use std::arch::x86_64::{__cpuid, __cpuid_count};
@@ -52,7 +54,7 @@ mod tests {
     #[test]
     fn what_runs_the_tests_was_compiled_for_this_processor() {
         assert_eq!(super::check(), Ok(()));
-        // the macro tells what was found at run time only where it was not compiled in
+        // The macro reads the feature at run time only if it was not compiled in.
         #[cfg(all(target_arch = "x86_64", not(target_feature = "avx2")))]
         assert_eq!(super::has_avx2(), std::is_x86_feature_detected!("avx2"));
     }

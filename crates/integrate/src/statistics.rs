@@ -1,17 +1,17 @@
-//! Counts of what an integration cost.
+//! Counters of steps and function calls.
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::SetupError;
-use crate::state::{check_count, check_size};
+use crate::validation::{check_count, check_not_negative};
 
-/// What an integration has done so far for its steps. What states between their ends cost ([`crate::Integrator::interpolate`]) is not counted:
-/// it depends on how many are asked for.
+/// Counters of an integration. Calls for interpolated states ([`crate::Integrator::interpolate`]) are not
+/// counted: they depend on how many states are asked for.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Accepted steps.
     pub steps: u64,
-    /// Those of them that were explicit.
+    /// Accepted steps that were explicit.
     #[serde(default)]
     pub explicit_steps: u64,
     /// Steps rejected because of their error.
@@ -20,25 +20,25 @@ pub struct Statistics {
     pub rejected_not_finite: u64,
     /// Steps rejected because the matrix was singular.
     pub rejected_singular: u64,
-    /// Steps rejected because the equations of a stage could not be solved.
-    #[serde(default)]
-    pub rejected_unsolved: u64,
+    /// Steps rejected because Newton's method did not converge.
+    #[serde(default, rename = "rejected_unsolved")]
+    pub rejected_newton: u64,
     /// Evaluations of the right-hand side.
     pub derivatives: u64,
     /// Evaluations of the Jacobian matrix.
     pub jacobians: u64,
     /// Factorizations, failed ones included.
     pub factorizations: u64,
-    /// Solutions of a linear system.
+    /// Solutions of linear systems.
     pub solves: u64,
-    /// Kinks that were foreseen.
-    #[serde(default)]
-    pub kinks_foreseen: u64,
-    /// Changes of a mode.
+    /// Discontinuities that were predicted.
+    #[serde(default, rename = "kinks_foreseen")]
+    pub discontinuities_predicted: u64,
+    /// Changes of discrete states.
     pub events: u64,
-    /// Steps in which there were more changes of modes than the integrator is willing to follow.
+    /// Steps with more events than [`crate::Options::maximum_events`].
     pub events_unresolved: u64,
-    /// Starts of a new smooth piece of the problem, the first not counted.
+    /// Restarts at time discontinuities.
     pub restarts: u64,
     /// The smallest accepted step; zero before the first one.
     pub smallest_step: f64,
@@ -47,17 +47,17 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Rejected steps, whatever the reason.
+    /// Returns the number of rejected steps, whatever the reason.
     #[must_use]
     pub fn rejected(&self) -> u64 {
-        // Counts read from a file may be any numbers.
+        // Counters read from a file may have any value.
         self.rejected_error
             .saturating_add(self.rejected_not_finite)
             .saturating_add(self.rejected_singular)
-            .saturating_add(self.rejected_unsolved)
+            .saturating_add(self.rejected_newton)
     }
 
-    /// Whether a run can have counted so.
+    /// Checks the counters of a saved state.
     pub(crate) fn check(&self) -> Result<(), SetupError> {
         for (name, count) in [
             ("statistics.steps", self.steps),
@@ -65,22 +65,23 @@ impl Statistics {
             ("statistics.rejected_error", self.rejected_error),
             ("statistics.rejected_not_finite", self.rejected_not_finite),
             ("statistics.rejected_singular", self.rejected_singular),
-            ("statistics.rejected_unsolved", self.rejected_unsolved),
+            ("statistics.rejected_unsolved", self.rejected_newton),
             ("statistics.derivatives", self.derivatives),
             ("statistics.jacobians", self.jacobians),
             ("statistics.factorizations", self.factorizations),
             ("statistics.solves", self.solves),
-            ("statistics.kinks_foreseen", self.kinks_foreseen),
+            ("statistics.kinks_foreseen", self.discontinuities_predicted),
             ("statistics.events", self.events),
             ("statistics.events_unresolved", self.events_unresolved),
             ("statistics.restarts", self.restarts),
         ] {
             check_count(name, count)?;
         }
-        check_size("statistics.smallest_step", self.smallest_step)?;
-        check_size("statistics.largest_step", self.largest_step)
+        check_not_negative("statistics.smallest_step", self.smallest_step)?;
+        check_not_negative("statistics.largest_step", self.largest_step)
     }
 
+    /// Counts an accepted step.
     pub(crate) fn accept(&mut self, step: f64) {
         self.smallest_step = if self.steps == 0 {
             step

@@ -1,14 +1,18 @@
-//! Events, segments, tolerances, limits and saved states against closed forms.
+//! Events, time discontinuities, tolerances, limits and saved states against closed forms.
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
+mod common;
+
 use std::f64::consts::PI;
 
-use integrate::{Event, Integrator, Method, Options, Ordinary, State};
+use common::problems::{BouncingBall, prothero_robinson, prothero_robinson_solution};
+use common::run;
+use integrate::{Event, FunctionProblem, Integrator, Method, Options, State};
 
-/// x'' = -x with switches for the sign of the position and of the speed.
-fn oscillator(hysteresis: f64) -> Ordinary<'static> {
-    Ordinary::new(
+/// x'' = -x with discrete states for the sign of the position and of the speed.
+fn oscillator(hysteresis: f64) -> FunctionProblem<'static> {
+    FunctionProblem::new(
         vec![1.0; 2],
         |_, x, dx| {
             dx[0] = x[1];
@@ -16,41 +20,41 @@ fn oscillator(hysteresis: f64) -> Ordinary<'static> {
         },
         |_, _, j| j.copy_from_slice(&[0.0, 1.0, -1.0, 0.0]),
     )
-    .switches(
+    .events(
         2,
-        |_, x, modes| {
-            modes[0] = u8::from(x[0] < 0.0);
-            modes[1] = u8::from(x[1] < 0.0);
+        |_, x, states| {
+            states[0] = u8::from(x[0] < 0.0);
+            states[1] = u8::from(x[1] < 0.0);
         },
-        move |_, x, modes, margins| {
+        move |_, x, states, functions| {
             for i in 0..2 {
-                margins[i] = if modes[i] == 0 { x[i] } else { -x[i] } + hysteresis;
+                functions[i] = if states[i] == 0 { x[i] } else { -x[i] } + hysteresis;
             }
         },
-        |_, _, _, mode| 1 - mode,
+        |_, _, _, state| 1 - state,
     )
 }
 
 /// Integrates to `end` with the given limits in between; all events.
-fn record(mut integrator: Integrator<Ordinary<'_>>, end: f64, limit: f64) -> Vec<Event> {
+fn record(mut integrator: Integrator<FunctionProblem<'_>>, end: f64, limit: f64) -> Vec<Event> {
     let mut events = Vec::new();
     let mut next = limit;
     while integrator.time() < end {
-        let before = integrator.modes().to_vec();
+        let before = integrator.discrete_states().to_vec();
         integrator.step_to(end.min(next)).unwrap();
-        assert_eq!(before, integrator.modes_before_step());
+        assert_eq!(before, integrator.discrete_states_before_step());
         let mut time = integrator.previous_time();
-        let mut modes = before;
+        let mut states = before;
         for event in integrator.events() {
             assert!(
                 event.time >= time && event.time <= integrator.time(),
                 "in order of time"
             );
-            assert_eq!(modes[event.index], event.from);
-            modes[event.index] = event.to;
+            assert_eq!(states[event.index], event.from);
+            states[event.index] = event.to;
             time = event.time;
         }
-        assert_eq!(modes, integrator.modes());
+        assert_eq!(states, integrator.discrete_states());
         events.extend_from_slice(integrator.events());
         if integrator.time() >= next {
             next += limit;
@@ -81,7 +85,8 @@ fn events_are_where_the_closed_form_has_them() {
                 let x = [libm::cos(start), -libm::sin(start)];
                 let integrator = Integrator::new(oscillator(hysteresis), options, 0.0, &x).unwrap();
                 let events = record(integrator, 20.0, limit);
-                // x = cos(t + start): position events at phases π/2 + asin(hysteresis) + kπ, speed events a quarter later
+                // x = cos(t + start): position events at phases π/2 + asin(hysteresis) + kπ, speed events a
+                // quarter later
                 let late = libm::asin(hysteresis);
                 let mut exact: Vec<(f64, usize)> = (0..9)
                     .flat_map(|k| {
@@ -98,7 +103,8 @@ fn events_are_where_the_closed_form_has_them() {
                 );
                 for (event, (time, index)) in events.iter().zip(exact) {
                     assert_eq!(event.index, index);
-                    // Errors are held in proportion to the step: over many steps the lower order has more of them.
+                    // Errors are held in proportion to the step: over many steps the lower order has more of
+                    // them.
                     let admissible = if method == Method::TrBdf2 { 2e-6 } else { 2e-8 };
                     assert!(
                         (event.time - time).abs() < admissible,
@@ -112,16 +118,20 @@ fn events_are_where_the_closed_form_has_them() {
 
 #[test]
 fn several_events_in_one_step_are_all_found() {
-    // One switch with three modes in a row (1, 2, 3 from its thresholds), passed in one long step of x = t.
-    let problem = Ordinary::new(vec![1.0], |_, _, dx| dx[0] = 1.0, |_, _, j| j[0] = 0.0).switches(
+    // A discrete state with nine values in a row, passed in one long step of x = t.
+    let problem = FunctionProblem::new(vec![1.0], |_, _, dx| dx[0] = 1.0, |_, _, j| j[0] = 0.0).events(
         2,
-        |_, _, modes| modes.fill(0),
-        |_, x, modes, margins| {
-            margins[0] = f64::from(modes[0]) * 0.1 + 0.1 - x[0];
-            // the second follows the first at once, another starts beyond its margin
-            margins[1] = if modes[0] >= 2 && modes[1] == 0 { -1.0 } else { 1.0 };
+        |_, _, states| states.fill(0),
+        |_, x, states, functions| {
+            functions[0] = f64::from(states[0]) * 0.1 + 0.1 - x[0];
+            // The second follows the first at once.
+            functions[1] = if states[0] >= 2 && states[1] == 0 {
+                -1.0
+            } else {
+                1.0
+            };
         },
-        |_, _, _, mode| mode + 1,
+        |_, _, _, state| state + 1,
     );
     let options = Options {
         fixed_step: Some(1.0),
@@ -134,7 +144,7 @@ fn several_events_in_one_step_are_all_found() {
         .iter()
         .map(|event| (event.index, event.to))
         .collect();
-    let mut expected: Vec<_> = (1..=9).map(|mode| (0, mode)).collect();
+    let mut expected: Vec<_> = (1..=9).map(|state| (0, state)).collect();
     expected.insert(2, (1, 1));
     assert_eq!(found[..10], expected);
     for event in integrator.events().iter().filter(|event| event.index == 0) {
@@ -147,12 +157,12 @@ fn several_events_in_one_step_are_all_found() {
 }
 
 #[test]
-fn a_switch_that_declines_to_change_and_one_that_flutters_do_not_stop_the_integration() {
-    let problem = Ordinary::new(vec![1.0], |_, _, dx| dx[0] = 1.0, |_, _, j| j[0] = 0.0).switches(
+fn an_event_that_is_declined_and_chatter_do_not_stop_the_integration() {
+    let problem = FunctionProblem::new(vec![1.0], |_, _, dx| dx[0] = 1.0, |_, _, j| j[0] = 0.0).events(
         2,
-        |_, _, modes| modes.fill(0),
-        |_, x, _, margins| margins.copy_from_slice(&[0.5 - x[0], 2.5 - x[0]]),
-        |_, _, index, mode| if index == 0 { mode } else { 1 - mode },
+        |_, _, states| states.fill(0),
+        |_, x, _, functions| functions.copy_from_slice(&[0.5 - x[0], 2.5 - x[0]]),
+        |_, _, index, state| if index == 0 { state } else { 1 - state },
     );
     let options = Options {
         fixed_step: Some(1.0),
@@ -169,13 +179,14 @@ fn a_switch_that_declines_to_change_and_one_that_flutters_do_not_stop_the_integr
     assert_eq!(integrator.statistics().events_unresolved, 1);
 }
 
-/// x' = s(t) - x with the triangular wave s of period 2 between 0 and 1, from x(0) = 0; exact, piece by piece.
+/// x' = s(t) - x with the triangular wave s of period 2 between 0 and 1, from x(0) = 0; exact in each
+/// smooth interval.
 fn triangle(time: f64) -> f64 {
     let (mut x, mut start, mut rising) = (0.0, 0.0, true);
     loop {
         let end = time.min(start + 1.0);
         let duration = end - start;
-        // particular solution on a piece s = a + b τ: a - b + b τ
+        // particular solution for s = a + b τ: a - b + b τ
         let (a, b) = if rising { (0.0, 1.0) } else { (1.0, -1.0) };
         x = (x - (a - b)) * libm::exp(-duration) + a - b + b * duration;
         if end >= time {
@@ -185,8 +196,8 @@ fn triangle(time: f64) -> f64 {
     }
 }
 
-fn driven_by_triangle(with_breaks: bool) -> Ordinary<'static> {
-    let problem = Ordinary::new(
+fn driven_by_triangle(with_breaks: bool) -> FunctionProblem<'static> {
+    let problem = FunctionProblem::new(
         vec![1.0],
         |t, x, dx| {
             let phase = t - 2.0 * (0.5 * t).floor();
@@ -202,14 +213,14 @@ fn driven_by_triangle(with_breaks: bool) -> Ordinary<'static> {
         }
     });
     if with_breaks {
-        problem.breaks((1..20).map(f64::from).collect())
+        problem.time_discontinuities((1..20).map(f64::from).collect())
     } else {
         problem
     }
 }
 
 #[test]
-fn segments_keep_the_order_across_kinks() {
+fn steps_end_at_time_discontinuities_and_keep_their_order() {
     for method in Method::ALL {
         let run = |with_breaks| {
             let options = Options {
@@ -230,27 +241,27 @@ fn segments_keep_the_order_across_kinks() {
         let (worst, ends, statistics) = run(true);
         let admissible = if method == Method::TrBdf2 { 1e-7 } else { 2e-9 };
         assert!(worst < admissible, "{method}: {worst}");
-        assert_eq!(ends, 9, "steps end exactly on the kinks");
+        assert_eq!(ends, 9, "steps end exactly at the discontinuities");
         assert_eq!(statistics.restarts, 9);
         // a step planned for the end of a transient may be too long for the next one
         assert!(statistics.rejected() <= 9, "{method}: {statistics:?}");
-        let (_, _, blind) = run(false);
+        let (_, _, plain) = run(false);
         assert!(
-            blind.rejected_error > 9 + statistics.rejected_error,
-            "{method}: {blind:?}"
+            plain.rejected_error > 9 + statistics.rejected_error,
+            "{method}: {plain:?}"
         );
     }
 }
 
-/// A kinked segment: a problem that has jumps in its right-hand side at the ends of its segments.
+/// The right-hand side jumps at time discontinuities.
 #[test]
-fn steps_end_exactly_on_segments_and_limits() {
-    let problem = Ordinary::new(
+fn steps_end_exactly_at_time_discontinuities_and_limits() {
+    let problem = FunctionProblem::new(
         vec![1.0],
         |t, _, dx| dx[0] = if t <= 0.1 { 1.0 } else { -1.0 },
         |_, _, j| j[0] = 0.0,
     )
-    .breaks(vec![0.1, 0.7]);
+    .time_discontinuities(vec![0.1, 0.7]);
     let mut integrator = Integrator::new(problem, Options::default(), 0.0, &[0.0]).unwrap();
     let mut times = Vec::new();
     while integrator.time() < 1.0 {
@@ -297,7 +308,7 @@ fn errors_are_proportional_to_the_tolerance() {
 
 #[test]
 fn a_state_that_is_not_controlled_does_not_matter() {
-    let problem = Ordinary::new(
+    let problem = FunctionProblem::new(
         vec![1.0, f64::INFINITY],
         |t, x, dx| {
             dx[0] = -x[0];
@@ -318,9 +329,9 @@ fn a_state_that_is_not_controlled_does_not_matter() {
     assert!((integrator.x()[0] - libm::exp(-1.0)).abs() < 1e-6);
 }
 
-/// Kinks, segments, events and a varying step together.
-fn everything() -> Ordinary<'static> {
-    Ordinary::new(
+/// Discontinuities in state and time, events and a varying step together.
+fn everything() -> FunctionProblem<'static> {
+    FunctionProblem::new(
         vec![1.0, 30.0],
         |t, x, dx| {
             let phase = t - t.floor();
@@ -338,12 +349,12 @@ fn everything() -> Ordinary<'static> {
         },
     )
     .time_derivative(|t, _, f| f[1] = if t - t.floor() < 0.5 { -9.0 } else { 9.0 })
-    .breaks((1..2000).map(|k| f64::from(k) * 0.5).collect())
-    .switches(
+    .time_discontinuities((1..2000).map(|k| f64::from(k) * 0.5).collect())
+    .events(
         1,
-        |_, x, modes| modes[0] = u8::from(x[0] < 0.0),
-        |_, x, modes, margins| margins[0] = if modes[0] == 0 { x[0] } else { -x[0] } + 1e-6,
-        |_, _, _, mode| 1 - mode,
+        |_, x, states| states[0] = u8::from(x[0] < 0.0),
+        |_, x, states, functions| functions[0] = if states[0] == 0 { x[0] } else { -x[0] } + 1e-6,
+        |_, _, _, state| 1 - state,
     )
 }
 
@@ -355,14 +366,14 @@ fn a_saved_integration_continues_with_the_same_bits() {
             maximum_step: 0.02,
             ..Options::default()
         };
-        let walk = |integrator: &mut Integrator<Ordinary<'static>>, steps: usize| {
+        let walk = |integrator: &mut Integrator<FunctionProblem<'static>>, steps: usize| {
             for _ in 0..steps {
                 integrator.step_to(f64::INFINITY).unwrap();
             }
         };
         let mut straight = Integrator::new(everything(), options.clone(), 0.0, &[1.0, 40.0]).unwrap();
         walk(&mut straight, 1000);
-        // the cut must not matter, wherever it falls: also at the end of a segment
+        // The cut must not matter, wherever it falls: also at a time discontinuity.
         let mut interrupted = Integrator::new(everything(), options.clone(), 0.0, &[1.0, 40.0]).unwrap();
         walk(&mut interrupted, 400);
         while interrupted.time() != 2.0 * (0.5 * interrupted.time()).floor()
@@ -386,6 +397,69 @@ fn a_saved_integration_continues_with_the_same_bits() {
         assert!(statistics.derivatives >= a.statistics.derivatives);
         statistics.derivatives = a.statistics.derivatives;
         assert_eq!(a.statistics, statistics);
-        assert_eq!((a.modes, a.proposed_step), (b.modes, b.proposed_step));
+        assert_eq!(
+            (a.discrete_states, a.proposed_step),
+            (b.discrete_states, b.proposed_step)
+        );
+    }
+}
+
+#[test]
+fn a_bouncing_ball_follows_its_closed_form() {
+    // Inches; 140 Hz on the spring.
+    let ball = BouncingBall {
+        gravity: 386.0886,
+        omega: 879.645_943_005_142_4,
+        height: 0.5,
+    };
+    let ((fall, _), (contact, flight)) = (ball.fall(), ball.contact_and_flight());
+    for method in Method::ALL {
+        let options = Options {
+            method,
+            relative_tolerance: 1e-8,
+            ..Options::default()
+        };
+        let mut integrator = Integrator::new(ball.problem(), options, 0.0, &[ball.height, 0.0]).unwrap();
+        let (mut changes, mut expected) = (0, fall);
+        while integrator.time() < 1.0 {
+            integrator.step_to(1.0).unwrap();
+            for event in integrator.events() {
+                assert!(
+                    (event.time - expected).abs() < 1e-6,
+                    "{method}: {event:?}, expected at {expected}"
+                );
+                assert_eq!(event.to, 1 - changes % 2);
+                expected += if changes % 2 == 0 { contact } else { flight };
+                changes += 1;
+            }
+            let error = integrator.x()[0] - ball.solution(integrator.time());
+            assert!(error.abs() < 3e-5, "{method} at {}: {error}", integrator.time());
+        }
+        assert_eq!(u64::from(changes), integrator.statistics().events);
+        assert!(changes >= 18);
+    }
+}
+
+/// The transient decays within 1/λ; after it the solution is φ.
+#[test]
+fn the_prothero_robinson_problem_follows_its_closed_form() {
+    for method in Method::ALL {
+        for lambda in [-1.0, -1e3, -1e6] {
+            let options = Options {
+                method,
+                relative_tolerance: 1e-7,
+                ..Options::default()
+            };
+            let start = prothero_robinson_solution(0.0) + 1.0;
+            let (x, statistics) = run(prothero_robinson(lambda), options, &[start], 2.0);
+            let exact = prothero_robinson_solution(2.0) + libm::exp(2.0 * lambda);
+            let error = (x[0] - exact).abs();
+            println!(
+                "{method}, λ = {lambda}: error {error:.1e}, {} steps",
+                statistics.steps
+            );
+            assert!(error < 2e-5, "{method}, λ = {lambda}: {error}");
+            assert!(statistics.steps < 3000, "{method}, λ = {lambda}: {statistics:?}");
+        }
     }
 }

@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
-use integrate::{Integrator, Method, Options, Ordinary, Reason, STATE_VERSION, SetupError};
+use integrate::{FunctionProblem, Integrator, Method, Options, Reason, STATE_VERSION, SetupError};
 
-fn decay(scales: Vec<f64>) -> Ordinary<'static> {
+fn decay(scales: Vec<f64>) -> FunctionProblem<'static> {
     let n = scales.len();
-    Ordinary::new(
+    FunctionProblem::new(
         scales,
         |_, x, dx| dx.iter_mut().zip(x).for_each(|(d, x)| *d = -x),
         move |_, _, j| (0..n).for_each(|i| j[i * (n + 1)] = -1.0),
@@ -120,7 +120,7 @@ fn wrong_starts_are_named() {
         setup(standard(), &[f64::INFINITY], 0.0, &[1.0]),
         SetupError::NothingControlled
     );
-    let problem = Ordinary::new(
+    let problem = FunctionProblem::new(
         vec![1.0],
         |_, x, dx| dx[0] = libm::log(x[0]),
         |_, x, j| j[0] = 1.0 / x[0],
@@ -155,11 +155,11 @@ fn wrong_states_are_refused() {
         })
     );
     let mut state = good.clone();
-    state.modes.push(0);
+    state.discrete_states.push(0);
     assert_eq!(
         resume(state),
         Err(SetupError::Dimension {
-            what: "switches",
+            what: "discrete states",
             expected: 0,
             found: 1
         })
@@ -180,7 +180,7 @@ fn wrong_states_are_refused() {
         })
     ));
     let mut state = good;
-    state.segment_start = 1e9;
+    state.interval_start = 1e9;
     assert!(matches!(
         resume(state),
         Err(SetupError::Damaged {
@@ -204,7 +204,7 @@ fn a_limit_must_lie_ahead() {
 #[test]
 fn the_end_of_the_domain_is_reported_and_the_last_step_kept() {
     // x' = -1 until there is no derivative any more below zero
-    let problem = Ordinary::new(
+    let problem = FunctionProblem::new(
         vec![1.0, 1.0],
         |_, x, dx| {
             dx[0] = 0.0;
@@ -236,7 +236,7 @@ fn the_end_of_the_domain_is_reported_and_the_last_step_kept() {
 
 #[test]
 fn a_pole_and_a_jump_end_with_the_state_to_blame() {
-    let pole = Ordinary::new(
+    let pole = FunctionProblem::new(
         vec![1.0, 1.0],
         |_, x, dx| {
             dx[0] = -x[0];
@@ -280,7 +280,7 @@ fn the_number_of_steps_is_bounded() {
 #[test]
 fn a_singular_matrix_shortens_the_step_or_is_reported() {
     // J = 4/h for a first step of h and γ = 1/4: the matrix is zero
-    let problem = || Ordinary::new(vec![1.0], |_, x, dx| dx[0] = 40.0 * x[0], |_, _, j| j[0] = 40.0);
+    let problem = || FunctionProblem::new(vec![1.0], |_, x, dx| dx[0] = 40.0 * x[0], |_, _, j| j[0] = 40.0);
     let options = Options {
         method: Method::Rodas4,
         initial_step: Some(0.1),
@@ -297,15 +297,15 @@ fn a_singular_matrix_shortens_the_step_or_is_reported() {
     let mut integrator = Integrator::new(problem(), options, 0.0, &[1e-9]).unwrap();
     let error = integrator.step_to(f64::INFINITY).unwrap_err();
     assert_eq!(error.reason, Reason::Singular { block: 0 });
-    let broken = Ordinary::new(vec![1.0], |_, x, dx| dx[0] = x[0], |_, _, j| j[0] = f64::INFINITY);
+    let broken = FunctionProblem::new(vec![1.0], |_, x, dx| dx[0] = x[0], |_, _, j| j[0] = f64::INFINITY);
     let mut integrator = Integrator::new(broken, Options::default(), 0.0, &[1.0]).unwrap();
     let error = integrator.step_to(f64::INFINITY).unwrap_err();
     assert_eq!(error.reason, Reason::Singular { block: 0 });
 }
 
 #[test]
-fn a_segment_must_not_end_before_it_starts() {
-    struct Backwards(Ordinary<'static>);
+fn a_time_discontinuity_must_be_later_than_the_start() {
+    struct Backwards(FunctionProblem<'static>);
     impl integrate::Problem for Backwards {
         fn dimension(&self) -> usize {
             self.0.dimension()
@@ -313,7 +313,7 @@ fn a_segment_must_not_end_before_it_starts() {
         fn scales(&self) -> &[f64] {
             self.0.scales()
         }
-        fn segment(&mut self, start: f64) -> f64 {
+        fn next_time_discontinuity(&mut self, start: f64) -> f64 {
             1.0 - start
         }
         fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]) {
@@ -331,13 +331,13 @@ fn a_segment_must_not_end_before_it_starts() {
     }
     let problem = || Backwards(decay(vec![1.0]));
     let error = Integrator::new(problem(), Options::default(), 0.6, &[1.0]).unwrap_err();
-    assert!(matches!(error, SetupError::Segment { .. }), "{error}");
+    assert!(matches!(error, SetupError::TimeDiscontinuity { .. }), "{error}");
     let mut integrator = Integrator::new(problem(), Options::default(), 0.0, &[1.0]).unwrap();
     while integrator.time() < 1.0 {
         integrator.step_to(f64::INFINITY).unwrap();
     }
     let error = integrator.step_to(f64::INFINITY).unwrap_err();
-    assert_eq!(error.reason, Reason::Segment { end: 0.0 }, "{error}");
+    assert_eq!(error.reason, Reason::TimeDiscontinuity { end: 0.0 }, "{error}");
 }
 
 #[test]

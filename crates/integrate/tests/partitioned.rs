@@ -1,5 +1,5 @@
-//! analytic: the solution with positions, internal states and quadratures eliminated is that of the whole matrix, for one body (which has a
-//! path of its own, up to six coordinates) and for several.
+//! analytic: the solution with positions, internal states and quadratures eliminated is that of the whole
+//! matrix, for one body (which has a path of its own, up to six coordinates) and for several.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use integrate::BlockLu;
@@ -15,7 +15,8 @@ fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// A structured matrix filled with numbers, the whole of `shift I - J` with the rows of the speeds multiplied with M, and M.
+/// A structured matrix filled with numbers, the whole of `shift I - J` with the rows of the speeds multiplied
+/// with M, and M.
 fn filled(
     structure: &Structure,
     shift: f64,
@@ -97,7 +98,8 @@ fn numbers_of(structure: &Structure, shift: f64) -> impl FnMut() -> f64 {
     numbers(shift.to_bits() ^ structure.quadratures as u64)
 }
 
-/// Fills a structured matrix with numbers and solves; the largest difference from the solution of the whole matrix.
+/// Fills a structured matrix with numbers and solves; the largest difference from the solution of the whole
+/// matrix.
 fn difference(structure: &Structure, shift: f64) -> f64 {
     let mut number = numbers_of(structure, shift);
     let (mut partitioned, whole, mass) = filled(structure, shift, &mut number);

@@ -202,7 +202,7 @@ fn ledgers(model: &Model, tolerance: f64) -> (Ledger, Ledger, f64) {
     x[6] = 0.5;
     x[10] = 0.3;
     let mut twin = system.clone();
-    twin.segment(0.0);
+    twin.next_time_discontinuity(0.0);
     let start = Ledger::at(&mut twin, 0.0, &x);
     let done = integrate(system, options(Method::Rodas4, tolerance), &x, 0.6, |_| {});
     twin.segment_like(done.problem());

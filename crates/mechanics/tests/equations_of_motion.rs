@@ -270,7 +270,7 @@ impl Mechanism<'_> {
             x[i] = random.between(-1.0, 1.0) * if *k < 3 { 0.2 } else { turn };
             x[count + i] = random.between(-3.0, 3.0);
         }
-        system.segment(0.0);
+        system.next_time_discontinuity(0.0);
         let dx = rates(system, time, &x);
         let expected = self.accelerations(time, &x[..count], &x[count..2 * count]);
         let size = expected.iter().fold(1.0, |m: f64, a| m.max(a.abs()));

@@ -174,7 +174,7 @@ fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Seen {
             break;
         }
         let time = random.between(0.3, 1.9);
-        system.segment(time);
+        system.next_time_discontinuity(time);
         let mut x = system.initial_state();
         for value in &mut x[..layout.speeds] {
             *value += random.between(-spread[0], spread[0]);
@@ -213,7 +213,7 @@ fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Seen {
         }
         let expected = by_differences(&mut system, time, &x, h);
         check_matrix(&mut system, time, &x, &expected, &mut random);
-        let bound = system.stiffness(time, &x);
+        let bound = system.spectral_radius_bound(time, &x);
         if bound < f64::INFINITY {
             let moving = 2 * layout.speeds;
             let matrix = DMatrix::from_fn(moving, moving, |i, j| expected[i][j]);

@@ -111,7 +111,7 @@ fn friction_stops_a_mass_on_a_spring_for_ever() {
     assert!((x + 0.00601).abs() <= bound, "stopped at {x}, bound {bound}");
     assert!((x - settled).abs() <= 1e-12, "drifted from {settled} to {x}");
     assert!(u.abs() <= 1e-12, "still moves by {u}");
-    assert_eq!(end.modes(), [Mode::Stick as u8]);
+    assert_eq!(end.discrete_states(), [Mode::Stick as u8]);
     // It holds by elastic deflection: K e = k x.
     // (The face's second tangent is -x.)
     let held = -end.x()[5] * bristle;
@@ -371,7 +371,7 @@ fn floating_bodies_keep_their_momentum() {
         let mut contacts = 0;
         let end = integrate(system, options(Method::Rodas5P, 1e-9), &x, 1.0, |integrator| {
             contacts += integrator
-                .modes()
+                .discrete_states()
                 .iter()
                 .filter(|mode| **mode != Mode::Open as u8)
                 .count();
@@ -493,7 +493,7 @@ fn the_same_bits_again_and_after_saving() {
             assert_eq!(bits, whole.0, "saved at {}", limits[cut - 1]);
             // But for the evaluation of the right-hand side at the new beginning, all counts are the same.
             assert_eq!(end.x, whole.1.x);
-            assert_eq!(end.modes, whole.1.modes);
+            assert_eq!(end.discrete_states, whole.1.discrete_states);
             assert_eq!(end.statistics.steps, whole.1.statistics.steps);
         }
     }
@@ -503,7 +503,7 @@ fn the_same_bits_again_and_after_saving() {
 #[test]
 fn evaluation_leaves_no_trace() {
     let mut system = shaken();
-    system.segment(0.2);
+    system.next_time_discontinuity(0.2);
     let mut x = system.initial_state();
     x[2] = -1e-4;
     x[7] = 0.1;
@@ -514,7 +514,7 @@ fn evaluation_leaves_no_trace() {
     let dx = rates(&mut system, 0.37, &other);
     system.linearize(0.37, &other, &dx, &mut df_dt);
     let _ = system.observe(0.9, &other);
-    let mut modes = vec![0; system.switch_count()];
-    system.initial_modes(0.1, &other, &mut modes);
+    let mut modes = vec![0; system.discrete_state_count()];
+    system.initial_discrete_states(0.1, &other, &mut modes);
     assert_eq!(rates(&mut system, 0.31, &x), fresh);
 }

@@ -106,14 +106,14 @@ fn state(system: &System, random: &mut Random) -> Vec<f64> {
 
 /// Margins of all switches, and the modes that follow, by the signs of all at once.
 fn margins(system: &mut System, time: f64, x: &[f64], modes: &[u8]) -> (Vec<f64>, Vec<u8>) {
-    let mut signs = vec![f64::NAN; system.sign_count()];
-    system.signs(time, x, &mut signs);
+    let mut signs = vec![f64::NAN; system.event_variable_count()];
+    system.event_variables(time, x, &mut signs);
     let (mut margins, mut next) = (vec![f64::NAN; modes.len()], modes.to_vec());
-    for (number, group) in system.switch_groups().into_iter().enumerate() {
-        let (own, signs) = (group.switches, &signs[group.signs]);
-        system.group_margins(number, signs, &modes[own.clone()], &mut margins[own.clone()]);
+    for (number, group) in system.event_groups().into_iter().enumerate() {
+        let (own, signs) = (group.discrete_states, &signs[group.variables]);
+        system.group_event_functions(number, signs, &modes[own.clone()], &mut margins[own.clone()]);
         for (index, next) in next[own].iter_mut().enumerate() {
-            *next = system.next_mode(number, signs, index, *next);
+            *next = system.next_discrete_state(number, signs, index, *next);
         }
     }
     (margins, next)
@@ -124,35 +124,35 @@ fn limits_signs_of_a_face_depend_on_the_states_of_its_group_alone() {
     let mut random = Random(5);
     let mut closed = [0, 0];
     for mut system in models() {
-        let groups = system.switch_groups();
-        let count = system.switch_count();
+        let groups = system.event_groups();
+        let count = system.discrete_state_count();
         assert!(
             groups
                 .iter()
-                .flat_map(|group| group.switches.clone())
+                .flat_map(|group| group.discrete_states.clone())
                 .eq(0..count)
         );
         for _ in 0..60 {
             let (x, time) = (state(&system, &mut random), random.between(0.0, 1.0));
-            let mut expected = vec![0.0; system.sign_count()];
-            system.clone().signs(time, &x, &mut expected);
+            let mut expected = vec![0.0; system.event_variable_count()];
+            system.clone().event_variables(time, &x, &mut expected);
             for (number, group) in groups.iter().enumerate() {
                 // What it does not depend on is not even a number.
                 let mut own = vec![f64::NAN; x.len()];
                 for part in &group.states {
                     own[part.clone()].copy_from_slice(&x[part.clone()]);
                 }
-                let mut found = vec![7.0; group.signs.len()];
-                system.group_signs(number, time, &own, &mut found);
-                let expected = &expected[group.signs.clone()];
+                let mut found = vec![7.0; group.variables.len()];
+                system.group_event_variables(number, time, &own, &mut found);
+                let expected = &expected[group.variables.clone()];
                 for (found, expected) in found.iter().zip(expected) {
                     assert_eq!(found.to_bits(), expected.to_bits(), "group {number}");
                 }
             }
             // What follows does not see what was asked before, not even at another time and place.
-            let mut again = vec![0.0; system.sign_count()];
+            let mut again = vec![0.0; system.event_variable_count()];
             for _ in 0..2 {
-                system.signs(time, &x, &mut again);
+                system.event_variables(time, &x, &mut again);
                 assert!(
                     again
                         .iter()
@@ -160,8 +160,8 @@ fn limits_signs_of_a_face_depend_on_the_states_of_its_group_alone() {
                         .all(|(a, b)| a.to_bits() == b.to_bits())
                 );
                 let elsewhere = state(&system, &mut random);
-                let own = groups[0].signs.clone();
-                system.group_signs(0, time + 0.1, &elsewhere, &mut again[own]);
+                let own = groups[0].variables.clone();
+                system.group_event_variables(0, time + 0.1, &elsewhere, &mut again[own]);
             }
             for gap in margins(&mut system, time, &x, &vec![0; count]).0 {
                 closed[usize::from(gap < 0.0)] += 1;
@@ -233,7 +233,7 @@ fn input_what_presses_on_a_contact_is_held_to_a_bound() {
             .iter()
             .map(|bound| bound.is_finite())
             .collect();
-        let in_layers = system.layer_bounds().iter().map(|bound| bound.is_finite());
+        let in_layers = system.zone_error_bounds().iter().map(|bound| bound.is_finite());
         (held, in_layers.collect::<Vec<bool>>())
     };
     let (along, up) = (
@@ -258,7 +258,7 @@ fn limits_a_mode_is_left_where_its_margin_is_used_up() {
     let mut random = Random(11);
     let mut left = [[0; 2]; 3];
     for mut system in models() {
-        let count = system.switch_count();
+        let count = system.discrete_state_count();
         for _ in 0..200 {
             let (x, time) = (state(&system, &mut random), random.between(0.0, 1.0));
             // All of one mode, and mixed.
@@ -294,10 +294,10 @@ fn limits_a_face_is_placed_anew_when_a_motion_changes() {
     let mut random = Random(3);
     let system = System::new(tower(true, TANH)).unwrap();
     let (x, time) = (state(&system, &mut random), 0.3);
-    let (group, own) = (2, system.switch_groups()[2].signs.clone()); // upper body on the base
+    let (group, own) = (2, system.event_groups()[2].variables.clone()); // upper body on the base
     let signs = |system: &mut System| {
         let mut signs = vec![0.0; own.len()];
-        system.group_signs(group, time, &x, &mut signs);
+        system.group_event_variables(group, time, &x, &mut signs);
         signs
     };
     let mut motions = system.bodies()[2].frame.motions.clone();
@@ -317,8 +317,8 @@ fn limits_a_face_is_placed_anew_when_a_motion_changes() {
     assert_ne!(before, expected);
     assert_eq!(signs(&mut asked_before), expected);
     // Nor does it keep what it saw when all else has moved on.
-    let mut signs_elsewhere = vec![0.0; system.sign_count()];
+    let mut signs_elsewhere = vec![0.0; system.event_variable_count()];
     let elsewhere = state(&system, &mut random);
-    asked_before.signs(time, &elsewhere, &mut signs_elsewhere);
+    asked_before.event_variables(time, &elsewhere, &mut signs_elsewhere);
     assert_eq!(signs(&mut asked_before), expected);
 }

@@ -52,7 +52,7 @@ impl Equations {
             .unwrap_or(0);
         let full_scales = system.scales().to_vec();
         // No problem of the race has a motion with breaks: one smooth piece.
-        system.segment(0.0);
+        system.next_time_discontinuity(0.0);
         let reduce = |full: &[f64]| {
             let mut reduced = full[..mechanical].to_vec();
             reduced.push(full[mechanical + loss]);

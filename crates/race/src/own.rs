@@ -32,7 +32,7 @@ pub fn run(
     let (cpu, wall) = (cpu_seconds(), wall_seconds());
     let options = Options {
         relative_tolerance: tolerance,
-        record_switches: recorded,
+        record_events: recorded,
         maximum_step: match method.tableau().family {
             Family::DiagonallyImplicit => problem.interval,
             _ => f64::INFINITY,
@@ -44,7 +44,7 @@ pub fn run(
     states.extend_from_slice(equations.start());
     let mut row = 1;
     while row < rows {
-        if let Err(error) = integrator.step_to(integrator.limit_before(problem.time(row), end)) {
+        if let Err(error) = integrator.step_to(integrator.step_limit(problem.time(row), end)) {
             outcome.failure = error.to_string();
             break;
         }

@@ -62,7 +62,7 @@ fn the_jacobian_is_the_derivative_of_the_rates() {
 fn no_problem_has_a_break() {
     for name in names() {
         let mut problem = Problem::named(&name).unwrap();
-        let end = integrate::Problem::segment(&mut problem.system, 0.0);
+        let end = integrate::Problem::next_time_discontinuity(&mut problem.system, 0.0);
         assert!(end.is_infinite(), "{name}: {end}");
     }
 }

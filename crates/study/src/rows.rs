@@ -36,6 +36,6 @@ impl Rows {
 
     /// Where an integrator's next step is to end at the latest, s, if this row is the next one.
     pub fn limit<P: Problem>(&self, next: u64, integrator: &Integrator<P>) -> f64 {
-        integrator.limit_before(self.time(next), self.end)
+        integrator.step_limit(self.time(next), self.end)
     }
 }

@@ -189,7 +189,7 @@ impl Run {
             values: vec![Vec::new(); outputs.columns().len()],
             buffer: vec![0.0; wedge.initial_state.len()],
             row: Vec::with_capacity(outputs.columns().len()),
-            modes: integrator.modes().to_vec(),
+            modes: integrator.discrete_states().to_vec(),
             speeds: vec![0.0; points],
             case: case.clone(),
             rows: Rows::of(&case.simulation),
@@ -316,7 +316,7 @@ impl Run {
     #[must_use]
     pub fn contact_states(&self) -> BTreeMap<String, String> {
         self.integrator
-            .modes()
+            .discrete_states()
             .iter()
             .enumerate()
             .map(|(point, mode)| {
@@ -364,7 +364,10 @@ impl Run {
     /// Adds the creep of corners that were stuck at both ends of the step (trapezoidal rule).
     fn count_creep(&mut self) {
         let stuck = Mode::Stick as u8;
-        let (before, after) = (self.integrator.modes_before_step(), self.integrator.modes());
+        let (before, after) = (
+            self.integrator.discrete_states_before_step(),
+            self.integrator.discrete_states(),
+        );
         let step = self.integrator.time() - self.integrator.previous_time();
         let any = before.iter().zip(after).any(|(a, b)| *a == stuck && *b == stuck);
         if !any {
@@ -403,9 +406,10 @@ impl Run {
         if rows.time(self.next_row) > self.integrator.time() {
             return Ok(());
         }
-        self.modes.copy_from_slice(self.integrator.modes_before_step());
+        self.modes
+            .copy_from_slice(self.integrator.discrete_states_before_step());
         if first {
-            self.modes.copy_from_slice(self.integrator.modes());
+            self.modes.copy_from_slice(self.integrator.discrete_states());
         }
         let mut seen_events = 0;
         while self.next_row < rows.count {

@@ -4,7 +4,7 @@
 #[path = "../../integrate/tests/common/damage.rs"]
 mod damage;
 
-use integrate::MOST_COUNTED;
+use integrate::MAXIMUM_COUNT;
 use serde_json::{Value, json};
 use study::case::{Case, builtin};
 use study::driven::{CoilDrive, DrivenError, DrivenState, DrivenWedge, MOST_STATE_BYTES};
@@ -116,7 +116,7 @@ fn issue_029_members_of_a_run_that_led_astray_are_refused_by_name() {
         ("/counts/creep_speeds", json!([0.0, 0.0]), "counts.creep_speeds"),
         ("/counts/crept/3", json!(-1.0), "counts.crept"),
         ("/counts/events", json!([[0, 0, 0, 0]]), "counts.events"),
-        ("/counts/events/1/2", json!(MOST_COUNTED + 1), "counts.events"),
+        ("/counts/events/1/2", json!(MAXIMUM_COUNT + 1), "counts.events"),
         ("/counts/event_total", json!(u64::MAX), "counts.event_total"),
         ("/counts/probes", json!([[0.0, 0.0]]), "counts.probes"),
         (
@@ -133,7 +133,7 @@ fn issue_029_members_of_a_run_that_led_astray_are_refused_by_name() {
         ("/counts/pace/time", json!(1e300), "counts.pace.time"),
         (
             "/counts/pace/attempts",
-            json!(MOST_COUNTED + 1),
+            json!(MAXIMUM_COUNT + 1),
             "counts.pace.attempts",
         ),
         ("/integrator/modes/7", json!(3), "integrator.modes"),
@@ -234,7 +234,7 @@ fn issue_029_members_of_a_driven_wedge_that_led_astray_are_refused_by_name() {
     let good = wedge.state();
     for (edit, what) in [
         (
-            (|state| state.integrator.modes[2] = 9) as fn(&mut DrivenState),
+            (|state| state.integrator.discrete_states[2] = 9) as fn(&mut DrivenState),
             "contact state of corner 2",
         ),
         (
@@ -242,7 +242,7 @@ fn issue_029_members_of_a_driven_wedge_that_led_astray_are_refused_by_name() {
             "time of the saved state is -1",
         ),
         (
-            |state| state.integrator.segment_start = 1.0,
+            |state| state.integrator.interval_start = 1.0,
             "`segment_start` is 1",
         ),
         (|state| state.integrator.time = f64::INFINITY, "start time is inf"),

@@ -101,7 +101,7 @@ fn errors_of_steps(
 fn held_to(relative_tolerance: f64) -> Options {
     Options {
         relative_tolerance,
-        record_switches: false,
+        record_events: false,
         ..Options::of(Method::Rodas5P)
     }
 }

@@ -4,25 +4,25 @@
 mod common;
 
 use common::{Random, TOE, YAW, bristle, with_law};
-use integrate::{KinkSigns, Problem};
+use integrate::{DiscontinuityFunctions, Problem};
 use mechanics::system::System;
 use wedge::parameters::{Damping, Parameters};
 use wedge::{Wedge, thesis};
 
 fn system(parameters: &Parameters) -> System {
     let mut system = Wedge::new(parameters.clone()).unwrap().system;
-    system.segment(0.0);
+    system.next_time_discontinuity(0.0);
     system
 }
 
-fn kinks(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
-    let (values, directions) = system.kink_counts();
-    let mut signs = KinkSigns {
+fn discontinuities(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
+    let (values, slips) = system.discontinuity_counts();
+    let mut functions = DiscontinuityFunctions {
         values: vec![0.0; values],
-        directions: vec![[0.0; 2]; directions],
+        slips: vec![[0.0; 2]; slips],
     };
-    system.kinks(time, x, &mut signs);
-    [&signs.values[..], signs.directions.as_flattened()].concat()
+    system.discontinuities(time, x, &mut functions);
+    [&functions.values[..], functions.slips.as_flattened()].concat()
 }
 
 /// As numbers: zero may have another sign, and what is not a number is as good as another.
@@ -32,14 +32,14 @@ fn equal(a: f64, b: f64) -> bool {
 
 /// Margins of all switches, and the modes that follow, by the signs of all at once.
 fn margins(system: &mut System, time: f64, x: &[f64], modes: &[u8]) -> (Vec<f64>, Vec<u8>) {
-    let mut signs = vec![f64::NAN; system.sign_count()];
-    system.signs(time, x, &mut signs);
+    let mut signs = vec![f64::NAN; system.event_variable_count()];
+    system.event_variables(time, x, &mut signs);
     let (mut margins, mut next) = (vec![f64::NAN; modes.len()], modes.to_vec());
-    for (number, group) in system.switch_groups().into_iter().enumerate() {
-        let (own, signs) = (group.switches, &signs[group.signs]);
-        system.group_margins(number, signs, &modes[own.clone()], &mut margins[own.clone()]);
+    for (number, group) in system.event_groups().into_iter().enumerate() {
+        let (own, signs) = (group.discrete_states, &signs[group.variables]);
+        system.group_event_functions(number, signs, &modes[own.clone()], &mut margins[own.clone()]);
         for (index, next) in next[own].iter_mut().enumerate() {
-            *next = system.next_mode(number, signs, index, *next);
+            *next = system.next_discrete_state(number, signs, index, *next);
         }
     }
     (margins, next)
@@ -47,9 +47,9 @@ fn margins(system: &mut System, time: f64, x: &[f64], modes: &[u8]) -> (Vec<f64>
 
 /// The signs of all groups, one after the other.
 fn face_signs(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
-    let mut signs = vec![f64::NAN; system.sign_count()];
-    for (number, group) in system.switch_groups().into_iter().enumerate() {
-        system.group_signs(number, time, x, &mut signs[group.signs]);
+    let mut signs = vec![f64::NAN; system.event_variable_count()];
+    for (number, group) in system.event_groups().into_iter().enumerate() {
+        system.group_event_variables(number, time, x, &mut signs[group.variables]);
     }
     signs
 }
@@ -63,10 +63,10 @@ fn ask(system: &mut System, question: usize, time: f64, x: &[f64], modes: &[u8])
             system.derivative(time, x, &mut dx);
             dx
         }
-        1 => kinks(system, time, x),
+        1 => discontinuities(system, time, x),
         2 => margins(system, time, x, modes).0,
         3 => face_signs(system, time, x),
-        4 => vec![system.stiffness(time, x)],
+        4 => vec![system.spectral_radius_bound(time, x)],
         _ => {
             system.derivative(time, x, &mut dx);
             let mut df_dt = vec![0.0; n];
@@ -98,7 +98,7 @@ fn what_was_asked_before_changes_nothing() {
         let untouched = system(&parameters);
         let mut asked = untouched.clone();
         let speeds = asked.layout().speeds;
-        let mut modes = vec![0u8; asked.switch_count()];
+        let mut modes = vec![0u8; asked.discrete_state_count()];
         let mut x = asked.initial_state();
         for _ in 0..3000 {
             // Now and then the same place is asked again.

@@ -18,7 +18,7 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     let system = &mut wedge.system;
-    system.segment(0.0);
+    system.next_time_discontinuity(0.0);
     let (mut dx, mut df_dt) = (vec![0.0; x.len()], vec![0.0; x.len()]);
     let mut time = 2.0;
     for _ in 0..number {

@@ -54,7 +54,7 @@ fn measure_all() -> Result<(), String> {
     }
     for name in ["nucars_68_constant_toe_out", "nucars_69_constant_toe_out"] {
         let (mut system, x) = sliding_truck(name)?;
-        system.segment(0.0);
+        system.next_time_discontinuity(0.0);
         let [derivative, jacobian, factor, solve] = costs(&mut system, 2.0, &x, 1e4, 2000);
         println!(
             "{name}: right-hand side {derivative:.2} us, Jacobian {jacobian:.2} us (ratio {:.1}), factor {factor:.2} us, \

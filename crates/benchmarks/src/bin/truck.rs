@@ -130,7 +130,7 @@ fn measure(rig: &Rig, method: Method, tolerance: f64) -> Result<(System, f64, Ve
         method.tableau().name,
         s.steps,
         s.rejected(),
-        s.rejected_unsolved,
+        s.rejected_newton,
         s.derivatives,
         s.jacobians,
         s.factorizations,

@@ -95,7 +95,7 @@ fn measure(count: usize, arrangement: Arrangement) -> Result<String, String> {
         (cost, events, end) = steps(&system, true)?;
         recorded = recorded.min(cost);
     }
-    system.segment(0.0);
+    system.next_time_discontinuity(0.0);
     let calls = (20_000 / end.len()).max(20);
     let [rates, jacobian, factor, solve] = costs(&mut system, 0.1, &end, 1e5, calls);
     let each = [bare, recorded, rates, jacobian, factor, solve].map(|cost| cost / count as f64);
@@ -119,7 +119,7 @@ fn begin(system: &System, recorded: bool) -> Result<Integrator<System>, String> 
     let options = Options {
         fixed_step: Some(STEP),
         explicit_steps: false,
-        record_switches: recorded,
+        record_events: recorded,
         ..Options::default()
     };
     Integrator::new(system.clone(), options, 0.0, &system.initial_state()).map_err(|error| error.to_string())

@@ -291,7 +291,7 @@ mod tests {
         let mut truck = truck();
         let x = truck.system.initial_state();
         let mut without = vec![0.0; x.len()];
-        truck.system.segment(0.0);
+        truck.system.next_time_discontinuity(0.0);
         truck.system.derivative(0.0, &x, &mut without);
         let load = [0.0, 0.0, 1000.0, 0.0, 0.0, 0.0];
         truck.set_loads(&[[[0.0; 6]; 2]; 4], load).unwrap();

@@ -77,7 +77,7 @@ impl TruckElement {
                 states[speeds + place] = start(START / 2 + coordinate);
             }
         }
-        truck.system.segment(setting.start_time);
+        truck.system.next_time_discontinuity(setting.start_time);
         let start_energy = truck.system.observe(setting.start_time, &states).energies.total();
         let integrator = match setting.interface {
             Interface::ModelExchange => None,
@@ -147,7 +147,7 @@ impl Element for TruckElement {
             return Err(Error::new("a step belongs to co-simulation"));
         };
         self.truck.put_loads(integrator.problem_mut())?;
-        integrator.renew();
+        integrator.reevaluate();
         let before = self.states[..speeds].to_vec();
         let length = time - integrator.time();
         let mut pace = Pace::of(integrator);
@@ -264,9 +264,9 @@ impl Element for TruckElement {
             (None, None) => {}
             (Some(integrator), Some(saved)) => {
                 integrator
-                    .admits(saved)
+                    .check_state(saved)
                     .map_err(|error| Error::new(error.to_string()))?;
-                let modes = &saved.modes;
+                let modes = &saved.discrete_states;
                 if let Some(mode) = modes.iter().find(|mode| **mode > Mode::Slip as u8) {
                     let expected = "0 (open), 1 (stick) or 2 (slip)";
                     return Err(damaged("a contact state of the truck", mode, expected));

@@ -1,4 +1,4 @@
-//! Lanes with derivatives.
+//! SIMD lanes with derivatives.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -15,7 +15,7 @@ pub struct LaneDual<const N: usize> {
 }
 
 impl<const N: usize> LaneDual<N> {
-    /// The independent variable number `index`.
+    /// Returns the independent variable number `index`.
     #[inline(always)]
     #[must_use]
     pub fn variable(value: Lanes, index: usize) -> Self {

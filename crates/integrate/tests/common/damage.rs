@@ -1,5 +1,5 @@
-//! Saved states edited by hand: every member of a saved state, replaced by every value of a list of nasty ones. Other crates use this
-//! file too.
+//! Saved states edited by hand: every member of a saved state, replaced by every value of a list of nasty
+//! ones. Other crates use this file too.
 
 use serde_json::{Value, json};
 
@@ -59,7 +59,8 @@ fn collect(value: &Value, at: &str, found: &mut Vec<String>) {
     }
 }
 
-/// Every state that differs from a saved one in one member, with its place; also with the member left out or, in a list, twice.
+/// Every state that differs from a saved one in one member, with its place; also with the member left out or,
+/// in a list, twice.
 pub fn damaged(saved: &Value) -> impl Iterator<Item = (String, Value)> {
     let (values, saved) = (nasty_values(), saved.clone());
     members(&saved).into_iter().flat_map(move |place| {

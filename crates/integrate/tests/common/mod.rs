@@ -1,14 +1,30 @@
 //! What several tests need.
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
+#![allow(dead_code)] // no test needs all of it
 
-use integrate::{Integrator, Options, Ordinary, Statistics};
+pub mod problems;
 
-/// Integrates from zero to `end`; the states there, and what it cost.
-pub fn run(problem: Ordinary<'_>, options: Options, start: &[f64], end: f64) -> (Vec<f64>, Statistics) {
+use integrate::{FunctionProblem, Integrator, Options, Statistics};
+
+/// Integrates from zero to `end`; returns the states there and the counters.
+pub fn run(
+    problem: FunctionProblem<'_>,
+    options: Options,
+    start: &[f64],
+    end: f64,
+) -> (Vec<f64>, Statistics) {
     let mut integrator = Integrator::new(problem, options, 0.0, start).unwrap();
     while integrator.time() < end {
         integrator.step_to(end).unwrap();
     }
     (integrator.x().to_vec(), integrator.statistics().clone())
+}
+
+/// Returns the largest error in units of the scales.
+pub fn scaled_error(x: &[f64], reference: &[f64], scales: &[f64]) -> f64 {
+    let errors = x.iter().zip(reference).zip(scales);
+    errors.fold(0.0, |most: f64, ((x, exact), scale)| {
+        most.max((x - exact).abs() / scale)
+    })
 }

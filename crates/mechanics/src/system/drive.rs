@@ -1,6 +1,6 @@
 //! What a caller may change in a system between two steps: motions of prescribed bodies, coils, friction.
 //!
-//! After a change the right-hand side is another one: [`integrate::Integrator::renew`] tells the integrator so.
+//! After a change the right-hand side is another one: [`integrate::Integrator::reevaluate`] tells the integrator so.
 
 use thiserror::Error;
 

@@ -62,7 +62,7 @@ impl System {
         let moving: Vec<_> = self.moved.iter().map(|m| m.motions.clone()).collect();
         // Motions have smooth pieces: the place at `time` is that of its own piece.
         let reference = self.reference;
-        self.segment(time);
+        self.next_time_discontinuity(time);
         // the prescribed bodies held where they are
         for moved in &mut self.moved {
             for motion in moved.motions.iter_mut() {

@@ -24,7 +24,7 @@ mod vibration;
 use std::ops::Range;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
-use integrate::{KinkSigns, Problem, Singular, SwitchGroup};
+use integrate::{DiscontinuityFunctions, EventGroup, Problem, Singular};
 
 use self::jacobian::Gathered;
 use crate::body::{Body, Kinematics, Rigid};
@@ -314,7 +314,7 @@ impl Problem for System {
         self.layout.len()
     }
 
-    fn read_states(&self) -> usize {
+    fn dynamic_states(&self) -> usize {
         self.layout.len() - self.layout.quadratures
     }
 
@@ -330,11 +330,11 @@ impl Problem for System {
         &self.error_bounds
     }
 
-    fn layer_bounds(&self) -> &[f64] {
+    fn zone_error_bounds(&self) -> &[f64] {
         &self.layer_bounds
     }
 
-    fn segment(&mut self, start: f64) -> f64 {
+    fn next_time_discontinuity(&mut self, start: f64) -> f64 {
         let end = self
             .bodies
             .iter()
@@ -370,7 +370,7 @@ impl Problem for System {
         self.differentiate_connections(x, unused);
     }
 
-    fn stiffness(&mut self, time: f64, x: &[f64]) -> f64 {
+    fn spectral_radius_bound(&mut self, time: f64, x: &[f64]) -> f64 {
         if !self.bounded {
             return f64::INFINITY;
         }
@@ -386,26 +386,26 @@ impl Problem for System {
         self.jacobian.solve(b);
     }
 
-    fn kink_counts(&self) -> (usize, usize) {
+    fn discontinuity_counts(&self) -> (usize, usize) {
         (self.point_count(), self.point_count())
     }
 
-    fn kinks(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
-        self.kink_signs(time, x, signs);
+    fn discontinuities(&mut self, time: f64, x: &[f64], functions: &mut DiscontinuityFunctions) {
+        self.kink_signs(time, x, functions);
     }
 
     /// Bristles come to slip without telling. (So do coils that go solid, but they change no more than their own stiffness.)
-    fn tells_pieces(&self) -> bool {
+    fn discontinuities_complete(&self) -> bool {
         self.tells_pieces
     }
 
-    fn switch_count(&self) -> usize {
+    fn discrete_state_count(&self) -> usize {
         self.point_count() + self.connections.switches.len()
     }
 
-    fn initial_modes(&mut self, time: f64, x: &[f64], modes: &mut [u8]) {
+    fn initial_discrete_states(&mut self, time: f64, x: &[f64], states: &mut [u8]) {
         self.place(time, x);
-        let (points, others) = modes.split_at_mut(self.point_count());
+        let (points, others) = states.split_at_mut(self.point_count());
         self.find_modes(x, points);
         self.connections
             .find_modes((&self.positions, &self.rates), self.internal(x), others);
@@ -413,56 +413,62 @@ impl Problem for System {
 
     /// Gap (m) and load of each point: the gaps of a face's points, their loads, and so on face by face; then of each connection with friction
     /// what presses it (N) and the load of its accumulator.
-    fn sign_count(&self) -> usize {
+    fn event_variable_count(&self) -> usize {
         2 * self.point_count() + SIGNS * self.connections.switches.len()
     }
 
-    fn signs(&mut self, time: f64, x: &[f64], signs: &mut [f64]) {
+    fn event_variables(&mut self, time: f64, x: &[f64], variables: &mut [f64]) {
         self.place(time, x);
-        let (points, others) = signs.split_at_mut(2 * self.point_count());
+        let (points, others) = variables.split_at_mut(2 * self.point_count());
         self.mode_signs(x, points);
         self.connections
             .signs((&self.positions, &self.rates), self.internal(x), others);
     }
 
     /// The points of each face, and all connections together.
-    fn switch_groups(&self) -> Vec<SwitchGroup> {
+    fn event_groups(&self) -> Vec<EventGroup> {
         let mut groups = self.point_groups();
         if !self.connections.switches.is_empty() {
-            groups.push(SwitchGroup {
-                switches: self.point_count()..self.switch_count(),
-                signs: 2 * self.point_count()..self.sign_count(),
-                states: std::iter::once(0..self.read_states()).collect(),
+            groups.push(EventGroup {
+                discrete_states: self.point_count()..self.discrete_state_count(),
+                variables: 2 * self.point_count()..self.event_variable_count(),
+                states: std::iter::once(0..self.dynamic_states()).collect(),
             });
         }
         groups
     }
 
-    fn group_signs(&mut self, group: usize, time: f64, x: &[f64], signs: &mut [f64]) {
+    fn group_event_variables(&mut self, group: usize, time: f64, x: &[f64], variables: &mut [f64]) {
         if group < self.faces.len() {
-            self.face_signs(group, time, x, signs);
+            self.face_signs(group, time, x, variables);
         } else {
             self.place(time, x);
             let places = (&self.positions[..], &self.rates[..]);
-            self.connections.signs(places, self.internal(x), signs);
+            self.connections.signs(places, self.internal(x), variables);
         }
     }
 
-    fn group_margins(&mut self, group: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
+    fn group_event_functions(
+        &mut self,
+        group: usize,
+        variables: &[f64],
+        states: &[u8],
+        functions: &mut [f64],
+    ) {
         if group < self.faces.len() {
-            self.face_margins(group, signs, modes, margins);
+            self.face_margins(group, variables, states, functions);
         } else {
-            for (i, (margin, mode)) in margins.iter_mut().zip(modes).enumerate() {
-                *margin = Signs::of(signs, i).margin(Mode::from_number(*mode));
+            for (i, (function, state)) in functions.iter_mut().zip(states).enumerate() {
+                *function = Signs::of(variables, i).margin(Mode::from_number(*state));
             }
         }
     }
 
-    fn next_mode(&mut self, group: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
+    fn next_discrete_state(&mut self, group: usize, variables: &[f64], index: usize, state: u8) -> u8 {
         if group < self.faces.len() {
-            self.follow_mode(group, signs, index, mode)
+            self.follow_mode(group, variables, index, state)
         } else {
-            Signs::of(signs, index).next(Mode::from_number(mode)) as u8
+            Signs::of(variables, index).next(Mode::from_number(state)) as u8
         }
     }
 }

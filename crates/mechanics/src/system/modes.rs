@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use integrate::lanes::{LANES, LaneMask, Lanes};
 use integrate::scalar::{Blend, Number};
-use integrate::{KinkSigns, SwitchGroup};
+use integrate::{DiscontinuityFunctions, EventGroup};
 
 use super::System;
 use crate::contact::View;
@@ -199,7 +199,7 @@ impl System {
 
     /// What foretells kinks: the gap of every point (m), and the slip of closed points over the reference speed of their law
     /// (open points and bristles: not a number).
-    pub(super) fn kink_signs(&mut self, time: f64, x: &[f64], signs: &mut KinkSigns) {
+    pub(super) fn kink_signs(&mut self, time: f64, x: &[f64], functions: &mut DiscontinuityFunctions) {
         self.place(time, x);
         self.meet();
         for (number, face) in self.faces.iter().enumerate() {
@@ -209,9 +209,9 @@ impl System {
                 FrictionLaw::Bristle { .. } => f64::NAN,
             };
             face.points.motions(|i, gap, slip| {
-                signs.values[own.start + i] = gap;
+                functions.values[own.start + i] = gap;
                 let closed = if gap < 0.0 { scale } else { f64::NAN };
-                signs.directions[own.start + i] = slip.map(|part| part * closed);
+                functions.slips[own.start + i] = slip.map(|part| part * closed);
             });
         }
     }
@@ -277,7 +277,7 @@ impl System {
     }
 
     /// The points of each face, with the states that they depend on.
-    pub(super) fn point_groups(&self) -> Vec<SwitchGroup> {
+    pub(super) fn point_groups(&self) -> Vec<EventGroup> {
         let group = |number: usize| {
             let face = &self.faces[number];
             let mut states = Vec::new();
@@ -289,9 +289,9 @@ impl System {
             }
             let first = 2 * self.layout.speeds + face.first_internal;
             states.push(first..first + face.internal_count);
-            SwitchGroup {
-                switches: self.points_of(number),
-                signs: self.signs_range(number),
+            EventGroup {
+                discrete_states: self.points_of(number),
+                variables: self.signs_range(number),
                 states,
             }
         };

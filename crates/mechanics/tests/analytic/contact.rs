@@ -145,7 +145,7 @@ fn surface_velocity_of_a_turning_plate() {
         ));
         let mut system = System::new(parts).unwrap();
         let time = 0.7;
-        system.segment(time);
+        system.next_time_discontinuity(time);
         let mut x = system.initial_state();
         let yaw_rate = random.between(-2.0, 2.0);
         let glide: [f64; 3] = random.vector(1.0);
@@ -221,7 +221,7 @@ fn slip_speed_on_a_disc() {
         face("f", &[[0.0; 3]], 1e3, 0.0, 0.5, law),
     ));
     let mut system = System::new(parts).unwrap();
-    system.segment(0.0);
+    system.next_time_discontinuity(0.0);
     let x = system.initial_state();
     for time in [0.0, 0.4, 1.3] {
         let seen = system.observe(time, &x);
@@ -252,7 +252,7 @@ fn places_and_masses_of_prescribed_bodies() {
     let probe = body("probe", 1.0, [1.0; 3], [0.0; 3], ALL, [0.0; 6]);
     let [without, with] = [light, heavy].map(|base| {
         let mut system = System::new(model(vec![probe.clone(), base, ground()], [0.0, 0.0, -9.8])).unwrap();
-        system.segment(0.0);
+        system.next_time_discontinuity(0.0);
         let x = system.initial_state();
         let seen = system.observe(0.4, &x);
         close(

@@ -132,7 +132,7 @@ pub fn integrate(
     end: f64,
     mut each: impl FnMut(&mut Integrator<System>),
 ) -> Integrator<System> {
-    system.segment(0.0);
+    system.next_time_discontinuity(0.0);
     let mut integrator = Integrator::new(system, options, 0.0, x).unwrap();
     while integrator.time() < end {
         integrator.step_to(end).unwrap();

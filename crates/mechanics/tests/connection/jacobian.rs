@@ -139,7 +139,7 @@ fn compare(model: &Model, seed: u64) -> Seen {
     let mut seen = Seen::default();
     for _ in 0..60 {
         let time = random.between(0.3, 1.9);
-        system.segment(time);
+        system.next_time_discontinuity(time);
         let mut x = system.initial_state();
         for (i, value) in x.iter_mut().enumerate().take(n - layout.quadratures) {
             let size = if i < layout.speeds {

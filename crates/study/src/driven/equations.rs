@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use integrate::{Problem, SetupError, SwitchGroup};
+use integrate::{EventGroup, Problem, SetupError};
 use mechanics::output::Column;
 use mechanics::system::{
     Along, Direction, DriveChange, DriveError, Energies, Mode, Observation, Sense, System,
@@ -99,7 +99,7 @@ pub struct Equations {
     time: f64,
     x: Vec<f64>,
     modes: Vec<u8>,
-    groups: Vec<SwitchGroup>,
+    groups: Vec<EventGroup>,
     signs: Vec<f64>,
     margins: Vec<f64>,
     neighbours: Neighbours,
@@ -135,7 +135,7 @@ impl Equations {
         let x = wedge.initial_state.clone();
         let start_energy = wedge.system.observe(0.0, &x).energies.total();
         let mut modes = vec![0; wedge.system.point_count()];
-        wedge.system.initial_modes(0.0, &x, &mut modes);
+        wedge.system.initial_discrete_states(0.0, &x, &mut modes);
         Ok(Self {
             outputs: Outputs::new(&wedge.parameters),
             friction: [
@@ -147,8 +147,8 @@ impl Equations {
             start_coil: coil,
             start_energy,
             time: 0.0,
-            groups: wedge.system.switch_groups(),
-            signs: vec![0.0; wedge.system.sign_count()],
+            groups: wedge.system.event_groups(),
+            signs: vec![0.0; wedge.system.event_variable_count()],
             margins: vec![0.0; modes.len()],
             modes,
             x,
@@ -333,7 +333,7 @@ impl Equations {
     /// For each corner a margin that is positive while its contact state lasts, and not positive when it must change.
     pub fn margins(&mut self) -> &[f64] {
         let system = &mut self.wedge.system;
-        system.signs(self.time, &self.x, &mut self.signs);
+        system.event_variables(self.time, &self.x, &mut self.signs);
         for number in 0..self.groups.len() {
             self.weigh(number);
         }
@@ -343,9 +343,14 @@ impl Equations {
     /// Brings the margins of a group up to date with its signs and contact states.
     fn weigh(&mut self, number: usize) {
         let group = &self.groups[number];
-        let (own, signs) = (group.switches.clone(), &self.signs[group.signs.clone()]);
+        let (own, signs) = (
+            group.discrete_states.clone(),
+            &self.signs[group.variables.clone()],
+        );
         let (modes, margins) = (&self.modes[own.clone()], &mut self.margins[own]);
-        self.wedge.system.group_margins(number, signs, modes, margins);
+        self.wedge
+            .system
+            .group_event_functions(number, signs, modes, margins);
     }
 
     /// Brings the contact states up to date; whether any has changed.
@@ -353,17 +358,17 @@ impl Equations {
         let mut changed = false;
         self.margins();
         for number in 0..self.groups.len() {
-            let own = self.groups[number].switches.clone();
+            let own = self.groups[number].discrete_states.clone();
             for corner in own.clone() {
                 // A change may lead straight to the next one, open to stick to slip.
                 for _ in 0..3 {
                     if self.margins[corner] > 0.0 {
                         break;
                     }
-                    let signs = &self.signs[self.groups[number].signs.clone()];
+                    let signs = &self.signs[self.groups[number].variables.clone()];
                     let mode = self.modes[corner];
                     let index = corner - own.start;
-                    let next = self.wedge.system.next_mode(number, signs, index, mode);
+                    let next = self.wedge.system.next_discrete_state(number, signs, index, mode);
                     if next == mode {
                         break;
                     }

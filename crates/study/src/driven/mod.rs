@@ -221,7 +221,7 @@ impl DrivenWedge {
     fn advance(&mut self, end: &Neighbours, start: f64, duration: f64, time: f64) -> Result<(), DrivenError> {
         let from = *self.equations.neighbours();
         from.lead(self.integrator.problem_mut(), start, duration, end)?;
-        self.integrator.renew();
+        self.integrator.reevaluate();
         let mut pace = Pace::of(&self.integrator);
         while self.integrator.time() < time {
             let name = |state| progress::state_name(self.equations.system(), state);
@@ -236,7 +236,7 @@ impl DrivenWedge {
                 })?;
         }
         self.equations
-            .follow(time, self.integrator.x(), self.integrator.modes(), end)
+            .follow(time, self.integrator.x(), self.integrator.discrete_states(), end)
     }
 
     /// Says where the coil's force comes from, from now on.
@@ -300,7 +300,7 @@ impl DrivenWedge {
         }
         state.check()?;
         // Refused before anything changes.
-        self.integrator.admits(&state.integrator)?;
+        self.integrator.check_state(&state.integrator)?;
         let mut fresh = None;
         if (state.start, state.start_coil) != (*self.equations.start(), self.equations.start_coil()) {
             let parameters = self.equations.parameters().clone();
@@ -323,7 +323,7 @@ impl DrivenWedge {
         self.equations.follow(
             time,
             self.integrator.x(),
-            self.integrator.modes(),
+            self.integrator.discrete_states(),
             &state.neighbours,
         )
     }

@@ -81,7 +81,7 @@ impl DrivenState {
         check_neighbours(&self.neighbours)?;
         check_coil(&self.coil)?;
         check_friction(self.friction)?;
-        check_modes(&self.integrator.modes)?;
+        check_modes(&self.integrator.discrete_states)?;
         if self.integrator.time < 0.0 {
             return Err(DrivenError::Value {
                 what: "the time of the saved state".to_owned(),

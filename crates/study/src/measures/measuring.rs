@@ -98,7 +98,7 @@ impl Measuring {
         let start = wedge.initial_state.clone();
         let start_energy = wedge.system.energies(0.0, &start).total();
         let mut this = Self {
-            clock: ContactClock::new(integrator.modes(), averaged),
+            clock: ContactClock::new(integrator.discrete_states(), averaged),
             cycle,
             window,
             start_energy,

@@ -1,6 +1,6 @@
 //! Whether a saved state can be one of a case's run: all that could lead a run astray is looked at before it goes on.
 
-use integrate::MOST_COUNTED;
+use integrate::MAXIMUM_COUNT;
 use mechanics::system::Mode;
 use wedge::outputs::{CORNERS, FACES};
 
@@ -54,16 +54,16 @@ impl RunState {
                 format!("between 0 and the duration, {end} s"),
             );
         }
-        if self.integrator.segment_start < 0.0 {
+        if self.integrator.interval_start < 0.0 {
             return damaged(
                 "integrator.segment_start",
-                self.integrator.segment_start,
+                self.integrator.interval_start,
                 "zero or positive",
             );
         }
         if let Some(mode) = self
             .integrator
-            .modes
+            .discrete_states
             .iter()
             .find(|mode| **mode > Mode::Slip as u8)
         {
@@ -132,11 +132,11 @@ impl Counts {
             .try_for_each(|value| check_finite("counts.probes", *value))?;
         let counters = self.events.iter().flatten();
         let counters = counters.chain([&self.event_total, &self.pace.attempts]);
-        if let Some(count) = counters.copied().find(|count| *count > MOST_COUNTED) {
+        if let Some(count) = counters.copied().find(|count| *count > MAXIMUM_COUNT) {
             return damaged(
                 "counts.events, counts.event_total or counts.pace.attempts",
                 count,
-                format!("at most {MOST_COUNTED}"),
+                format!("at most {MAXIMUM_COUNT}"),
             );
         }
         if self.listed.len() > EVENT_CAP {

@@ -302,7 +302,7 @@ fn yaw_at_rest(name: &str) -> f64 {
     let mut system = system(name);
     let x = system.initial_state();
     // Prescribed bodies are where the smooth piece around this time says.
-    system.segment(10.0);
+    system.next_time_discontinuity(10.0);
     let held = system.equilibrium(10.0, &x, StaticFriction::Without).unwrap();
     held[system.position_of(BODY, 5).unwrap()]
 }

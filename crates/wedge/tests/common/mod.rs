@@ -48,7 +48,7 @@ pub fn run_system(
     let mut run = Integrator::new(system.clone(), options, 0.0, start).unwrap();
     let first = observer.observe(0.0, start);
     let start_energy = first.energies.total();
-    each(&first, run.modes());
+    each(&first, run.discrete_states());
     let (mut row, mut buffer, mut events) = (1, start.to_vec(), Vec::new());
     while run.time() < until {
         run.step_to(until).unwrap();
@@ -62,7 +62,7 @@ pub fn run_system(
             }
             let time = time.min(run.time());
             run.interpolate(time, &mut buffer);
-            each(&observer.observe(time, &buffer), run.modes());
+            each(&observer.observe(time, &buffer), run.discrete_states());
             row += 1;
         }
     }

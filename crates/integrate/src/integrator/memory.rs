@@ -1,0 +1,103 @@
+//! Plain data of the integrator: the attempt at a step, and the memory of the dense-output correction.
+
+use crate::discontinuity::Prediction;
+use crate::error::Reason;
+use crate::methods::tableau::Family;
+
+/// Why an attempt failed, and the index of the state to blame.
+pub(super) struct Failure {
+    pub reason: Reason,
+    pub index: Option<usize>,
+}
+
+/// The norm of the error of an attempt in units of the tolerance, or why it failed.
+pub(super) type Outcome = Result<f64, Failure>;
+
+/// The current attempt at a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Attempt {
+    /// Latest end of the step.
+    pub end: f64,
+    /// Planned length of the step.
+    pub proposed: f64,
+    /// Length and end of the attempt.
+    pub step: f64,
+    pub target: f64,
+    /// The predicted discontinuity or zone at which the attempt ends.
+    pub prediction: Option<Prediction>,
+    /// Whether the attempt is shorter than planned, because of a limit or a prediction.
+    pub truncated: bool,
+    /// Error of the last attempt that was rejected because of its error, in units of the tolerance.
+    pub scaled_error: f64,
+    /// Whether the attempt only finds out where a value that is not finite comes from.
+    pub diagnostic: bool,
+    /// Index of the state to blame for the failure before a diagnostic attempt.
+    pub blamed: Option<usize>,
+}
+
+impl Attempt {
+    pub const NONE: Self = Self {
+        end: f64::NAN,
+        proposed: f64::NAN,
+        step: f64::NAN,
+        target: f64::NAN,
+        prediction: None,
+        truncated: false,
+        scaled_error: 0.0,
+        diagnostic: false,
+        blamed: None,
+    };
+}
+
+/// The matrix for the correction of the dense output of the last step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum CorrectionMatrix {
+    /// Nothing is corrected in this step.
+    #[default]
+    None,
+    /// The problem holds the matrix of the step; the first correction decides whether any is needed.
+    Undecided,
+    /// The problem holds the matrix of the step.
+    OfStep,
+    /// The problem holds another matrix; that of the step can be evaluated again.
+    Replaced,
+}
+
+/// Memory of the dense-output correction.
+#[derive(Debug, Default)]
+pub(super) struct DenseCorrection {
+    pub matrix: CorrectionMatrix,
+    /// States of the dense output, and the corrected ones.
+    pub start: Vec<f64>,
+    pub x: Vec<f64>,
+    /// Derivative of the dense output.
+    pub derivative: Vec<f64>,
+    /// Right-hand side; then the correction.
+    pub rate: Vec<f64>,
+}
+
+impl DenseCorrection {
+    /// Returns the memory for vectors of `stride` entries.
+    pub fn new(stride: usize) -> Self {
+        Self {
+            matrix: CorrectionMatrix::None,
+            start: vec![0.0; stride],
+            x: vec![0.0; stride],
+            derivative: vec![0.0; stride],
+            rate: vec![0.0; stride],
+        }
+    }
+
+    /// Allows corrections in a step just accepted, if it was made by a Rosenbrock method.
+    pub fn start_step(&mut self, family: Family) {
+        self.matrix = match family {
+            Family::LinearlyImplicit => CorrectionMatrix::Undecided,
+            Family::DiagonallyImplicit | Family::Explicit => CorrectionMatrix::None,
+        };
+    }
+
+    /// Disables corrections in the last step: its matrix or the right-hand side may have changed.
+    pub fn disable(&mut self) {
+        self.matrix = CorrectionMatrix::None;
+    }
+}

@@ -1,0 +1,12 @@
+//! Version and limits of saved states.
+
+/// Version of the layout of [`crate::State`]. States of other versions are refused.
+pub const STATE_VERSION: u32 = 13;
+
+/// Largest admissible counter in a saved state. A run of a million steps per second reaches it in thirty
+/// years, and no counter below it can overflow in a run.
+pub const MAXIMUM_COUNT: u64 = 1_000_000_000_000_000;
+
+/// Largest admissible number of rejections in a row in a saved state. Each rejection shortens the step, so a
+/// few thousand lead from the longest step to none.
+pub(crate) const MAXIMUM_REJECTIONS: u32 = 1_000_000;
