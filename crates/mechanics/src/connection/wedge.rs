@@ -28,10 +28,10 @@
 //! but 1e-4 of it by the slip velocity); it is integrated from its own forces and velocities and is a ledger entry of its own.
 //!
 //! Source: names of the parameters and signs from published input files and their comments; the law itself is derived,
-//! choices are listed in [`crate::small::Options`]. Defects: no mass, no moments, no lift-off ringing. The slope's friction is no slider of
+//! choices are listed in [`crate::connection::Options`]. Defects: no mass, no moments, no lift-off ringing. The slope's friction is no slider of
 //! its own: where the bolster swings along x it can feed energy (a negative slope entry in the ledger tells), above all jammed (toe
 //! in with much friction: a half-truck with yaw then chatters at hundreds of hertz) and with
-//! [`crate::small::Options::rise_in_slip`]; [`SlopeDirection::OwnSlip`] is the remedy, with `-μ_s tanh(slip/v0)` in place of `α x`. Where `μ_c x N(x)` is not monotonic (steep angles with high friction) sticking and
+//! [`crate::connection::Options::rise_in_slip`]; [`SlopeDirection::OwnSlip`] is the remedy, with `-μ_s tanh(slip/v0)` in place of `α x`. Where `μ_c x N(x)` is not monotonic (steep angles with high friction) sticking and
 //! slipping disagree about N at the limit.
 
 use integrate::scalar::Real;
