@@ -7,7 +7,7 @@
 //! on B.
 //!
 //! How connections of the comparison program's files become [`Law`]s (its tables give ordinates first; read with
-//! [`Curve::mirrored_from_origin`] as `[abscissa, ordinate]`; no table: none, or zero):
+//! [`Curve::mirrored_from_origin`](crate::curve::Curve::mirrored_from_origin) as `[abscissa, ordinate]`; no table: none, or zero):
 //!
 //! | type | law |
 //! |---|---|
