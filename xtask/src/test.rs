@@ -96,7 +96,11 @@ const CHECKS: &[Check] = &[
         "the race's driver in C compiles, and CVODE agrees with our integrator (installs SUNDIALS)",
         race::check,
     ),
-    Check::new("doctest", "the examples in the documentation run", doc_tests),
+    Check::new(
+        "doctest",
+        "the examples in the documentation and the example programs run",
+        doc_tests,
+    ),
     Check::new("doc", "the documentation builds without a warning", docs),
     Check::new(
         "page",
@@ -144,8 +148,14 @@ fn broken_inputs(workspace: &Workspace) -> Outcome {
     Ok(None)
 }
 
+/// Example programs, which check what they print.
+const EXAMPLES: [&str; 2] = ["custom_element", "stick_slip"];
+
 fn doc_tests(workspace: &Workspace) -> Outcome {
     shell::run(&mut workspace.cargo(["test", "--workspace", "--release", "--no-fail-fast", "--doc"]))?;
+    for example in EXAMPLES {
+        shell::run(&mut workspace.cargo(["run", "--release", "-p", "mechanics", "--example", example]))?;
+    }
     Ok(None)
 }
 

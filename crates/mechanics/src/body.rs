@@ -64,6 +64,19 @@ impl Body {
         }
     }
 
+    /// A body with six free coordinates, measured from the fixed frame, its centre of gravity at its origin: mass (kg), principal moments of
+    /// inertia (kg·m²), coordinates at the start (m, rad).
+    #[must_use]
+    pub fn free(name: &str, mass: f64, inertia: [f64; 3], initial: [f64; 6]) -> Self {
+        Self {
+            mass,
+            inertia,
+            free: [true; 6],
+            initial,
+            ..Self::prescribed(name, Frame::fixed([0.0; 3], [0.0; 3]))
+        }
+    }
+
     /// A body with linearized kinematics: its centre of gravity in the drawn layout (m), which coordinates are free, mass (kg) and principal
     /// moments of inertia (kg·m²). The other coordinates stay at zero.
     #[must_use]

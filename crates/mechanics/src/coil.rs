@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::Kinematics;
 use crate::characteristic::Characteristic;
+use crate::element::{Action, Element, Inputs};
 use crate::link::{Effect, Relative, Sight};
-use crate::tangent::{Action, Inputs, Law};
 use crate::vector::Vector;
 
 /// Force by compression.
@@ -113,17 +113,13 @@ impl CoilLaw {
 impl Coil {
     /// The coil's force.
     #[inline(always)]
-    pub fn evaluate<S: Real>(&self, relative: &Relative<S>) -> CoilForce<S> {
-        self.evaluate_with(relative, |length| self.spring(length))
+    pub fn on_body<S: Real>(&self, relative: &Relative<S>) -> CoilForce<S> {
+        self.on_body_with(relative, |length| self.spring(length))
     }
 
     /// The same with a spring force (N) by the length (m) of the caller's own.
     #[inline(always)]
-    pub fn evaluate_with<S: Real>(
-        &self,
-        relative: &Relative<S>,
-        spring: impl FnOnce(S) -> S,
-    ) -> CoilForce<S> {
+    pub fn on_body_with<S: Real>(&self, relative: &Relative<S>, spring: impl FnOnce(S) -> S) -> CoilForce<S> {
         // A coil that ends at the body's origin, as in a wedge, needs no lever.
         if self.end == Vector::zero() {
             return self.at_end(relative, spring);
@@ -162,7 +158,7 @@ impl Coil {
         }
     }
 
-    /// What the coil does to its body, seen from a mount that does not turn: [`Coil::evaluate`] with as few products as there need be.
+    /// What the coil does to its body, seen from a mount that does not turn: [`Coil::on_body`] with as few products as there need be.
     #[inline(always)]
     pub(crate) fn effect(&self, sight: &Sight<f64>, body: &Kinematics<f64>) -> Effect {
         let (rotation, spin, end) = (&body.turn.rotation, body.spin, self.end);
@@ -186,16 +182,6 @@ impl Coil {
         }
     }
 
-    /// On what its wrench about its end depends.
-    #[must_use]
-    pub(crate) fn inputs(&self) -> Inputs {
-        if self.acts_at == self.end && self.rotational_damping == 0.0 {
-            Inputs::Points
-        } else {
-            Inputs::Motion
-        }
-    }
-
     /// Spring force at a length (m), N.
     #[inline(always)]
     pub fn spring<S: Real>(&self, length: S) -> S {
@@ -205,7 +191,7 @@ impl Coil {
 
     /// Stored energy at a length, J; zero at the free length.
     #[must_use]
-    pub fn energy(&self, length: f64) -> f64 {
+    pub fn stored_energy(&self, length: f64) -> f64 {
         let compression = self.free_length - length;
         match &self.law {
             _ if !self.pulls && self.spring(length) <= 0.0 => match &self.law {
@@ -220,10 +206,27 @@ impl Coil {
     }
 }
 
-impl Law for Coil {
-    /// The wrench by the motion of the coil's end, about it.
+/// Marker A is the coil's end, marker B its seat.
+impl Element for Coil {
+    fn name(&self) -> &str {
+        "coil"
+    }
+
+    fn energy(&self, relative: &Relative<f64>) -> f64 {
+        let d = relative.position;
+        self.stored_energy(d.dot::<f64, f64>(d).sqrt())
+    }
+
+    fn inputs(&self) -> Inputs {
+        if self.acts_at == self.end && self.rotational_damping == 0.0 {
+            Inputs::Points
+        } else {
+            Inputs::Motion
+        }
+    }
+
     #[inline(always)]
-    fn wrench<S: Real>(&self, relative: &Relative<S>) -> Action<S> {
+    fn evaluate<S: Real>(&self, relative: &Relative<S>) -> Action<S> {
         let coil = self.at_end(relative, |length| self.spring(length));
         Action {
             force: coil.force,

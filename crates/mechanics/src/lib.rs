@@ -12,6 +12,7 @@ pub mod coil;
 pub mod connection;
 pub mod contact;
 pub mod curve;
+pub mod element;
 pub mod energy_balance;
 pub mod frame;
 pub mod friction;

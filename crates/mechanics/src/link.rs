@@ -167,6 +167,18 @@ pub struct Relative<S> {
 }
 
 impl<S: Real> Relative<S> {
+    /// Returns the small rotations about the mount's axes, rad: half the antisymmetric part of the rotation, `sin(angle)` times its axis.
+    #[inline(always)]
+    #[must_use]
+    pub fn small_rotations(&self) -> Vector<S> {
+        let Matrix(r) = self.rotation;
+        Vector([
+            (r[2][1] - r[1][2]) * 0.5,
+            (r[0][2] - r[2][0]) * 0.5,
+            (r[1][0] - r[0][1]) * 0.5,
+        ])
+    }
+
     /// The motion of a point of the body (body axes, from its origin) instead of the body's origin.
     #[inline(always)]
     #[must_use]

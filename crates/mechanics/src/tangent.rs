@@ -7,21 +7,11 @@
 //! [`Tangent::of`].
 
 use integrate::lanes::Lanes;
-use integrate::scalar::{Dual, Real};
+use integrate::scalar::Dual;
 
+use crate::element::{Action, Element, Inputs};
 use crate::link::Relative;
 use crate::vector::{Matrix, Vector};
-
-/// The wrench of an element on the body that it carries.
-#[derive(Clone, Copy, Debug)]
-pub struct Action<S> {
-    /// Force, axes of marker B, N.
-    pub force: Vector<S>,
-    /// Moment about marker A, axes of marker B, N·m.
-    pub moment: Vector<S>,
-    /// Powers of the element's dissipation terms, W.
-    pub powers: [S; 2],
-}
 
 impl Action<Dual<1>> {
     /// The wrench of a tangent with a change as its derivative; the powers have no value.
@@ -84,15 +74,6 @@ pub(crate) struct Tangent {
     pub by: Columns,
 }
 
-/// On what a wrench depends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Inputs {
-    /// Position and velocity of marker A alone: a force between two points.
-    Points,
-    /// All of the relative motion.
-    Motion,
-}
-
 /// `Σ_i weights_i columns_i`.
 #[inline(always)]
 pub(crate) fn combined(columns: &[Column; 3], weights: Vector<f64>) -> Column {
@@ -130,7 +111,7 @@ impl Tangent {
 
     /// The tangent of a law that is written over any scalar.
     #[inline(always)]
-    pub fn of(inputs: Inputs, relative: &Relative<f64>, law: &impl Law) -> Self {
+    pub fn of(inputs: Inputs, relative: &Relative<f64>, law: &impl Element) -> Self {
         match inputs {
             Inputs::Points => Self::seeded::<6>(relative, law),
             Inputs::Motion => Self::seeded::<12>(relative, law),
@@ -139,7 +120,7 @@ impl Tangent {
 
     /// The tangent by numbers with `N` derivatives: by position and velocity, and from 12 on by rotation and angular velocity.
     #[inline(always)]
-    fn seeded<const N: usize>(relative: &Relative<f64>, law: &impl Law) -> Self {
+    fn seeded<const N: usize>(relative: &Relative<f64>, law: &impl Element) -> Self {
         let seed = |vector: Vector<f64>, first: usize| {
             Vector(std::array::from_fn(|i| {
                 Dual::<N>::variable(vector.0[i], first + i)
@@ -159,7 +140,7 @@ impl Tangent {
                 }
             }
         }
-        let action = law.wrench(&Relative {
+        let action = law.evaluate(&Relative {
             position: seed(relative.position, 0),
             rotation,
             velocity: seed(relative.velocity, 3),
@@ -215,12 +196,6 @@ impl Columns {
             ),
         )
     }
-}
-
-/// The law of an element, for any scalar.
-pub(crate) trait Law {
-    /// The wrench at a relative motion.
-    fn wrench<S: Real>(&self, relative: &Relative<S>) -> Action<S>;
 }
 
 impl Change {

@@ -46,8 +46,11 @@ impl System {
         }
         for mounted in &self.coils {
             let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
-            let coil = mounted.element.evaluate(&relative);
-            energies.coil += mounted.element.energy(coil.length);
+            let coil = mounted.element.on_body(&relative);
+            energies.coil += mounted.element.stored_energy(coil.length);
+        }
+        for mounted in &self.elements {
+            energies.element += self.element_energy(mounted);
         }
         if !self.connections.is_empty() {
             let places = (&self.positions[..], &self.rates[..]);

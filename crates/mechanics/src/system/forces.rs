@@ -11,14 +11,15 @@ use super::{FreeBody, Mounted, System};
 use crate::body::{Kinematics, Rigid};
 use crate::coil::{Coil, CoilForce};
 use crate::contact::{ContactFace, FaceResultant, Points, View};
+use crate::element::{Action, Element, Marked};
 use crate::frame::FrameMotion;
 use crate::link::{Effect, Mount, Relative, Sight};
 use crate::surface::Plane;
-use crate::tangent::{Action, Columns, Tangent};
+use crate::tangent::{Columns, Tangent};
 use crate::vector::Vector;
 
-/// An element between two bodies.
-pub(super) trait Element: Sized {
+/// An element in its place between two bodies.
+pub(super) trait Mountable: Sized {
     /// What it does to the body that it carries; `rates` receives the rates of the internal states.
     fn act(
         &self,
@@ -59,7 +60,7 @@ pub(super) trait Element: Sized {
 /// The quadrature of the work of all prescribed motions: the first one.
 pub(super) const WORK: usize = 0;
 
-impl Element for ContactFace<Plane> {
+impl Mountable for ContactFace<Plane> {
     #[inline(always)]
     fn act(
         &self,
@@ -101,10 +102,10 @@ impl Element for ContactFace<Plane> {
     }
 }
 
-impl Element for Coil {
+impl Mountable for Coil {
     #[inline(always)]
     fn act(&self, _: &mut Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> Effect {
-        let coil = self.evaluate(relative);
+        let coil = self.on_body(relative);
         Effect {
             force: coil.force,
             moment: relative.rotation.apply_transposed(coil.moment),
@@ -130,6 +131,38 @@ impl Element for Coil {
     #[inline(always)]
     fn tangent(&self, _: &Points, relative: &Relative<f64>, _: &mut [Columns]) -> Tangent {
         Tangent::of(self.inputs(), relative, self)
+    }
+}
+
+impl Mountable for Marked {
+    #[inline(always)]
+    fn act(&self, _: &mut Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> Effect {
+        let action = self.on_body(relative);
+        Effect {
+            force: action.force,
+            moment: relative.rotation.apply_transposed(action.moment),
+            powers: action.powers,
+        }
+    }
+
+    #[inline(always)]
+    fn act_from(
+        &self,
+        points: &mut Points,
+        (sight, body): (&Sight<f64>, &Kinematics<f64>),
+        internal: &[f64],
+        rates: &mut [f64],
+    ) -> Option<Effect> {
+        Some(self.act(points, &sight.relative(body), internal, rates))
+    }
+
+    fn marker(&self) -> Vector<f64> {
+        self.marker.origin
+    }
+
+    #[inline(always)]
+    fn tangent(&self, _: &Points, relative: &Relative<f64>, _: &mut [Columns]) -> Tangent {
+        self.element.tangent(&self.turned(relative))
     }
 }
 
@@ -252,6 +285,11 @@ impl System {
                 let powers = (&mut *d_quadratures, &mut work);
                 apply(coil, &self.kinematics, &[], &mut [], loads, powers);
             }
+            for element in &mut self.elements {
+                let loads = (&mut self.force[..], &mut self.moment[..]);
+                let powers = (&mut *d_quadratures, &mut work);
+                apply(element, &self.kinematics, &[], &mut [], loads, powers);
+            }
         }
         d_quadratures[WORK] = work;
         if !self.connections.is_empty() {
@@ -295,7 +333,7 @@ impl System {
 /// Adds what a plain element does to its body to force and moment, and writes the powers of its channels; a neighbour that is driven does
 /// work.
 #[inline(always)]
-fn push<E: Element>(
+fn push<E: Mountable>(
     mounted: &mut Mounted<E>,
     kinematics: &Kinematics<f64>,
     (internal, rates): (&[f64], &mut [f64]),
@@ -352,7 +390,7 @@ fn accelerate(
 
 /// Adds what an element does that is not plain.
 #[inline(always)]
-fn apply<E: Element>(
+fn apply<E: Mountable>(
     mounted: &mut Mounted<E>,
     kinematics: &[Kinematics<f64>],
     internal: &[f64],

@@ -10,7 +10,7 @@ use integrate::partitioned::Partitioned;
 use integrate::scalar::Dual;
 
 use super::chain::{Block, Chain, NO_BLOCK, Powers, add_block};
-use super::forces::Element;
+use super::forces::Mountable;
 use super::{FreeBody, Mounted, System};
 use crate::body::Kinematics;
 use crate::connection;
@@ -75,6 +75,9 @@ impl System {
         }
         for coil in &mut self.coils {
             differentiate_element(coil, &scene, &mut self.gathered, &mut self.jacobian);
+        }
+        for element in &mut self.elements {
+            differentiate_element(element, &scene, &mut self.gathered, &mut self.jacobian);
         }
         for number in 0..self.free.len() {
             let free = &self.free[number];
@@ -180,7 +183,7 @@ impl System {
 
 /// Adds the derivatives of one element to those of its bodies and its powers, and of its internal states.
 #[inline(always)]
-fn differentiate_element<E: Element>(
+fn differentiate_element<E: Mountable>(
     mounted: &mut Mounted<E>,
     scene: &Scene<'_>,
     gathered: &mut [Gathered],

@@ -4,7 +4,7 @@
 //! [`System::observe`] says the same of every point, and all energies, at four times the cost. Nothing is allocated after the first use of
 //! [`Loads`].
 
-use super::forces::Element;
+use super::forces::Mountable;
 use super::observe::{BodyPlace, CoilState, FaceState};
 use super::{Mounted, System};
 use crate::link::{Effect, Relative};
@@ -128,7 +128,7 @@ impl System {
         out.coils.clear();
         for mounted in &self.coils {
             let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
-            let coil = mounted.element.evaluate(&relative);
+            let coil = mounted.element.on_body(&relative);
             out.coils.push(CoilLoad {
                 spring: self.along_fixed_axes(mounted, coil.spring_force),
                 force: self.along_fixed_axes(mounted, coil.force),

@@ -31,6 +31,7 @@ use crate::body::{Body, Kinematics, Rigid};
 use crate::coil::Coil;
 use crate::connection::{Connection, Connections, SIGNS, Signs};
 use crate::contact::ContactFace;
+use crate::element::Marked;
 use crate::frame::FrameMotion;
 use crate::friction::FrictionLaw;
 use crate::link::Mount;
@@ -45,7 +46,7 @@ pub use loads::{CoilLoad, FaceLoad, Loads};
 pub(crate) use model::Parts;
 pub use model::{Channel, ChannelKind, Model, ModelError, Mounted};
 pub use modes::{CLOSING_GAP, Mode, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
-pub use observe::{BodyPlace, CoilState, Energies, FaceState, Observation};
+pub use observe::{BodyPlace, CoilState, ElementState, Energies, FaceState, Observation};
 pub use sense::{CoilSense, Load, PointSense, Sense};
 pub use vibration::{Held, NoVibration, Vibration, Vibrations};
 
@@ -147,6 +148,7 @@ pub struct System {
     gravity: Vector<f64>,
     faces: Vec<Mounted<ContactFace<Plane>>>,
     coils: Vec<Mounted<Coil>>,
+    elements: Vec<Mounted<Marked>>,
     /// The number of each face's first point among all points.
     first_points: Vec<usize>,
     channels: Vec<Channel>,

@@ -11,6 +11,7 @@ use crate::body::{Body, COORDINATES, Kinematics};
 use crate::coil::Coil;
 use crate::connection::{self, Connection, ConnectionError, Options};
 use crate::contact::{ContactFace, Points};
+use crate::element::{Element, Marked, Placement};
 use crate::frame::Frame;
 use crate::friction::FrictionLaw;
 use crate::link::{Mount, Sight, Translation};
@@ -20,7 +21,7 @@ use crate::tangent::{Columns, Tangent};
 use crate::vector::Vector;
 
 /// Bodies and the elements between them.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Model {
     /// All bodies, free and prescribed.
     pub bodies: Vec<Body>,
@@ -31,10 +32,29 @@ pub struct Model {
     pub faces: Vec<(usize, usize, Mount, ContactFace<Plane>)>,
     /// Coils: number of the carried body (free), number of the body with the seat, mount of the seat.
     pub coils: Vec<(usize, usize, Mount, Coil)>,
+    /// Other force elements.
+    pub elements: Vec<Placement>,
     /// Connections of bodies with linearized kinematics.
     pub connections: Vec<Connection>,
     /// What the laws of connections leave open.
     pub options: Options,
+}
+
+impl Model {
+    /// Bodies without elements, in a field of gravity (m/s²).
+    #[must_use]
+    pub fn new(bodies: Vec<Body>, gravity: [f64; 3]) -> Self {
+        Self {
+            bodies,
+            gravity,
+            ..Self::default()
+        }
+    }
+
+    /// Adds a force element between marker A on one body (its number), which must have free coordinates, and marker B on another.
+    pub fn add(&mut self, element: impl Element, a: (usize, Mount), b: (usize, Mount)) {
+        self.elements.push(Placement::new(element, a, b));
+    }
 }
 
 /// Why a model makes no system.
@@ -168,6 +188,8 @@ pub enum ChannelKind {
     CoilDampingLoss,
     /// Work done by a coil's guiding couple.
     CoilGuideWork,
+    /// Energy lost in another force element.
+    ElementLoss,
     /// Energy lost in dampers of springs.
     SpringDamping,
     /// Energy lost behind gaps.
@@ -194,6 +216,7 @@ impl ChannelKind {
             Self::ContactDampingLoss => "contact_damping_loss",
             Self::CoilDampingLoss => "coil_damping_loss",
             Self::CoilGuideWork => "coil_guide_work",
+            Self::ElementLoss => "element_loss",
             Self::SpringDamping => "spring_damping_loss",
             Self::GapDamping => "gap_damping_loss",
             Self::SurfaceFriction => "surface_friction_loss",
@@ -219,6 +242,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         gravity,
         faces,
         coils,
+        elements,
         connections,
         options,
     } = model;
@@ -322,6 +346,19 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         mounted_coils.push(placer.place(coil, &name, body, on, mount, kinds, 0)?);
     }
 
+    let mut mounted_elements = Vec::new();
+    for Placement {
+        ends: [body, on],
+        markers: [marker, mount],
+        element,
+    } in elements
+    {
+        let name = element.name().to_owned();
+        let kinds = [Some(ChannelKind::ElementLoss), None];
+        let marked = Marked { element, marker };
+        mounted_elements.push(placer.place(marked, &name, body, on, mount, kinds, 0)?);
+    }
+
     for (index, connection) in connections.iter().enumerate() {
         connection.check(index, &bodies, &options)?;
     }
@@ -334,6 +371,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     let coils_at = mounted_coils.iter().map(|m| (m.body, m.on));
     let couplings = faces_at
         .chain(coils_at)
+        .chain(mounted_elements.iter().map(|m| (m.body, m.on)))
         .filter_map(|(body, on)| ends(body, on))
         .chain(coupled)
         .collect();
@@ -360,6 +398,10 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         for number in mounted.touches(&free_number) {
             free[number].coils.push(coil);
         }
+    }
+
+    for mounted in &mut mounted_elements {
+        mounted.find_pairs(&jacobian, &free_number);
     }
 
     let mut error_scales = vec![f64::INFINITY; layout.len()];
@@ -393,8 +435,9 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         })
         .collect();
     let moves = frames.iter().any(|frame| !frame.fixed) || !moved.is_empty();
-    let plain = mounted_faces.iter().all(|m| m.plain) && mounted_coils.iter().all(|m| m.plain);
-    let tells_pieces = connections.is_empty() && mounted_faces.iter().all(|face| face.internal_count == 0);
+    let none = connections.is_empty() && mounted_elements.is_empty();
+    let plain = none && mounted_faces.iter().all(|m| m.plain) && mounted_coils.iter().all(|m| m.plain);
+    let tells_pieces = none && mounted_faces.iter().all(|face| face.internal_count == 0);
     let bounded = plain && free.iter().all(|free| frames[free.body].fixed) && tells_pieces;
     for face in &mut mounted_faces {
         let body = &bodies[face.body];
@@ -435,6 +478,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         gravity: Vector(gravity),
         faces: mounted_faces,
         coils: mounted_coils,
+        elements: mounted_elements,
         first_points,
         channels: parts.channels,
         layout,
@@ -581,6 +625,7 @@ fn error_bounds(
 mod tests {
     use super::*;
     use crate::coil::CoilLaw;
+    use crate::element::{Element, Marked, Placement};
     use crate::frame::Frame;
     use crate::vector::Vector;
 

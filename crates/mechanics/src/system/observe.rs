@@ -2,10 +2,11 @@
 
 use integrate::Problem;
 
-use super::{ChannelKind, System};
+use super::{ChannelKind, Mounted, System};
 use crate::coil::CoilForce;
 use crate::connection::ConnectionState;
 use crate::contact::PointContact;
+use crate::element::Marked;
 use crate::link::Relative;
 use crate::vector::{Matrix, Vector};
 
@@ -91,6 +92,17 @@ pub struct CoilState {
     pub energy: f64,
 }
 
+/// A force element of another kind.
+#[derive(Clone, Copy, Debug)]
+pub struct ElementState {
+    /// Force on the body with marker A, fixed axes, N.
+    pub force: Vector<f64>,
+    /// The moment about that body's origin, fixed axes, N·m.
+    pub moment: Vector<f64>,
+    /// Stored energy, J.
+    pub energy: f64,
+}
+
 /// Energies of the whole system, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energies {
@@ -106,13 +118,15 @@ pub struct Energies {
     pub bristle: f64,
     /// Energy of the springs of connections, also behind gaps and under surfaces.
     pub spring: f64,
+    /// Energy of other force elements.
+    pub element: f64,
 }
 
 impl Energies {
     /// All of it.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.kinetic + self.gravity + self.coil + self.contact + self.bristle + self.spring
+        self.kinetic + self.gravity + self.coil + self.contact + self.bristle + self.spring + self.element
     }
 }
 
@@ -127,6 +141,8 @@ pub struct Observation {
     pub faces: Vec<FaceState>,
     /// All coils.
     pub coils: Vec<CoilState>,
+    /// All other force elements.
+    pub elements: Vec<ElementState>,
     /// All connections.
     pub connections: Vec<ConnectionState>,
     /// Energies.
@@ -175,9 +191,9 @@ impl System {
         let mut coils = Vec::with_capacity(self.coils.len());
         for mounted in &self.coils {
             let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
-            let coil = mounted.element.evaluate(&relative);
+            let coil = mounted.element.on_body(&relative);
             let (axes, _) = self.mount_pose(mounted.on, &mounted.mount);
-            let energy = mounted.element.energy(coil.length);
+            let energy = mounted.element.stored_energy(coil.length);
             energies.coil += energy;
             coils.push(CoilState {
                 coil,
@@ -186,6 +202,10 @@ impl System {
                 moment: axes.apply(coil.moment),
                 energy,
             });
+        }
+        let elements: Vec<ElementState> = self.elements.iter().map(|own| self.element_state(own)).collect();
+        for element in &elements {
+            energies.element += element.energy;
         }
         let places = (&self.positions[..], &self.rates[..]);
         let connections = self
@@ -205,6 +225,7 @@ impl System {
             bodies,
             faces,
             coils,
+            elements,
             connections,
             energies,
             quadratures: quadratures.to_vec(),
@@ -280,6 +301,26 @@ impl System {
                 center_of_gravity: kinematics.place(frame, Vector(body.center_of_gravity)),
             });
         }
+    }
+
+    fn element_state(&self, mounted: &Mounted<Marked>) -> ElementState {
+        let body: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
+        let action = mounted.element.on_body(&body);
+        let (axes, _) = self.mount_pose(mounted.on, &mounted.mount);
+        ElementState {
+            force: axes.apply(action.force),
+            moment: axes.apply(action.moment),
+            energy: self.element_energy(mounted),
+        }
+    }
+
+    /// The energy stored in an element of another kind, J.
+    pub(super) fn element_energy(&self, mounted: &Mounted<Marked>) -> f64 {
+        let body: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
+        let marked = &mounted.element;
+        marked
+            .element
+            .energy(&marked.turned(&body.at(marked.marker.origin)))
     }
 
     fn face_state(&self, index: usize, internal: &[f64]) -> FaceState {

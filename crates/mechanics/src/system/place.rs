@@ -40,6 +40,9 @@ impl System {
         for mounted in &mut self.coils {
             sight(mounted, &self.frames, &self.kinematics, again);
         }
+        for mounted in &mut self.elements {
+            sight(mounted, &self.frames, &self.kinematics, again);
+        }
     }
 
     /// Brings what one face sees to `time` and state `x`, and nothing else; whether it saw something else before.

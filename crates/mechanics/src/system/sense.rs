@@ -8,9 +8,9 @@ use integrate::scalar::Real;
 
 use super::System;
 use crate::body::Kinematics;
+use crate::element::{Action, Scalar};
 use crate::frame::FrameMotion;
 use crate::link::{Relative, Sight};
-use crate::tangent::Action;
 use crate::vector::Vector;
 
 /// Force (N) and moment (N·m) of all elements on a body, along fixed axes, about the body's origin.
@@ -95,7 +95,7 @@ impl System {
     }
 
     /// The same for any scalar.
-    pub(super) fn feel<S: Real + From<D>, D: Copy>(&self, stage: &Stage<'_, S, D>, out: &mut Sense<S>)
+    pub(super) fn feel<S: Scalar + From<D>, D: Copy>(&self, stage: &Stage<'_, S, D>, out: &mut Sense<S>)
     where
         f64: Mul<S, Output = S>,
     {
@@ -157,12 +157,27 @@ impl System {
             let change = (stage.coil_change)(number);
             let coil = mounted
                 .element
-                .evaluate_with(&relative, |length| mounted.element.spring(length) + change);
+                .on_body_with(&relative, |length| mounted.element.spring(length) + change);
             out.coils.push(CoilSense {
                 length: coil.length,
                 spring: coil.spring,
             });
             let action = Action::of_coil(&coil);
+            add(
+                mounted,
+                &action,
+                &relative,
+                &sight,
+                [&stage.kinematics[mounted.body], &stage.kinematics[mounted.on]],
+                [&a, &b],
+                out,
+            );
+        }
+        for mounted in &self.elements {
+            let (a, b) = ((stage.frames)(mounted.body), (stage.frames)(mounted.on));
+            let sight = Sight::new(&a, &b, &stage.kinematics[mounted.on], &mounted.mount);
+            let relative: Relative<S> = sight.relative(&stage.kinematics[mounted.body]);
+            let action = mounted.element.on_body(&relative);
             add(
                 mounted,
                 &action,

@@ -50,7 +50,7 @@ impl System {
         for coil in &self.coils {
             let relative: Relative<f64> = coil.sight.relative(&self.kinematics[coil.body]);
             let (element, mobility) = (&coil.element, coil.mobilities[0]);
-            let length = element.evaluate(&relative).length;
+            let length = element.on_body(&relative).length;
             let [slope] = element.spring(Dual::<1>::variable(length, 0)).derivative;
             springs += slope.abs() * mobility;
             dampers += element.damping * mobility;

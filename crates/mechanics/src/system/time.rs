@@ -2,13 +2,14 @@
 
 use integrate::scalar::Dual;
 
-use super::forces::Element;
+use super::forces::Mountable;
 use super::jacobian::rates_along;
 use super::{FrameState, Mounted, System};
 use crate::body::Kinematics;
+use crate::element::Action;
 use crate::frame::FrameMotion;
 use crate::link::{Relative, Sight};
-use crate::tangent::{Action, Change, combined, force_of, moment_of, sum};
+use crate::tangent::{Change, combined, force_of, moment_of, sum};
 use crate::vector::{Matrix, Vector};
 
 impl System {
@@ -59,6 +60,10 @@ impl System {
         for coil in self.coils.iter().filter(|coil| coil.moves) {
             element_in_time(coil, scene, &mut [], &mut self.load_rate, d_quadratures);
         }
+        for element in self.elements.iter().filter(|element| element.moves) {
+            let load_rate = &mut self.load_rate;
+            element_in_time(element, scene, &mut [], load_rate, d_quadratures);
+        }
         for free in self.free.iter().filter(|free| free.linear.is_none()) {
             let (force, moments) = &self.load_rate[free.body];
             let accelerations = self.kinematics[free.body].accelerations(&free.rigid, force, *moments);
@@ -71,7 +76,7 @@ impl System {
 
 /// The derivative by time of what one element does.
 #[inline(always)]
-fn element_in_time<E: Element>(
+fn element_in_time<E: Mountable>(
     mounted: &Mounted<E>,
     (frames, kinematics): (&[FrameState], &[Kinematics<f64>]),
     d_internal: &mut [f64],
@@ -126,7 +131,7 @@ fn element_in_time<E: Element>(
 
 /// The same where the mount translates with this acceleration of the body's frame, as seen from it.
 #[inline(always)]
-fn translating_in_time<E: Element>(
+fn translating_in_time<E: Mountable>(
     mounted: &Mounted<E>,
     acceleration: Vector<f64>,
     d_internal: &mut [f64],

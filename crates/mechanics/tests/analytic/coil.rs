@@ -13,7 +13,7 @@ fn stiff_table() -> CoilLaw {
 /// Force along the coil at a length.
 fn push(coil: &Coil, length: f64) -> f64 {
     let relative = seen_from_origin([0.6 * length, 0.0, 0.8 * length], [0.0; 3], [0.0; 3]);
-    let force = coil.evaluate(&relative);
+    let force = coil.on_body(&relative);
     close(force.length, length, 1e-15);
     close(force.force.0[0], 0.6 * force.spring, 1e-11);
     close(force.force.0[2], 0.8 * force.spring, 1e-11);
@@ -29,24 +29,24 @@ fn force_of_a_coil_is_the_slope_of_its_energy() {
             // From beyond the table on one side to beyond it on the other; not on its corners.
             for i in 0..60 {
                 let length = 0.2 + 0.003_11 * f64::from(i);
-                let slope = difference(1e-7, |d| vec![one.energy(length + d)])[0];
+                let slope = difference(1e-7, |d| vec![one.stored_energy(length + d)])[0];
                 close(push(&one, length), -slope, 1e-5);
                 if !pulls {
                     assert!(push(&one, length) >= 0.0);
                 }
             }
             if matches!(law, CoilLaw::Linear { .. }) || pulls {
-                close(one.energy(0.3), 0.0, 1e-15);
+                close(one.stored_energy(0.3), 0.0, 1e-15);
             }
             // Energy is continuous, and never below that of the slack coil.
-            let slack = one.energy(0.5);
+            let slack = one.stored_energy(0.5);
             for i in 0..2000 {
                 let length = 0.2 + 0.0001 * f64::from(i);
-                let step = one.energy(length + 0.0001) - one.energy(length);
+                let step = one.stored_energy(length + 0.0001) - one.stored_energy(length);
                 // The largest force is 260 + 20000 · 0.04 N.
                 assert!(step.abs() <= 0.0001 * 1060.0);
                 if !pulls {
-                    assert!(one.energy(length) >= slack - 1e-12);
+                    assert!(one.stored_energy(length) >= slack - 1e-12);
                 }
             }
         }
@@ -103,7 +103,7 @@ fn damping_and_line_of_action_of_a_coil() {
         let expected: [f64; 3] =
             std::array::from_fn(|k| 4000.0 * (1.9 - norm(&d)) * d[k] / norm(&d) - 70.0 * rate[k]);
         for (one, at) in [(&at_end, end), (&through_cg, cg)] {
-            let got = one.evaluate(&relative);
+            let got = one.on_body(&relative);
             // No moment about the point where it acts, but for the brake.
             let moment = add(cross(at, expected), times(omega, -9.0));
             for k in 0..3 {
@@ -123,7 +123,7 @@ fn damping_and_line_of_action_of_a_coil() {
                 .sum();
             close(power, spring_power - got.loss + got.guide_power, 1e-9);
         }
-        assert_eq!(at_end.evaluate(&relative).guide_power, 0.0);
+        assert_eq!(at_end.on_body(&relative).guide_power, 0.0);
     }
 }
 

@@ -48,7 +48,8 @@ fn no_toe_of_the_plain_type_is_toe_out() {
         .filter(|own| own.wedges == WedgeType::Plain && own.toe == ToeCase::None)
     {
         let other = own.name().replace("toe_none", "toe_out");
-        assert_eq!(case(&own.name(), 1.0).truck.model, case(&other, 1.0).truck.model);
+        let (one, other) = (case(&own.name(), 1.0).truck.model, case(&other, 1.0).truck.model);
+        assert_eq!((one.bodies, one.connections), (other.bodies, other.connections));
     }
 }
 

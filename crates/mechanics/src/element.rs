@@ -1,0 +1,168 @@
+//! Force elements: one law between a marker A on one body and a marker B on another.
+//!
+//! An element is one file: its parameters, one function over any scalar from the relative motion of its markers to the wrench on A and the
+//! power that is lost, and its stored energy. The core ([`crate::system`]) does the rest: forces on both bodies, the Jacobian of both ends
+//! (from numbers with derivatives), the work of prescribed motions, the energy ledger, observation. `examples/custom_element.rs` adds a
+//! bushing.
+//!
+//! Limits: such an element has no internal states and no events of its own; contact faces have both.
+
+use std::fmt::Debug;
+
+use integrate::scalar::{Dual, Real};
+
+use crate::link::{Mount, Relative};
+use crate::tangent::Tangent;
+use crate::vector::Vector;
+
+/// The wrench of an element on the body that it carries.
+#[derive(Clone, Copy, Debug)]
+pub struct Action<S> {
+    /// Force, axes of marker B, N.
+    pub force: Vector<S>,
+    /// Moment about marker A, axes of marker B, N·m.
+    pub moment: Vector<S>,
+    /// Powers of the element's dissipation terms, W.
+    pub powers: [S; 2],
+}
+
+/// On what a wrench depends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inputs {
+    /// Position and velocity of marker A alone: a force between two points.
+    Points,
+    /// All of the relative motion.
+    Motion,
+}
+
+/// A force element.
+pub trait Element: Clone + Debug + Send + Sync + 'static {
+    /// Returns the name of its loss in the energy ledger.
+    fn name(&self) -> &str;
+
+    /// Returns the wrench on marker A and the power lost, at a relative motion of marker A seen from marker B.
+    ///
+    /// It must not depend on anything else, so that momentum is conserved: the opposite wrench acts on B.
+    fn evaluate<S: Real>(&self, motion: &Relative<S>) -> Action<S>;
+
+    /// Returns the stored energy at a relative motion, J. The power of the wrench is what it takes from this energy, less the power lost:
+    /// else the ledger does not close.
+    fn energy(&self, motion: &Relative<f64>) -> f64;
+
+    /// Returns on what the wrench depends; elements between two points are differentiated at less cost.
+    fn inputs(&self) -> Inputs {
+        Inputs::Motion
+    }
+}
+
+/// An element of any kind, by the scalars that the core uses.
+pub(crate) trait AnyElement: Debug + Send + Sync {
+    fn name(&self) -> &str;
+    fn value(&self, motion: &Relative<f64>) -> Action<f64>;
+    fn derivative(&self, motion: &Relative<Dual<1>>) -> Action<Dual<1>>;
+    fn tangent(&self, motion: &Relative<f64>) -> Tangent;
+    fn energy(&self, motion: &Relative<f64>) -> f64;
+    fn boxed(&self) -> Box<dyn AnyElement>;
+}
+
+impl<E: Element> AnyElement for E {
+    fn name(&self) -> &str {
+        Element::name(self)
+    }
+    fn value(&self, motion: &Relative<f64>) -> Action<f64> {
+        self.evaluate(motion)
+    }
+    fn derivative(&self, motion: &Relative<Dual<1>>) -> Action<Dual<1>> {
+        self.evaluate(motion)
+    }
+    fn tangent(&self, motion: &Relative<f64>) -> Tangent {
+        Tangent::of(self.inputs(), motion, self)
+    }
+    fn energy(&self, motion: &Relative<f64>) -> f64 {
+        Element::energy(self, motion)
+    }
+    fn boxed(&self) -> Box<dyn AnyElement> {
+        Box::new(self.clone())
+    }
+}
+
+/// A scalar over which elements of any kind can be evaluated.
+pub(crate) trait Scalar: Real {
+    fn evaluate(element: &dyn AnyElement, motion: &Relative<Self>) -> Action<Self>;
+}
+
+impl Scalar for f64 {
+    fn evaluate(element: &dyn AnyElement, motion: &Relative<Self>) -> Action<Self> {
+        element.value(motion)
+    }
+}
+
+impl Scalar for Dual<1> {
+    fn evaluate(element: &dyn AnyElement, motion: &Relative<Self>) -> Action<Self> {
+        element.derivative(motion)
+    }
+}
+
+/// An element with its marker A.
+#[derive(Debug)]
+pub(crate) struct Marked {
+    pub element: Box<dyn AnyElement>,
+    pub marker: Mount,
+}
+
+impl Clone for Marked {
+    fn clone(&self) -> Self {
+        Self {
+            element: self.element.boxed(),
+            marker: self.marker,
+        }
+    }
+}
+
+impl Marked {
+    /// The motion of marker A by that of its origin.
+    pub fn turned<S: Real>(&self, origin: &Relative<S>) -> Relative<S> {
+        Relative {
+            rotation: origin.rotation.times(self.marker.rotation),
+            ..*origin
+        }
+    }
+
+    /// The wrench about the origin of the body that carries marker A, by the motion of that body.
+    pub fn on_body<S: Scalar>(&self, body: &Relative<S>) -> Action<S> {
+        let action = S::evaluate(&*self.element, &self.turned(&body.at(self.marker.origin)));
+        let arm: Vector<S> = body.rotation.apply(self.marker.origin);
+        Action {
+            moment: action.moment + arm.cross::<S, S>(action.force),
+            ..action
+        }
+    }
+}
+
+/// An element in its place: the numbers of the bodies that carry markers A and B, and the markers there.
+#[derive(Debug)]
+pub struct Placement {
+    pub(crate) ends: [usize; 2],
+    pub(crate) markers: [Mount; 2],
+    pub(crate) element: Box<dyn AnyElement>,
+}
+
+impl Clone for Placement {
+    fn clone(&self) -> Self {
+        Self {
+            element: self.element.boxed(),
+            ..*self
+        }
+    }
+}
+
+impl Placement {
+    /// An element between marker A on body `a`, which must have free coordinates, and marker B on body `b`.
+    pub fn new(element: impl Element, (a, marker_a): (usize, Mount), (b, marker_b): (usize, Mount)) -> Self {
+        Self {
+            ends: [a, b],
+            markers: [marker_a, marker_b],
+            element: Box::new(element),
+        }
+    }
+}

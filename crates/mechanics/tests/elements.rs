@@ -1,0 +1,404 @@
+//! Force elements of any kind: derivatives at both ends, momentum, the energy ledger; bodies with finite and with linearized kinematics.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+use common::Random;
+use integrate::scalar::Real;
+use integrate::{Integrator, Options, Problem};
+use mechanics::body::Body;
+use mechanics::coil::{Coil, CoilLaw};
+use mechanics::connection::{Connection, Law, SpringDamper};
+use mechanics::curve::Curve;
+use mechanics::element::{Action, Element, Inputs};
+use mechanics::frame::Frame;
+use mechanics::link::{Mount, Relative};
+use mechanics::motion::Motion;
+use mechanics::system::{Model, ModelError, System};
+use mechanics::vector::Vector;
+
+/// A bushing, and what share of its energy it owns up to.
+#[derive(Clone, Debug)]
+struct Bushing {
+    stiffness: f64,
+    damping: f64,
+    /// Torsional stiffness and damping by those of displacements, m².
+    torsion: f64,
+    told: f64,
+}
+
+const BUSHING: Bushing = Bushing {
+    stiffness: 3e4,
+    damping: 80.0,
+    torsion: 0.04,
+    told: 1.0,
+};
+
+impl Element for Bushing {
+    fn name(&self) -> &str {
+        "bushing"
+    }
+    fn evaluate<S: Real>(&self, motion: &Relative<S>) -> Action<S> {
+        let (k, c, t) = (self.stiffness, self.damping, self.torsion);
+        let (v, w) = (motion.velocity, motion.angular_velocity);
+        let rotations = motion.small_rotations();
+        Action {
+            force: motion.position.scale::<f64, S>(-k) - v.scale::<f64, S>(c),
+            moment: rotations.scale::<f64, S>(-k * t) - w.scale::<f64, S>(c * t),
+            powers: [(v.dot::<S, S>(v) + w.dot::<S, S>(w) * t) * c, S::zero()],
+        }
+    }
+    fn energy(&self, motion: &Relative<f64>) -> f64 {
+        let (d, r) = (motion.position, motion.small_rotations());
+        0.5 * self.told * self.stiffness * (d.dot::<f64, f64>(d) + self.torsion * r.dot::<f64, f64>(r))
+    }
+}
+
+fn coil() -> Coil {
+    Coil {
+        end: Vector([0.1, -0.2, 0.05]),
+        acts_at: Vector([0.1, -0.2, 0.05]),
+        law: CoilLaw::Linear { stiffness: 5e3 },
+        free_length: 0.4,
+        damping: 30.0,
+        rotational_damping: 0.0,
+        pulls: true,
+    }
+}
+
+/// The coil as an element whose marker A is its end.
+#[derive(Clone, Debug)]
+struct Strut(Coil);
+
+impl Element for Strut {
+    fn name(&self) -> &str {
+        "strut"
+    }
+    fn evaluate<S: Real>(&self, motion: &Relative<S>) -> Action<S> {
+        self.0.evaluate(motion)
+    }
+    fn energy(&self, motion: &Relative<f64>) -> f64 {
+        Element::energy(&self.0, motion)
+    }
+    fn inputs(&self) -> Inputs {
+        self.0.inputs()
+    }
+}
+
+fn free(name: &str, random: &mut Random, frame: Frame) -> Body {
+    let mut body = Body::free(name, 2.0, [0.03, 0.05, 0.04], random.vector(0.2));
+    body.center_of_gravity = random.vector(0.1);
+    body.frame = frame;
+    body
+}
+
+fn moving(random: &mut Random) -> Frame {
+    let mut frame = Frame::fixed(random.vector(0.5), random.vector(0.5));
+    for motion in &mut frame.motions {
+        *motion = Motion::Sine {
+            amplitude: random.between(0.02, 0.1),
+            angular_frequency: random.between(1.0, 4.0),
+            phase: random.between(0.0, 3.0),
+        };
+    }
+    frame
+}
+
+/// Two free bodies and a driven one, bushings between all of them, a coil; frames at rest or moving.
+fn chain(random: &mut Random, frames: [Frame; 2]) -> System {
+    let [first, second] = frames;
+    let bodies = vec![
+        Body::prescribed("driver", moving(random)),
+        free("first", random, first),
+        free("second", random, second),
+    ];
+    let mut model = Model::new(bodies, [0.0, 0.0, -9.8]);
+    let mut mount = || Mount::new(random.vector(0.3), random.vector(0.4));
+    model.add(BUSHING, (1, mount()), (0, mount()));
+    model.add(BUSHING, (2, mount()), (1, mount()));
+    model.add(Strut(coil()), (1, mount()), (2, mount()));
+    model.coils = vec![(2, 1, mount(), coil())];
+    System::new(model).unwrap()
+}
+
+fn state(system: &System, random: &mut Random) -> Vec<f64> {
+    let mut x = system.initial_state();
+    let n = system.layout().speeds;
+    for value in &mut x[..n] {
+        *value += random.between(-0.1, 0.1);
+    }
+    for value in &mut x[n..2 * n] {
+        *value = random.between(-1.0, 1.0);
+    }
+    x
+}
+
+/// `(σ - J) y = σ y - J y` for any y, with J y and ∂f/∂t by differences.
+#[test]
+fn analytic_derivatives_at_both_ends_against_differences() {
+    let still = || Frame::fixed([0.1, 0.2, -0.1], [0.2, -0.1, 0.3]);
+    for seed in 0..8 {
+        let mut random = Random(seed);
+        let frames = match seed % 3 {
+            0 => [still(), still()],
+            1 => [moving(&mut random), still()],
+            _ => [still(), moving(&mut random)],
+        };
+        let mut system = chain(&mut random, frames);
+        let (time, shift, h) = (0.3, 50.0, 1e-6);
+        system.next_time_discontinuity(0.0);
+        let x = state(&system, &mut random);
+        let dimension = x.len();
+        let mut value = |time: f64, x: &[f64]| {
+            let mut dx = vec![0.0; dimension];
+            system.derivative(time, x, &mut dx);
+            dx
+        };
+        let along = |up: Vec<f64>, down: Vec<f64>| -> Vec<f64> {
+            up.iter()
+                .zip(down)
+                .map(|(up, down)| (up - down) / (2.0 * h))
+                .collect()
+        };
+        let dx = value(time, &x);
+        let by_time = along(value(time + h, &x), value(time - h, &x));
+        let direction: Vec<f64> = (0..dimension).map(|_| random.between(-1.0, 1.0)).collect();
+        let moved =
+            |sign: f64| -> Vec<f64> { x.iter().zip(&direction).map(|(x, y)| x + sign * h * y).collect() };
+        let by_state = along(value(time, &moved(1.0)), value(time, &moved(-1.0)));
+        let mut df_dt = vec![0.0; dimension];
+        system.linearize(time, &x, &dx, &mut df_dt);
+        let size = by_time.iter().fold(1.0, |m: f64, v| m.max(v.abs()));
+        for (found, expected) in df_dt.iter().zip(&by_time) {
+            assert!(
+                (found - expected).abs() < 1e-6 * size,
+                "{found} {expected}, seed {seed}"
+            );
+        }
+        system.factor(shift).unwrap();
+        let mut right: Vec<f64> = direction
+            .iter()
+            .zip(&by_state)
+            .map(|(y, jy)| shift * y - jy)
+            .collect();
+        system.solve(&mut right);
+        for (found, expected) in right.iter().zip(&direction) {
+            assert!((found - expected).abs() < 1e-5, "{found} {expected}, seed {seed}");
+        }
+    }
+}
+
+/// The same coil in the model's list of coils and as an element at its end.
+#[test]
+fn analytic_a_coil_is_an_element_at_its_end() {
+    let mut random = Random(4);
+    let frame = || Frame::fixed([0.0; 3], [0.0; 3]);
+    let bodies = vec![free("a", &mut random, frame()), free("b", &mut random, frame())];
+    let seat = Mount::new(random.vector(0.3), random.vector(0.4));
+    let mut listed = Model::new(bodies.clone(), [0.0; 3]);
+    listed.coils = vec![(0, 1, seat, coil())];
+    let mut added = Model::new(bodies, [0.0; 3]);
+    added.add(
+        Strut(coil()),
+        (0, Mount::new(coil().end.0, [0.3, 0.2, 0.1])),
+        (1, seat),
+    );
+    let (mut listed, mut added) = (System::new(listed).unwrap(), System::new(added).unwrap());
+    let x = state(&listed, &mut random);
+    let (mut one, mut two) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+    listed.derivative(0.0, &x, &mut one);
+    added.derivative(0.0, &x, &mut two);
+    for (one, two) in one.iter().zip(&two) {
+        assert!((one - two).abs() < 1e-10 * (1.0 + one.abs()), "{one} {two}");
+    }
+    let (one, two) = (listed.observe(0.0, &x), added.observe(0.0, &x));
+    assert!((one.energies.coil - two.energies.element).abs() < 1e-10);
+}
+
+fn run(system: &System, end: f64) -> (f64, f64) {
+    let mut copy = system.clone();
+    let start = system.initial_state();
+    let stored = copy.observe(0.0, &start).energies.total();
+    let options = Options {
+        relative_tolerance: 1e-8,
+        ..Options::default()
+    };
+    let mut integrator = Integrator::new(system.clone(), options, 0.0, &start).unwrap();
+    while integrator.time() < end {
+        integrator.step_to(end).unwrap();
+    }
+    let seen = copy.observe(end, integrator.x());
+    (seen.residual(stored).abs(), seen.losses)
+}
+
+/// What is stored and what is lost account for the work, with a driver that turns and bodies in moving frames; an element that hides a
+/// tenth of its energy is found out.
+#[test]
+fn energy_an_element_that_is_left_out_of_the_ledger_is_noticed() {
+    let frame = Frame::fixed([0.0; 3], [0.0; 3]);
+    for told in [1.0, 0.9] {
+        let mut random = Random(11);
+        let driver = Body::prescribed("driver", moving(&mut random));
+        let (one, two) = (
+            free("one", &mut random, frame.clone()),
+            free("two", &mut random, frame.clone()),
+        );
+        let mut model = Model::new(vec![driver, one, two], [0.0, 0.0, -9.8]);
+        // Without torsion: beyond small rotations it has no energy of its own.
+        let bushing = Bushing {
+            torsion: 0.0,
+            told,
+            ..BUSHING
+        };
+        let mut mount = || Mount::new(random.vector(0.2), random.vector(0.2));
+        for (a, b) in [(1, 0), (2, 1), (2, 0)] {
+            model.add(bushing.clone(), (a, mount()), (b, mount()));
+        }
+        let (residual, losses) = run(&System::new(model).unwrap(), 0.5);
+        if told == 1.0 {
+            assert!(residual < 1e-5 * losses, "{residual:e} of {losses}");
+        } else {
+            assert!(residual > 1e-3 * losses, "{residual:e} of {losses}");
+        }
+    }
+}
+
+/// Momentum and angular momentum of two free bodies change by nothing that acts between them.
+#[test]
+fn analytic_momentum_is_conserved() {
+    let mut random = Random(2);
+    let frame = || Frame::fixed([0.0; 3], [0.0; 3]);
+    let bodies = vec![free("a", &mut random, frame()), free("b", &mut random, frame())];
+    let mut model = Model::new(bodies, [0.0; 3]);
+    let mut mount = || Mount::new(random.vector(0.3), random.vector(0.4));
+    model.add(BUSHING, (0, mount()), (1, mount()));
+    model.add(Strut(coil()), (1, mount()), (0, mount()));
+    let mut system = System::new(model).unwrap();
+    let x = state(&system, &mut random);
+    let (h, mut dx) = (1e-6, vec![0.0; x.len()]);
+    system.derivative(0.0, &x, &mut dx);
+    let mut momenta = |sign: f64| {
+        let moved: Vec<f64> = x.iter().zip(&dx).map(|(x, rate)| x + sign * h * rate).collect();
+        let seen = system.observe(0.0, &moved);
+        let (mut linear, mut angular) = (Vector([0.0; 3]), Vector([0.0; 3]));
+        for (place, body) in seen.bodies.iter().zip(system.bodies()) {
+            let arm = place.center_of_gravity - place.origin;
+            let velocity: Vector<f64> = place.velocity + place.angular_velocity.cross::<f64, f64>(arm);
+            let own: Vector<f64> = place.rotation.apply_transposed(place.angular_velocity);
+            let spin = Vector([0, 1, 2].map(|k| body.inertia[k] * own.0[k]));
+            let momentum: Vector<f64> = velocity.scale(body.mass);
+            linear += momentum;
+            angular += place.center_of_gravity.cross::<f64, f64>(momentum);
+            angular += place.rotation.apply::<f64, f64>(spin);
+        }
+        [linear, angular]
+    };
+    let (up, down) = (momenta(1.0), momenta(-1.0));
+    let forces = dx.iter().fold(0.0, |m: f64, rate| m.max(rate.abs()));
+    for (up, down) in up.into_iter().zip(down) {
+        for rate in (up - down).0 {
+            assert!((rate / (2.0 * h)).abs() < 1e-6 * forces, "{rate:e}");
+        }
+    }
+}
+
+const SPRINGS: [[f64; 3]; 4] = [
+    [0.3, 0.2, -0.1],
+    [0.3, -0.2, -0.1],
+    [-0.3, 0.2, -0.1],
+    [-0.3, -0.2, -0.1],
+];
+
+/// A body on four springs with finite and with linearized kinematics: accelerations differ by the square of the angles.
+#[test]
+fn limits_a_linearized_body_is_a_finite_one_at_small_angles() {
+    let (mass, inertia, stiffness) = (5.0, [0.1, 0.2, 0.25], 2e3);
+    let nowhere = [0.0; 6];
+    let mut finite = Model::new(
+        vec![
+            Body::prescribed("wall", Frame::fixed([0.0; 3], [0.0; 3])),
+            Body::free("body", mass, inertia, nowhere),
+        ],
+        [0.0; 3],
+    );
+    let spring = Bushing {
+        stiffness,
+        damping: 0.0,
+        torsion: 0.0,
+        told: 1.0,
+    };
+    let mut linear = Model::new(
+        vec![
+            Body::ground(),
+            Body::linearized("body", [0.0; 3], [true; 6], mass, inertia),
+        ],
+        [0.0; 3],
+    );
+    for point in SPRINGS {
+        let marker = Mount::new(point, [0.0; 3]);
+        finite.add(spring.clone(), (1, marker), (0, marker));
+        let law = SpringDamper::spring(Curve::linear(stiffness));
+        linear.connections.push(Connection {
+            name: "spring".to_owned(),
+            a: 0,
+            b: 1,
+            point,
+            law: Law::Springs((0..3).map(|k| (k, law.clone())).collect()),
+        });
+    }
+    let (mut finite, mut linear) = (System::new(finite).unwrap(), System::new(linear).unwrap());
+    let shape = [0.3, -0.2, 0.4, 1.0, -0.7, 0.8];
+    let mut differences = Vec::new();
+    for size in [1e-2, 1e-3] {
+        let (mut x, mut y) = (finite.initial_state(), linear.initial_state());
+        for (k, value) in shape.iter().enumerate() {
+            (x[k], y[k]) = (size * value, size * value);
+        }
+        let (mut dx, mut dy) = (vec![0.0; x.len()], vec![0.0; y.len()]);
+        finite.derivative(0.0, &x, &mut dx);
+        linear.derivative(0.0, &y, &mut dy);
+        let parts = dx[6..12].iter().zip(&dy[6..12]);
+        let (difference, largest) = parts.fold((0.0, 0.0), |(d, m): (f64, f64), (a, b)| {
+            (d.max((a - b).abs()), m.max(b.abs()))
+        });
+        assert!(difference < 3.0 * size * largest, "{difference} of {largest}");
+        differences.push(difference);
+    }
+    // A hundredth, to a tenth of it.
+    let ratio = differences[0] / differences[1];
+    assert!((90.0..110.0).contains(&ratio), "{ratio}");
+}
+
+/// Each kind of element acts on bodies of its own kinematics.
+#[test]
+fn input_kinematics_that_do_not_fit_are_refused() {
+    let small = Body::linearized("small", [0.0; 3], [true; 6], 1.0, [1.0; 3]);
+    let large = Body::free("large", 1.0, [1.0; 3], [0.0; 6]);
+    let at = Mount::new([0.0; 3], [0.0; 3]);
+    let mut model = Model::new(vec![small.clone(), large.clone()], [0.0; 3]);
+    model.add(BUSHING, (1, at), (0, at));
+    let error = System::new(model).unwrap_err();
+    assert!(
+        matches!(error, ModelError::Linearized { .. }) && error.to_string().contains("small"),
+        "{error}"
+    );
+    let mut model = Model::new(vec![small.clone(), large], [0.0; 3]);
+    let law = Law::Springs(vec![(0, SpringDamper::spring(Curve::linear(1.0)))]);
+    let (name, point) = ("link".to_owned(), [0.0; 3]);
+    model.connections.push(Connection {
+        name,
+        a: 0,
+        b: 1,
+        point,
+        law,
+    });
+    let error = System::new(model).unwrap_err();
+    assert!(
+        error.to_string().contains("connection 0 (link) joins large"),
+        "{error}"
+    );
+    let mut turned = small;
+    turned.frame.orientation[2] = 0.1;
+    let error = System::new(Model::new(vec![turned], [0.0; 3])).unwrap_err();
+    assert!(matches!(error, ModelError::Layout { .. }), "{error}");
+}
