@@ -625,7 +625,6 @@ fn error_bounds(
 mod tests {
     use super::*;
     use crate::coil::CoilLaw;
-    use crate::element::{Element, Marked, Placement};
     use crate::frame::Frame;
     use crate::vector::Vector;
 

@@ -58,7 +58,7 @@ fn coil_forces_in_numbers() {
     let linear = coil([0.0; 3], [0.0; 3], 4000.0, 0.3);
     close(push(&linear, 0.25), 200.0, 1e-10);
     close(push(&linear, 0.35), -200.0, 1e-10);
-    close(linear.energy(0.25), 5.0, 1e-12);
+    close(linear.stored_energy(0.25), 5.0, 1e-12);
     let mut table = linear.clone();
     table.law = stiff_table();
     // Compressions -0.04 (beyond: 15/0.02 = 750 N/m), -0.01, 0.02, 0.055, 0.08 (beyond: 20000 N/m)
@@ -72,9 +72,9 @@ fn coil_forces_in_numbers() {
         close(push(&table, 0.3 - compression), force, 1e-9);
     }
     // Trapezoids: 0.05 (5+60)/2, and from there on 0.01 (60+260)/2
-    close(table.energy(0.25), 1.625, 1e-12);
-    close(table.energy(0.24), 1.625 + 1.6, 1e-12);
-    close(table.energy(0.32), 0.05, 1e-12);
+    close(table.stored_energy(0.25), 1.625, 1e-12);
+    close(table.stored_energy(0.24), 1.625 + 1.6, 1e-12);
+    close(table.stored_energy(0.32), 0.05, 1e-12);
     let mut slack = linear.clone();
     slack.pulls = false;
     close(push(&slack, 0.35), 0.0, 0.0);
@@ -83,7 +83,7 @@ fn coil_forces_in_numbers() {
     slack_table.pulls = false;
     close(push(&slack_table, 0.32), 0.0, 0.0);
     // The force comes to zero at a compression of -1/150; what it stores up to zero compression is 5²/(2·750).
-    close(slack_table.energy(0.4), -25.0 / 1500.0, 1e-12);
+    close(slack_table.stored_energy(0.4), -25.0 / 1500.0, 1e-12);
 }
 
 #[test]
