@@ -31,6 +31,8 @@ pub enum Arrangement {
     /// Column, wedge, bolster, wedge, column, wedge ...: all but the first column are free bodies on stiff supports, so that every body is
     /// coupled to its two neighbours.
     Chained,
+    /// The free bodies of the chain on their supports, without wedges: what of the chain's cost is not that of wedges between free bodies.
+    Supports,
 }
 
 /// Where a wedge of the chain stands: moved along x, and turned by half a turn about the vertical axis if it looks backwards.
@@ -75,7 +77,8 @@ pub fn wedges(count: usize, arrangement: Arrangement) -> Result<System, String> 
     let one = Wedge::new(parameters).map_err(|error| error.to_string())?;
     let model = match arrangement {
         Arrangement::Uncoupled => uncoupled(&one, count),
-        Arrangement::Chained => chained(&one, count),
+        Arrangement::Chained => chained(&one, count, true),
+        Arrangement::Supports => chained(&one, count, false),
     };
     System::new(model).map_err(|error| error.to_string())
 }
@@ -103,7 +106,7 @@ fn uncoupled(one: &Wedge, count: usize) -> Model {
     model
 }
 
-fn chained(one: &Wedge, count: usize) -> Model {
+fn chained(one: &Wedge, count: usize, with_wedges: bool) -> Model {
     let system = &one.system;
     let bodies = system.bodies();
     let (column, pocket) = (bodies[SIDE_FRAME].frame.origin, bodies[BOLSTER].frame.origin);
@@ -143,6 +146,9 @@ fn chained(one: &Wedge, count: usize) -> Model {
             .push(free_body(&format!("{name}_{}", number / 2 + 1), origin));
         let from = model.bodies[support].frame.origin;
         add_supports(&mut model, ahead, support, origin, from);
+        if !with_wedges {
+            continue;
+        }
         let wedge = model.bodies.len();
         let mut body = bodies[WEDGE].clone();
         body.name = format!("wedge_{}", number + 1);

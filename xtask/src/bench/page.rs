@@ -80,7 +80,7 @@ pub const SECTIONS: [Section; 11] = [
     Section {
         heading: "Many wedges in one system",
         about: "1 to 200 wedges with variable damping while the bolsters go down, by implicit steps of a fixed length. Uncoupled: each between a column and a bolster of its own. Chained: column, wedge, bolster, \
-                wedge, column ..., free bodies on stiff supports, a block-tridiagonal matrix. The cost of a step is proportional to the number of wedges.",
+                wedge, column ..., free bodies on stiff supports, a block-tridiagonal matrix. Supports: these free bodies alone, so that the chain less them is what wedges between free bodies cost. The cost of a step is proportional to the number of wedges.",
         program: &["wedge_count"],
     },
     Section {

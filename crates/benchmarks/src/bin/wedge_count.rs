@@ -1,5 +1,6 @@
-//! `wedge_count [MOST]`: how the cost of a step grows with the number of wedges in one system, uncoupled and in a chain.
-//! `wedge_count uncoupled|chained COUNT STEPS [recorded]`: these steps of one system alone, contact modes recorded or not, to count
+//! `wedge_count [MOST]`: how the cost of a step grows with the number of wedges in one system, uncoupled and in a chain, and of the
+//! free bodies that the chain has beside its wedges: the chain less these is what a wedge between two free bodies costs.
+//! `wedge_count uncoupled|chained|supports COUNT STEPS [recorded]`: these steps of one system alone, contact modes recorded or not, to count
 //! instructions.
 //!
 //! CPU times. A step is one of Rodas5P of a fixed length (10 µs) of the first 4 ms, the least of several runs: with and without
@@ -21,7 +22,8 @@ const STEPS: u32 = 400;
 /// Runs: as many as give this many wedges in all, and three.
 const WEDGES: usize = 200;
 
-const USAGE: &str = "usage: wedge_count [MOST], or wedge_count uncoupled|chained COUNT STEPS [recorded]";
+const USAGE: &str =
+    "usage: wedge_count [MOST], or wedge_count uncoupled|chained|supports COUNT STEPS [recorded]";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -47,6 +49,7 @@ fn one(arrangement: &str, count: &str, number: &str, recorded: bool) -> Result<(
     let arrangement = match arrangement {
         "uncoupled" => Arrangement::Uncoupled,
         "chained" => Arrangement::Chained,
+        "supports" => Arrangement::Supports,
         _ => return Err(USAGE.to_owned()),
     };
     let (Ok(count), Ok(number)) = (count.parse(), number.parse()) else {
@@ -63,7 +66,11 @@ fn table(most: usize) -> Result<(), String> {
         "CPU times, µs, each divided by the number of wedges; events: changes of contact modes a step and wedge."
     );
     println!("Step: contact modes not recorded; recorded: with them.");
-    for arrangement in [Arrangement::Uncoupled, Arrangement::Chained] {
+    for arrangement in [
+        Arrangement::Uncoupled,
+        Arrangement::Chained,
+        Arrangement::Supports,
+    ] {
         println!(
             "\n{:12} {:>6} {:>10} {:>10} {:>8} {:>10} {:>10} {:>10} {:>10}",
             format!("{arrangement:?}"),
