@@ -1,7 +1,7 @@
 //! All tuning constants of the integrator, by the part that uses them.
 //!
 //! Each constant states its unit, what it does, and what its value rests on: a citation, a decision record
-//! (`docs/decisions/NNNN-*.md`), a row of the tables in `docs/benchmarks.md`, or "chosen, not measured".
+//! (`docs/decisions/NNNN-*.md`), a row of the table in `docs/decisions/0045-what-was-tried.md`, or "chosen, not measured".
 //! Constants without a unit are ratios. "Tolerances" are multiples of the admissible error of a step.
 //!
 //! Terms: h is the step, ρ a bound of the spectral radius of the Jacobian matrix (1/s), so h·ρ is the scaled
@@ -17,15 +17,15 @@
 /// Defaults of [`crate::Options`].
 pub mod options {
     /// Safety factor of the step-size controller. Hairer & Wanner (1996), section IV.8; values from 0.855 to
-    /// 0.945 and 0.7 to 0.85 need as many right-hand sides (benchmarks; decision 0028).
+    /// 0.945 and 0.7 to 0.85 need as many right-hand sides (decisions 0045, 0028).
     pub const SAFETY: f64 = 0.9;
     /// Smallest factor by which the controller changes a step. Hairer & Wanner (1996), section IV.8.
     pub const MINIMUM_FACTOR: f64 = 0.2;
     /// Largest factor by which the controller enlarges a step. Hairer & Wanner (1996), code RODAS; factors 3,
-    /// 2 and 1.5 give fewer rejections and more steps, no gain (benchmarks).
+    /// 2 and 1.5 give fewer rejections and more steps, no gain (decision 0045).
     pub const MAXIMUM_FACTOR: f64 = 6.0;
     /// Safety factor for ESDIRK methods. With [`ESDIRK_MAXIMUM_FACTOR`]: 61,600 instead of 68,500 right-hand
-    /// sides for the six yawed runs of the thesis, the same errors (benchmarks).
+    /// sides for the six yawed runs of the thesis, the same errors (decision 0045).
     pub const ESDIRK_SAFETY: f64 = 0.8;
     /// Largest growth factor for ESDIRK methods: the stage predictor needs steps of similar length. As
     /// [`ESDIRK_SAFETY`].
@@ -39,7 +39,7 @@ pub mod options {
 /// Step-size controller.
 pub mod controller {
     /// Extra growth allowed after the first step after a restart, if that step was explicit: the length of
-    /// the first step was a guess. Growth to 6 · 10: 2 to 4 % fewer right-hand sides (benchmarks). CVODE
+    /// the first step was a guess. Growth to 6 · 10: 2 to 4 % fewer right-hand sides (decision 0045). CVODE
     /// allows 10,000 (SUNDIALS, `ETAMX1`).
     pub const FIRST_STEP_GROWTH: f64 = 10.0;
     /// The smallest error root that enters the trend (integral part). It is the root of an error of 0.01,
@@ -91,7 +91,7 @@ pub mod step {
     pub const RESOLUTION: f64 = 4.0;
 
     /// First step after a discontinuity, as a part of the step planned before it. The error across it says
-    /// nothing. With the step through a regularization zone: 23,100 to 18,800 rejections (benchmarks).
+    /// nothing. With the step through a regularization zone: 23,100 to 18,800 rejections (decision 0045).
     pub const AFTER_DISCONTINUITY: f64 = 0.5;
     /// After a step to a discontinuity crossed it, this part of the distance is tried. Decision 0028.
     pub const RETRY_BEFORE_DISCONTINUITY: f64 = 0.8;
@@ -99,7 +99,7 @@ pub mod step {
     /// contact opened. Decision 0028.
     pub const CONTACT_CHANGE: f64 = 1.5;
     /// First step after a contact opened, as a part of the longest explicit step: it may close again soon.
-    /// 2 to 4 % fewer right-hand sides (benchmarks).
+    /// 2 to 4 % fewer right-hand sides (decision 0045).
     pub const AFTER_OPENING: f64 = 0.1;
     /// Explicit steps with a larger error (in tolerances) were limited by their error; h·ρ of the last such
     /// step is remembered (decision 0028). The number: chosen, not measured.
@@ -220,7 +220,7 @@ pub mod discontinuity {
     pub const MAXIMUM_ERROR: f64 = 100.0;
     /// Largest distance after a discontinuity at which a step ends, and largest width of the bracket around
     /// it, in lengths of the last step; in proportion to the error of the extrapolation below. Decision 0012;
-    /// other values changed nothing beyond the scatter (benchmarks).
+    /// other values changed nothing beyond the scatter (decision 0045).
     pub const OVERSHOOT: f64 = 2e-3;
     /// Smallest part of [`OVERSHOOT`]. As above.
     pub const MINIMUM_OVERSHOOT: f64 = 1e-6;
@@ -232,7 +232,7 @@ pub mod discontinuity {
     /// The same for the edge of a zone: the next step starts in the zone. Chosen, not measured.
     pub const NEAREST_ZONE: f64 = 0.05;
     /// After an explicit step, functions that would not reach zero even at this multiple of their last rate
-    /// are not evaluated on the extrapolation: 20,800 to 17,200 evaluations (benchmarks). The number: chosen,
+    /// are not evaluated on the extrapolation: 20,800 to 17,200 evaluations (decision 0045). The number: chosen,
     /// not measured.
     pub const RATE_GROWTH: f64 = 4.0;
     /// Largest number of evaluations of a search. Chosen, not measured.
@@ -281,7 +281,7 @@ pub mod events {
     /// 0029.
     pub const INTERMEDIATE: &[f64] = &[0.5];
     /// Width of the bracket around an event, as a fraction of the step. 1e-7 saves 1.2 % of the instructions,
-    /// 1e-9 1 % with larger errors in the times (benchmarks).
+    /// 1e-9 1 % with larger errors in the times (decision 0045).
     pub const RESOLUTION: f64 = 1e-12;
     /// The same in units of the resolution of the time. Chosen, not measured.
     pub const TIME_RESOLUTION: f64 = 4.0;
