@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::Kinematics;
 use crate::characteristic::Characteristic;
 use crate::element::{Action, Element, Inputs};
-use crate::link::{Effect, Relative, Sight};
+use crate::link::{BodyWrench, Relative, Sight};
 use crate::vector::Vector;
 
 /// Force by compression.
@@ -160,7 +160,7 @@ impl Coil {
 
     /// What the coil does to its body, seen from a mount that does not turn: [`Coil::on_body`] with as few products as there need be.
     #[inline(always)]
-    pub(crate) fn effect(&self, sight: &Sight<f64>, body: &Kinematics<f64>) -> Effect {
+    pub(crate) fn effect(&self, sight: &Sight<f64>, body: &Kinematics<f64>) -> BodyWrench {
         let (rotation, spin, end) = (&body.turn.rotation, body.spin, self.end);
         let (mut place, mut velocity) = (body.position, body.velocity);
         if end != Vector::zero() {
@@ -175,7 +175,7 @@ impl Coil {
         let brake = self.rotational_damping;
         let moment = self.acts_at.cross::<f64, f64>(own) - spin.scale::<f64, f64>(brake);
         let couple: Vector<f64> = (self.acts_at - end).cross(own);
-        Effect {
+        BodyWrench {
             force: pull.force,
             moment,
             powers: [pull.loss + spin.dot::<f64, f64>(spin) * brake, couple.dot(spin)],

@@ -7,12 +7,12 @@
 //! Defects: with `c > 0` the force jumps when a point strikes; the stiffness per point is a model parameter that
 //! stands for the elasticity of the faces, not a property of a point. Four corners are the 2 × 2 case of a face.
 
-mod quads;
+mod blocks;
 mod tangent;
 
 use integrate::scalar::{Number, Real};
 
-pub(crate) use quads::{Points, View};
+pub(crate) use blocks::{Points, View};
 
 use crate::friction::{Friction, FrictionLaw, bristle, dot, tanh};
 use crate::link::Relative;
@@ -70,7 +70,7 @@ pub struct PointContact<S: Number> {
 
 /// What one point (or four in lanes) is made of.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Grade<P> {
+pub(crate) struct PointProperties<P> {
     pub stiffness: P,
     pub damping: P,
     /// Whether there is any damping.
@@ -80,7 +80,7 @@ pub(crate) struct Grade<P> {
 
 /// What a law sees of a point (or of four).
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Meeting<S> {
+pub(crate) struct PointKinematics<S> {
     pub gap: S,
     pub gap_rate: S,
     pub slip: [S; 2],
@@ -88,7 +88,7 @@ pub(crate) struct Meeting<S> {
 
 /// The forces at a point (or at four).
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Touch<S: Number> {
+pub(crate) struct PointForce<S: Number> {
     normal: S,
     friction: Friction<S>,
     damping_loss: S,
@@ -142,10 +142,10 @@ impl<F: Surface> ContactFace<F> {
                 None => [S::zero(); 2],
             };
             let mut contact = self.geometry(point, relative);
-            let touch = self.touch(&point.grade(), closed, &contact.meeting(), deflection);
-            contact.normal = touch.normal;
-            contact.friction = touch.friction;
-            contact.damping_loss = touch.damping_loss;
+            let forces = self.point_force(&point.properties(), closed, &contact.kinematics(), deflection);
+            contact.normal = forces.normal;
+            contact.friction = forces.friction;
+            contact.damping_loss = forces.damping_loss;
             sum.friction_loss += contact.friction.loss;
             if closed {
                 let [t1, t2] = contact.friction.force;
@@ -180,24 +180,24 @@ impl<F: Surface> ContactFace<F> {
 
     /// The forces at a point: none of the surface where it is not closed.
     #[inline(always)]
-    pub(crate) fn touch<S: Number>(
+    pub(crate) fn point_force<S: Number>(
         &self,
-        grade: &Grade<S::Plain>,
+        properties: &PointProperties<S::Plain>,
         closed: S::Mask,
-        at: &Meeting<S>,
+        at: &PointKinematics<S>,
         deflection: [S; 2],
-    ) -> Touch<S> {
-        let elastic = S::blend(closed, at.gap.by(-grade.stiffness), S::zero());
+    ) -> PointForce<S> {
+        let elastic = S::blend(closed, at.gap.by(-properties.stiffness), S::zero());
         let (mut normal, mut damping_loss) = (elastic, S::zero());
-        if grade.damped {
-            let damped = elastic - at.gap_rate.by(grade.damping);
+        if properties.damped {
+            let damped = elastic - at.gap_rate.by(properties.damping);
             let pressed = S::blend(S::Plain::zero().below(damped.plain()), damped, S::zero());
             normal = S::blend(closed, pressed, S::zero());
             damping_loss = (elastic - normal) * at.gap_rate;
         }
-        Touch {
+        PointForce {
             normal,
-            friction: self.friction(grade.share, normal, at.slip, deflection),
+            friction: self.friction(properties.share, normal, at.slip, deflection),
             damping_loss,
         }
     }
@@ -207,9 +207,9 @@ impl<F: Surface> ContactFace<F> {
     #[inline(always)]
     fn load<S: Number>(
         &self,
-        grade: &Grade<S::Plain>,
+        properties: &PointProperties<S::Plain>,
         closed: S::Mask,
-        at: &Meeting<S>,
+        at: &PointKinematics<S>,
         deflection: [S; 2],
     ) -> S::Plain {
         match self.law {
@@ -217,7 +217,7 @@ impl<F: Surface> ContactFace<F> {
                 let slip = at.slip.map(S::plain);
                 dot::<S::Plain>(slip, slip).sqrt() * (1.0 / reference_speed)
             }
-            FrictionLaw::Bristle { .. } => self.touch(grade, closed, at, deflection).friction.load,
+            FrictionLaw::Bristle { .. } => self.point_force(properties, closed, at, deflection).friction.load,
         }
     }
 
@@ -242,8 +242,8 @@ impl<F: Surface> ContactFace<F> {
 
 impl<S: Number> PointContact<S> {
     #[inline(always)]
-    fn meeting(&self) -> Meeting<S> {
-        Meeting {
+    fn kinematics(&self) -> PointKinematics<S> {
+        PointKinematics {
             gap: self.gap,
             gap_rate: self.gap_rate,
             slip: self.slip,
@@ -252,8 +252,8 @@ impl<S: Number> PointContact<S> {
 }
 
 impl ContactPoint {
-    pub(crate) fn grade(&self) -> Grade<f64> {
-        Grade {
+    pub(crate) fn properties(&self) -> PointProperties<f64> {
+        PointProperties {
             stiffness: self.stiffness,
             damping: self.damping,
             damped: self.damping > 0.0,

@@ -194,7 +194,7 @@ impl<S: Real> Relative<S> {
 
 /// What an element does to the body that it carries.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Effect {
+pub(crate) struct BodyWrench {
     /// Force, mount axes, N.
     pub force: Vector<f64>,
     /// Moment about the body's origin, body axes, N·m.

@@ -12,7 +12,7 @@
 use integrate::lanes::Lanes;
 use integrate::scalar::Number;
 
-use super::quads::{OUTPUTS, Points, Slopes};
+use super::blocks::{OUTPUTS, Points, Slopes};
 use crate::link::Relative;
 use crate::tangent::{Column, Columns, Tangent, sum};
 use crate::vector::Vector;
@@ -44,12 +44,12 @@ impl Points {
         let mut tangent = Tangent::NONE;
         let spin = relative.angular_velocity;
         let mut sums = [Lanes::ZERO; 8];
-        for (number, (quad, slopes)) in self.quads.iter().zip(&self.slopes).enumerate() {
+        for (number, (block, slopes)) in self.blocks.iter().zip(&self.slopes).enumerate() {
             if !slopes.active {
                 continue;
             }
-            let damped = quad.grade.damped;
-            let arm: Vector<Lanes> = relative.rotation.apply(quad.position);
+            let damped = block.properties.damped;
+            let arm: Vector<Lanes> = relative.rotation.apply(block.position);
             let [x, y, z] = arm.0;
             let own = Vector(slopes.force);
             let ([f0, f1, f2], [m0, m1, m2]) = (own.0, arm.cross::<Lanes, Lanes>(own).0);

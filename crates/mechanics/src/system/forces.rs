@@ -13,7 +13,7 @@ use crate::coil::{Coil, CoilForce};
 use crate::contact::{ContactFace, FaceResultant, Points, View};
 use crate::element::{Action, Element, Marked};
 use crate::frame::FrameMotion;
-use crate::link::{Effect, Mount, Relative, Sight};
+use crate::link::{BodyWrench, Mount, Relative, Sight};
 use crate::surface::Plane;
 use crate::tangent::{Columns, Tangent};
 use crate::vector::Vector;
@@ -27,7 +27,7 @@ pub(super) trait Mountable: Sized {
         relative: &Relative<f64>,
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Effect;
+    ) -> BodyWrench;
 
     /// The same seen from a mount that does not turn; none if it is nothing.
     fn act_from(
@@ -36,7 +36,7 @@ pub(super) trait Mountable: Sized {
         seen: (&Sight<f64>, &Kinematics<f64>),
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Option<Effect>;
+    ) -> Option<BodyWrench>;
 
     /// Where its marker A is, from the origin of the body that it carries, body axes, m.
     fn marker(&self) -> Vector<f64> {
@@ -68,7 +68,7 @@ impl Mountable for ContactFace<Plane> {
         relative: &Relative<f64>,
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Effect {
+    ) -> BodyWrench {
         self.effect(points, &View::new(relative), internal, rates)
     }
 
@@ -79,8 +79,8 @@ impl Mountable for ContactFace<Plane> {
         (sight, body): (&Sight<f64>, &Kinematics<f64>),
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Option<Effect> {
-        if points.meet_open(sight, body) {
+    ) -> Option<BodyWrench> {
+        if points.update_if_open(sight, body) {
             return None;
         }
         Some(self.effect(points, &View::of(sight, body), internal, rates))
@@ -104,9 +104,9 @@ impl Mountable for ContactFace<Plane> {
 
 impl Mountable for Coil {
     #[inline(always)]
-    fn act(&self, _: &mut Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> Effect {
+    fn act(&self, _: &mut Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> BodyWrench {
         let coil = self.on_body(relative);
-        Effect {
+        BodyWrench {
             force: coil.force,
             moment: relative.rotation.apply_transposed(coil.moment),
             powers: [coil.loss, coil.guide_power],
@@ -120,7 +120,7 @@ impl Mountable for Coil {
         (sight, body): (&Sight<f64>, &Kinematics<f64>),
         _: &[f64],
         _: &mut [f64],
-    ) -> Option<Effect> {
+    ) -> Option<BodyWrench> {
         Some(self.effect(sight, body))
     }
 
@@ -136,9 +136,9 @@ impl Mountable for Coil {
 
 impl Mountable for Marked {
     #[inline(always)]
-    fn act(&self, _: &mut Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> Effect {
+    fn act(&self, _: &mut Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> BodyWrench {
         let action = self.on_body(relative);
-        Effect {
+        BodyWrench {
             force: action.force,
             moment: relative.rotation.apply_transposed(action.moment),
             powers: action.powers,
@@ -152,7 +152,7 @@ impl Mountable for Marked {
         (sight, body): (&Sight<f64>, &Kinematics<f64>),
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Option<Effect> {
+    ) -> Option<BodyWrench> {
         Some(self.act(points, &sight.relative(body), internal, rates))
     }
 
@@ -271,7 +271,7 @@ impl System {
             }
             (self.force[free.body], self.moment[free.body]) = (force, moment);
         }
-        self.met = true;
+        self.points_updated = true;
         if !self.plain {
             for face in self.faces.iter_mut().filter(|face| !face.plain) {
                 let internal = &internal[face.first_internal..][..face.internal_count];

@@ -50,7 +50,7 @@ impl System {
     pub(super) fn differentiate(&mut self, x: &[f64], dx: &[f64], whole: bool) {
         let layout = self.layout;
         let [_, _, internal, _] = layout.split(x);
-        self.meet();
+        self.update_points();
         self.jacobian.clear();
         for (free, gathered) in self.free.iter().zip(&mut self.gathered) {
             let kinematics = &self.kinematics[free.body];

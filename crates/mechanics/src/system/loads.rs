@@ -7,7 +7,7 @@
 use super::forces::Mountable;
 use super::observe::{BodyPlace, CoilState, FaceState};
 use super::{Mounted, System};
-use crate::link::{Effect, Relative};
+use crate::link::{BodyWrench, Relative};
 use crate::vector::Vector;
 
 /// What a face does to the body that it carries (SI, fixed axes).
@@ -98,7 +98,7 @@ impl System {
                 mounted
                     .element
                     .act_from(&mut mounted.points, seen, internal, &mut out.rates)
-                    .unwrap_or(Effect {
+                    .unwrap_or(BodyWrench {
                         force: Vector::zero(),
                         moment: Vector::zero(),
                         powers: [0.0; 2],
@@ -124,7 +124,7 @@ impl System {
                 origin: seat.place(frame, mounted.mount.origin),
             });
         }
-        self.met = true;
+        self.points_updated = true;
         out.coils.clear();
         for mounted in &self.coils {
             let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);

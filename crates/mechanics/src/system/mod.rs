@@ -17,7 +17,7 @@ mod observe;
 mod place;
 mod placer;
 mod sense;
-mod stiffness;
+mod spectral_radius;
 mod time;
 mod vibration;
 
@@ -193,13 +193,13 @@ pub struct System {
     /// Whether the speed of the system's answers can be bounded.
     bounded: bool,
     /// Whether all points have a law that tells where it bends.
-    tells_pieces: bool,
+    discontinuities_complete: bool,
     /// Positions and speeds for which all this was evaluated.
     placed: Vec<f64>,
     /// The face that alone was brought to them, and to this time, where `frames_at` is not a number.
     face_placed: (usize, f64),
     /// Whether the faces have seen their points there.
-    met: bool,
+    points_updated: bool,
 }
 
 impl System {
@@ -377,7 +377,7 @@ impl Problem for System {
             return f64::INFINITY;
         }
         self.place(time, x);
-        self.fastest_answer()
+        self.spectral_radius()
     }
 
     fn factor(&mut self, shift: f64) -> Result<(), Singular> {
@@ -393,12 +393,12 @@ impl Problem for System {
     }
 
     fn discontinuities(&mut self, time: f64, x: &[f64], functions: &mut DiscontinuityFunctions) {
-        self.kink_signs(time, x, functions);
+        self.discontinuity_functions(time, x, functions);
     }
 
     /// Bristles come to slip without telling. (So do coils that go solid, but they change no more than their own stiffness.)
     fn discontinuities_complete(&self) -> bool {
-        self.tells_pieces
+        self.discontinuities_complete
     }
 
     fn discrete_state_count(&self) -> usize {

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::jacobian::Gathered;
 use super::placer::Placer;
-use super::stiffness::mobility;
+use super::spectral_radius::mobility;
 use super::{FrameState, FreeBody, Linear, Move, MovedBody, System, is_bristle, scale_of, scales, structure};
 use crate::body::{Body, COORDINATES, Kinematics};
 use crate::coil::Coil;
@@ -437,8 +437,8 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     let moves = frames.iter().any(|frame| !frame.fixed) || !moved.is_empty();
     let none = connections.is_empty() && mounted_elements.is_empty();
     let plain = none && mounted_faces.iter().all(|m| m.plain) && mounted_coils.iter().all(|m| m.plain);
-    let tells_pieces = none && mounted_faces.iter().all(|face| face.internal_count == 0);
-    let bounded = plain && free.iter().all(|free| frames[free.body].fixed) && tells_pieces;
+    let discontinuities_complete = none && mounted_faces.iter().all(|face| face.internal_count == 0);
+    let bounded = plain && free.iter().all(|free| frames[free.body].fixed) && discontinuities_complete;
     for face in &mut mounted_faces {
         let body = &bodies[face.body];
         face.mobilities = face
@@ -495,10 +495,10 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         moves,
         plain,
         bounded,
-        tells_pieces,
+        discontinuities_complete,
         placed: vec![f64::NAN; 2 * layout.speeds],
         face_placed: (0, f64::NAN),
-        met: false,
+        points_updated: false,
     })
 }
 

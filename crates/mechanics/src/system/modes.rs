@@ -139,22 +139,22 @@ fn margins_of(modes: &[u8], gap: Lanes, load: Lanes, law: usize) -> Lanes {
 impl System {
     /// Sees where all points are and how they move at the state that [`System::place`] was called with: before what follows.
     #[inline(always)]
-    pub(super) fn meet(&mut self) {
-        if self.met {
+    pub(super) fn update_points(&mut self) {
+        if self.points_updated {
             return;
         }
-        self.met = true;
+        self.points_updated = true;
         for number in 0..self.faces.len() {
-            self.meet_face(number);
+            self.update_face_points(number);
         }
     }
 
     /// The same of one face.
     #[inline(always)]
-    fn meet_face(&mut self, number: usize) {
+    fn update_face_points(&mut self, number: usize) {
         let face = &mut self.faces[number];
         let kinematics = &self.kinematics[face.body];
-        if face.plain && face.points.meet_open(&face.sight, kinematics) {
+        if face.plain && face.points.update_if_open(&face.sight, kinematics) {
             return;
         }
         let view = if face.plain {
@@ -162,13 +162,13 @@ impl System {
         } else {
             View::new(&face.sight.relative(kinematics))
         };
-        face.points.meet(&view);
+        face.points.update(&view);
     }
 
     /// Gap and load of the points of a face, up to four at a time by their numbers among all points, and the law's place in
     /// [`SLIP_LOAD`]; once it has seen its points.
     #[inline(always)]
-    fn face_quads(&self, number: usize, x: &[f64], mut each: impl FnMut(Range<usize>, Lanes, Lanes, usize)) {
+    fn face_blocks(&self, number: usize, x: &[f64], mut each: impl FnMut(Range<usize>, Lanes, Lanes, usize)) {
         let [_, _, internal, _] = self.layout.split(x);
         let face = &self.faces[number];
         let deflections = &internal[face.first_internal..][..face.internal_count];
@@ -184,7 +184,7 @@ impl System {
     fn signs_of_face(&self, number: usize, x: &[f64], signs: &mut [f64]) {
         let first = self.first_points[number];
         let (gaps, loads) = signs.split_at_mut(signs.len() / 2);
-        self.face_quads(number, x, |points, gap, load, _| {
+        self.face_blocks(number, x, |points, gap, load, _| {
             let own = points.start - first..points.end - first;
             put(&mut gaps[own.clone()], gap);
             put(&mut loads[own], load);
@@ -197,11 +197,16 @@ impl System {
         first..first + self.faces[face].element.points.len()
     }
 
-    /// What foretells kinks: the gap of every point (m), and the slip of closed points over the reference speed of their law
+    /// What predicts discontinuities: the gap of every point (m), and the slip of closed points over the reference speed of their law
     /// (open points and bristles: not a number).
-    pub(super) fn kink_signs(&mut self, time: f64, x: &[f64], functions: &mut DiscontinuityFunctions) {
+    pub(super) fn discontinuity_functions(
+        &mut self,
+        time: f64,
+        x: &[f64],
+        functions: &mut DiscontinuityFunctions,
+    ) {
         self.place(time, x);
-        self.meet();
+        self.update_points();
         for (number, face) in self.faces.iter().enumerate() {
             let own = self.points_of(number);
             let scale = match face.element.law {
@@ -217,9 +222,9 @@ impl System {
     }
 
     pub(super) fn find_modes(&mut self, x: &[f64], modes: &mut [u8]) {
-        self.meet();
+        self.update_points();
         for number in 0..self.faces.len() {
-            self.face_quads(number, x, |points, gap, load, law| {
+            self.face_blocks(number, x, |points, gap, load, law| {
                 for (i, mode) in modes[points].iter_mut().enumerate() {
                     let (gap, load) = (gap.at(i), load.at(i));
                     *mode = if gap < CLOSING_GAP {
@@ -234,7 +239,7 @@ impl System {
 
     /// Gaps of the points of the first face, their loads, and so on.
     pub(super) fn mode_signs(&mut self, x: &[f64], signs: &mut [f64]) {
-        self.meet();
+        self.update_points();
         for number in 0..self.faces.len() {
             self.signs_of_face(number, x, &mut signs[self.signs_range(number)]);
         }
@@ -249,7 +254,7 @@ impl System {
     /// The signs of one face, which depend on nothing but the bodies it touches.
     pub(super) fn face_signs(&mut self, number: usize, time: f64, x: &[f64], signs: &mut [f64]) {
         if self.place_face(number, time, x) {
-            self.meet_face(number);
+            self.update_face_points(number);
         }
         self.signs_of_face(number, x, signs);
     }

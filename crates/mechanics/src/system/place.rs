@@ -16,7 +16,7 @@ impl System {
         if !again && !changed {
             return;
         }
-        self.met = false;
+        self.points_updated = false;
         self.frames_at = time;
         if self.moves && again {
             for number in 0..self.frames.len() {

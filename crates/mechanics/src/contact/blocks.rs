@@ -14,17 +14,17 @@ use std::ops::Range;
 use integrate::lanes::{LANES, LaneDual, LaneMask, Lanes};
 use integrate::scalar::{Mask, Number};
 
-use super::{ContactFace, ContactPoint, Grade, Meeting, Touch};
+use super::{ContactFace, ContactPoint, PointForce, PointKinematics, PointProperties};
 use crate::body::Kinematics;
-use crate::link::{Effect, Relative, Sight};
+use crate::link::{BodyWrench, Relative, Sight};
 use crate::surface::Plane;
 use crate::vector::{Matrix, Vector};
 
 /// Four points; missing ones are open.
 #[derive(Clone, Debug)]
-pub(super) struct Quad {
+pub(super) struct PointBlock {
     pub position: Vector<Lanes>,
-    pub grade: Grade<Lanes>,
+    pub properties: PointProperties<Lanes>,
     present: LaneMask,
     pub count: usize,
 }
@@ -48,12 +48,12 @@ pub(super) struct Slopes {
     pub by_deflection: [[Lanes; OUTPUTS]; 2],
 }
 
-/// The points of a face, ready for evaluation; what the law sees of them where [`Points::meet`] was called last, and its derivatives where
+/// The points of a face, ready for evaluation; what the law sees of them where [`Points::update`] was called last, and its derivatives where
 /// [`ContactFace::linearize`] was.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Points {
-    pub(super) quads: Vec<Quad>,
-    met: Vec<Meeting<Lanes>>,
+    pub(super) blocks: Vec<PointBlock>,
+    kinematics: Vec<PointKinematics<Lanes>>,
     /// Whether all were open where forces were asked for last; never where there are internal states.
     open: bool,
     pub(super) slopes: Vec<Slopes>,
@@ -62,39 +62,39 @@ pub(crate) struct Points {
 impl Points {
     /// The points of a face.
     pub fn new(points: &[ContactPoint]) -> Self {
-        let quads: Vec<Quad> = points.chunks(LANES).map(Quad::new).collect();
-        let nowhere = Meeting {
+        let blocks: Vec<PointBlock> = points.chunks(LANES).map(PointBlock::new).collect();
+        let nowhere = PointKinematics {
             gap: Lanes::ZERO,
             gap_rate: Lanes::ZERO,
             slip: [Lanes::ZERO; 2],
         };
         Self {
-            met: vec![nowhere; quads.len()],
+            kinematics: vec![nowhere; blocks.len()],
             open: false,
-            slopes: vec![Slopes::NONE; quads.len()],
-            quads,
+            slopes: vec![Slopes::NONE; blocks.len()],
+            blocks,
         }
     }
 
     /// Sees where the points are if all are still open, as they were where forces were asked for last; whether they are, else nothing is
     /// known. How open points without internal states move makes no difference. Only for a mount that does not turn.
     #[inline(always)]
-    pub fn meet_open(&mut self, sight: &Sight<f64>, body: &Kinematics<f64>) -> bool {
+    pub fn update_if_open(&mut self, sight: &Sight<f64>, body: &Kinematics<f64>) -> bool {
         if !self.open {
             return false;
         }
         let (distance, normal) = View::wall(sight, body);
-        for (quad, met) in self.quads.iter().zip(&mut self.met) {
-            met.gap = normal.dot::<Lanes, Lanes>(quad.position) + distance;
+        for (block, kinematics) in self.blocks.iter().zip(&mut self.kinematics) {
+            kinematics.gap = normal.dot::<Lanes, Lanes>(block.position) + distance;
         }
-        self.met.iter().all(is_open)
+        self.kinematics.iter().all(is_open)
     }
 
     /// Sees where the points are and how they move.
     #[inline(always)]
-    pub fn meet(&mut self, view: &View) {
-        for (quad, met) in self.quads.iter().zip(&mut self.met) {
-            *met = view.meet(quad.position, quad.grade.damped);
+    pub fn update(&mut self, view: &View) {
+        for (block, kinematics) in self.blocks.iter().zip(&mut self.kinematics) {
+            *kinematics = view.kinematics(block.position, block.properties.damped);
         }
     }
 
@@ -107,16 +107,16 @@ impl Points {
     /// Gap and slip of every point.
     #[inline(always)]
     pub fn motions(&self, mut each: impl FnMut(usize, f64, [f64; 2])) {
-        for (number, (quad, at)) in self.quads.iter().zip(&self.met).enumerate() {
+        for (number, (block, at)) in self.blocks.iter().zip(&self.kinematics).enumerate() {
             let (gap, slip) = (at.gap.to_array(), at.slip.map(Lanes::to_array));
-            for i in 0..quad.count {
+            for i in 0..block.count {
                 each(LANES * number + i, gap[i], [slip[0][i], slip[1][i]]);
             }
         }
     }
 }
 
-impl Quad {
+impl PointBlock {
     fn new(points: &[ContactPoint]) -> Self {
         // Missing points are copies of the first one that are never closed.
         let lanes = |value: &dyn Fn(&ContactPoint) -> f64| {
@@ -126,7 +126,7 @@ impl Quad {
         };
         Self {
             position: Vector([0, 1, 2].map(|k| lanes(&move |point| point.position.0[k]))),
-            grade: Grade {
+            properties: PointProperties {
                 stiffness: lanes(&|point| point.stiffness),
                 damping: lanes(&|point| point.damping),
                 damped: points.iter().any(|point| point.damping > 0.0),
@@ -137,7 +137,7 @@ impl Quad {
         }
     }
 
-    /// The deflections of the quad that begins with point `first`: zero where there are none.
+    /// The deflections of the block that begins with point `first`: zero where there are none.
     #[inline(always)]
     fn deflection(&self, deflections: &[f64], first: usize) -> [Lanes; 2] {
         let Some(own) = deflections.get(2 * first..2 * (first + self.count)) else {
@@ -208,9 +208,9 @@ impl View {
 
     /// What the law sees of four points; the gap's rate only where there is contact damping.
     #[inline(always)]
-    pub fn meet(&self, place: Vector<Lanes>, damped: bool) -> Meeting<Lanes> {
+    pub fn kinematics(&self, place: Vector<Lanes>, damped: bool) -> PointKinematics<Lanes> {
         let speed = |i: usize| -> Lanes { self.growth[i].dot::<Lanes, Lanes>(place) + self.speeds[i] };
-        Meeting {
+        PointKinematics {
             gap: self.normal.dot::<Lanes, Lanes>(place) + self.distance,
             gap_rate: if damped { speed(0) } else { Lanes::ZERO },
             slip: [speed(1), speed(2)],
@@ -219,25 +219,25 @@ impl View {
 
     /// What it does to the body: forces along the mount's axes, moments (body axes), losses in friction and in contact damping.
     #[inline(always)]
-    pub fn push(&self, place: Vector<Lanes>, touch: &Touch<Lanes>) -> [Lanes; 8] {
-        let [t1, t2] = touch.friction.force;
-        let force = Vector([touch.normal, t1, t2]);
+    pub fn push(&self, place: Vector<Lanes>, forces: &PointForce<Lanes>) -> [Lanes; 8] {
+        let [t1, t2] = forces.friction.force;
+        let force = Vector([forces.normal, t1, t2]);
         let own: Vector<Lanes> = self.rotation.transpose().apply(force);
         let moment: Vector<Lanes> = place.cross(own);
         let ([f1, f2, f3], [m1, m2, m3]) = (force.0, moment.0);
-        [f1, f2, f3, m1, m2, m3, touch.friction.loss, touch.damping_loss]
+        [f1, f2, f3, m1, m2, m3, forces.friction.loss, forces.damping_loss]
     }
 }
 
 /// Whether four points are open, each of them, and not just touching. (Missing ones are copies of the first.)
 #[inline(always)]
-fn is_open(at: &Meeting<Lanes>) -> bool {
+fn is_open(at: &PointKinematics<Lanes>) -> bool {
     Lanes::zero().below(at.gap).all()
 }
 
 #[inline(always)]
-fn closed(quad: &Quad, at: &Meeting<Lanes>) -> LaneMask {
-    at.gap.below(Lanes::zero()).and(quad.present)
+fn closed(block: &PointBlock, at: &PointKinematics<Lanes>) -> LaneMask {
+    at.gap.below(Lanes::zero()).and(block.present)
 }
 
 impl ContactFace<Plane> {
@@ -249,24 +249,29 @@ impl ContactFace<Plane> {
         view: &View,
         deflections: &[f64],
         rates: &mut [f64],
-    ) -> Effect {
-        points.meet(view);
+    ) -> BodyWrench {
+        points.update(view);
         let mut sums = [Lanes::zero(); 8];
         points.open = true;
-        for (number, (quad, at)) in points.quads.iter().zip(&points.met).enumerate() {
-            let closed = closed(quad, at);
+        for (number, (block, at)) in points.blocks.iter().zip(&points.kinematics).enumerate() {
+            let closed = closed(block, at);
             if closed.none() && deflections.is_empty() {
                 continue;
             }
             points.open = false;
             let first = LANES * number;
-            let touch = self.touch(&quad.grade, closed, at, quad.deflection(deflections, first));
-            for (sum, term) in sums.iter_mut().zip(view.push(quad.position, &touch)) {
+            let forces = self.point_force(
+                &block.properties,
+                closed,
+                at,
+                block.deflection(deflections, first),
+            );
+            for (sum, term) in sums.iter_mut().zip(view.push(block.position, &forces)) {
                 *sum += term;
             }
             if !deflections.is_empty() {
-                let rate = touch.friction.rate.map(Lanes::to_array);
-                for i in 0..quad.count {
+                let rate = forces.friction.rate.map(Lanes::to_array);
+                for i in 0..block.count {
                     rates[2 * (first + i)] = rate[0][i];
                     rates[2 * (first + i) + 1] = rate[1][i];
                 }
@@ -275,7 +280,7 @@ impl ContactFace<Plane> {
         let [f1, f2, f3, m1, m2, m3, friction, damping] = sums;
         let [f1, f2, f3, m1] = Lanes::sums([f1, f2, f3, m1]).to_array();
         let [m2, m3, friction, damping] = Lanes::sums([m2, m3, friction, damping]).to_array();
-        Effect {
+        BodyWrench {
             force: Vector([f1, f2, f3]),
             moment: Vector([m1, m2, m3]),
             powers: [friction, damping],
@@ -290,32 +295,32 @@ impl ContactFace<Plane> {
         deflections: &[f64],
         mut each: impl FnMut(Range<usize>, Lanes, Lanes),
     ) {
-        for (number, (quad, at)) in points.quads.iter().zip(&points.met).enumerate() {
+        for (number, (block, at)) in points.blocks.iter().zip(&points.kinematics).enumerate() {
             let first = LANES * number;
             let load = if is_open(at) {
                 Lanes::zero()
             } else {
-                let deflection = quad.deflection(deflections, first);
-                self.load(&quad.grade, closed(quad, at), at, deflection)
+                let deflection = block.deflection(deflections, first);
+                self.load(&block.properties, closed(block, at), at, deflection)
             };
-            each(first..first + quad.count, at.gap, load);
+            each(first..first + block.count, at.gap, load);
         }
     }
 
     /// Differentiates the law at every point.
     pub(crate) fn linearize(&self, points: &mut Points, deflections: &[f64]) {
-        let quads = points.quads.iter().zip(&points.met);
-        for (number, ((quad, at), slopes)) in quads.zip(&mut points.slopes).enumerate() {
-            let closed = closed(quad, at);
+        let blocks = points.blocks.iter().zip(&points.kinematics);
+        for (number, ((block, at), slopes)) in blocks.zip(&mut points.slopes).enumerate() {
+            let closed = closed(block, at);
             slopes.active = !(closed.none() && deflections.is_empty());
             if !slopes.active {
                 continue;
             }
-            let deflection = quad.deflection(deflections, LANES * number);
-            match (quad.grade.damped, deflections.is_empty()) {
-                (false, true) => self.differentiate::<3>(quad, closed, at, deflection, slopes),
-                (true, true) => self.differentiate::<4>(quad, closed, at, deflection, slopes),
-                _ => self.differentiate::<6>(quad, closed, at, deflection, slopes),
+            let deflection = block.deflection(deflections, LANES * number);
+            match (block.properties.damped, deflections.is_empty()) {
+                (false, true) => self.differentiate::<3>(block, closed, at, deflection, slopes),
+                (true, true) => self.differentiate::<4>(block, closed, at, deflection, slopes),
+                _ => self.differentiate::<6>(block, closed, at, deflection, slopes),
             }
         }
     }
@@ -324,9 +329,9 @@ impl ContactFace<Plane> {
     #[inline(always)]
     fn differentiate<const N: usize>(
         &self,
-        quad: &Quad,
+        block: &PointBlock,
         closed: LaneMask,
-        at: &Meeting<Lanes>,
+        at: &PointKinematics<Lanes>,
         deflection: [Lanes; 2],
         slopes: &mut Slopes,
     ) {
@@ -337,25 +342,25 @@ impl ContactFace<Plane> {
                 LaneDual::lift(value)
             }
         };
-        let seeded = Meeting {
+        let seeded = PointKinematics {
             gap: seed(at.gap, 0),
             slip: [seed(at.slip[0], 1), seed(at.slip[1], 2)],
             gap_rate: seed(at.gap_rate, 3),
         };
         let deflection = [seed(deflection[0], 4), seed(deflection[1], 5)];
-        let touch = self.touch(&quad.grade, closed, &seeded, deflection);
-        let ([t1, t2], [r1, r2]) = (touch.friction.force, touch.friction.rate);
+        let forces = self.point_force(&block.properties, closed, &seeded, deflection);
+        let ([t1, t2], [r1, r2]) = (forces.friction.force, forces.friction.rate);
         let outputs = [
-            touch.normal,
+            forces.normal,
             t1,
             t2,
-            touch.friction.loss,
-            touch.damping_loss,
+            forces.friction.loss,
+            forces.damping_loss,
             r1,
             r2,
         ];
-        slopes.force = [touch.normal.value, t1.value, t2.value];
-        slopes.losses = [touch.friction.loss.value, touch.damping_loss.value];
+        slopes.force = [forces.normal.value, t1.value, t2.value];
+        slopes.losses = [forces.friction.loss.value, forces.damping_loss.value];
         let [slip1, slip2] = &mut slopes.by_slip;
         let [deflection1, deflection2] = &mut slopes.by_deflection;
         let by = [
@@ -394,10 +399,10 @@ impl Points {
     /// For every point with internal states: how their rates (row-major), the forces at the point (mount axes, with its place in body
     /// axes) and the friction loss change with them.
     pub fn internal_slopes(&self, mut each: impl FnMut(usize, &InternalSlopes)) {
-        for (number, (quad, slopes)) in self.quads.iter().zip(&self.slopes).enumerate() {
+        for (number, (block, slopes)) in self.blocks.iter().zip(&self.slopes).enumerate() {
             let by = slopes.by_deflection.map(|row| row.map(Lanes::to_array));
-            let place = quad.position.0.map(Lanes::to_array);
-            for i in 0..quad.count {
+            let place = block.position.0.map(Lanes::to_array);
+            for i in 0..block.count {
                 each(
                     LANES * number + i,
                     &InternalSlopes {

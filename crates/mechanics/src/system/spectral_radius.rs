@@ -1,4 +1,4 @@
-//! How fast the system answers: a bound of its eigenvalues, so that the integrator knows where nothing is stiff.
+//! An upper bound of the spectral radius of the Jacobian matrix, so that the integrator knows where nothing is stiff.
 //!
 //! With b the mobility of a point (how much a force there accelerates it), the springs' part of the eigenvalues is at most
 //! `√(Σ k (1 + μ) b)`, since friction feeds the normal force's stiffness into the tangents; that of dampers at most `Σ c b`, where friction
@@ -13,7 +13,7 @@ use crate::link::Relative;
 use crate::vector::Vector;
 
 /// From here on (1/s) no step that is worth making is explicit; explicit steps of no length would only hide that a run cannot go on.
-const FASTEST: f64 = 1e9;
+const LARGEST_RADIUS: f64 = 1e9;
 
 /// A bound of the mobility of a point of a body (body axes), 1/kg: `1/m + |r|²/I` with the least inertia of the free angles.
 pub(super) fn mobility(body: &Body, point: Vector<f64>) -> f64 {
@@ -26,9 +26,9 @@ pub(super) fn mobility(body: &Body, point: Vector<f64>) -> f64 {
 }
 
 impl System {
-    /// The bound at the state that [`System::place`] was called with, 1/s.
-    pub(super) fn fastest_answer(&mut self) -> f64 {
-        self.meet();
+    /// Returns the bound at the state that [`System::place`] was called with, 1/s; infinite if it is not known.
+    pub(super) fn spectral_radius(&mut self) -> f64 {
+        self.update_points();
         let (mut springs, mut dampers) = (0.0, 0.0);
         for face in &self.faces {
             let element = &face.element;
@@ -56,6 +56,10 @@ impl System {
             dampers += element.damping * mobility;
         }
         let bound = dampers + springs.sqrt();
-        if bound < FASTEST { bound } else { f64::INFINITY }
+        if bound < LARGEST_RADIUS {
+            bound
+        } else {
+            f64::INFINITY
+        }
     }
 }
