@@ -159,6 +159,22 @@ impl<F: Surface> ContactFace<F> {
         sum
     }
 
+    /// Returns the energies stored at a point: in its normal spring, and in its bristle by its share of the face's stiffness, J.
+    pub(crate) fn stored(&self, point: &ContactPoint, gap: f64, deflection: Option<&[f64]>) -> [f64; 2] {
+        let pressed = if gap < 0.0 {
+            0.5 * point.stiffness * gap * gap
+        } else {
+            0.0
+        };
+        let bristle = match (self.law, deflection) {
+            (FrictionLaw::Bristle { stiffness, .. }, Some(e)) => {
+                0.5 * stiffness * point.share * (e[0] * e[0] + e[1] * e[1])
+            }
+            _ => 0.0,
+        };
+        [pressed, bristle]
+    }
+
     /// Where a point is and how it moves; no forces yet.
     #[inline(always)]
     pub fn geometry<S: Real>(&self, point: &ContactPoint, relative: &Relative<S>) -> PointContact<S> {

@@ -108,7 +108,7 @@ pub const WHAT_TO_TRY_WITH_FILES: &str = "look at this body or connection with `
 
 /// Returns what the integrator says of a step that it cannot make, with the state in words; `name` names a state.
 #[must_use]
-pub fn told(error: &StepError, name: impl Fn(usize) -> String) -> String {
+pub fn describe(error: &StepError, name: impl Fn(usize) -> String) -> String {
     match error.index {
         Some(state) => format!("{error}; state {state} is {}", name(state)),
         None => error.to_string(),
@@ -118,7 +118,7 @@ pub fn told(error: &StepError, name: impl Fn(usize) -> String) -> String {
 impl Stalled {
     /// Returns the message with the state in words; `name` names a state.
     #[must_use]
-    pub fn told(&self, name: impl Fn(usize) -> String) -> String {
+    pub fn describe(&self, name: impl Fn(usize) -> String) -> String {
         match self.state {
             Some(state) => format!("{self}; the largest error is that of {}", name(state)),
             None => self.to_string(),

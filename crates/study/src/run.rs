@@ -243,7 +243,7 @@ impl Run {
     pub fn advance(&mut self) -> Result<(), RunError> {
         let limit = self.rows.limit(self.next_row, &self.integrator);
         if let Err(error) = self.integrator.step_to(limit) {
-            return Err(self.cannot_go_on(progress::told(&error, |state| self.state_name(state))));
+            return Err(self.cannot_go_on(progress::describe(&error, |state| self.state_name(state))));
         }
         self.count_events();
         self.count_creep();
@@ -251,7 +251,7 @@ impl Run {
         self.emit_rows(false)?;
         let short = INTERVALS * self.case.simulation.output_interval;
         let progresses = self.counts.pace.check(&self.integrator, short);
-        progresses.map_err(|stalled| self.cannot_go_on(stalled.told(|state| self.state_name(state))))
+        progresses.map_err(|stalled| self.cannot_go_on(stalled.describe(|state| self.state_name(state))))
     }
 
     fn cannot_go_on(&self, reason: String) -> RunError {

@@ -154,12 +154,12 @@ impl Element for TruckElement {
         while integrator.time() < time {
             let name = |state| progress::truck_state_name(&self.truck.system, [&[], &[]], state);
             if let Err(error) = integrator.step_to(time) {
-                return Err(Error::new(progress::told(&error, name)));
+                return Err(Error::new(progress::describe(&error, name)));
             }
             pace.check(integrator, length).map_err(|stalled| {
                 Error::new(format!(
                     "the step of {length} s to {time} s cannot be finished: {}; make it shorter, or look for inputs that are far out",
-                    stalled.told(name)
+                    stalled.describe(name)
                 ))
             })?;
         }

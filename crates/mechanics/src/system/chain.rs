@@ -24,7 +24,7 @@ use integrate::lanes::Lanes;
 use super::{FreeBody, Mounted};
 use crate::body::Kinematics;
 use crate::link::{Relative, Turning};
-use crate::tangent::{Change, Column, Columns, Tangent, combined, force_of, moment_of};
+use crate::tangent::{Change, Column, Columns, Tangent, combined, force_of, moment_of, sum};
 use crate::vector::{Matrix, Vector};
 
 /// The rows of a generalized force at a body: of its translations (axes of its reference frame), and of its free angles.
@@ -97,15 +97,13 @@ struct End {
     ways: [Vector<f64>; 3],
     /// What positions change v by, if anything.
     carried: Option<[Vector<f64>; 3]>,
+    /// What the angles change; their rates change v and ω by what they change d and φ by.
     angles: [Change; 3],
-    /// Rates of the angles change v and ω by this.
-    swings: [[Vector<f64>; 2]; 3],
-    /// Whether they change v.
+    /// Whether the angles change d.
     swing: bool,
     /// The axes of the body's reference frame (with a fourth direction), and of its free angles.
     along: Projection,
     about: Projection,
-    axes: [Vector<f64>; 3],
 }
 
 impl End {
@@ -116,7 +114,7 @@ impl End {
                 let own = combined(&columns.position, self.ways[k]);
                 match &self.carried {
                     None => own,
-                    Some(carried) => crate::tangent::sum(own, combined(&columns.velocity, carried[k])),
+                    Some(carried) => sum(own, combined(&columns.velocity, carried[k])),
                 }
             }
             (_, l) => columns.along(&self.angles[l]),
@@ -128,10 +126,10 @@ impl End {
         match free.row(index) {
             (0, k) => combined(&columns.velocity, self.ways[k]),
             (_, l) => {
-                let [velocity, spin] = self.swings[l];
-                let own = combined(&columns.angular_velocity, spin);
+                let change = &self.angles[l];
+                let own = combined(&columns.angular_velocity, change.rotation);
                 if self.swing {
-                    crate::tangent::sum(own, combined(&columns.velocity, velocity))
+                    sum(own, combined(&columns.velocity, change.position))
                 } else {
                     own
                 }
@@ -180,7 +178,6 @@ impl<'c> Chain<'c> {
         let swing = arm != Vector::zero();
         let axes = a.axes.map(to_mount);
         let mut angles = [Change::NONE; 3];
-        let mut swings = [[Vector::zero(); 2]; 3];
         for (l, axis) in axes.iter().enumerate() {
             let drift = to_mount(cross(a.axes[l], a.spin) + a.drifts[l]);
             let mut change = Change {
@@ -192,7 +189,6 @@ impl<'c> Chain<'c> {
                 change.position = cross(*axis, arm);
                 change.velocity = cross(drift, arm) + cross(relative.angular_velocity, change.position);
             }
-            swings[l] = [change.position, *axis];
             angles[l] = change;
         }
         let end_a = End {
@@ -201,9 +197,7 @@ impl<'c> Chain<'c> {
             about: Projection::new([axes[0], axes[1], axes[2], Vector::zero()]),
             ways,
             angles,
-            swings,
             swing,
-            axes,
         };
         let seat: Vector<f64> = mounted.mount.rotation.apply_transposed(mounted.mount.origin);
         let reach = relative.position + seat;
@@ -214,28 +208,23 @@ impl<'c> Chain<'c> {
             let directions = to_frame.0.map(Vector);
             let axes = b.axes.map(to_mount);
             let mut angles = [Change::NONE; 3];
-            let mut swings = [[Vector::zero(); 2]; 3];
             for (l, axis) in axes.iter().enumerate() {
                 let drift = to_mount(cross(b.axes[l], b.spin) + b.drifts[l]);
-                let moved = -cross(*axis, reach);
                 angles[l] = Change {
-                    position: moved,
+                    position: -cross(*axis, reach),
                     rotation: -*axis,
                     velocity: -cross(*axis, relative.velocity) - cross(drift, reach),
                     angular_velocity: -cross(*axis, relative.angular_velocity) - drift,
                 };
-                swings[l] = [moved, -*axis];
             }
             let [x, y, z] = directions;
             End {
                 ways: directions.map(|way| -way),
                 carried: Some(directions.map(|way| cross(spin, way))),
                 angles,
-                swings,
                 swing: true,
                 along: Projection::new([x, y, z, Vector::zero()]),
                 about: Projection::new([axes[0], axes[1], axes[2], Vector::zero()]),
-                axes,
             }
         });
         Self {
@@ -257,6 +246,12 @@ impl<'c> Chain<'c> {
         } else {
             moment
         }
+    }
+
+    /// The rows at body b of a force and a moment about marker A on body a.
+    #[inline(always)]
+    fn rows_of_b(&self, b: &End, force: Vector<f64>, moment: Vector<f64>) -> Rows {
+        b.rows(-force, -(moment + cross(self.reach, force)))
     }
 
     /// The moment on body a about its origin, marker axes.
@@ -285,7 +280,7 @@ impl<'c> Chain<'c> {
                     if self.a.swing {
                         about += cross(change.position, force);
                     }
-                    about = about - cross(self.a.axes[l], moment);
+                    about = about - cross(change.rotation, moment);
                     change.position
                 }
             };
@@ -303,9 +298,8 @@ impl<'c> Chain<'c> {
                 add(&mut block[j], rows);
             }
             if let Some(b) = &self.b {
-                let on_b = dm + cross(moved, force) + cross(self.reach, df);
-                add(&mut other[0][j], b.rows(-df, -on_b));
-                add(&mut other[1][j], b.rows(-rf, -(rm + cross(self.reach, rf))));
+                add(&mut other[0][j], self.rows_of_b(b, df, dm + cross(moved, force)));
+                add(&mut other[1][j], self.rows_of_b(b, rf, rm));
             }
         }
     }
@@ -325,9 +319,11 @@ impl<'c> Chain<'c> {
             let moved = match free.row(j) {
                 (0, k) => b.ways[k],
                 (_, l) => {
-                    turned_force += cross(b.axes[l], force);
-                    turned_moment += cross(b.axes[l], moment);
-                    b.angles[l].position
+                    // The axes turn the other way than what is seen from them.
+                    let change = &b.angles[l];
+                    turned_force = turned_force - cross(change.rotation, force);
+                    turned_moment = turned_moment - cross(change.rotation, moment);
+                    change.position
                 }
             };
             let on_b = dm + cross(moved, force) + cross(self.reach, df);
@@ -336,7 +332,7 @@ impl<'c> Chain<'c> {
             add(&mut other[0][j], self.a.rows(turned_force, on_a));
             let rate = b.by_rate(free, j, &self.tangent.by);
             let (rf, rm) = (force_of(&rate), moment_of(&rate));
-            add(&mut own[1][j], b.rows(-rf, -(rm + cross(self.reach, rf))));
+            add(&mut own[1][j], self.rows_of_b(b, rf, rm));
             add(&mut other[1][j], self.a.rows(rf, self.about_a(rf, rm)));
             powers.keep(j, [&column, &rate], [0.0; 2]);
         }
@@ -359,7 +355,7 @@ impl<'c> Chain<'c> {
     #[inline(always)]
     pub fn load(&self, side: usize, force: Vector<f64>, moment: Vector<f64>) -> Rows {
         match &self.b {
-            Some(b) if side == 1 => b.rows(-force, -(moment + cross(self.reach, force))),
+            Some(b) if side == 1 => self.rows_of_b(b, force, moment),
             _ => self.a.rows(force, self.about_a(force, moment)),
         }
     }

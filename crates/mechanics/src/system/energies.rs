@@ -1,7 +1,6 @@
 //! The stored energies of a state, where they are all that is wanted of many states.
 
 use super::{Energies, Linear, System};
-use crate::friction::FrictionLaw;
 use crate::link::Relative;
 
 impl System {
@@ -32,14 +31,9 @@ impl System {
             let (mut contact, mut bristle) = (0.0, 0.0);
             for (i, point) in face.points.iter().enumerate() {
                 let gap = face.geometry(point, &relative).gap;
-                if gap < 0.0 {
-                    contact += 0.5 * point.stiffness * gap * gap;
-                }
-                if let (FrictionLaw::Bristle { stiffness, .. }, Some(e)) =
-                    (face.law, deflections.get(2 * i..2 * i + 2))
-                {
-                    bristle += 0.5 * stiffness * point.share * (e[0] * e[0] + e[1] * e[1]);
-                }
+                let own = face.stored(point, gap, deflections.get(2 * i..2 * i + 2));
+                contact += own[0];
+                bristle += own[1];
             }
             energies.contact += contact;
             energies.bristle += bristle;

@@ -17,7 +17,7 @@ use crate::connection;
 use crate::contact::ContactFace;
 use crate::link::{Relative, Turning};
 use crate::surface::Plane;
-use crate::tangent::{Columns, Tangent};
+use crate::tangent::{Change, Columns};
 use crate::vector::Vector;
 
 /// What is gathered for a free body while the elements are differentiated.
@@ -69,8 +69,6 @@ impl System {
             face.element.linearize(&mut face.points, deflections);
             if face.points.are_active() {
                 differentiate_element(face, &scene, &mut self.gathered, &mut self.jacobian);
-            } else {
-                face.tangent = Tangent::NONE;
             }
         }
         for coil in &mut self.coils {
@@ -227,13 +225,8 @@ fn differentiate_element<E: Mountable>(
         for (side, end) in ends.into_iter().flatten().enumerate() {
             keep_rates(mounted, &chain, side, &scene.free[end], jacobian);
         }
-        E::differentiate_internal(mounted, &chain, &relative, &scene.free_of(ends), jacobian);
-    }
-}
-
-impl<'s> Scene<'s> {
-    fn free_of(&self, ends: [Option<usize>; 2]) -> [Option<&'s FreeBody>; 2] {
-        ends.map(|end| end.map(|end| &self.free[end]))
+        let free = ends.map(|end| end.map(|end| &scene.free[end]));
+        E::differentiate_internal(mounted, &chain, &relative, &free, jacobian);
     }
 }
 
@@ -326,7 +319,7 @@ impl<E> Mounted<E> {
 }
 
 /// The derivatives of the rates of internal states along a change of the relative motion, by point.
-pub(super) fn rates_along(rates: &[Columns], change: &crate::tangent::Change, d_internal: &mut [f64]) {
+pub(super) fn rates_along(rates: &[Columns], change: &Change, d_internal: &mut [f64]) {
     for (columns, target) in rates.iter().zip(d_internal.chunks_mut(2 * LANES)) {
         let [first, second] = columns.along(change).map(|lanes| lanes.to_array());
         for (i, pair) in target.chunks_exact_mut(2).enumerate() {

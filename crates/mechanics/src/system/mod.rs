@@ -5,9 +5,11 @@
 
 mod along;
 mod chain;
+mod channel;
 mod drive;
 mod energies;
 mod equilibrium;
+mod error_bounds;
 mod forces;
 mod jacobian;
 mod loads;
@@ -40,11 +42,12 @@ use crate::surface::Plane;
 use crate::vector::Vector;
 
 pub use along::{Along, Direction, DriveChange};
+pub use channel::{Channel, ChannelKind};
 pub use drive::DriveError;
 pub use equilibrium::{NoEquilibrium, StaticFriction};
 pub use loads::{CoilLoad, FaceLoad, Loads};
 pub(crate) use model::Parts;
-pub use model::{Channel, ChannelKind, Model, ModelError, Mounted};
+pub use model::{Model, ModelError, Mounted};
 pub use modes::{CLOSING_GAP, Mode, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
 pub use observe::{BodyPlace, CoilState, ElementState, Energies, FaceState, Observation};
 pub use sense::{CoilSense, Load, PointSense, Sense};

@@ -1,8 +1,10 @@
 //! The description of a system, and how it becomes a [`System`].
 
-use integrate::partitioned::{Layout, Partitioned};
+use integrate::partitioned::Partitioned;
 use thiserror::Error;
 
+use super::channel::{Channel, ChannelKind};
+use super::error_bounds::{error_bounds, presses};
 use super::jacobian::Gathered;
 use super::placer::Placer;
 use super::spectral_radius::mobility;
@@ -13,7 +15,6 @@ use crate::connection::{self, Connection, ConnectionError, Options};
 use crate::contact::{ContactFace, Points};
 use crate::element::{Element, Marked, Placement};
 use crate::frame::Frame;
-use crate::friction::FrictionLaw;
 use crate::link::{Mount, Sight, Translation};
 use crate::motion::Motion;
 use crate::surface::Plane;
@@ -164,68 +165,6 @@ pub struct Mounted<E> {
     pub(super) rows: [[Option<usize>; 3]; 2],
     /// First row of the quadratures by pairs of internal states.
     pub(super) first_internal_row: usize,
-}
-
-/// What a quadrature integrates.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Channel {
-    /// Its kind.
-    pub kind: ChannelKind,
-    /// The element's name; empty for the work of the motions.
-    pub element: String,
-}
-
-/// Kinds of quadratures; all in J.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ChannelKind {
-    /// Work done by all prescribed motions.
-    MotionWork,
-    /// Energy lost in friction.
-    FrictionLoss,
-    /// Energy lost in contact damping.
-    ContactDampingLoss,
-    /// Energy lost in a coil's damping.
-    CoilDampingLoss,
-    /// Work done by a coil's guiding couple.
-    CoilGuideWork,
-    /// Energy lost in another force element.
-    ElementLoss,
-    /// Energy lost in dampers of springs.
-    SpringDamping,
-    /// Energy lost behind gaps.
-    GapDamping,
-    /// Energy lost in surface friction.
-    SurfaceFriction,
-    /// Energy lost in the normal dampers of surface friction.
-    SurfaceDamping,
-    /// Energy lost in the friction of massless wedges on their columns.
-    ColumnFriction,
-    /// Work of massless wedges' friction on their slopes; over a cycle a loss, while the friction force rebounds it gives back.
-    SlopeFriction,
-    /// Work that goes into the simplified kinematics of massless wedges (see [`crate::connection::Wedge`]); small, of either sign.
-    WedgeKinematics,
-}
-
-impl ChannelKind {
-    /// Its name, as in results.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::MotionWork => "input_work",
-            Self::FrictionLoss => "friction_loss",
-            Self::ContactDampingLoss => "contact_damping_loss",
-            Self::CoilDampingLoss => "coil_damping_loss",
-            Self::CoilGuideWork => "coil_guide_work",
-            Self::ElementLoss => "element_loss",
-            Self::SpringDamping => "spring_damping_loss",
-            Self::GapDamping => "gap_damping_loss",
-            Self::SurfaceFriction => "surface_friction_loss",
-            Self::SurfaceDamping => "surface_damping_loss",
-            Self::ColumnFriction => "wedge_column_loss",
-            Self::SlopeFriction => "wedge_slope_loss",
-            Self::WedgeKinematics => "wedge_kinematics_work",
-        }
-    }
 }
 
 /// What is gathered while elements are put in place.
@@ -557,75 +496,12 @@ fn frame_state(frame: &Frame) -> FrameState {
     }
 }
 
-/// A normal whose part along a coordinate is smaller than this is perpendicular to it: by rounding alone it has one.
-const ALONG: f64 = 1e-12;
-
-/// Of each coordinate of a free body, whether gaps change with it: not along faces that it cannot turn on.
-fn presses<'f>(
-    free: &'f FreeBody,
-    faces: &'f [Mounted<ContactFace<Plane>>],
-    frames: &'f [FrameState],
-) -> impl Iterator<Item = bool> + 'f {
-    let turns = free.free.len() > free.translations;
-    let may = move |coordinate: usize, face: &Mounted<ContactFace<Plane>>| {
-        let ends = [face.body, face.on];
-        let straight = !face.on_free && ends.iter().all(|&end| frames[end].keeps_orientation);
-        turns || !straight || face.sight.rotation.0[0][coordinate].abs() > ALONG
-    };
-    let own = free.faces.iter().map(|&face| &faces[face]);
-    free.free
-        .iter()
-        .map(move |&coordinate| own.clone().any(|face| may(coordinate, face)))
-}
-
-/// The widest admissible errors of positions and speeds, and those of speeds where a point sticks: see [`scales::WIDEST_TOLERANCE`].
-fn error_bounds(
-    error_scales: &[f64],
-    layout: Layout,
-    faces: &[Mounted<ContactFace<Plane>>],
-    presses: &[bool],
-) -> (Vec<f64>, Vec<f64>) {
-    let mut reference = f64::INFINITY;
-    let mut tanh_alone = !faces.is_empty();
-    for face in faces {
-        match face.element.law {
-            FrictionLaw::Tanh { reference_speed } => reference = reference.min(reference_speed),
-            FrictionLaw::Bristle { .. } => tanh_alone = false,
-        }
-    }
-    let of_speeds = if tanh_alone {
-        f64::INFINITY
-    } else {
-        scales::WIDEST_TOLERANCE
-    };
-    let in_layers = if faces.is_empty() {
-        f64::INFINITY
-    } else {
-        scales::WIDEST_TOLERANCE.min(reference / scales::VELOCITY)
-    };
-    let [q, u, ..] = layout.split(error_scales);
-    let where_pressed = |scales: &[f64], bound: f64| -> Vec<f64> {
-        let bounds = scales.iter().zip(presses);
-        bounds
-            .map(|(scale, presses)| if *presses { scale * bound } else { f64::INFINITY })
-            .collect()
-    };
-    let in_layers = u.iter().map(|scale| scale * in_layers);
-    (
-        [
-            where_pressed(q, scales::WIDEST_TOLERANCE),
-            where_pressed(u, of_speeds),
-        ]
-        .concat(),
-        q.iter().map(|_| f64::INFINITY).chain(in_layers).collect(),
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::coil::CoilLaw;
     use crate::frame::Frame;
+    use crate::friction::FrictionLaw;
     use crate::vector::Vector;
 
     /// The lists from which the Jacobian is made hold each element at each free body that it touches, once and in order, so that

@@ -358,14 +358,9 @@ impl System {
             state.normal_forces.push(axes.apply(normal));
             state.friction_forces.push(axes.apply(friction));
             state.friction_power += t1 * contact.slip[0] + t2 * contact.slip[1];
-            if contact.gap < 0.0 {
-                state.normal_energy += 0.5 * point.stiffness * contact.gap * contact.gap;
-            }
-            if let (crate::friction::FrictionLaw::Bristle { stiffness, .. }, Some(e)) =
-                (face.law, deflections.get(2 * i..2 * i + 2))
-            {
-                state.bristle_energy += 0.5 * stiffness * point.share * (e[0] * e[0] + e[1] * e[1]);
-            }
+            let [pressed, bristle] = face.stored(point, contact.gap, deflections.get(2 * i..2 * i + 2));
+            state.normal_energy += pressed;
+            state.bristle_energy += bristle;
         }
         state
     }

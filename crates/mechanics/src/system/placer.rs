@@ -4,7 +4,8 @@ use integrate::lanes::LANES;
 use integrate::partitioned::Partitioned;
 
 use super::FrameState;
-use super::model::{Channel, ChannelKind, ModelError, Mounted, Parts};
+use super::channel::{Channel, ChannelKind};
+use super::model::{ModelError, Mounted, Parts};
 use crate::body::{Body, Kinematics};
 use crate::contact::Points;
 use crate::link::{Mount, Sight, Translation};

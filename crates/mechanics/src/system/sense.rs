@@ -6,7 +6,7 @@ use std::ops::Mul;
 
 use integrate::scalar::Real;
 
-use super::System;
+use super::{Mounted, System};
 use crate::body::Kinematics;
 use crate::element::{Action, Scalar};
 use crate::frame::FrameMotion;
@@ -115,13 +115,11 @@ impl System {
         out.points.clear();
         out.coils.clear();
         for mounted in &self.faces {
-            let (a, b) = ((stage.frames)(mounted.body), (stage.frames)(mounted.on));
-            let sight = Sight::new(&a, &b, &stage.kinematics[mounted.on], &mounted.mount);
-            let relative: Relative<S> = sight.relative(&stage.kinematics[mounted.body]);
+            let seen = stage.seen(mounted);
             let face = &mounted.element;
             let first = out.points.len();
             for point in &face.points {
-                let contact = face.geometry(point, &relative);
+                let contact = face.geometry(point, &seen.relative);
                 out.points.push(PointSense {
                     gap: contact.gap,
                     normal: S::zero(),
@@ -132,7 +130,7 @@ impl System {
             let internal = &stage.internal[mounted.first_internal..][..mounted.internal_count];
             let rates = &mut out.internal_rates[mounted.first_internal..][..mounted.internal_count];
             let points = &mut out.points[first..];
-            let sum = face.evaluate(&relative, internal, |point, contact| {
+            let sum = face.evaluate(&seen.relative, internal, |point, contact| {
                 points[point].normal = contact.normal;
                 points[point].friction = contact.friction.force;
                 if !rates.is_empty() {
@@ -140,86 +138,79 @@ impl System {
                 }
             });
             let action = Action::of_face(&sum);
-            add(
-                mounted,
-                &action,
-                &relative,
-                &sight,
-                [&stage.kinematics[mounted.body], &stage.kinematics[mounted.on]],
-                [&a, &b],
-                out,
-            );
+            stage.add(mounted, &seen, &action, out);
         }
         for (number, mounted) in self.coils.iter().enumerate() {
-            let (a, b) = ((stage.frames)(mounted.body), (stage.frames)(mounted.on));
-            let sight = Sight::new(&a, &b, &stage.kinematics[mounted.on], &mounted.mount);
-            let relative: Relative<S> = sight.relative(&stage.kinematics[mounted.body]);
+            let seen = stage.seen(mounted);
             let change = (stage.coil_change)(number);
             let coil = mounted
                 .element
-                .on_body_with(&relative, |length| mounted.element.spring(length) + change);
+                .on_body_with(&seen.relative, |length| mounted.element.spring(length) + change);
             out.coils.push(CoilSense {
                 length: coil.length,
                 spring: coil.spring,
             });
             let action = Action::of_coil(&coil);
-            add(
-                mounted,
-                &action,
-                &relative,
-                &sight,
-                [&stage.kinematics[mounted.body], &stage.kinematics[mounted.on]],
-                [&a, &b],
-                out,
-            );
+            stage.add(mounted, &seen, &action, out);
         }
         for mounted in &self.elements {
-            let (a, b) = ((stage.frames)(mounted.body), (stage.frames)(mounted.on));
-            let sight = Sight::new(&a, &b, &stage.kinematics[mounted.on], &mounted.mount);
-            let relative: Relative<S> = sight.relative(&stage.kinematics[mounted.body]);
-            let action = mounted.element.on_body(&relative);
-            add(
-                mounted,
-                &action,
-                &relative,
-                &sight,
-                [&stage.kinematics[mounted.body], &stage.kinematics[mounted.on]],
-                [&a, &b],
-                out,
-            );
+            let seen = stage.seen(mounted);
+            let action = mounted.element.on_body(&seen.relative);
+            stage.add(mounted, &seen, &action, out);
         }
     }
 }
 
-/// Adds what one element does to the bodies at its ends, and its powers.
-fn add<E, S: Real>(
-    mounted: &super::Mounted<E>,
-    action: &Action<S>,
-    relative: &Relative<S>,
-    sight: &Sight<S>,
-    [body, on]: [&Kinematics<S>; 2],
-    [a, b]: [&FrameMotion<S>; 2],
-    out: &mut Sense<S>,
-) where
+/// An element seen on a stage: the frames of the bodies at its ends, and the motion of body a as its mount sees it.
+struct Seen<S> {
+    frames: [FrameMotion<S>; 2],
+    sight: Sight<S>,
+    relative: Relative<S>,
+}
+
+impl<S: Real, D> Stage<'_, S, D>
+where
     f64: Mul<S, Output = S>,
 {
-    let mut load = |number: usize,
-                    body: &Kinematics<S>,
-                    frame: &FrameMotion<S>,
-                    (force, moment): (Vector<S>, Vector<S>)| {
-        let load = &mut out.loads[number];
-        let moment: Vector<S> = body.turn.rotation.apply(moment);
-        load.force += frame.rotation.apply::<S, S>(force);
-        load.moment += frame.rotation.apply::<S, S>(moment);
-    };
-    load(mounted.body, body, a, action.on_body(sight, body));
-    load(mounted.on, on, b, action.reaction(relative, on, &mounted.mount));
-    for (channel, power) in mounted.channels.iter().zip(action.powers) {
-        if let Some(channel) = channel {
-            out.powers[*channel] += power;
+    fn seen<E>(&self, mounted: &Mounted<E>) -> Seen<S> {
+        let frames = [mounted.body, mounted.on].map(self.frames);
+        let sight = Sight::new(
+            &frames[0],
+            &frames[1],
+            &self.kinematics[mounted.on],
+            &mounted.mount,
+        );
+        let relative = sight.relative(&self.kinematics[mounted.body]);
+        Seen {
+            frames,
+            sight,
+            relative,
         }
     }
-    if mounted.driven {
-        out.powers[0] += action.drive_power(relative, sight);
+
+    /// Adds what one element does to the bodies at its ends, and its powers.
+    fn add<E>(&self, mounted: &Mounted<E>, seen: &Seen<S>, action: &Action<S>, out: &mut Sense<S>) {
+        let [a, b] = &seen.frames;
+        let (body, on) = (&self.kinematics[mounted.body], &self.kinematics[mounted.on]);
+        let mut load = |number: usize,
+                        body: &Kinematics<S>,
+                        frame: &FrameMotion<S>,
+                        (force, moment): (Vector<S>, Vector<S>)| {
+            let load = &mut out.loads[number];
+            let moment: Vector<S> = body.turn.rotation.apply(moment);
+            load.force += frame.rotation.apply::<S, S>(force);
+            load.moment += frame.rotation.apply::<S, S>(moment);
+        };
+        load(mounted.body, body, a, action.on_body(&seen.sight, body));
+        let reaction = action.reaction(&seen.relative, on, &mounted.mount);
+        load(mounted.on, on, b, reaction);
+        for (channel, power) in mounted.channels.iter().zip(action.powers) {
+            if let Some(channel) = channel {
+                out.powers[*channel] += power;
+            }
+        }
+        if mounted.driven {
+            out.powers[0] += action.drive_power(&seen.relative, &seen.sight);
+        }
     }
 }

@@ -226,13 +226,13 @@ impl DrivenWedge {
         while self.integrator.time() < time {
             let name = |state| progress::state_name(self.equations.system(), state);
             if let Err(error) = self.integrator.step_to(time) {
-                return Err(DrivenError::Step(progress::told(&error, name)));
+                return Err(DrivenError::Step(progress::describe(&error, name)));
             }
             pace.check(&self.integrator, duration)
                 .map_err(|stalled| DrivenError::TooLong {
                     step: duration,
                     time: start,
-                    why: stalled.told(name),
+                    why: stalled.describe(name),
                 })?;
         }
         self.equations

@@ -41,12 +41,12 @@ pub fn measure(case: &Case) -> Result<Measures, Unmeasured> {
         let limit = measuring.rows.limit(measuring.next_row, &integrator);
         if let Err(error) = integrator.step_to(limit) {
             let name = |state| progress::state_name(integrator.problem(), state);
-            return Err(stopped(&progress::told(&error, name)));
+            return Err(stopped(&progress::describe(&error, name)));
         }
         measuring.after_step(&mut integrator);
         if let Err(stalled) = pace.check(&integrator, INTERVALS * case.simulation.output_interval) {
             let name = |state| progress::state_name(integrator.problem(), state);
-            return Err(stopped(&stalled.told(name)));
+            return Err(stopped(&stalled.describe(name)));
         }
     }
     Ok(measuring.finish(&integrator))

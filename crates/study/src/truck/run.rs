@@ -109,7 +109,7 @@ pub fn run_while(
     'steps: while row <= count {
         if let Err(error) = integrator.step_to(case.duration) {
             let name = |state| progress::truck_state_name(integrator.problem(), numbers, state);
-            stopped = stop(integrator.time(), progress::told(&error, name));
+            stopped = stop(integrator.time(), progress::describe(&error, name));
             break;
         }
         system.segment_like(integrator.problem());
@@ -136,7 +136,7 @@ pub fn run_while(
             && row <= count
         {
             let name = |state| progress::truck_state_name(integrator.problem(), numbers, state);
-            stopped = stop(integrator.time(), stalled.told(name));
+            stopped = stop(integrator.time(), stalled.describe(name));
             break;
         }
         if let ControlFlow::Break(reason) = progress(integrator.time())

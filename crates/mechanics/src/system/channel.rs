@@ -1,0 +1,63 @@
+//! The quadratures of a system: work of the motions, and every dissipation.
+
+/// What a quadrature integrates.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Channel {
+    /// Its kind.
+    pub kind: ChannelKind,
+    /// The element's name; empty for the work of the motions.
+    pub element: String,
+}
+
+/// Kinds of quadratures; all in J.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ChannelKind {
+    /// Work done by all prescribed motions.
+    MotionWork,
+    /// Energy lost in friction.
+    FrictionLoss,
+    /// Energy lost in contact damping.
+    ContactDampingLoss,
+    /// Energy lost in a coil's damping.
+    CoilDampingLoss,
+    /// Work done by a coil's guiding couple.
+    CoilGuideWork,
+    /// Energy lost in another force element.
+    ElementLoss,
+    /// Energy lost in dampers of springs.
+    SpringDamping,
+    /// Energy lost behind gaps.
+    GapDamping,
+    /// Energy lost in surface friction.
+    SurfaceFriction,
+    /// Energy lost in the normal dampers of surface friction.
+    SurfaceDamping,
+    /// Energy lost in the friction of massless wedges on their columns.
+    ColumnFriction,
+    /// Work of massless wedges' friction on their slopes; over a cycle a loss, while the friction force rebounds it gives back.
+    SlopeFriction,
+    /// Work that goes into the simplified kinematics of massless wedges (see [`crate::connection::Wedge`]); small, of either sign.
+    WedgeKinematics,
+}
+
+impl ChannelKind {
+    /// Its name, as in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MotionWork => "input_work",
+            Self::FrictionLoss => "friction_loss",
+            Self::ContactDampingLoss => "contact_damping_loss",
+            Self::CoilDampingLoss => "coil_damping_loss",
+            Self::CoilGuideWork => "coil_guide_work",
+            Self::ElementLoss => "element_loss",
+            Self::SpringDamping => "spring_damping_loss",
+            Self::GapDamping => "gap_damping_loss",
+            Self::SurfaceFriction => "surface_friction_loss",
+            Self::SurfaceDamping => "surface_damping_loss",
+            Self::ColumnFriction => "wedge_column_loss",
+            Self::SlopeFriction => "wedge_slope_loss",
+            Self::WedgeKinematics => "wedge_kinematics_work",
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! The widest admissible errors of positions and speeds: see [`scales::WIDEST_TOLERANCE`].
+
+use integrate::partitioned::Layout;
+
+use super::{FrameState, FreeBody, Mounted, scales};
+use crate::contact::ContactFace;
+use crate::friction::FrictionLaw;
+use crate::surface::Plane;
+
+/// A normal whose part along a coordinate is smaller than this is perpendicular to it: by rounding alone it has one.
+const ALONG: f64 = 1e-12;
+
+/// Of each coordinate of a free body, whether gaps change with it: not along faces that it cannot turn on.
+pub(super) fn presses<'f>(
+    free: &'f FreeBody,
+    faces: &'f [Mounted<ContactFace<Plane>>],
+    frames: &'f [FrameState],
+) -> impl Iterator<Item = bool> + 'f {
+    let turns = free.free.len() > free.translations;
+    let may = move |coordinate: usize, face: &Mounted<ContactFace<Plane>>| {
+        let ends = [face.body, face.on];
+        let straight = !face.on_free && ends.iter().all(|&end| frames[end].keeps_orientation);
+        turns || !straight || face.sight.rotation.0[0][coordinate].abs() > ALONG
+    };
+    let own = free.faces.iter().map(|&face| &faces[face]);
+    free.free
+        .iter()
+        .map(move |&coordinate| own.clone().any(|face| may(coordinate, face)))
+}
+
+/// The widest admissible errors of positions and speeds, and those of speeds where a point sticks: see [`scales::WIDEST_TOLERANCE`].
+pub(super) fn error_bounds(
+    error_scales: &[f64],
+    layout: Layout,
+    faces: &[Mounted<ContactFace<Plane>>],
+    presses: &[bool],
+) -> (Vec<f64>, Vec<f64>) {
+    let mut reference = f64::INFINITY;
+    let mut tanh_alone = !faces.is_empty();
+    for face in faces {
+        match face.element.law {
+            FrictionLaw::Tanh { reference_speed } => reference = reference.min(reference_speed),
+            FrictionLaw::Bristle { .. } => tanh_alone = false,
+        }
+    }
+    let of_speeds = if tanh_alone {
+        f64::INFINITY
+    } else {
+        scales::WIDEST_TOLERANCE
+    };
+    let in_layers = if faces.is_empty() {
+        f64::INFINITY
+    } else {
+        scales::WIDEST_TOLERANCE.min(reference / scales::VELOCITY)
+    };
+    let [q, u, ..] = layout.split(error_scales);
+    let where_pressed = |scales: &[f64], bound: f64| -> Vec<f64> {
+        let bounds = scales.iter().zip(presses);
+        bounds
+            .map(|(scale, presses)| if *presses { scale * bound } else { f64::INFINITY })
+            .collect()
+    };
+    let in_layers = u.iter().map(|scale| scale * in_layers);
+    (
+        [
+            where_pressed(q, scales::WIDEST_TOLERANCE),
+            where_pressed(u, of_speeds),
+        ]
+        .concat(),
+        q.iter().map(|_| f64::INFINITY).chain(in_layers).collect(),
+    )
+}
