@@ -10,7 +10,7 @@
 
 use integrate::{Integrator, Problem, StepError};
 use mechanics::body::COORDINATES;
-use mechanics::system::System;
+use mechanics::system::{ChannelKind, System};
 use quantity::Number;
 use serde::{Deserialize, Serialize};
 
@@ -126,43 +126,15 @@ impl Stalled {
     }
 }
 
-/// Returns the name of a state of a system of bodies and elements, in words.
+/// Returns the name of a state of a system, in words; `numbers` are those that the user's files give to bodies and connections, empty
+/// without such files.
 #[must_use]
-pub fn state_name(system: &System, index: usize) -> String {
-    let layout = system.layout();
-    let bodies = system.bodies();
-    if index < 2 * layout.speeds {
-        let found = motion(bodies.len(), layout.speeds, index, |body, k| {
-            system.position_of(body, k)
-        });
-        return match found {
-            Some((what, body)) => format!("{what} of the {}", bodies[body].name.replace('_', " ")),
-            None => format!("state {index}"),
-        };
-    }
-    let internal = index - 2 * layout.speeds;
-    for face in system.faces() {
-        let own = face.first_internal..face.first_internal + face.internal_count;
-        if own.contains(&internal) {
-            let point = (internal - face.first_internal) / face.element.law.states_per_point().max(1);
-            return format!("the bristles at point {} of the {}", point + 1, face.element.name);
-        }
-    }
-    match system.channels().get(internal.saturating_sub(layout.internals)) {
-        Some(channel) if channel.element.is_empty() => "the work of the motions".to_owned(),
-        Some(channel) => format!("the loss at the {}", channel.element),
-        None => format!("state {index}"),
-    }
-}
-
-/// Returns the name of a state of a half-truck, in words; `numbers` are those of bodies and of connections in its files.
-#[must_use]
-pub fn truck_state_name(system: &System, numbers: [&[u32]; 2], index: usize) -> String {
+pub fn state_name(system: &System, numbers: [&[u32]; 2], index: usize) -> String {
     let layout = system.layout();
     let [bodies, connections] = numbers;
     let named = |what: &str, number: Option<&u32>, name: &str| match number {
         Some(number) => format!("{what} {number} ({name})"),
-        None => format!("{what} {name}"),
+        None => format!("the {}", name.replace('_', " ")),
     };
     if index < 2 * layout.speeds {
         let count = system.bodies().len();
@@ -175,6 +147,14 @@ pub fn truck_state_name(system: &System, numbers: [&[u32]; 2], index: usize) -> 
             None => format!("state {index}"),
         };
     }
+    let internal = index - 2 * layout.speeds;
+    for face in system.faces() {
+        let own = face.first_internal..face.first_internal + face.internal_count;
+        if own.contains(&internal) {
+            let point = (internal - face.first_internal) / face.element.law.states_per_point().max(1);
+            return format!("the bristles at point {} of the {}", point + 1, face.element.name);
+        }
+    }
     for (place, connection) in system.connections().iter().enumerate() {
         let first = system.deflection_of(place);
         if first.is_some_and(|first| (first..first + 2).contains(&index)) {
@@ -182,11 +162,10 @@ pub fn truck_state_name(system: &System, numbers: [&[u32]; 2], index: usize) -> 
             return format!("the force accumulators of {connection}");
         }
     }
-    match system
-        .channels()
-        .get(index - 2 * layout.speeds - layout.internals)
-    {
-        Some(channel) => format!("`{}`", channel.kind.name()),
+    match system.channels().get(internal.saturating_sub(layout.internals)) {
+        Some(channel) if channel.kind == ChannelKind::MotionWork => "the work of the motions".to_owned(),
+        Some(channel) if channel.element.is_empty() => format!("`{}`", channel.kind.name()),
+        Some(channel) => format!("the loss at the {}", channel.element),
         None => format!("state {index}"),
     }
 }

@@ -2,8 +2,6 @@
 
 use integrate::{Integrator, Problem};
 
-use crate::case::Simulation;
-
 /// The rows of a run: at multiples of the output interval, and at the end.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rows {
@@ -12,13 +10,12 @@ pub(crate) struct Rows {
     /// The end of the run, s.
     pub end: f64,
     /// The time between two of them, s.
-    interval: f64,
+    pub interval: f64,
 }
 
 impl Rows {
-    /// Those of a simulation.
-    pub fn of(simulation: &Simulation) -> Self {
-        let (end, interval) = (simulation.duration, simulation.output_interval);
+    /// Returns those of a run that ends at `end` (s), each `interval` (s).
+    pub fn new(end: f64, interval: f64) -> Self {
         let whole = (end / interval * (1.0 + 1e-12)).floor();
         let rest = end - whole * interval > 1e-9 * interval;
         let count = whole as u64 + 1 + u64::from(rest);

@@ -1,32 +1,32 @@
-//! A run: a case being integrated, row by row, with a state that can be saved and continued.
+//! Runs of any model: a case being integrated, row by row, with a state that can be saved and continued.
+//!
+//! What is run is a [`RunCase`]: a wedge's [`Case`](crate::case::Case), a half-truck's [`TruckCase`](crate::truck::TruckCase).
+//! [`Run`] has the one loop: a step of the integrator, the output times that it reached, the energy balance, the rule for runs that
+//! hardly progress. The case's [`Recorder`] takes from it what the results need: a table with counts, or measures alone.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use integrate::{Family, Integrator, Options, SetupError, State};
-use mechanics::energy_balance::EnergyBalance;
-use mechanics::output::Column;
-use mechanics::system::{ChannelKind, Mode, System};
-use serde::{Deserialize, Serialize};
+use integrate::{Integrator, Options, SetupError};
+use mechanics::energy_balance::{EnergyBalance, Entries};
+use mechanics::system::{ModelError, NoEquilibrium, System};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use thiserror::Error;
-use wedge::outputs::{CORNERS, FACES, Outputs};
-use wedge::{BuildError, Wedge};
+use wedge::BuildError;
 
-use crate::case::Case;
-use crate::finite::is_finite;
-use crate::metrics::Cycle;
 use crate::progress::{self, INTERVALS, Pace};
-use crate::result::{ContactEvent, RunResult};
 use crate::rows::Rows;
 use crate::summary::Stopped;
 
 mod check;
+mod state;
 mod summarize;
+pub(crate) mod wedge_run;
 
-/// Version of [`RunState`].
-pub const RUN_STATE_VERSION: u32 = 2;
-/// How many events are listed at most.
-pub const EVENT_CAP: usize = 500;
+pub use state::{RUN_STATE_VERSION, RunState};
+pub(crate) use state::{check_finite, check_length, check_size, damaged};
+pub use wedge_run::{Counts, EVENT_CAP};
 
 /// Why a run cannot begin or go on.
 #[derive(Debug, Error)]
@@ -34,6 +34,12 @@ pub enum RunError {
     /// The parameters make no wedge.
     #[error(transparent)]
     Build(#[from] BuildError),
+    /// Bodies and elements make no system.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// There is no equilibrium to start from.
+    #[error("no static equilibrium was found to start from: {0}")]
+    Equilibrium(#[from] NoEquilibrium),
     /// The integrator cannot be set up.
     #[error(transparent)]
     Setup(#[from] SetupError),
@@ -46,17 +52,8 @@ pub enum RunError {
         contacts: String,
     },
     /// A column of the result is not finite.
-    #[error(
-        "`{column}` is {value} at {time} s, which is not a finite number: look for values out of all proportion"
-    )]
-    NotFinite {
-        /// The column, without unit.
-        column: String,
-        /// Its value, SI.
-        value: f64,
-        /// The time, s.
-        time: f64,
-    },
+    #[error(transparent)]
+    NotFinite(#[from] NotFinite),
     /// A saved state that this version cannot read.
     #[error("the saved run state has version {found}; this program reads version {RUN_STATE_VERSION}")]
     Version {
@@ -78,165 +75,192 @@ pub enum RunError {
     },
 }
 
-/// Everything needed to continue a run with the same bits.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RunState {
-    /// [`RUN_STATE_VERSION`].
-    pub version: u32,
-    /// States, quadratures, modes and controller memory.
-    pub integrator: State,
-    /// The next row to be written.
-    pub next_row: u64,
-    /// What has been counted so far.
-    pub counts: Counts,
+/// A value of the result is not finite.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error(
+    "`{column}` is {value} at {time} s, which is not a finite number: look for values out of all proportion"
+)]
+pub struct NotFinite {
+    /// The column, without unit.
+    pub column: String,
+    /// Its value, SI.
+    pub value: f64,
+    /// The time, s.
+    pub time: f64,
 }
 
-/// What is counted along a run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Counts {
-    /// Stored energy at the start, J.
-    pub start_energy: f64,
-    /// Distance that each contact point has crept while stuck, m.
-    pub crept: Vec<f64>,
-    /// Creep speeds at the last step's end, m/s.
-    pub creep_speeds: Vec<f64>,
-    /// Counts by face: opens, closes, sticks, slips.
-    pub events: Vec<[u64; 4]>,
-    /// All events.
-    pub event_total: u64,
-    /// The first events.
-    pub listed: Vec<ContactEvent>,
-    /// Friction losses at the probes passed so far, J: for each probe (side frame, bolster).
-    pub probes: Vec<[f64; 2]>,
-    /// The energy balance at the output times.
-    pub energy_balance: EnergyBalance,
-    /// How far it has come, and with how many steps.
-    pub pace: Pace,
-}
+/// A case that can be run: a model with all that a run needs besides.
+pub trait RunCase: Clone {
+    /// What takes the results from the run.
+    type Recorder: Recorder;
+    /// The results.
+    type Output;
 
-/// A run under way.
-pub struct Run {
-    case: Case,
-    rows: Rows,
-    wedge: Wedge,
-    outputs: Outputs,
-    integrator: Integrator<System>,
-    next_row: u64,
-    counts: Counts,
-    probe_times: Vec<f64>,
-    values: Vec<Vec<f64>>,
-    buffer: Vec<f64>,
-    row: Vec<f64>,
-    modes: Vec<u8>,
-    speeds: Vec<f64>,
-}
-
-impl Run {
-    /// A run at its start.
+    /// Returns the end of the run and the time between two rows, s.
+    fn duration_and_interval(&self) -> [f64; 2];
+    /// Returns the settings of the integrator.
+    fn options(&self) -> Options;
+    /// Returns the equations, the state at time zero and the recorder.
     ///
     /// # Errors
-    /// The parameters make no wedge, or the integrator refuses the start.
-    pub fn new(case: &Case) -> Result<Self, RunError> {
-        let mut wedge = Wedge::new(case.parameters.clone())?;
-        let start = wedge.initial_state.clone();
-        let start_energy = wedge.system.observe(0.0, &start).energies.total();
-        let integrator = Integrator::new(wedge.system.clone(), options(case), 0.0, &start)?;
-        let points = wedge.system.point_count();
-        let counts = Counts {
-            start_energy,
-            crept: vec![0.0; points],
-            creep_speeds: vec![0.0; points],
-            events: vec![[0; 4]; FACES.len()],
-            energy_balance: EnergyBalance::new(start_energy),
-            ..Counts::default()
-        };
-        let mut run = Self::assemble(case, wedge, integrator, counts, 0);
+    /// The case makes no system, or there is no such start.
+    fn begin(&self) -> Result<Beginning<Self::Recorder>, RunError>;
+    /// Returns the results of a run that has ended, or has stopped on its way.
+    fn output(run: Run<Self>, stopped: Option<Stopped>) -> Self::Output;
+}
+
+/// What a run begins with.
+#[derive(Debug)]
+pub struct Beginning<R> {
+    /// The equations of motion.
+    pub system: System,
+    /// The state at time zero.
+    pub x: Vec<f64>,
+    /// What takes the results from the run.
+    pub recorder: R,
+}
+
+/// Takes the results from a run.
+pub trait Recorder {
+    /// What it has counted along the run, saved with the run's state.
+    type Counts: Clone + PartialEq + Serialize + DeserializeOwned;
+
+    /// Returns what it has counted so far.
+    fn counts(&self) -> Self::Counts;
+    /// Goes on from what was counted until `time` (s).
+    ///
+    /// # Errors
+    /// [`RunError::Damaged`]: no run of this case can have counted that.
+    fn restore(&mut self, counts: Self::Counts, time: f64) -> Result<(), RunError>;
+    /// Takes an accepted step. `system` has the integrator's smooth interval of time; `x` is scratch memory for a state.
+    fn step(&mut self, integrator: &Integrator<System>, system: &mut System, x: &mut [f64]);
+    /// Takes an output time. Returns the entries of the energy ledger.
+    ///
+    /// # Errors
+    /// A value is not finite; the row has not been taken.
+    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, NotFinite>;
+    /// Returns these contact states in words, by contact.
+    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String>;
+    /// Returns the numbers that the user's files give to bodies and connections, for messages; empty without such files.
+    fn numbers(&self) -> [&[u32]; 2] {
+        [&[], &[]]
+    }
+}
+
+/// An output time of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<'r> {
+    /// Time, s.
+    pub time: f64,
+    /// The state.
+    pub x: &'r [f64],
+    /// The contact states.
+    pub contact_states: &'r [u8],
+    /// Stored energy at the start, J.
+    pub start_energy: f64,
+}
+
+/// A started run.
+pub struct Run<C: RunCase> {
+    pub(crate) case: C,
+    pub(crate) system: System,
+    pub(crate) recorder: C::Recorder,
+    pub(crate) integrator: Integrator<System>,
+    pub(crate) start_energy: f64,
+    pub(crate) energy_balance: EnergyBalance,
+    rows: Rows,
+    next_row: u64,
+    pace: Pace,
+    buffer: Vec<f64>,
+    contact_states: Vec<u8>,
+}
+
+impl<C: RunCase> Run<C> {
+    /// Returns a run at its start.
+    ///
+    /// # Errors
+    /// The case makes no system, the integrator refuses the start, or a value at the start is not finite.
+    pub fn new(case: &C) -> Result<Self, RunError> {
+        let mut beginning = case.begin()?;
+        let start_energy = beginning.system.energies(0.0, &beginning.x).total();
+        let integrator = Integrator::new(beginning.system.clone(), case.options(), 0.0, &beginning.x)?;
+        let mut run = Self::assemble(case, beginning, integrator, start_energy);
         run.emit_rows(true)?;
         Ok(run)
     }
 
-    /// A run that goes on from a saved state of the same case. Rows written before are not repeated.
+    /// Returns a run that goes on from a saved state of the same case. Rows written before are not repeated.
     ///
     /// # Errors
     /// The state belongs to another version or another case, or is damaged.
-    pub fn resume(case: &Case, state: RunState) -> Result<Self, RunError> {
-        if state.version != RUN_STATE_VERSION {
-            return Err(RunError::Version { found: state.version });
-        }
-        let wedge = Wedge::new(case.parameters.clone())?;
-        state.check(case, wedge.system.point_count())?;
-        let integrator = Integrator::resume(wedge.system.clone(), options(case), state.integrator)?;
-        Ok(Self::assemble(
-            case,
-            wedge,
-            integrator,
-            state.counts,
-            state.next_row,
-        ))
+    pub fn resume(case: &C, state: RunState<<C::Recorder as Recorder>::Counts>) -> Result<Self, RunError> {
+        state.check(case)?;
+        let beginning = case.begin()?;
+        let time = state.integrator.time;
+        let integrator = Integrator::resume(beginning.system.clone(), case.options(), state.integrator)?;
+        let mut run = Self::assemble(case, beginning, integrator, state.start_energy);
+        run.recorder.restore(state.counts, time)?;
+        run.next_row = state.next_row;
+        run.energy_balance = state.energy_balance;
+        run.pace = state.pace;
+        Ok(run)
     }
 
     fn assemble(
-        case: &Case,
-        wedge: Wedge,
+        case: &C,
+        beginning: Beginning<C::Recorder>,
         integrator: Integrator<System>,
-        counts: Counts,
-        next_row: u64,
+        start_energy: f64,
     ) -> Self {
-        let outputs = Outputs::new(&wedge.parameters);
-        let points = wedge.system.point_count();
+        let [duration, interval] = case.duration_and_interval();
         Self {
-            probe_times: probe_times(case),
-            values: vec![Vec::new(); outputs.columns().len()],
-            buffer: vec![0.0; wedge.initial_state.len()],
-            row: Vec::with_capacity(outputs.columns().len()),
-            modes: integrator.discrete_states().to_vec(),
-            speeds: vec![0.0; points],
             case: case.clone(),
-            rows: Rows::of(&case.simulation),
-            wedge,
-            outputs,
+            system: beginning.system,
+            recorder: beginning.recorder,
+            rows: Rows::new(duration, interval),
+            next_row: 0,
+            start_energy,
+            energy_balance: EnergyBalance::new(start_energy),
+            pace: Pace::of(&integrator),
+            buffer: beginning.x,
+            contact_states: integrator.discrete_states().to_vec(),
             integrator,
-            next_row,
-            counts,
         }
     }
 
-    /// The case that is run.
+    /// Returns the case that is run.
     #[must_use]
-    pub fn case(&self) -> &Case {
+    pub fn case(&self) -> &C {
         &self.case
     }
 
-    /// Time reached, s.
+    /// Returns the time reached, s.
     #[must_use]
     pub fn time(&self) -> f64 {
         self.integrator.time()
     }
 
-    /// Whether the end is reached.
+    /// Returns whether the end is reached.
     #[must_use]
     pub fn is_finished(&self) -> bool {
-        self.time() >= self.case.simulation.duration
+        self.time() >= self.rows.end
     }
 
-    /// The state, to be continued by [`Run::resume`].
+    /// Returns the state, to be continued by [`Run::resume`].
     #[must_use]
-    pub fn state(&self) -> RunState {
+    pub fn state(&self) -> RunState<<C::Recorder as Recorder>::Counts> {
         RunState {
             version: RUN_STATE_VERSION,
             integrator: self.integrator.state(),
             next_row: self.next_row,
-            counts: self.counts.clone(),
+            start_energy: self.start_energy,
+            energy_balance: self.energy_balance,
+            pace: self.pace,
+            counts: self.recorder.counts(),
         }
     }
 
-    /// The columns of the result.
-    #[must_use]
-    pub fn columns(&self) -> &[Column] {
-        self.outputs.columns()
-    }
-
-    /// One step of the integrator, with all rows and events that fall into it.
+    /// Makes one step of the integrator, with all rows and events that fall into it.
     ///
     /// # Errors
     /// The integrator cannot go on; what was computed is kept.
@@ -245,27 +269,34 @@ impl Run {
         if let Err(error) = self.integrator.step_to(limit) {
             return Err(self.cannot_go_on(progress::describe(&error, |state| self.state_name(state))));
         }
-        self.count_events();
-        self.count_creep();
-        self.probe();
+        self.system.segment_like(self.integrator.problem());
+        self.recorder
+            .step(&self.integrator, &mut self.system, &mut self.buffer);
         self.emit_rows(false)?;
-        let short = INTERVALS * self.case.simulation.output_interval;
-        let progresses = self.counts.pace.check(&self.integrator, short);
+        let progresses = self.pace.check(&self.integrator, INTERVALS * self.rows.interval);
         progresses.map_err(|stalled| self.cannot_go_on(stalled.describe(|state| self.state_name(state))))
     }
 
     fn cannot_go_on(&self, reason: String) -> RunError {
-        let contacts = self.contact_words();
+        let words = self.contact_states().into_iter();
+        let words: Vec<String> = words
+            .map(|(contact, state)| format!("{contact} {state}"))
+            .collect();
+        let contacts = if words.is_empty() {
+            "none".to_owned()
+        } else {
+            words.join(", ")
+        };
         RunError::Step { reason, contacts }
     }
 
     fn state_name(&self, state: usize) -> String {
-        progress::state_name(&self.wedge.system, state)
+        progress::state_name(&self.system, self.recorder.numbers(), state)
     }
 
-    /// Runs to the end and gives the result; a run that cannot go on gives an incomplete result with the reason.
+    /// Runs to the end. Returns the results; a run that cannot go on has incomplete results with the reason.
     #[must_use]
-    pub fn finish(self, mut progress: impl FnMut(f64)) -> RunResult {
+    pub fn finish(self, mut progress: impl FnMut(f64)) -> C::Output {
         self.finish_while(|time| {
             progress(time);
             ControlFlow::Continue(())
@@ -273,9 +304,9 @@ impl Run {
     }
 
     /// As [`Run::finish`], but asks after each step, with the time reached, whether to go on. When not, it is
-    /// told why, and the result is incomplete for that reason.
+    /// told why, and the results are incomplete for that reason.
     #[must_use]
-    pub fn finish_while(mut self, mut progress: impl FnMut(f64) -> ControlFlow<String>) -> RunResult {
+    pub fn finish_while(mut self, mut progress: impl FnMut(f64) -> ControlFlow<String>) -> C::Output {
         let mut reason = None;
         while reason.is_none() && !self.is_finished() {
             reason = match self.advance() {
@@ -285,212 +316,70 @@ impl Run {
                 Err(error) => Some(error.to_string()),
             };
         }
-        let stopped = reason.map(|reason| Stopped {
-            time: self.time(),
-            reason,
-            contacts: self.contact_states(),
-        });
+        let stopped = reason.map(|reason| self.stopped(reason));
         self.result(stopped)
     }
 
-    /// The result so far.
+    /// Returns the results so far.
     #[must_use]
-    pub fn result(mut self, stopped: Option<Stopped>) -> RunResult {
-        let mut summary = summarize::summary(&mut self, stopped);
-        if let Some(what) = summary.not_finite().filter(|_| summary.stopped.is_none()) {
-            summary.complete = false;
-            summary.stopped = Some(Stopped {
-                time: self.time(),
-                reason: format!("{what} is not a finite number: look for values out of all proportion"),
-                contacts: self.contact_states(),
-            });
-        }
-        RunResult {
-            columns: self.outputs.columns().to_vec(),
-            values: self.values,
-            summary,
+    pub fn result(self, stopped: Option<Stopped>) -> C::Output {
+        C::output(self, stopped)
+    }
+
+    /// Returns what is said of a run that stops where it is now.
+    #[must_use]
+    pub fn stopped(&self, reason: String) -> Stopped {
+        Stopped {
+            time: self.time(),
+            reason,
+            contacts: self.contact_states(),
         }
     }
 
-    /// Contact states by face and corner.
+    /// Returns the contact states in words, by contact.
     #[must_use]
     pub fn contact_states(&self) -> BTreeMap<String, String> {
-        self.integrator
-            .discrete_states()
-            .iter()
-            .enumerate()
-            .map(|(point, mode)| {
-                let (face, corner) = place(point);
-                (
-                    format!("{face}_{corner}"),
-                    Mode::from_number(*mode).name().to_owned(),
-                )
-            })
-            .collect()
+        self.recorder.contacts(self.integrator.discrete_states())
     }
 
-    fn contact_words(&self) -> String {
-        let words: Vec<String> = self
-            .contact_states()
-            .into_iter()
-            .map(|(place, mode)| format!("{place} {mode}"))
-            .collect();
-        words.join(", ")
-    }
-
-    fn count_events(&mut self) {
-        for event in self.integrator.events() {
-            let (face, corner) = place(event.index);
-            let kind = match (Mode::from_number(event.from), Mode::from_number(event.to)) {
-                (_, Mode::Open) => 0,
-                (Mode::Open, _) => 1,
-                (_, Mode::Stick) => 2,
-                (_, Mode::Slip) => 3,
-            };
-            self.counts.events[event.index / CORNERS.len()][kind] += 1;
-            self.counts.event_total += 1;
-            if self.counts.listed.len() < EVENT_CAP {
-                self.counts.listed.push(ContactEvent {
-                    time: event.time,
-                    face: face.to_owned(),
-                    corner: corner.to_owned(),
-                    from: Mode::from_number(event.from).name().to_owned(),
-                    to: Mode::from_number(event.to).name().to_owned(),
-                });
-            }
-        }
-    }
-
-    /// Adds the creep of corners that were stuck at both ends of the step (trapezoidal rule).
-    fn count_creep(&mut self) {
-        let stuck = Mode::Stick as u8;
-        let (before, after) = (
-            self.integrator.discrete_states_before_step(),
-            self.integrator.discrete_states(),
-        );
-        let step = self.integrator.time() - self.integrator.previous_time();
-        let any = before.iter().zip(after).any(|(a, b)| *a == stuck && *b == stuck);
-        if !any {
-            self.counts.creep_speeds.fill(0.0);
-            return;
-        }
-        self.wedge.system.segment_like(self.integrator.problem());
-        self.wedge
-            .system
-            .creep_speeds(self.integrator.time(), self.integrator.x(), &mut self.speeds);
-        for point in 0..self.speeds.len() {
-            if before[point] == stuck && after[point] == stuck {
-                let mean = 0.5 * (self.counts.creep_speeds[point] + self.speeds[point]);
-                self.counts.crept[point] += mean * step;
-            }
-        }
-        self.counts.creep_speeds.copy_from_slice(&self.speeds);
-    }
-
-    /// Notes the friction losses at the ends of the averaging window.
-    fn probe(&mut self) {
-        while let Some(time) = self.probe_times.get(self.counts.probes.len()) {
-            if *time > self.integrator.time() {
-                return;
-            }
-            self.integrator.interpolate_range(*time, 0, &mut self.buffer);
-            let losses = friction_losses(&self.wedge.system, &self.buffer);
-            self.counts.probes.push(losses);
-        }
-    }
-
-    /// Writes the rows whose time has been reached, with the contact modes of that time, up to one that is not finite.
+    /// Takes the rows whose time has been reached, with the contact states of that time, up to one that is not finite.
     fn emit_rows(&mut self, first: bool) -> Result<(), RunError> {
         let rows = self.rows;
         // Most steps reach no row.
         if rows.time(self.next_row) > self.integrator.time() {
             return Ok(());
         }
-        self.modes
-            .copy_from_slice(self.integrator.discrete_states_before_step());
-        if first {
-            self.modes.copy_from_slice(self.integrator.discrete_states());
-        }
-        let mut seen_events = 0;
+        self.contact_states.copy_from_slice(if first {
+            self.integrator.discrete_states()
+        } else {
+            self.integrator.discrete_states_before_step()
+        });
+        let mut taken = 0;
         while self.next_row < rows.count {
             let time = rows.time(self.next_row);
             if time > self.integrator.time() {
                 break;
             }
-            let events = self.integrator.events().iter().skip(seen_events);
+            let events = self.integrator.events().iter().skip(taken);
             for event in events.take_while(|event| event.time <= time && !first) {
-                self.modes[event.index] = event.to;
-                seen_events += 1;
+                self.contact_states[event.index] = event.to;
+                taken += 1;
             }
             if first {
                 self.buffer.copy_from_slice(self.integrator.x());
             } else {
                 self.integrator.interpolate(time, &mut self.buffer);
             }
-            self.wedge.system.segment_like(self.integrator.problem());
-            let seen = self.wedge.system.observe(time, &self.buffer);
-            self.row.clear();
-            let start = self.counts.start_energy;
-            let ledger = self
-                .outputs
-                .values(&self.wedge.system, &seen, &self.modes, start, &mut self.row);
-            if let Some(index) = self.row.iter().position(|value| !is_finite(*value)) {
-                return Err(RunError::NotFinite {
-                    column: self.outputs.columns()[index].name.clone(),
-                    value: self.row[index],
-                    time,
-                });
-            }
-            for (column, value) in self.values.iter_mut().zip(&self.row) {
-                column.push(*value);
-            }
-            self.counts.energy_balance.note(time, &ledger.entries());
+            let row = Row {
+                time,
+                x: &self.buffer,
+                contact_states: &self.contact_states,
+                start_energy: self.start_energy,
+            };
+            let entries = self.recorder.row(&mut self.system, &row)?;
+            self.energy_balance.note(time, &entries);
             self.next_row += 1;
         }
         Ok(())
-    }
-}
-
-/// The ends of the averaging window, s; none without one.
-fn probe_times(case: &Case) -> Vec<f64> {
-    let window = Cycle::of(&case.parameters).and_then(|cycle| cycle.window(case.simulation.duration));
-    window.map_or(Vec::new(), |(start, end, _)| vec![start, end])
-}
-
-/// Energy lost in friction so far, J, by face.
-pub(crate) fn friction_losses(system: &System, x: &[f64]) -> [f64; 2] {
-    let [_, _, _, quadratures] = system.layout().split(x);
-    let mut losses = [0.0; 2];
-    for (channel, value) in system.channels().iter().zip(quadratures) {
-        if channel.kind == ChannelKind::FrictionLoss {
-            losses[usize::from(channel.element != FACES[0])] += value;
-        }
-    }
-    losses
-}
-
-/// Face and corner of a contact point.
-fn place(point: usize) -> (&'static str, &'static str) {
-    (FACES[point / CORNERS.len()], CORNERS[point % CORNERS.len()])
-}
-
-/// Steps a cycle, at least, of a method that damps the vibrations.
-const STEPS_A_CYCLE: f64 = 200.0;
-
-/// The integrator's settings of a case.
-pub(crate) fn options(case: &Case) -> Options {
-    let method = case.simulation.method;
-    let maximum_step = match method.tableau().family {
-        // Its steps are as long as the motion allows; rows and reversals are to be resolved. At 2 Hz steps of 0.01 s, fifty a cycle,
-        // err by 1.3 % in branch forces, two hundred by 0.2 %.
-        Family::DiagonallyImplicit => Cycle::of(&case.parameters)
-            .map_or(f64::INFINITY, |cycle| cycle.period() / STEPS_A_CYCLE)
-            .min(case.simulation.output_interval),
-        _ => f64::INFINITY,
-    };
-    Options {
-        relative_tolerance: case.simulation.relative_tolerance,
-        maximum_step,
-        ..Options::of(method)
     }
 }

@@ -12,7 +12,7 @@ use runs::{LBF, LBF_IN, column};
 use study::case::builtin;
 use study::driven::{DrivenError, DrivenWedge};
 use study::measures::{Unmeasured, measure};
-use study::progress::{state_name, truck_state_name};
+use study::progress::state_name;
 use study::result::RunResult;
 use study::run::Run;
 use study::truck::catalog::entry;
@@ -170,7 +170,7 @@ fn limits_states_have_names() {
     let case = builtin::case_with("cdrun_toe_0_psi_0", &bristle).unwrap();
     let wedge = Wedge::new(case.parameters).unwrap();
     let names: Vec<String> = (0..wedge.initial_state.len())
-        .map(|state| state_name(&wedge.system, state))
+        .map(|state| state_name(&wedge.system, [&[], &[]], state))
         .collect();
     for name in [
         "the position in x of the wedge",
@@ -187,7 +187,7 @@ fn limits_states_have_names() {
     let system = System::new(case.truck.model.clone()).unwrap();
     let numbers = [&*case.truck.bodies, &*case.truck.connections];
     let names: Vec<String> = (0..system.layout().len())
-        .map(|state| truck_state_name(&system, numbers, state))
+        .map(|state| state_name(&system, numbers, state))
         .collect();
     assert!(names.iter().all(|name| !name.starts_with("state ")), "{names:?}");
     let accumulators = |name: &String| name.starts_with("the force accumulators of connection 127 (");

@@ -7,7 +7,7 @@ mod runs;
 use runs::run_all;
 use study::case::{Case, builtin};
 use study::result::RunResult;
-use study::run::{Run, RunState};
+use study::run::{Counts, Run, RunState};
 
 fn bits(result: &RunResult) -> Vec<Vec<u64>> {
     result
@@ -71,7 +71,7 @@ fn across_save_and_continue() {
                 break (end, run.result(None));
             }
             let text = serde_json::to_string(&run.state()).unwrap();
-            let state: RunState = serde_json::from_str(&text).unwrap();
+            let state: RunState<Counts> = serde_json::from_str(&text).unwrap();
             assert_eq!(state, run.state());
             let piece = run.result(None);
             assert!(!piece.summary.complete);

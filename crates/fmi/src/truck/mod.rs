@@ -152,7 +152,7 @@ impl Element for TruckElement {
         let length = time - integrator.time();
         let mut pace = Pace::of(integrator);
         while integrator.time() < time {
-            let name = |state| progress::truck_state_name(&self.truck.system, [&[], &[]], state);
+            let name = |state| progress::state_name(&self.truck.system, [&[], &[]], state);
             if let Err(error) = integrator.step_to(time) {
                 return Err(Error::new(progress::describe(&error, name)));
             }

@@ -8,7 +8,7 @@ use fmi::instance::{Instance, Saved};
 use serde::Deserialize;
 use study::case::{Case, builtin};
 use study::driven::{DrivenState, DrivenWedge, Neighbours};
-use study::run::{Run, RunState};
+use study::run::{Counts, Run, RunState};
 
 use super::{Outcome, Reader};
 
@@ -147,7 +147,7 @@ fn run_state(input: &[u8]) -> Outcome {
     let Some(case) = CASE.as_ref() else {
         return Outcome::NO_TEXT;
     };
-    let state: RunState = match serde_json::from_slice(input) {
+    let state: RunState<Counts> = match serde_json::from_slice(input) {
         Ok(state) => state,
         // Whoever shows what serde says of a damaged text cuts it.
         Err(error) => return Outcome::refused_with(&input::bounded(error.to_string())),

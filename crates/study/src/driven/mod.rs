@@ -224,7 +224,7 @@ impl DrivenWedge {
         self.integrator.reevaluate();
         let mut pace = Pace::of(&self.integrator);
         while self.integrator.time() < time {
-            let name = |state| progress::state_name(self.equations.system(), state);
+            let name = |state| progress::state_name(self.equations.system(), [&[], &[]], state);
             if let Err(error) = self.integrator.step_to(time) {
                 return Err(DrivenError::Step(progress::describe(&error, name)));
             }

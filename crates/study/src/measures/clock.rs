@@ -20,16 +20,21 @@ pub(super) struct ContactClock {
 }
 
 impl ContactClock {
-    /// At the start of a run.
-    pub fn new(modes: &[u8], window: (f64, f64)) -> Self {
+    /// Returns a clock at time zero.
+    pub fn new(window: (f64, f64)) -> Self {
         Self {
-            modes: modes.to_vec(),
+            modes: Vec::new(),
             time: 0.0,
             window,
             lift_off: [0.0; 2],
             touching: [0.0; 2],
             sticking: [0.0; 2],
         }
+    }
+
+    /// Takes the contact states at time zero.
+    pub fn start(&mut self, contact_states: &[u8]) {
+        self.modes = contact_states.to_vec();
     }
 
     /// A step to `end` with its events, in order of time.
@@ -78,7 +83,8 @@ mod tests {
             to,
         };
         // All open; corner 0 of the column touches and sticks from 1 s, slips from 3 s, leaves at 4 s.
-        let mut clock = ContactClock::new(&[0; 8], (2.0, 10.0));
+        let mut clock = ContactClock::new((2.0, 10.0));
+        clock.start(&[0; 8]);
         clock.step(&[event(1.0, 0, 1)], 2.5);
         clock.step(&[event(3.0, 0, 2), event(4.0, 0, 0)], 10.0);
         assert_eq!(clock.lift_off, [1.0 + 6.0, 10.0]);

@@ -1,21 +1,25 @@
 //! A run that keeps its measures only.
 
-use integrate::Integrator;
-use mechanics::energy_balance::EnergyBalance;
+use std::collections::BTreeMap;
+
+use integrate::{Integrator, Options};
+use mechanics::energy_balance::Entries;
 use mechanics::quasi_static::Direction;
 use mechanics::system::{Loads, System};
 use wedge::outputs::{FACES, Ledger};
+use wedge::parameters::Parameters;
 use wedge::resultants::Resultants;
 use wedge::{BOLSTER, Wedge};
 
 use super::clock::ContactClock;
 use super::{Measures, place};
-use crate::case::{Case, Simulation};
+use crate::case::Case;
 use crate::closed_form;
 use crate::metrics::{Cycle, first_harmonic};
-use crate::progress::{self, INTERVALS, Pace};
-use crate::rows::Rows;
-use crate::run::{RunError, friction_losses, options};
+use crate::progress;
+use crate::run::wedge_run::{contact_states_in_words, friction_losses, options};
+use crate::run::{Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError};
+use crate::summary::Stopped;
 
 /// Why a run has no measures.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,29 +35,49 @@ pub enum Unmeasured {
 /// # Errors
 /// The run cannot begin or does not come to its end.
 pub fn measure(case: &Case) -> Result<Measures, Unmeasured> {
-    let refused = |error: RunError| Unmeasured::Refused(error.to_string());
-    let wedge = Wedge::new(case.parameters.clone()).map_err(|error| refused(error.into()))?;
-    let mut integrator = Integrator::new(wedge.system.clone(), options(case), 0.0, &wedge.initial_state)
-        .map_err(|error| refused(error.into()))?;
-    let mut measuring = Measuring::new(&case.simulation, wedge, &integrator);
-    let mut pace = Pace::of(&integrator);
-    while integrator.time() < measuring.rows.end {
-        let limit = measuring.rows.limit(measuring.next_row, &integrator);
-        if let Err(error) = integrator.step_to(limit) {
-            let name = |state| progress::state_name(integrator.problem(), state);
-            return Err(stopped(&progress::describe(&error, name)));
-        }
-        measuring.after_step(&mut integrator);
-        if let Err(stalled) = pace.check(&integrator, INTERVALS * case.simulation.output_interval) {
-            let name = |state| progress::state_name(integrator.problem(), state);
-            return Err(stopped(&stalled.describe(name)));
-        }
-    }
-    Ok(measuring.finish(&integrator))
+    let run = Run::new(&Measured(case)).map_err(|error| Unmeasured::Refused(error.to_string()))?;
+    run.finish(|_| ())
 }
 
-fn stopped(why: &str) -> Unmeasured {
-    Unmeasured::Stopped(format!("{why}; {}", progress::WHAT_TO_TRY))
+/// A wedge's case of which only measures are wanted.
+#[derive(Clone, Copy)]
+struct Measured<'c>(&'c Case);
+
+impl RunCase for Measured<'_> {
+    type Recorder = Measuring;
+    type Output = Result<Measures, Unmeasured>;
+
+    fn duration_and_interval(&self) -> [f64; 2] {
+        self.0.duration_and_interval()
+    }
+
+    fn options(&self) -> Options {
+        options(self.0)
+    }
+
+    fn begin(&self) -> Result<Beginning<Measuring>, RunError> {
+        let wedge = Wedge::new(self.0.parameters.clone())?;
+        Ok(Beginning {
+            recorder: Measuring::new(wedge.parameters, self.0.simulation.duration),
+            system: wedge.system,
+            x: wedge.initial_state,
+        })
+    }
+
+    fn output(run: Run<Self>, stopped: Option<Stopped>) -> Self::Output {
+        match stopped {
+            Some(stopped) => {
+                let reason = stopped.reason;
+                Err(Unmeasured::Stopped(format!(
+                    "{reason}; {}",
+                    progress::WHAT_TO_TRY
+                )))
+            }
+            None => Ok(run
+                .recorder
+                .finish(&run.integrator, run.energy_balance.relative_residual())),
+        }
+    }
 }
 
 /// The rows of a run, as far as measures need them.
@@ -66,18 +90,13 @@ struct Series {
 
 /// What is measured of a run on its way.
 struct Measuring {
-    rows: Rows,
-    wedge: Wedge,
+    parameters: Parameters,
     cycle: Option<Cycle>,
     /// The averaging window and its number of cycles.
     window: Option<(f64, f64, u32)>,
     clock: ContactClock,
-    start_energy: f64,
-    balance: EnergyBalance,
     /// Friction losses at the ends of the window, by face, J.
     probes: Vec<[f64; 2]>,
-    next_row: u64,
-    buffer: Vec<f64>,
     loads: Loads,
     /// Sums and counts of the branches: down, up.
     sums: [[f64; 4]; 2],
@@ -90,23 +109,15 @@ struct Measuring {
 }
 
 impl Measuring {
-    fn new(simulation: &Simulation, mut wedge: Wedge, integrator: &Integrator<System>) -> Self {
-        let cycle = Cycle::of(&wedge.parameters);
-        let rows = Rows::of(simulation);
-        let window = cycle.and_then(|cycle| cycle.window(rows.end));
-        let averaged = window.map_or((0.0, rows.end), |(start, end, _)| (start, end));
-        let start = wedge.initial_state.clone();
-        let start_energy = wedge.system.energies(0.0, &start).total();
-        let mut this = Self {
-            clock: ContactClock::new(integrator.discrete_states(), averaged),
+    fn new(parameters: Parameters, duration: f64) -> Self {
+        let cycle = Cycle::of(&parameters);
+        let window = cycle.and_then(|cycle| cycle.window(duration));
+        let averaged = window.map_or((0.0, duration), |(start, end, _)| (start, end));
+        Self {
+            clock: ContactClock::new(averaged),
             cycle,
             window,
-            start_energy,
-            balance: EnergyBalance::new(start_energy),
             probes: Vec::with_capacity(2),
-            next_row: 0,
-            rows,
-            buffer: start,
             loads: Loads::default(),
             sums: [[0.0; 4]; 2],
             counts: [0; 2],
@@ -114,51 +125,56 @@ impl Measuring {
             peaks_from: averaged.0,
             events: 0,
             series: Series::default(),
-            wedge,
-        };
-        this.observe_row(0.0);
-        this.next_row = 1;
-        this
+            parameters,
+        }
+    }
+}
+
+impl Recorder for Measuring {
+    type Counts = ();
+
+    fn counts(&self) {}
+
+    fn restore(&mut self, (): (), _: f64) -> Result<(), RunError> {
+        Ok(())
     }
 
-    /// Measures an accepted step.
-    fn after_step(&mut self, integrator: &mut Integrator<System>) {
+    fn step(&mut self, integrator: &Integrator<System>, system: &mut System, x: &mut [f64]) {
         let time = integrator.time();
         self.events += integrator.events().len() as u64;
         self.clock.step(integrator.events(), time);
-        self.probe(integrator);
-        self.wedge.system.segment_like(integrator.problem());
-        while self.next_row < self.rows.count {
-            let row = self.rows.time(self.next_row);
-            if row > time {
-                break;
-            }
-            integrator.interpolate(row, &mut self.buffer);
-            self.observe_row(row);
-            self.next_row += 1;
-        }
-    }
-
-    /// Notes the friction losses at the ends of the averaging window.
-    fn probe(&mut self, integrator: &Integrator<System>) {
-        let (start, end) = match self.window {
-            Some((start, end, _)) => (start, end),
-            None => return,
+        // Friction losses at the ends of the averaging window.
+        let Some((start, end, _)) = self.window else {
+            return;
         };
         while let Some(time) = [start, end].get(self.probes.len()) {
             if *time > integrator.time() {
                 return;
             }
-            integrator.interpolate_range(*time, 0, &mut self.buffer);
-            let losses = friction_losses(&self.wedge.system, &self.buffer);
-            self.probes.push(losses);
+            integrator.interpolate_range(*time, 0, x);
+            self.probes.push(friction_losses(system, x));
         }
     }
 
+    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, NotFinite> {
+        if row.time == 0.0 {
+            self.clock.start(row.contact_states);
+        }
+        system.loads(row.time, row.x, &mut self.loads);
+        self.observe_row(row.time);
+        let stored = system.energies(row.time, row.x).total() - row.start_energy;
+        let [_, _, _, quadratures] = system.layout().split(row.x);
+        Ok(Ledger::new(system, stored, quadratures).entries())
+    }
+
+    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
+        contact_states_in_words(contact_states)
+    }
+}
+
+impl Measuring {
     fn observe_row(&mut self, time: f64) {
-        self.wedge.system.loads(time, &self.buffer, &mut self.loads);
-        self.balance_row(time);
-        let found = Resultants::of(self.wedge.parameters.damping, &self.loads);
+        let found = Resultants::of(self.parameters.damping, &self.loads);
         let bolster = &self.loads.bodies[BOLSTER];
         let (displacement, speed) = (bolster.travel.0[2], bolster.velocity.0[2]);
         let moments = found.moments.iter().flat_map(|moment| moment.0);
@@ -167,9 +183,9 @@ impl Measuring {
             *peak = peak.max(moment.abs());
         }
         let Some(cycle) = self.cycle else { return };
-        if let Some(up) = cycle.branch(self.wedge.parameters.damping, time, displacement, speed) {
+        if let Some(up) = cycle.branch(self.parameters.damping, time, displacement, speed) {
             let branch = usize::from(up);
-            let load = closed_form::load(&self.wedge.parameters, displacement);
+            let load = closed_form::load(&self.parameters, displacement);
             let forces: [f64; 4] = [
                 found.vertical,
                 found.vertical_on_side_frame,
@@ -186,17 +202,8 @@ impl Measuring {
         self.series.on_bolster.push(found.on_bolster.0.0[2]);
     }
 
-    /// Takes the ledger of a row into account.
-    fn balance_row(&mut self, time: f64) {
-        let system = &mut self.wedge.system;
-        let stored = system.energies(time, &self.buffer).total() - self.start_energy;
-        let [_, _, _, quadratures] = system.layout().split(&self.buffer);
-        let ledger = Ledger::new(system, stored, quadratures);
-        self.balance.note(time, &ledger.entries());
-    }
-
-    /// The measures, after the last step.
-    fn finish(&mut self, integrator: &Integrator<System>) -> Measures {
+    /// Returns the measures, after the last step; `residual` is the relative residual of the energy ledger.
+    fn finish(&self, integrator: &Integrator<System>, residual: f64) -> Measures {
         let mut measures = Measures::NONE;
         let values = &mut measures.0;
         self.averages(values);
@@ -206,7 +213,7 @@ impl Measuring {
             // A face that never touches has no share.
             values[place::STICK + face] = self.clock.sticking[face] / self.clock.touching[face];
         }
-        let quasi_static = closed_form::wedge(&self.wedge.parameters);
+        let quasi_static = closed_form::wedge(&self.parameters);
         for (side, direction) in [Direction::Up, Direction::Down].into_iter().enumerate() {
             if let Some(slide) = quasi_static.slide(direction, quasi_static.branch(direction), 1.0) {
                 values[place::QUASI_STATIC_RATIOS + side] = slide.column_normal * libm::cos(quasi_static.toe);
@@ -217,7 +224,7 @@ impl Measuring {
         values[place::JAM_MARGIN] = margins[0].min(margins[1]);
         values[place::JAM_MARGIN + 1..=place::JAM_MARGIN + 2].copy_from_slice(&margins);
         let (time, x) = (integrator.time(), integrator.x());
-        let lost = friction_losses(&self.wedge.system, x);
+        let lost = friction_losses(integrator.problem(), x);
         let (from, to, period) = match (self.window, self.probes.as_slice()) {
             (Some((start, end, _)), [from, to]) => (*from, *to, end - start),
             _ => ([0.0; 2], lost, time),
@@ -225,7 +232,7 @@ impl Measuring {
         for face in 0..FACES.len() {
             values[place::WEAR + face] = (to[face] - from[face]) / period;
         }
-        values[place::RESIDUAL] = self.balance.relative_residual();
+        values[place::RESIDUAL] = residual;
         values[place::EVENTS] = self.events as f64;
         values[place::STEPS] = integrator.statistics().steps as f64;
         measures

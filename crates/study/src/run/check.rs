@@ -1,125 +1,19 @@
-//! Whether a saved state can be one of a case's run: all that could lead a run astray is looked at before it goes on.
+//! Whether saved counts can be those of a wedge's run.
 
-use integrate::MAXIMUM_COUNT;
 use mechanics::system::Mode;
 use wedge::outputs::{CORNERS, FACES};
 
-use super::{Counts, EVENT_CAP, RunError, RunState, probe_times};
-use crate::case::Case;
+use super::state::check_count;
+use super::{Counts, EVENT_CAP, RunError, check_finite, check_length, check_size, damaged};
 use crate::result::ContactEvent;
-use crate::rows::Rows;
-
-fn damaged<T>(member: &'static str, found: impl ToString, expected: impl ToString) -> Result<T, RunError> {
-    Err(RunError::Damaged {
-        member,
-        found: found.to_string(),
-        expected: expected.to_string(),
-    })
-}
-
-fn check_length(member: &'static str, found: usize, expected: usize) -> Result<(), RunError> {
-    if found == expected {
-        return Ok(());
-    }
-    damaged(
-        member,
-        format!("a list of {found}"),
-        format!("a list of {expected}"),
-    )
-}
-
-fn check_size(member: &'static str, value: f64) -> Result<(), RunError> {
-    if value >= 0.0 && value.is_finite() {
-        return Ok(());
-    }
-    damaged(member, value, "zero or positive, and finite")
-}
-
-fn check_finite(member: &'static str, value: f64) -> Result<(), RunError> {
-    if value.is_finite() {
-        return Ok(());
-    }
-    damaged(member, value, "finite")
-}
-
-impl RunState {
-    /// Whether it can be one of this case's run, whose wedge has so many contact points. What the integrator has is looked at by
-    /// the integrator.
-    pub(super) fn check(&self, case: &Case, points: usize) -> Result<(), RunError> {
-        let (time, end) = (self.integrator.time, case.simulation.duration);
-        if !(0.0..=end).contains(&time) {
-            return damaged(
-                "integrator.time",
-                time,
-                format!("between 0 and the duration, {end} s"),
-            );
-        }
-        if self.integrator.interval_start < 0.0 {
-            return damaged(
-                "integrator.segment_start",
-                self.integrator.interval_start,
-                "zero or positive",
-            );
-        }
-        if let Some(mode) = self
-            .integrator
-            .discrete_states
-            .iter()
-            .find(|mode| **mode > Mode::Slip as u8)
-        {
-            return damaged(
-                "integrator.modes",
-                mode,
-                "0 (open), 1 (stick) or 2 (slip) at every corner",
-            );
-        }
-        let rows = Rows::of(&case.simulation);
-        let next = self.next_row;
-        let written = (1..=rows.count).contains(&next) && rows.time(next - 1) <= time;
-        if !written || (next < rows.count && rows.time(next) <= time) {
-            let expected = format!(
-                "the number of the first row after the time {time} s, at most {}",
-                rows.count
-            );
-            return damaged("next_row", next, expected);
-        }
-        if self.counts.pace.time > time {
-            return damaged(
-                "counts.pace.time",
-                self.counts.pace.time,
-                format!("at most the time, {time} s"),
-            );
-        }
-        let probes = probe_times(case).iter().filter(|probe| **probe <= time).count();
-        self.counts.check(points, probes)
-    }
-}
 
 impl Counts {
-    fn check(&self, points: usize, probes: usize) -> Result<(), RunError> {
+    /// Checks them for a wedge with so many contact points, and so many probes passed.
+    pub(super) fn check(&self, points: usize, probes: usize) -> Result<(), RunError> {
         check_length("counts.crept", self.crept.len(), points)?;
         check_length("counts.creep_speeds", self.creep_speeds.len(), points)?;
         check_length("counts.events", self.events.len(), FACES.len())?;
         check_length("counts.probes", self.probes.len(), probes)?;
-        check_finite("counts.start_energy", self.start_energy)?;
-        let balance = &self.energy_balance;
-        for (member, value) in [
-            ("counts.energy_balance.stored_at_start", balance.stored_at_start),
-            (
-                "counts.energy_balance.largest_stored_change",
-                balance.largest_stored_change,
-            ),
-            ("counts.energy_balance.largest_residual", balance.largest_residual),
-            (
-                "counts.energy_balance.largest_residual_time",
-                balance.largest_residual_time,
-            ),
-            ("counts.pace.time", self.pace.time),
-        ] {
-            check_size(member, value)?;
-        }
-        check_finite("counts.energy_balance.work", balance.work)?;
-        check_finite("counts.energy_balance.losses", balance.losses)?;
         self.crept
             .iter()
             .try_for_each(|value| check_size("counts.crept", *value))?;
@@ -130,15 +24,9 @@ impl Counts {
             .iter()
             .flatten()
             .try_for_each(|value| check_finite("counts.probes", *value))?;
-        let counters = self.events.iter().flatten();
-        let counters = counters.chain([&self.event_total, &self.pace.attempts]);
-        if let Some(count) = counters.copied().find(|count| *count > MAXIMUM_COUNT) {
-            return damaged(
-                "counts.events, counts.event_total or counts.pace.attempts",
-                count,
-                format!("at most {MAXIMUM_COUNT}"),
-            );
-        }
+        let mut counters = self.events.iter().flatten();
+        counters.try_for_each(|count| check_count("counts.events", *count))?;
+        check_count("counts.event_total", self.event_total)?;
         if self.listed.len() > EVENT_CAP {
             let found = format!("a list of {}", self.listed.len());
             return damaged("counts.listed", found, format!("a list of at most {EVENT_CAP}"));

@@ -10,6 +10,7 @@ use wedge::outputs::{CORNERS, FACES, Outputs};
 
 use super::{EVENT_CAP, Run};
 use crate::assumptions;
+use crate::case::Case;
 use crate::energy;
 use crate::metrics::{Cycle, Extremes, first_harmonic, mean};
 use crate::summary::{
@@ -27,12 +28,17 @@ const BRANCH_COLUMNS: [&str; 5] = [
     "bolster_dissipation",
 ];
 
-pub(super) fn summary(run: &mut Run, stopped: Option<Stopped>) -> Summary {
+pub(super) fn summary(run: &mut Run<Case>, stopped: Option<Stopped>) -> Summary {
     let units = run.case.simulation.output_units;
-    let columns = run.outputs.columns().to_vec();
-    let time = run.values[0].clone();
+    let columns = run.recorder.outputs.columns().to_vec();
+    let time = run.recorder.values[0].clone();
     let mut extremes = BTreeMap::new();
-    for (column, values) in columns.iter().zip(&run.values).take(FIXED_COLUMNS).skip(1) {
+    for (column, values) in columns
+        .iter()
+        .zip(&run.recorder.values)
+        .take(FIXED_COLUMNS)
+        .skip(1)
+    {
         if let Some(mut found) = Extremes::of(&time, values) {
             found.minimum *= column.kind.from_si(units);
             found.maximum *= column.kind.from_si(units);
@@ -50,7 +56,7 @@ pub(super) fn summary(run: &mut Run, stopped: Option<Stopped>) -> Summary {
         units,
         complete: stopped.is_none() && run.is_finished(),
         stopped,
-        failed: energy::failure(&run.counts.energy_balance, what_to_do(damped)),
+        failed: energy::failure(&run.energy_balance, what_to_do(damped)),
         rows: time.len(),
         averages: averages(run),
         extremes,
@@ -58,11 +64,11 @@ pub(super) fn summary(run: &mut Run, stopped: Option<Stopped>) -> Summary {
         friction: friction(run),
         ledger,
         solver: solver(run),
-        assumptions: assumptions::of(&run.wedge),
+        assumptions: assumptions::of(&run.recorder.wedge),
     }
 }
 
-fn warnings(run: &Run, damped: bool) -> Vec<String> {
+fn warnings(run: &Run<Case>, damped: bool) -> Vec<String> {
     let mut warnings = Vec::new();
     if damped {
         warnings.push(format!(
@@ -70,7 +76,7 @@ fn warnings(run: &Run, damped: bool) -> Vec<String> {
             run.case.simulation.method.tableau().name
         ));
     }
-    warnings.extend(energy::warning(&run.counts.energy_balance, what_to_do(damped)));
+    warnings.extend(energy::warning(&run.energy_balance, what_to_do(damped)));
     if run.integrator.statistics().events_unresolved > 0 {
         warnings.push(format!(
             "{} steps held more contact events than could be resolved: contact states are doubtful there",
@@ -89,7 +95,7 @@ fn what_to_do(damped: bool) -> &'static str {
     }
 }
 
-fn averages(run: &Run) -> Averages {
+fn averages(run: &Run<Case>) -> Averages {
     let units = run.case.simulation.output_units;
     let duration = run.case.simulation.duration;
     let missing = |why: &str| Averages {
@@ -100,7 +106,7 @@ fn averages(run: &Run) -> Averages {
         return missing("the bolster's vertical motion is not one sine or triangle");
     };
     let mut averages = Averages::default();
-    match (cycle.window(duration), run.counts.probes.as_slice()) {
+    match (cycle.window(duration), run.recorder.counts.probes.as_slice()) {
         (Some((_, _, cycles)), [start, end]) => {
             averages.cycles = cycles;
             for (side, neighbour) in ["side_frame", "bolster"].into_iter().enumerate() {
@@ -118,15 +124,16 @@ fn averages(run: &Run) -> Averages {
     }
     let column = |name: &str| {
         let index = run
+            .recorder
             .outputs
             .columns()
             .iter()
             .position(|column| column.name == name);
-        index.map_or(&[][..], |index| run.values[index].as_slice())
+        index.map_or(&[][..], |index| run.recorder.values[index].as_slice())
     };
     let on_bolster = cycle.window(duration).and_then(|(start, end, _)| {
         first_harmonic(
-            &run.values[0],
+            &run.recorder.values[0],
             column("bolster_vertical"),
             column("net_force_on_bolster_z"),
             cycle.angular_frequency,
@@ -138,7 +145,7 @@ fn averages(run: &Run) -> Averages {
         averages.equivalent_damping_on_bolster = Some(Measure::new(on_bolster.damping, Kind::Damping, units));
     }
     let (times, positions, speeds) = (
-        &run.values[0],
+        &run.recorder.values[0],
         column("bolster_vertical"),
         column("bolster_vertical_rate"),
     );
@@ -163,11 +170,11 @@ fn averages(run: &Run) -> Averages {
     averages
 }
 
-fn events(run: &Run) -> Events {
+fn events(run: &Run<Case>) -> Events {
     let statistics = run.integrator.statistics();
     let counts = FACES
         .iter()
-        .zip(&run.counts.events)
+        .zip(&run.recorder.counts.events)
         .map(|(face, counts)| {
             let kinds = EVENT_KINDS
                 .iter()
@@ -178,7 +185,7 @@ fn events(run: &Run) -> Events {
         })
         .collect();
     Events {
-        total: run.counts.event_total,
+        total: run.recorder.counts.event_total,
         counts,
         unresolved: statistics.events_unresolved,
         motion_breaks: statistics.restarts,
@@ -189,12 +196,12 @@ fn events(run: &Run) -> Events {
                 .to_owned(),
             "bristle: slip begins at |T| = μN, stick at |T| = 0.999 μN".to_owned(),
         ],
-        listed: run.counts.listed.clone(),
+        listed: run.recorder.counts.listed.clone(),
         cap: EVENT_CAP,
     }
 }
 
-fn friction(run: &Run) -> BTreeMap<String, FrictionSummary> {
+fn friction(run: &Run<Case>) -> BTreeMap<String, FrictionSummary> {
     let units = run.case.simulation.output_units;
     let faces = [
         &run.case.parameters.column_friction,
@@ -203,7 +210,7 @@ fn friction(run: &Run) -> BTreeMap<String, FrictionSummary> {
     FACES
         .iter()
         .zip(faces)
-        .zip(run.counts.crept.chunks(CORNERS.len()))
+        .zip(run.recorder.counts.crept.chunks(CORNERS.len()))
         .map(|((name, face), crept)| {
             let law = match face.law {
                 FrictionLaw::Tanh { .. } => "tanh",
@@ -221,14 +228,11 @@ fn friction(run: &Run) -> BTreeMap<String, FrictionSummary> {
         .collect()
 }
 
-fn ledger(run: &mut Run) -> LedgerSummary {
+fn ledger(run: &mut Run<Case>) -> LedgerSummary {
     let units = run.case.simulation.output_units;
-    run.wedge.system.segment_like(run.integrator.problem());
-    let seen = run
-        .wedge
-        .system
-        .observe(run.integrator.time(), run.integrator.x());
-    let ledger = Outputs::ledger(&run.wedge.system, &seen, run.counts.start_energy);
+    run.system.segment_like(run.integrator.problem());
+    let seen = run.system.observe(run.integrator.time(), run.integrator.x());
+    let ledger = Outputs::ledger(&run.system, &seen, run.start_energy);
     let measure = |value: f64| Measure::new(value, Kind::Energy, units);
     let entries = [
         ("motion_work", ledger.motion_work),
@@ -240,13 +244,13 @@ fn ledger(run: &mut Run) -> LedgerSummary {
         ("coil_damping_loss", ledger.coil_damping_loss),
         ("residual", ledger.residual),
     ];
-    let balance = &run.counts.energy_balance;
+    let balance = &run.energy_balance;
     LedgerSummary {
         entries: entries
             .into_iter()
             .map(|(name, value)| (name.to_owned(), measure(value)))
             .collect(),
-        stored_at_start: measure(run.counts.start_energy),
+        stored_at_start: measure(run.start_energy),
         largest_stored_change: measure(balance.largest_stored_change),
         largest_residual: measure(balance.largest_residual),
         largest_residual_time: balance.largest_residual_time,
@@ -254,7 +258,7 @@ fn ledger(run: &mut Run) -> LedgerSummary {
     }
 }
 
-fn solver(run: &Run) -> Solver {
+fn solver(run: &Run<Case>) -> Solver {
     let scale = |value: f64, unit: &str| format!("{value} {unit}");
     Solver {
         method: run.case.simulation.method.to_string(),

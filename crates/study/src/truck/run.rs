@@ -3,48 +3,25 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use integrate::{Integrator, Options, SetupError};
+use integrate::{Integrator, Options};
 use mechanics::body::COORDINATES;
-use mechanics::energy_balance::{EnergyBalance, Entries};
+use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
-use mechanics::system::NoEquilibrium;
-use mechanics::system::{ChannelKind, ModelError, Observation, StaticFriction, System};
+use mechanics::system::{ChannelKind, Mode, NoEquilibrium, Observation, StaticFriction, System};
 use quantity::Kind;
-use thiserror::Error;
+use serde::{Deserialize, Serialize};
 
 use super::table::{Table, input_motion};
 use super::{SCHEMA, TruckCase, TruckResult, TruckStart, TruckSummary, WedgeSummary};
 use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::metrics::{Cycle, mean};
-use crate::progress::{self, INTERVALS, Pace};
+use crate::run::{
+    Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError, check_finite, check_length, damaged,
+};
 use crate::summary::{Measure, Stopped};
 
-/// Why a run cannot begin.
-#[derive(Debug, Error)]
-pub enum TruckError {
-    /// The files make no system.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// There is no equilibrium to start from.
-    #[error("no static equilibrium was found to start from: {0}")]
-    Equilibrium(#[from] NoEquilibrium),
-    /// The integrator cannot be set up.
-    #[error(transparent)]
-    Setup(#[from] SetupError),
-    /// A column of the result is not finite at the start.
-    #[error(
-        "`{column}` is {value} at the start, which is not a finite number: look for values out of all proportion"
-    )]
-    NotFinite {
-        /// The column, without unit.
-        column: String,
-        /// Its value, SI.
-        value: f64,
-    },
-}
-
-/// The state at the start.
+/// Returns the state at the start.
 ///
 /// # Errors
 /// There is no equilibrium.
@@ -56,16 +33,12 @@ pub fn start(system: &mut System, start: TruckStart) -> Result<Vec<f64>, NoEquil
     }
 }
 
-/// Runs a half-truck to its end; a run that cannot go on gives an incomplete result with the reason.
+/// Runs a half-truck to its end. Returns the results; a run that cannot go on has incomplete results with the reason.
 ///
 /// # Errors
 /// The run cannot begin.
-pub fn run(case: &TruckCase, mut progress: impl FnMut(f64)) -> Result<TruckResult, TruckError> {
-    let keep_on = |time| {
-        progress(time);
-        ControlFlow::Continue(())
-    };
-    run_while(case, keep_on)
+pub fn run(case: &TruckCase, progress: impl FnMut(f64)) -> Result<TruckResult, RunError> {
+    Ok(Run::new(case)?.finish(progress))
 }
 
 /// As [`run`], but asks after each step, with the time reached, whether to go on. When not, it is told why,
@@ -75,88 +48,133 @@ pub fn run(case: &TruckCase, mut progress: impl FnMut(f64)) -> Result<TruckResul
 /// The run cannot begin.
 pub fn run_while(
     case: &TruckCase,
-    mut progress: impl FnMut(f64) -> ControlFlow<String>,
-) -> Result<TruckResult, TruckError> {
-    let mut system = System::new(case.truck.model.clone())?;
-    let x = start(&mut system, case.start)?;
-    let start_energy = system.observe(0.0, &x).energies.total();
-    let table = Table::new(&case.truck, &system, &case.requests, start_energy);
-    let options = Options {
-        relative_tolerance: case.relative_tolerance,
-        ..Options::default()
-    };
-    let mut works = Works::new(case);
-    let mut integrator = Integrator::new(system.clone(), options, 0.0, &x)?;
-    let mut values = vec![Vec::new(); table.columns.len()];
-    let mut balance = EnergyBalance::new(start_energy);
-    table.read(&system.observe(0.0, &x), &mut values);
-    if let Some((column, value)) = drop_not_finite(&table, &mut values) {
-        return Err(TruckError::NotFinite { column, value });
+    progress: impl FnMut(f64) -> ControlFlow<String>,
+) -> Result<TruckResult, RunError> {
+    Ok(Run::new(case)?.finish_while(progress))
+}
+
+/// Records a half-truck's run: its table, and the work of its wedges' friction.
+pub struct TruckRecorder {
+    table: Table,
+    values: Vec<Vec<f64>>,
+    works: Works,
+    /// The connections that have contact states, by their numbers in the files.
+    frictional: Vec<u32>,
+    numbers: [Vec<u32>; 2],
+    row: Vec<f64>,
+}
+
+impl RunCase for TruckCase {
+    type Recorder = TruckRecorder;
+    type Output = TruckResult;
+
+    fn duration_and_interval(&self) -> [f64; 2] {
+        [self.duration, self.interval]
     }
-    let count = (case.duration / case.interval * (1.0 + 1e-12)).floor() as u64;
-    let mut row = 1;
-    let mut buffer = x;
-    let mut stopped = None;
-    let mut pace = Pace::of(&integrator);
-    let numbers = [&*case.truck.bodies, &*case.truck.connections];
-    let stop = |time: f64, reason: String| {
-        Some(Stopped {
-            time,
-            reason,
-            contacts: BTreeMap::new(),
+
+    fn options(&self) -> Options {
+        Options {
+            relative_tolerance: self.relative_tolerance,
+            ..Options::default()
+        }
+    }
+
+    fn begin(&self) -> Result<Beginning<TruckRecorder>, RunError> {
+        let mut system = System::new(self.truck.model.clone())?;
+        let x = start(&mut system, self.start)?;
+        let table = Table::new(&self.truck, &system, &self.requests);
+        let frictional = system.frictional_connections().iter();
+        Ok(Beginning {
+            recorder: TruckRecorder {
+                values: vec![Vec::new(); table.columns.len()],
+                row: Vec::with_capacity(table.columns.len()),
+                works: Works::new(self),
+                frictional: frictional.map(|place| self.truck.connections[*place]).collect(),
+                numbers: [self.truck.bodies.clone(), self.truck.connections.clone()],
+                table,
+            },
+            system,
+            x,
         })
-    };
-    'steps: while row <= count {
-        if let Err(error) = integrator.step_to(case.duration) {
-            let name = |state| progress::truck_state_name(integrator.problem(), numbers, state);
-            stopped = stop(integrator.time(), progress::describe(&error, name));
-            break;
-        }
-        system.segment_like(integrator.problem());
-        works.add_step(&integrator, &mut system, &mut buffer);
-        while row <= count {
-            let time = (row as f64 * case.interval).min(case.duration);
-            if time > integrator.time() {
-                break;
-            }
-            integrator.interpolate(time, &mut buffer);
-            let seen = system.observe(time, &buffer);
-            table.read(&seen, &mut values);
-            if let Some((column, value)) = drop_not_finite(&table, &mut values) {
-                stopped = stop(
-                    time,
-                    format!("`{column}` is {value}, which is not a finite number"),
-                );
-                break 'steps;
-            }
-            balance.note(time, &entries(&system, &seen, start_energy));
-            row += 1;
-        }
-        if let Err(stalled) = pace.check(&integrator, INTERVALS * case.interval)
-            && row <= count
-        {
-            let name = |state| progress::truck_state_name(integrator.problem(), numbers, state);
-            stopped = stop(integrator.time(), stalled.describe(name));
-            break;
-        }
-        if let ControlFlow::Break(reason) = progress(integrator.time())
-            && row <= count
-        {
-            stopped = stop(integrator.time(), reason);
-            break;
-        }
     }
+
+    fn output(run: Run<Self>, stopped: Option<Stopped>) -> TruckResult {
+        output(run, stopped)
+    }
+}
+
+impl Recorder for TruckRecorder {
+    type Counts = TruckCounts;
+
+    fn counts(&self) -> TruckCounts {
+        self.works.counts.clone()
+    }
+
+    fn restore(&mut self, counts: TruckCounts, time: f64) -> Result<(), RunError> {
+        check_length("counts.works", counts.works.len(), self.works.wedges.len())?;
+        counts
+            .works
+            .iter()
+            .try_for_each(|work| check_finite("counts.works", *work))?;
+        // Steps end at the time reached.
+        if counts.reached.to_bits() != time.to_bits() {
+            return damaged("counts.reached", counts.reached, format!("the time, {time} s"));
+        }
+        self.works.counts = counts;
+        Ok(())
+    }
+
+    fn step(&mut self, integrator: &Integrator<System>, system: &mut System, x: &mut [f64]) {
+        self.works.add_step(integrator, system, x);
+    }
+
+    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, NotFinite> {
+        let seen = system.observe(row.time, row.x);
+        self.row.clear();
+        self.table.read(&seen, row.start_energy, &mut self.row);
+        if let Some(index) = self.row.iter().position(|value| !is_finite(*value)) {
+            return Err(NotFinite {
+                column: self.table.columns[index].name.clone(),
+                value: self.row[index],
+                time: row.time,
+            });
+        }
+        for (column, value) in self.values.iter_mut().zip(&self.row) {
+            column.push(*value);
+        }
+        Ok(entries(system, &seen, row.start_energy))
+    }
+
+    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
+        let pairs = self.frictional.iter().zip(contact_states);
+        pairs
+            .map(|(number, state)| {
+                let name = Mode::from_number(*state).name();
+                (format!("connection_{number}"), name.to_owned())
+            })
+            .collect()
+    }
+
+    fn numbers(&self) -> [&[u32]; 2] {
+        [&self.numbers[0], &self.numbers[1]]
+    }
+}
+
+fn output(run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
+    let complete = stopped.is_none() && run.is_finished();
+    let case = run.case.clone();
+    let balance = run.energy_balance;
     let joules = |value| Measure::new(value, Kind::Energy, case.units);
     let mut result = TruckResult {
-        columns: table.columns,
-        values,
+        columns: run.recorder.table.columns.clone(),
+        values: run.recorder.values.clone(),
         summary: TruckSummary {
             schema: SCHEMA.to_owned(),
             program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
             name: case.name.clone(),
             title: case.title.clone(),
             units: case.units,
-            complete: stopped.is_none(),
+            complete,
             stopped,
             failed: energy::failure(&balance, energy::WHAT_TO_DO_WITH_FILES),
             warnings: energy::warning(&balance, energy::WHAT_TO_DO_WITH_FILES)
@@ -171,19 +189,19 @@ pub fn run_while(
             largest_residual: joules(balance.largest_residual),
             largest_residual_time: balance.largest_residual_time,
             largest_relative_residual: balance.relative_residual(),
-            statistics: integrator.statistics().clone(),
+            statistics: run.integrator.statistics().clone(),
             relative_tolerance: case.relative_tolerance,
             assumptions: case.assumptions.clone(),
         },
     };
-    summarize(case, &system, &works, &mut result);
+    summarize(&case, &run.system, &run.recorder.works, &mut result);
     if let Some(what) = first_not_finite(&result.summary)
         && result.summary.stopped.is_none()
     {
         result.summary.complete = false;
-        result.summary.stopped = stop(integrator.time(), format!("{what} is not a finite number"));
+        result.summary.stopped = Some(run.stopped(format!("{what} is not a finite number")));
     }
-    Ok(result)
+    result
 }
 
 /// Returns what the energy balance takes from an instant; `start` is the stored energy at the start, J.
@@ -203,17 +221,6 @@ fn entries(system: &System, seen: &Observation, start: f64) -> Entries {
         }
     }
     entries
-}
-
-/// Takes the last row away if one of its values is not finite; gives the column and the value.
-fn drop_not_finite(table: &Table, values: &mut [Vec<f64>]) -> Option<(String, f64)> {
-    let last = |column: &Vec<f64>| column.last().copied().unwrap_or(0.0);
-    let index = values.iter().position(|column| !is_finite(last(column)))?;
-    let value = last(&values[index]);
-    for column in values.iter_mut() {
-        column.pop();
-    }
-    Some((table.columns[index].name.clone(), value))
 }
 
 /// The first number of a summary that is not finite, in words.
@@ -255,9 +262,17 @@ fn cycle(case: &TruckCase) -> Option<Cycle> {
 struct Works {
     window: Option<(f64, f64, u32)>,
     wedges: Vec<usize>,
-    works: Vec<f64>,
-    reached: f64,
+    counts: TruckCounts,
     powers: [Vec<f64>; 3],
+}
+
+/// What is counted along a half-truck's run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TruckCounts {
+    /// Work of each wedge's friction at the column in the averaging window, J.
+    pub works: Vec<f64>,
+    /// Until when it is taken, s.
+    pub reached: f64,
 }
 
 impl Works {
@@ -266,17 +281,19 @@ impl Works {
         let none = vec![0.0; wedges.len()];
         Self {
             window: cycle(case).and_then(|cycle| cycle.window(case.duration)),
-            works: none.clone(),
-            powers: [none.clone(), none.clone(), none],
+            powers: [none.clone(), none.clone(), none.clone()],
+            counts: TruckCounts {
+                works: none,
+                reached: 0.0,
+            },
             wedges,
-            reached: 0.0,
         }
     }
 
     /// Adds the part of the last step that lies in the window.
     fn add_step(&mut self, integrator: &Integrator<System>, system: &mut System, buffer: &mut [f64]) {
-        let (from, to) = (self.reached, integrator.time());
-        self.reached = to;
+        let (from, to) = (self.counts.reached, integrator.time());
+        self.counts.reached = to;
         let Some((start, end, _)) = self.window else {
             return;
         };
@@ -294,7 +311,7 @@ impl Works {
             });
         }
         let [a, b, c] = &self.powers;
-        for (index, work) in self.works.iter_mut().enumerate() {
+        for (index, work) in self.counts.works.iter_mut().enumerate() {
             *work += (to - from) / 6.0 * (a[index] + 4.0 * b[index] + c[index]);
         }
     }
@@ -302,7 +319,7 @@ impl Works {
     fn per_cycle(&self, place: usize) -> Option<f64> {
         let (_, _, cycles) = self.window?;
         let index = self.wedges.iter().position(|own| *own == place)?;
-        Some(self.works[index] / f64::from(cycles))
+        Some(self.counts.works[index] / f64::from(cycles))
     }
 }
 

@@ -14,7 +14,8 @@ use quantity::Kind;
 
 use super::requests::Request;
 
-type Value = Box<dyn Fn(&Observation) -> f64 + Send + Sync>;
+/// Takes a value from an observation and the stored energy at the start (J).
+type Value = Box<dyn Fn(&Observation, f64) -> f64 + Send + Sync>;
 
 /// The table: descriptions and how values are taken from an observation.
 pub(super) struct Table {
@@ -23,7 +24,7 @@ pub(super) struct Table {
 }
 
 impl Table {
-    pub fn new(truck: &Truck, system: &System, requests: &[Request], start_energy: f64) -> Self {
+    pub fn new(truck: &Truck, system: &System, requests: &[Request]) -> Self {
         let mut table = Self {
             columns: Vec::new(),
             values: Vec::new(),
@@ -55,7 +56,7 @@ impl Table {
         for request in requests {
             table.request(request, truck);
         }
-        table.energies(system, start_energy);
+        table.energies(system);
         // A data file may ask twice for the same.
         let mut seen = std::collections::BTreeSet::new();
         let keep: Vec<bool> = table
@@ -70,11 +71,9 @@ impl Table {
         table
     }
 
-    /// Appends the values at one instant to the columns' values.
-    pub fn read(&self, seen: &Observation, values: &mut [Vec<f64>]) {
-        for (value, column) in self.values.iter().zip(values) {
-            column.push(value(seen));
-        }
+    /// Appends the values of all columns (SI) at one instant; `start_energy` is the stored energy at the start, J.
+    pub fn read(&self, seen: &Observation, start_energy: f64, out: &mut Vec<f64>) {
+        out.extend(self.values.iter().map(|value| value(seen, start_energy)));
     }
 
     fn add(
@@ -84,14 +83,23 @@ impl Table {
         text: impl Into<String>,
         value: impl Fn(&Observation) -> f64 + Send + Sync + 'static,
     ) {
+        self.push(
+            name.into(),
+            kind,
+            text.into(),
+            Box::new(move |seen, _| value(seen)),
+        );
+    }
+
+    fn push(&mut self, name: String, kind: Kind, text: String, value: Value) {
         self.columns.push(Column {
-            name: name.into(),
+            name,
             kind,
             frame: "x forward, y left, z up".into(),
             reference: "".into(),
-            text: text.into(),
+            text,
         });
-        self.values.push(Box::new(value));
+        self.values.push(value);
     }
 
     fn wedge(&mut self, place: usize, number: u32, model: &Model) {
@@ -304,7 +312,7 @@ impl Table {
         }
     }
 
-    fn energies(&mut self, system: &System, start_energy: f64) {
+    fn energies(&mut self, system: &System) {
         type Stored = fn(&Observation) -> f64;
         let stored: [(&str, Stored, &str); 5] = [
             ("kinetic_energy", |seen| seen.energies.kinetic, "kinetic energy"),
@@ -340,12 +348,9 @@ impl Table {
                 move |seen| seen.quadratures[number],
             );
         }
-        self.add(
-            "ledger_residual",
-            Kind::Energy,
-            "work less stored energy and losses",
-            move |seen| -seen.residual(start_energy),
-        );
+        let text = "work less stored energy and losses";
+        let residual = Box::new(|seen: &Observation, start_energy| -seen.residual(start_energy));
+        self.push("ledger_residual".into(), Kind::Energy, text.into(), residual);
     }
 }
 

@@ -6,4 +6,5 @@ mod convergence;
 mod energy;
 mod input;
 mod limits;
+mod reproducible;
 mod reproduction;

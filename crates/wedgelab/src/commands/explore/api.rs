@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use study::case::{Case, CaseError, FieldSection, builtin};
 use study::result::RunResult;
 use study::run::Run;
-use study::summary::{Stopped, Summary};
+use study::summary::Summary;
 
 use super::base::Base;
 use super::limits;
@@ -345,11 +345,7 @@ impl Explorer {
                 return Err(Refused::Replaced);
             }
             if let Err(error) = run.advance() {
-                let stopped = Stopped {
-                    time: run.time(),
-                    reason: error.to_string(),
-                    contacts: run.contact_states(),
-                };
+                let stopped = run.stopped(error.to_string());
                 return Ok(run.result(Some(stopped)));
             }
         }
