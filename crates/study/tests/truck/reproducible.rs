@@ -1,4 +1,5 @@
 //! The same bits across save and continue; damaged states are refused.
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use serde_json::Value;
 use study::run::{Run, RunError, RunState};
