@@ -5,6 +5,7 @@
 //! - [`read`]: text to tree, with all mistakes and their places,
 //! - [`mod@write`]: tree to text,
 //! - [`check`]: what a tree lacks or contradicts, alone and together with the files it belongs to,
+//! - [`mod@set`]: single values laid over trees,
 //! - [`show`]: a system as tables,
 //! - [`files`]: finding the files that a run names; [`together`]: files that belong together,
 //! - [`truck`]: a system and its inputs as a model that can be run,
@@ -43,6 +44,7 @@ mod finding;
 mod lexer;
 mod number;
 pub mod read;
+pub mod set;
 pub mod show;
 pub mod source;
 pub mod together;

@@ -12,8 +12,8 @@ use mechanics::system::Model;
 use thiserror::Error;
 
 use super::choices::Choices;
-use super::convert::{DEGREE, INCH, INERTIA, MASS, POUND, factors};
 use super::history::motion;
+use super::units::{DEGREE, INCH, INERTIA, MASS, POUND, factors};
 use super::yaw::intended_yaw;
 use crate::source::Spanned;
 use crate::tree::{self, Dof, Element, InputFile, SystemFile, Toe};

@@ -4,7 +4,7 @@ use mechanics::motion::{Motion, Piece, RampProfile};
 
 use super::build::BuildError;
 use super::choices::{Bend, Choices};
-use super::convert::FOOT;
+use super::units::FOOT;
 use crate::tree::{Argument, History, Segment, Shape};
 
 /// The motion of a history in the file's units times `factor`, `delay` seconds late.

@@ -6,8 +6,8 @@
 
 mod build;
 mod choices;
-mod convert;
 mod history;
+pub(crate) mod units;
 mod yaw;
 
 pub use build::{BuildError, Truck};

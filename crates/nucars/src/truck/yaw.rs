@@ -11,7 +11,7 @@ use mechanics::motion::Motion;
 use mechanics::system::Model;
 
 use super::choices::Yaw;
-use super::convert::MOMENT;
+use super::units::MOMENT;
 
 /// Stiffness of the yaw spring that drives the bolster as intended, in-lb/rad.
 pub(super) const PRINTED_UNITS_STIFFNESS: f64 = 1e10;

@@ -1,5 +1,6 @@
 //! A run from files: what the run file says, and what is asked for besides.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use input::limits;
@@ -11,6 +12,7 @@ use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::set::{self, SetError};
 use super::{TruckCase, TruckStart, requests, yaw};
 
 /// The trees of the files of a run.
@@ -43,6 +45,9 @@ pub struct Settings {
     pub relative_tolerance: f64,
     /// Units of the results.
     pub units: Units,
+    /// Values laid over the files and over these settings, as `PATH=VALUE` ([`super::set`]).
+    #[serde(default)]
+    pub set: Vec<String>,
 }
 
 impl Default for Settings {
@@ -55,6 +60,7 @@ impl Default for Settings {
             interval: 0.01,
             relative_tolerance: 1e-5,
             units: Units::Us,
+            set: Vec::new(),
         }
     }
 }
@@ -82,6 +88,9 @@ pub enum FilesError {
         /// The interval, s.
         interval: f64,
     },
+    /// A value cannot be set.
+    #[error(transparent)]
+    Set(#[from] SetError),
     /// The intended yaw of files that command none.
     #[error("the yaw as intended was asked for, but no input body that drives a body yaws")]
     NoYaw,
@@ -92,6 +101,14 @@ pub enum FilesError {
 /// # Errors
 /// What [`FilesError`] names.
 pub fn case(name: &str, title: &str, files: Files<'_>, settings: &Settings) -> Result<TruckCase, FilesError> {
+    let (mut settings, mut system, mut input) = (
+        settings.clone(),
+        Cow::Borrowed(files.system),
+        files.input.map(Cow::Borrowed),
+    );
+    for typed in &settings.set.clone() {
+        set::apply(typed, &mut settings, &mut system, input.as_mut())?;
+    }
     let stepping = files.run.and_then(|run| run.stepping.as_ref());
     let duration = settings
         .duration
@@ -103,7 +120,7 @@ pub fn case(name: &str, title: &str, files: Files<'_>, settings: &Settings) -> R
         return Err(FilesError::Rows { duration, interval });
     }
     let choices = &settings.choices;
-    let truck = Truck::new(files.system, files.input, choices)?;
+    let truck = Truck::new(&system, input.as_deref(), choices)?;
     if choices.yaw != Yaw::AsPrinted && yaw::drive(&truck.model).is_none() {
         return Err(FilesError::NoYaw);
     }
@@ -132,6 +149,9 @@ pub fn case(name: &str, title: &str, files: Files<'_>, settings: &Settings) -> R
             *control.option,
             if *control.flag { ".T." } else { ".F." }
         ));
+    }
+    if !settings.set.is_empty() {
+        assumptions.push(format!("set over the files: {}", settings.set.join(", ")));
     }
     let requests = match files.data {
         Some(data) => {

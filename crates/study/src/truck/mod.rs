@@ -1,6 +1,6 @@
 //! Runs of the half-truck of the comparison program's files.
 //!
-//! [`catalog`] lists the thesis's runs, [`files`] makes a run of any files. [`TruckCase`] is a model made from files with what a run needs besides, [`run`](run::run) runs it, [`requests`] holds what a
+//! [`catalog`] lists the thesis's runs, [`files`] makes a run of any files, with single values [`mod@set`] over them. [`TruckCase`] is a model made from files with what a run needs besides, [`run`](run::run) runs it, [`requests`] holds what a
 //! data file asks for, and [`TruckResult`] what came out.
 
 pub mod catalog;
@@ -8,6 +8,7 @@ pub mod files;
 pub mod options;
 pub mod requests;
 pub mod run;
+pub mod set;
 mod table;
 pub mod yaw;
 

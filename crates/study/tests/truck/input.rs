@@ -1,10 +1,13 @@
 //! The runs that are built in.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use std::collections::BTreeSet;
 
+use mechanics::connection::Law;
 use mechanics::system::System;
+use study::truck::TruckStart;
 use study::truck::catalog::{ToeCase, WedgeType, YawCase, entries, entry};
+use study::truck::files::Settings;
 use study::truck::run::run;
 
 use crate::common::case;
@@ -63,5 +66,53 @@ fn the_same_run_gives_the_same_bits() {
             "{}",
             column.name
         );
+    }
+}
+
+#[test]
+fn input_values_set_over_files_reach_model_run_and_assumptions() {
+    let entry = entry("nucars_69_variable_toe_out").unwrap();
+    let with = |set: &[&str]| {
+        entry.case_with(&Settings {
+            set: set.iter().map(|own| (*own).to_owned()).collect(),
+            ..Settings::default()
+        })
+    };
+    let case = with(&[
+        "wedges.column_friction=0.25",
+        "simulation.duration=1.5 s",
+        "simulation.output_interval=\"0.05 s\"",
+        "simulation.relative_tolerance=1e-6",
+        "simulation.start=equilibrium",
+        "simulation.output_units=si",
+        "option.branch=0.1 in/s",
+    ])
+    .unwrap();
+    assert_eq!((case.duration, case.interval), (1.5, 0.05));
+    assert_eq!(case.relative_tolerance, 1e-6);
+    assert_eq!(case.start, TruckStart::Equilibrium);
+    assert_eq!(case.units, quantity::System::Si);
+    for place in case.truck.wedges() {
+        match &case.truck.model.connections[place].law {
+            Law::Wedge(wedge) => assert_eq!(wedge.column_friction, 0.25),
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(
+        case.assumptions
+            .iter()
+            .any(|line| line.contains("wedges.column_friction=0.25"))
+    );
+    for (typed, text) in [
+        ("wedges.column_friction", "PATH=VALUE"),
+        ("simulation.durations=1 s", "did you mean duration?"),
+        ("simulation.method=rodas", "it has duration"),
+        ("simulation.duration=1", "a positive time"),
+        ("simulation.relative_tolerance=1", "between 0 and 1"),
+        ("option.bend=round", "half_cosine or linear"),
+        ("wedges.colum_friction=1", "did you mean column_friction?"),
+    ] {
+        let error = with(&[typed]).unwrap_err();
+        assert!(error.contains(text), "{typed}: {error}");
     }
 }

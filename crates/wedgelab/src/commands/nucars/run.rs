@@ -36,6 +36,10 @@ use crate::table::Table;
 /// bend (half_cosine, linear), speed (along the track), plain_toe_angle (column of types without an angle), branch
 /// (friction_force, or a reference speed), rise_in_slip (true, false), negative_rise (extend, stop), accumulator_damping (a
 /// factor), gap_tension (never, allowed).
+///
+/// --set lays single values over the files, by the numbers that these give: characteristic.301.column_friction, wedges.slope_friction
+/// (of all wedges), body.2.mass, connection.127.z, function.7.factor, history.1.frequency; simulation.duration and
+/// simulation.relative_tolerance.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -43,6 +47,7 @@ Examples:
   wedgelab nucars run yaw.run --data results.dat --yaw drop
   wedgelab nucars run half_truck.run --option branch=\"0.1 in/s\" --option gap_tension=allowed --out other
   wedgelab nucars run nucars_69_constant_toe_out_yaw
+  wedgelab nucars run half_truck.run --set wedges.column_friction=0.3 --set 'body.2.mass=\"2000 lb\"' --out softer
 
 Exit codes: 0 done; 1 the run could not finish or files could not be written; 2 the input is wrong;
 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM: what was computed is written.")]
@@ -76,6 +81,9 @@ pub struct Arguments {
     /// A choice where the files leave one open
     #[arg(long, value_name = "NAME=VALUE")]
     option: Vec<String>,
+    /// Set one value over those of the files
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
     /// Units of the results
     #[arg(long, default_value = "us")]
     units: OutputUnits,
@@ -195,6 +203,7 @@ impl Arguments {
             },
             all_outputs: self.all_outputs,
             interval: self.interval.to_si(),
+            set: self.set.clone(),
             units: match self.units {
                 OutputUnits::Us => Units::Us,
                 OutputUnits::Si => Units::Si,
