@@ -38,7 +38,9 @@ pub fn sliding_wedge(damping: Damping) -> Result<(Wedge, Vec<f64>), BuildError> 
 /// There is no such run, or it makes no system.
 pub fn sliding_truck(name: &str) -> Result<(System, Vec<f64>), String> {
     let entry = catalog::entry(name).ok_or_else(|| format!("there is no run {name}"))?;
-    let case = entry.case(&Choices::default(), 1.0)?;
+    let case = entry
+        .case(&Choices::default(), 1.0)
+        .map_err(|error| error.to_string())?;
     let body = case
         .truck
         .body(1)

@@ -33,7 +33,7 @@ pub enum SetError {
         reason: String,
     },
     /// The value is none of its kind.
-    #[error("`{value}` is no value of `{path}`: {expected} is expected")]
+    #[error("`{value}` is no value of `{path}`; expected: {expected}")]
     Value {
         /// The path.
         path: String,

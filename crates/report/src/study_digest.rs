@@ -3,7 +3,7 @@
 
 use mechanics::energy_balance::{DOUBTFUL, Verdict};
 use study::design::{Factor, Levels, Sampling, Study, Value};
-use study::measures::{COUNT, Measures};
+use study::measures::Measures;
 use study::records::{Record, Status};
 
 /// The measure of how well the energy ledger closes.
@@ -205,13 +205,16 @@ impl Gathered {
     }
 }
 
+/// What is gathered of each measure.
+pub type Cell = Vec<Gathered>;
+
 /// A pair of parameters: means over the places of both.
 #[derive(Clone, Debug)]
 pub struct Pair {
     /// Their numbers among the factors.
     pub factors: [usize; 2],
     /// Measures by place: `place of the first * places of the second + place of the second`.
-    pub cells: Vec<[Gathered; COUNT]>,
+    pub cells: Vec<Cell>,
     /// Runs without measures, by place.
     pub failed: Vec<u64>,
 }
@@ -265,11 +268,12 @@ impl Jam {
     fn add(&mut self, study: &Study, values: &[Option<Value>], cell: usize, measures: &Measures) {
         let varied = factor_of(study, Self::TOE).and_then(|number| values[number].as_ref());
         let varied = varied.and_then(|value| value.in_unit("rad"));
-        let toe = varied.unwrap_or(study.base.parameters.toe);
+        let toe = varied.or(study.base.wedge().map(|case| case.parameters.toe));
+        let Some(toe) = toe else { return };
         let cells = &mut self.cells[usize::from(toe >= 0.0)];
         cells.toe.add(toe);
         for (gathered, name) in cells.ratios[cell].iter_mut().zip(Self::RATIOS) {
-            if let Some(value) = measures.get(name) {
+            if let Some(value) = study.measures().get(measures, name) {
                 gathered.add(value);
             }
         }
@@ -288,13 +292,13 @@ pub struct Digest {
     /// The parameters.
     pub axes: Vec<Axis>,
     /// For each parameter, for each of its places, the measures.
-    pub effects: Vec<Vec<[Gathered; COUNT]>>,
+    pub effects: Vec<Vec<Cell>>,
     /// The pairs of numeric parameters.
     pub pairs: Vec<Pair>,
     /// The jam map, if angle and friction are varied.
     pub jam: Option<Jam>,
     /// All runs together.
-    pub all: [Gathered; COUNT],
+    pub all: Cell,
     /// Runs that are complete, refused, stopped, failed.
     pub ended: [u64; 4],
     /// The first runs that are not complete, and why.
@@ -309,6 +313,7 @@ impl Digest {
     /// Nothing gathered yet.
     #[must_use]
     pub fn new(study: &Study) -> Self {
+        let none: Cell = vec![Gathered::NONE; study.measures().len()];
         let axes: Vec<Axis> = study
             .factors
             .iter()
@@ -319,25 +324,22 @@ impl Digest {
             .take(PAIRED)
             .collect();
         let pairs = numeric.iter().enumerate().flat_map(|(place, first)| {
-            let axes = &axes;
+            let (axes, none) = (&axes, &none);
             numeric[place + 1..].iter().map(move |second| {
                 let cells = axes[*first].len() * axes[*second].len();
                 Pair {
                     factors: [*first, *second],
-                    cells: vec![[Gathered::NONE; COUNT]; cells],
+                    cells: vec![none.clone(); cells],
                     failed: vec![0; cells],
                 }
             })
         });
         Self {
-            effects: axes
-                .iter()
-                .map(|axis| vec![[Gathered::NONE; COUNT]; axis.len()])
-                .collect(),
+            effects: axes.iter().map(|axis| vec![none.clone(); axis.len()]).collect(),
             pairs: pairs.collect(),
             jam: Jam::new(study, &axes),
             axes,
-            all: [Gathered::NONE; COUNT],
+            all: none,
             ended: [0; 4],
             reasons: Vec::new(),
             doubtful: 0,
@@ -366,7 +368,8 @@ impl Digest {
         if !complete && self.reasons.len() < REASONS {
             self.reasons.push((record.number, record.reason.clone()));
         }
-        let residual = record.measures.get(LEDGER_RESIDUAL).unwrap_or(0.0);
+        let residual = study.measures().get(&record.measures, LEDGER_RESIDUAL);
+        let residual = residual.unwrap_or(0.0);
         if complete && Verdict::of(residual) != Verdict::Closed {
             self.doubtful += 1;
             if residual > self.worst_residual.0 {
@@ -374,11 +377,8 @@ impl Digest {
             }
         }
         // The measures of a run that failed are in the table, and nowhere else.
-        let measures = if complete {
-            &record.measures
-        } else {
-            &Measures::NONE
-        };
+        let none = Measures::default();
+        let measures = if complete { &record.measures } else { &none };
         let places: Vec<Option<usize>> = self
             .axes
             .iter()
@@ -409,8 +409,8 @@ impl Digest {
     }
 }
 
-fn add(cells: &mut [Gathered; COUNT], measures: &Measures) {
-    for (cell, value) in cells.iter_mut().zip(measures.0) {
-        cell.add(value);
+fn add(cell: &mut [Gathered], measures: &Measures) {
+    for (cell, value) in cell.iter_mut().zip(&measures.0) {
+        cell.add(*value);
     }
 }

@@ -21,7 +21,6 @@ use input::file::{Expected, ReadError, Reason, read, read_text};
 use input::{FileType, limits};
 use parquet::errors::ParquetError;
 use study::design::{Factor, Study, Value};
-use study::measures;
 use study::records::{self, Record};
 
 use crate::files::{self, FileError, Folder};
@@ -407,14 +406,14 @@ pub fn columns(study: &Study) -> Vec<Column> {
         };
         column(factor_column(factor), factor.unit().unwrap_or(""), text, content)
     }));
-    columns.extend(measures::ALL.iter().map(|measure| {
+    columns.extend(study.measures().iter().map(|measure| {
         let suffix = measure.kind.suffix(units);
         let name = match suffix {
-            "" => measure.name.to_owned(),
+            "" => measure.name.clone().into_owned(),
             suffix => format!("{}_{suffix}", measure.name),
         };
         let unit = measure.kind.label(units);
-        column(name, unit, measure.text.to_owned(), Content::Number)
+        column(name, unit, measure.text.clone().into_owned(), Content::Number)
     }));
     columns.push(column(
         "reason".to_owned(),
@@ -438,8 +437,11 @@ fn cells<'r>(study: &Study, values: &'r [Option<Value>], record: &'r Record) -> 
             (Some(value), None) => Cell::Text(value.shown()),
         });
     }
-    let measured = measures::ALL.iter().zip(record.measures.0);
-    cells.extend(measured.map(|(measure, value)| Cell::Number(value * measure.kind.from_si(units))));
+    let measured = study.measures().iter().enumerate();
+    cells.extend(measured.map(|(place, measure)| {
+        let value = record.measures.0.get(place).copied().unwrap_or(f64::NAN);
+        Cell::Number(value * measure.kind.from_si(units))
+    }));
     cells.push(match record.reason.as_str() {
         "" => Cell::Missing,
         reason => Cell::Text(Cow::Borrowed(reason)),

@@ -9,7 +9,7 @@ use report::figures::Exhibit;
 use report::figures::jam::maps;
 use report::study_digest::Digest;
 use study::design::Study;
-use study::measures::{ALL, Measures};
+use study::measures::{Measures, of_wedges};
 use study::records::{Record, Status};
 
 const STUDY: &str = "case = \"cdrun_toe_-0.2_psi_0.012\"\nsampling = \"full_factorial\"\n[vary]\n\
@@ -21,11 +21,9 @@ const STUDY: &str = "case = \"cdrun_toe_-0.2_psi_0.012\"\nsampling = \"full_fact
 fn maps_of(text: &str, ratio: impl Fn(u64) -> f64) -> Vec<Exhibit> {
     let study = Study::parse("some.toml", text, Path::new("")).unwrap();
     let mut digest = Digest::new(&study);
-    let place = ALL
-        .iter()
-        .position(|measure| measure.name == "column_force_ratio_down");
+    let place = of_wedges().place("column_force_ratio_down");
     for number in 0..study.count() {
-        let mut measures = Measures::NONE;
+        let mut measures = Measures(vec![f64::NAN; of_wedges().len()]);
         measures.0[place.unwrap()] = ratio(number);
         let record = Record {
             number,

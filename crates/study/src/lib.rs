@@ -3,6 +3,7 @@
 //! A [`case::Case`] says what to run, a [`run::Run`] runs it, a [`result::RunResult`] holds what came out, and
 //! [`summary::Summary`] says it in numbers.
 
+pub mod any_case;
 pub mod assumptions;
 pub mod case;
 pub mod closed_form;

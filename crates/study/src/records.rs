@@ -4,11 +4,12 @@
 //! die at any moment: a record is there, or what there is of it is recognized as none. Layout, little-endian:
 //!
 //! ```text
-//! bytes 0..4    "WLR1"
+//! bytes 0..4    "WLR2"
 //!       4..8    length of the body
 //!       8..12   CRC-32 of the body
 //!       12..    body: study's fingerprint (8), number of the variant (8), status (1),
-//!               measures (8 each, in the order of `measures::ALL`), reason (UTF-8, the rest)
+//!               number of measures (4), measures (8 each, in the order of the study's definitions),
+//!               reason (UTF-8, the rest)
 //! ```
 //!
 //! [`read`] finds all sound records in any bytes, whatever lies between them.
@@ -18,16 +19,18 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use mechanics::energy_balance::{FAILED, Verdict};
 
 use crate::design::Study;
-use crate::measures::{COUNT, Measures, Unmeasured, measure, place};
+use crate::measures::{Definitions, Measures, Unmeasured};
 
-const MAGIC: [u8; 4] = *b"WLR1";
+const MAGIC: [u8; 4] = *b"WLR2";
 const HEAD: usize = 12;
-const FIXED: usize = 8 + 8 + 1 + 8 * COUNT;
+const FIXED: usize = 8 + 8 + 1 + 4;
+/// More measures than these has no run.
+const MOST_MEASURES: usize = 4096;
 /// A longer reason is cut.
 const LONGEST_REASON: usize = 1000;
 /// Longest body: a longer one is damage. Without this bound the time to find records among damage would grow with the square
 /// of its length.
-const LONGEST: usize = FIXED + LONGEST_REASON + '…'.len_utf8();
+const LONGEST: usize = FIXED + 8 * MOST_MEASURES + LONGEST_REASON + '…'.len_utf8();
 
 /// How a variant ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,7 +73,7 @@ pub struct Record {
     pub status: Status,
     /// Why it has no measures, or has failed; empty if it is complete.
     pub reason: String,
-    /// Its measures, SI.
+    /// Its measures, SI; empty if it has none.
     pub measures: Measures,
 }
 
@@ -92,7 +95,7 @@ fn caught(number: u64, compute: impl FnOnce() -> Record) -> Record {
                 "a mistake of Wedgelab itself: {}",
                 text.unwrap_or("no message")
             )),
-            measures: Measures::NONE,
+            measures: Measures::default(),
         }
     })
 }
@@ -102,24 +105,24 @@ fn compute(study: &Study, number: u64) -> Record {
         let reasons: Vec<&str> = error.problems().iter().map(|problem| problem.message()).collect();
         Unmeasured::Refused(reasons.join("; "))
     });
-    record(number, case.and_then(|case| measure(&case)))
+    record(study.measures(), number, case.and_then(|case| case.measure()))
 }
 
 /// What became of a variant as its record.
-fn record(number: u64, outcome: Result<Measures, Unmeasured>) -> Record {
+fn record(definitions: &Definitions, number: u64, outcome: Result<Measures, Unmeasured>) -> Record {
     let (status, reason, measures) = match outcome {
-        Ok(measures) => match measures.not_finite() {
-            None => match ledger(&measures) {
+        Ok(measures) => match definitions.not_finite(&measures) {
+            None => match ledger(definitions, &measures) {
                 None => (Status::Complete, String::new(), measures),
                 Some(reason) => (Status::Failed, reason, measures),
             },
             Some(name) => {
                 let reason = format!("`{name}` is not a finite number");
-                (Status::Stopped, reason, Measures::NONE)
+                (Status::Stopped, reason, Measures::default())
             }
         },
-        Err(Unmeasured::Refused(reason)) => (Status::Refused, shortened(reason), Measures::NONE),
-        Err(Unmeasured::Stopped(reason)) => (Status::Stopped, shortened(reason), Measures::NONE),
+        Err(Unmeasured::Refused(reason)) => (Status::Refused, shortened(reason), Measures::default()),
+        Err(Unmeasured::Stopped(reason)) => (Status::Stopped, shortened(reason), Measures::default()),
     };
     Record {
         number,
@@ -130,8 +133,8 @@ fn record(number: u64, outcome: Result<Measures, Unmeasured>) -> Record {
 }
 
 /// Returns why a variant has failed whose energy ledger does not close.
-fn ledger(measures: &Measures) -> Option<String> {
-    let residual = measures.0[place::RESIDUAL];
+fn ledger(definitions: &Definitions, measures: &Measures) -> Option<String> {
+    let residual = definitions.get(measures, "ledger_residual")?;
     (Verdict::of(residual) == Verdict::Failed).then(|| {
         format!(
             "the energy ledger does not close: its relative residual is {residual:.2e} (above {FAILED:e}); compute this run with \
@@ -167,13 +170,14 @@ fn shortened(mut reason: String) -> String {
 impl Record {
     /// Appends it as bytes.
     pub fn write(&self, fingerprint: u64, out: &mut Vec<u8>) {
-        let mut body = Vec::with_capacity(FIXED + self.reason.len());
+        let mut body = Vec::with_capacity(FIXED + 8 * self.measures.0.len() + self.reason.len());
         body.extend(fingerprint.to_le_bytes());
         body.extend(self.number.to_le_bytes());
         body.push(self.status as u8);
-        for value in self.measures.0 {
+        body.extend((self.measures.0.len() as u32).to_le_bytes());
+        for value in &self.measures.0 {
             // One NaN for all, so that the same record has the same bytes.
-            let value = if value.is_nan() { f64::NAN } else { value };
+            let value = if value.is_nan() { f64::NAN } else { *value };
             body.extend(value.to_le_bytes());
         }
         body.extend(self.reason.as_bytes());
@@ -199,11 +203,11 @@ impl Record {
         let (fingerprint, rest) = body.split_first_chunk::<8>()?;
         let (number, rest) = rest.split_first_chunk::<8>()?;
         let (status, rest) = rest.split_first()?;
-        let mut values = [0.0; COUNT];
-        let (numbers, reason) = rest.split_at_checked(8 * COUNT)?;
-        for (value, bytes) in values.iter_mut().zip(numbers.as_chunks::<8>().0) {
-            *value = f64::from_le_bytes(*bytes);
-        }
+        let (count, rest) = rest.split_first_chunk::<4>()?;
+        let count = u32::from_le_bytes(*count) as usize;
+        let (numbers, reason) = rest.split_at_checked(8 * count.min(MOST_MEASURES))?;
+        let numbers = numbers.as_chunks::<8>().0.iter();
+        let values = numbers.map(|bytes| f64::from_le_bytes(*bytes)).collect();
         let record = Self {
             number: u64::from_le_bytes(*number),
             status: Status::from_number(*status)?,

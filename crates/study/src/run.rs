@@ -96,6 +96,11 @@ pub trait RunCase: Clone {
     /// The results.
     type Output;
 
+    /// What to try where a run cannot begin or go on.
+    const WHAT_TO_TRY: &'static str;
+
+    /// Returns the name of the case.
+    fn name(&self) -> &str;
     /// Returns the end of the run and the time between two rows, s.
     fn duration_and_interval(&self) -> [f64; 2];
     /// Returns the settings of the integrator.

@@ -6,7 +6,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use ::study::design::{CaseSource, MANY, Study, StudySource};
+use ::study::any_case::AnyCase;
+use ::study::design::{MANY, Study, StudySource};
 use ::study::records;
 use miette::Diagnostic;
 use pyo3::prelude::*;
@@ -16,7 +17,9 @@ use report::study_folder::{StudyFolder, StudyFolderError, columns};
 use report::study_work;
 
 use crate::case::NativeCase;
-use crate::errors::{case_error, guarded, internal, panic_text, raise, shown};
+use crate::errors::{case_error, guarded, internal, panic_text, raise, shown, simple};
+use crate::outcome::from_saved;
+use crate::truck;
 
 /// How often Python is asked for signals and told of progress.
 const INTERVAL: Duration = Duration::from_millis(50);
@@ -33,8 +36,6 @@ pub struct NativeStudy {
     study: Arc<Study>,
 }
 
-/// The texts of a study: name, text and folder of its file, and of its case.
-type Texts = (String, String, PathBuf, String, String, PathBuf);
 /// Name, unit, text and kind of a column.
 type NamedColumn = (String, String, String, &'static str);
 
@@ -52,22 +53,16 @@ impl NativeStudy {
         })
     }
 
-    /// Of the texts that another program gave.
-    #[classmethod]
-    fn of_texts(class: &Bound<'_, PyType>, texts: Texts) -> PyResult<Self> {
-        let py = class.py();
-        let (name, text, folder, case_name, case_text, case_folder) = texts;
-        let source = StudySource {
-            name,
-            text,
-            folder,
-            case: CaseSource {
-                name: case_name,
-                text: case_text,
-                folder: case_folder,
-            },
-        };
+    /// The reverse of `saved`.
+    #[staticmethod]
+    fn load(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
         guarded(py, || {
+            let source: StudySource = from_saved(bytes).map_err(|error| {
+                let message = format!("this saved study cannot be read: {error}");
+                let help =
+                    "it is damaged, or was saved by another version of wedgelab; read the study file again";
+                simple(py, "StudyError", &message, help)
+            })?;
             let study = Study::of_source(source).map_err(|error| case_error(py, &error))?;
             Ok(Self {
                 study: Arc::new(study),
@@ -75,18 +70,11 @@ impl NativeStudy {
         })
     }
 
-    /// The texts that it was read from.
-    fn texts(&self) -> Texts {
-        let source = self.study.source().clone();
-        let case = source.case;
-        (
-            source.name,
-            source.text,
-            source.folder,
-            case.name,
-            case.text,
-            case.folder,
-        )
+    /// All that is needed to make the study again, the texts of its case included.
+    fn saved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = rmp_serde::to_vec_named(self.study.source());
+        let bytes = bytes.map_err(|error| internal(py, &error.to_string()))?;
+        Ok(PyBytes::new(py, &bytes))
     }
 
     #[getter]
@@ -146,11 +134,18 @@ impl NativeStudy {
         })
     }
 
-    /// The case of the variant of this number, below `count`.
-    fn case(&self, py: Python<'_>, number: u64) -> PyResult<NativeCase> {
+    /// The case of the variant of this number, below `count`: a wedge's, or a half-truck's.
+    fn case(&self, py: Python<'_>, number: u64) -> PyResult<Py<PyAny>> {
         guarded(py, || {
-            let case = self.study.case(number);
-            case.map(NativeCase::new).map_err(|error| case_error(py, &error))
+            let case = self.study.case(number).map_err(|error| case_error(py, &error))?;
+            match case {
+                AnyCase::Wedge(case) => Ok(Py::new(py, NativeCase::new(*case))?.into_any()),
+                AnyCase::HalfTruck(_) => {
+                    let set = self.study.overrides(number);
+                    let case = truck::of_source(py, &self.study.source().case, set)?;
+                    Ok(Py::new(py, case)?.into_any())
+                }
+            }
         })
     }
 

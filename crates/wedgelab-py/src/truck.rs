@@ -11,6 +11,7 @@ use ::quantity::{System as Units, nearest};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
 use serde::{Deserialize, Serialize};
+use study::any_case::CaseSource;
 use study::truck::catalog::{self, Entry, YawCase};
 use study::truck::files::{Settings, case_of_run};
 use study::truck::run::run_while;
@@ -52,7 +53,10 @@ fn make(py: Python<'_>, origin: Origin) -> PyResult<NativeTruckCase> {
         Origin::BuiltIn { name, settings } => {
             let entry = entry(py, name)?;
             let made = entry.case_with(settings);
-            made.map_err(|error| refused(py, &error, "choose another interval or another option"))?
+            made.map_err(|error| {
+                let help = "choose another interval, option or value";
+                refused(py, &error.to_string(), help)
+            })?
         }
         Origin::Files {
             path,
@@ -67,6 +71,26 @@ fn make(py: Python<'_>, origin: Origin) -> PyResult<NativeTruckCase> {
         case: Arc::new(case),
         origin,
     })
+}
+
+/// A study's half-truck with these values set over it.
+pub fn of_source(py: Python<'_>, source: &CaseSource, set: Vec<String>) -> PyResult<NativeTruckCase> {
+    let settings = Settings {
+        set,
+        ..Settings::default()
+    };
+    match source.clone() {
+        CaseSource::BuiltInHalfTruck(name) => make(py, Origin::BuiltIn { name, settings }),
+        CaseSource::HalfTruck { path, texts } => make(
+            py,
+            Origin::Files {
+                path,
+                texts,
+                settings,
+            },
+        ),
+        CaseSource::Wedge { name, .. } => Err(refused(py, &format!("{name} is a wedge's case"), "")),
+    }
 }
 
 fn entry(py: Python<'_>, name: &str) -> PyResult<Entry> {
@@ -114,7 +138,7 @@ fn of_files(py: Python<'_>, path: &Path, files: &RunFiles, settings: &Settings) 
 impl NativeTruckCase {
     /// From a run file, or the name of a built-in run.
     #[classmethod]
-    #[pyo3(signature = (path, system, data, input, yaw, options, duration, interval, start, all_outputs, units, tolerance))]
+    #[pyo3(signature = (path, system, data, input, yaw, options, duration, interval, start, all_outputs, units, tolerance, set))]
     fn read(
         class: &Bound<'_, PyType>,
         path: PathBuf,
@@ -129,6 +153,7 @@ impl NativeTruckCase {
         all_outputs: bool,
         units: &str,
         tolerance: f64,
+        set: Vec<String>,
     ) -> PyResult<Self> {
         let py = class.py();
         let unknown = |what: &str, value: &str, choices: &str| {
@@ -153,6 +178,7 @@ impl NativeTruckCase {
             duration,
             interval,
             relative_tolerance: tolerance,
+            set,
             units: match units {
                 "us" => Units::Us,
                 "si" => Units::Si,

@@ -5,13 +5,13 @@ use std::time::{Duration, Instant};
 
 use quantity::Number;
 use report::files::Folder;
-use report::run_files;
+use report::{run_files, truck_files};
 use study::case::Case;
 use study::progress::{WHAT_TO_TRY, WHAT_TO_TRY_WITH_FILES};
 use study::result::RunResult;
-use study::run::{Run, RunError};
+use study::run::{Run, RunCase};
 use study::summary::{Measure, Stopped, Summary};
-use study::truck::TruckSummary;
+use study::truck::{TruckCase, TruckResult, TruckSummary};
 
 use crate::failure::{Failure, Message, say};
 use crate::interrupt;
@@ -20,18 +20,23 @@ use crate::table::Table;
 
 /// A run that has ended, perhaps before its time.
 #[derive(Debug)]
-pub struct Done {
+pub struct Done<R = RunResult> {
     /// What came out.
-    pub result: RunResult,
+    pub result: R,
     /// How long it took, without writing.
     pub wall: Duration,
 }
 
-/// Runs a case until it ends or is interrupted.
-pub fn compute(case: &Case, progress: &Progress) -> Result<Done, Failure> {
+/// Runs a case of any model until it ends or is interrupted.
+pub fn compute<C: RunCase>(case: &C, progress: &Progress) -> Result<Done<C::Output>, Failure> {
     let start = Instant::now();
-    let run = Run::new(case).map_err(|error| cannot_begin(case, &error))?;
-    let mut reached = progress.of_run(case.simulation.duration);
+    // Where nothing can be computed at all, the input is at fault.
+    let run = Run::new(case).map_err(|error| {
+        let message = format!("the run {} cannot begin: {error}", case.name());
+        Message::new(message, C::WHAT_TO_TRY)
+    })?;
+    let [duration, _] = case.duration_and_interval();
+    let mut reached = progress.of_run(duration);
     let result = run.finish_while(|time| {
         reached(time);
         interrupt::go_on()
@@ -70,11 +75,22 @@ pub fn execute_whole(case: &Case, folder: &Folder, progress: &Progress) -> Resul
     Ok(Some(done))
 }
 
-/// Nothing could be computed at all, so that the input is at fault.
-fn cannot_begin(case: &Case, error: &RunError) -> Failure {
-    let message = format!("the run {} cannot begin: {error}", case.name);
-    let advice = "look for values that are out of proportion; `wedgelab case` has cases that run";
-    Message::new(message, advice).into()
+/// Writes the files of a half-truck's run; `script_interval` (s) is that of the array for the thesis's scripts.
+pub fn write_truck(
+    done: &Done<TruckResult>,
+    case: &TruckCase,
+    folder: &Folder,
+    script_interval: f64,
+    progress: &Progress,
+) -> Result<(), Failure> {
+    truck_files::write(folder, case, &done.result, script_interval)?;
+    let summary = &done.result.summary;
+    let how = match &summary.stopped {
+        Some(stopped) => format!("stopped at {} s", Number(stopped.time)),
+        None => format!("{:.2} s", done.wall.as_secs_f64()),
+    };
+    progress.done(&case.name, &how);
+    Ok(())
 }
 
 /// Why a run is incomplete or has failed, for its user; `None` if it is sound.

@@ -36,7 +36,9 @@ fn measure_all() -> Result<(), String> {
         "run, 20 s", "ms", "steps", "rejected", "events", "residual"
     );
     for entry in entries().into_iter().filter(|entry| entry.name().contains(part)) {
-        let mut case = entry.case(&Choices::default(), DURATION)?;
+        let mut case = entry
+            .case(&Choices::default(), DURATION)
+            .map_err(|error| error.to_string())?;
         case.relative_tolerance = tolerance;
         let clock = Instant::now();
         let summary = run(&case, |_| ()).map_err(|error| error.to_string())?.summary;

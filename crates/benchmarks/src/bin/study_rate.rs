@@ -9,7 +9,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use study::case::{Case, builtin};
-use study::measures::{ALL, Measures, measure};
+use study::measures::{Measures, measure, of_wedges};
 
 /// The measures that are compared: means over branches, energies, equivalent stiffness and damping.
 fn compared(name: &str) -> bool {
@@ -60,10 +60,10 @@ fn rate() -> Result<(), String> {
         print!(
             "{name:26} {:6.2} ms {:6} steps ",
             wall * 1e3,
-            found.get("steps").unwrap_or(0.0)
+            of_wedges().get(&found, "steps").unwrap_or(0.0)
         );
-        for (number, definition) in ALL.iter().enumerate() {
-            if compared(definition.name) {
+        for (number, definition) in of_wedges().iter().enumerate() {
+            if compared(&definition.name) {
                 let error = found.0[number] / reference.0[number] - 1.0;
                 print!(" {:+.2}%", 100.0 * error);
             }

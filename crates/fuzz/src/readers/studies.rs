@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use report::study_folder::{STUDY_FILE, StudyFolder};
 use study::design::Study;
-use study::measures::Measures;
+use study::measures::{Measures, of_wedges};
 use study::records::{self, Record, Status};
 
 use super::cases::{messages, refused};
@@ -141,7 +141,7 @@ fn manifest_file(input: &[u8]) -> Outcome {
 const FINGERPRINT: u64 = 42;
 
 fn record(number: u64, status: Status, reason: &str) -> Record {
-    let mut measures = Measures::NONE;
+    let mut measures = Measures(vec![f64::NAN; of_wedges().len()]);
     measures.0[3] = number as f64 / 7.0;
     Record {
         number,

@@ -31,7 +31,7 @@ fn map(study: &Study, digest: &Digest, jam: &Jam, cells: &JamCells) -> Option<Ex
     let [angle, friction] = jam.factors;
     let (x, y) = (digest.axes[angle].middles()?, digest.axes[friction].middles()?);
     let unit = Quantity::new(1.0, study.factors[angle].unit()?).ok()?.to_si();
-    let mut base = closed_form::wedge(&study.base.parameters);
+    let mut base = closed_form::wedge(&study.base.wedge()?.parameters);
     base.toe = cells.toe.mean();
     let with = |angle: f64, value: f64| {
         let mut wedge = base;

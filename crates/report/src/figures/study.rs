@@ -1,7 +1,7 @@
 //! The figures of a study: main effects and contour maps; [`super::jam`] has the jam map.
 
 use study::design::Study;
-use study::measures::{self, ALL, Measure};
+use study::measures::Measure;
 
 use super::{Exhibit, axis, jam};
 use crate::contour::{self, Grid};
@@ -9,8 +9,8 @@ use crate::drawing::{Colour, Curve, Figure, Line, Mark, Panel, distinct};
 use crate::overlay::words;
 use crate::study_digest::{Axis, Digest, Gathered, Pair};
 
-/// Measures whose main effects are drawn.
-const EFFECTS: [&str; 9] = [
+/// Measures of wedges whose main effects are drawn; of other models the first ones are.
+const EFFECTS: [&str; MOST_EFFECTS] = [
     "energy_per_cycle_side_frame",
     "equivalent_damping_on_bolster",
     "equivalent_stiffness",
@@ -21,13 +21,17 @@ const EFFECTS: [&str; 9] = [
     "stick_share_column",
     "wear_power_column",
 ];
-/// Measures whose contours are drawn.
-const CONTOURS: [&str; 4] = [
+/// Measures of wedges whose contours are drawn; of other models the first ones are.
+const CONTOURS: [&str; MOST_CONTOURS] = [
     "energy_per_cycle_side_frame",
     "mean_vertical_wedge_force_up",
     "mean_vertical_wedge_force_down",
     "peak_side_frame_pitch_moment",
 ];
+/// Measures that are drawn.
+const MOST_EFFECTS: usize = 9;
+/// Panels of contours.
+const MOST_CONTOURS: usize = 4;
 /// Pairs of parameters that are drawn.
 const MOST_PAIRS: usize = 6;
 const LEVELS: usize = 7;
@@ -37,8 +41,8 @@ const NEAR_FRAME: f64 = 0.06;
 /// All figures that the study allows.
 #[must_use]
 pub fn exhibits(study: &Study, digest: &Digest) -> Vec<Exhibit> {
-    let mut exhibits: Vec<Exhibit> = EFFECTS
-        .iter()
+    let mut exhibits: Vec<Exhibit> = drawn(study, &EFFECTS)
+        .into_iter()
         .filter_map(|name| main_effects(study, digest, name))
         .collect();
     exhibits.extend(jam::maps(study, digest));
@@ -47,9 +51,18 @@ pub fn exhibits(study: &Study, digest: &Digest) -> Vec<Exhibit> {
     exhibits
 }
 
-fn measure(name: &str) -> Option<(usize, &'static Measure)> {
-    let place = ALL.iter().position(|measure| measure.name == name)?;
-    Some((place, &measures::ALL[place]))
+/// Returns the names of the measures to be drawn: those of wedges, or as many of the study's first ones.
+fn drawn<'s>(study: &'s Study, of_wedges: &[&'static str]) -> Vec<&'s str> {
+    if study.base.wedge().is_some() {
+        return of_wedges.to_vec();
+    }
+    let names = study.measures().iter().map(|measure| &*measure.name);
+    names.take(of_wedges.len()).collect()
+}
+
+fn measure<'s>(study: &'s Study, name: &str) -> Option<(usize, &'s Measure)> {
+    let place = study.measures().place(name)?;
+    Some((place, &study.measures()[place]))
 }
 
 /// A factor's name with its unit.
@@ -69,7 +82,7 @@ fn file_name(text: &str) -> String {
 /// How one measure depends on each parameter, the others being averaged.
 #[must_use]
 pub fn main_effects(study: &Study, digest: &Digest, name: &str) -> Option<Exhibit> {
-    let (place, measure) = measure(name)?;
+    let (place, measure) = measure(study, name)?;
     let all = &digest.all[place];
     if all.count == 0 {
         return None;
@@ -115,7 +128,7 @@ pub fn main_effects(study: &Study, digest: &Digest, name: &str) -> Option<Exhibi
         };
         Panel {
             x_label: factor_axis(study, number),
-            y_label: axis(&words(measure.name), measure.kind, units),
+            y_label: axis(&words(&measure.name), measure.kind, units),
             curves,
             marks,
             span: 1,
@@ -207,10 +220,10 @@ fn contours(study: &Study, digest: &Digest, pair: &Pair) -> Option<Exhibit> {
         return None;
     }
     let units = study.units();
-    let panels: Vec<Panel> = CONTOURS
-        .iter()
+    let panels: Vec<Panel> = drawn(study, &CONTOURS)
+        .into_iter()
         .filter_map(|name| {
-            let (place, measure) = measure(name)?;
+            let (place, measure) = measure(study, name)?;
             let heights = heights(pair, place, measure.kind.from_si(units));
             let grid = Grid {
                 x: &x,
@@ -220,7 +233,7 @@ fn contours(study: &Study, digest: &Digest, pair: &Pair) -> Option<Exhibit> {
             let levels = contour::round_levels(&heights, LEVELS);
             let (curves, marks): (Vec<_>, Vec<_>) = contour_curves(&grid, &levels).into_iter().unzip();
             (!curves.is_empty()).then(|| Panel {
-                title: axis(&words(measure.name), measure.kind, units),
+                title: axis(&words(&measure.name), measure.kind, units),
                 x_label: factor_axis(study, first),
                 y_label: factor_axis(study, second),
                 x_window: Some((x[0], x[x.len() - 1])),

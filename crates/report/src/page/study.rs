@@ -4,7 +4,6 @@ use std::path::Path;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use study::design::{Accuracy, Levels, Sampling, Study};
-use study::measures;
 
 use super::{STYLE, anchor, inline};
 use crate::drawing::Figure;
@@ -103,7 +102,7 @@ fn lead(study: &Study, digest: &Digest) -> String {
     format!(
         "{} runs of the case {}: {how}, at {accuracy}. {complete} are complete, {refused} were refused, {stopped} stopped on their way, {failed} failed.",
         study.count(),
-        study.base.name
+        study.base.name()
     )
 }
 
@@ -197,10 +196,10 @@ fn ranges(study: &Study, digest: &Digest) -> Markup {
                     }
                 }
                 tbody {
-                    @for (measure, found) in measures::ALL.iter().zip(&digest.all) {
+                    @for (measure, found) in study.measures().iter().zip(&digest.all) {
                         @let factor = measure.kind.from_si(units);
                         tr {
-                            th scope="row" { (words(measure.name)) }
+                            th scope="row" { (words(&measure.name)) }
                             td.unit { (measure.kind.label(units)) }
                             @if found.count > 0 {
                                 td.number { (digits(found.least * factor)) }

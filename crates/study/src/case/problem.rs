@@ -135,6 +135,15 @@ impl Problem {
             .is_some_and(|place| place.span == other.span && place.source.name() == other.source.name())
     }
 
+    /// Shows it in an override as typed: at its value, or at its key.
+    pub(crate) fn in_override(self, typed: &str, at_value: bool) -> Self {
+        let equals = typed.find('=').unwrap_or(typed.len());
+        let value = (equals + 1).min(typed.len());
+        let span = if at_value { value..typed.len() } else { 0..equals };
+        let source = Source::new(super::overrides::SOURCE, typed);
+        self.at(&Place { source, span })
+    }
+
     /// What was found and what was expected.
     pub fn message(&self) -> &str {
         &self.message

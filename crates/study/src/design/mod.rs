@@ -14,13 +14,15 @@ mod values;
 use std::path::{Path, PathBuf};
 
 use quantity::System as Units;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use factor::{Factor, Levels, Value};
 pub use latin_hypercube::LatinHypercube;
 pub use sobol::{DIMENSIONS, Sobol};
 
-use crate::case::{Case, CaseError};
+use crate::any_case::{AnyCase, CaseSource};
+use crate::case::CaseError;
+use crate::measures::Definitions;
 
 /// Version of what a study computes: it grows when the same document gives another table.
 pub const STUDY_VERSION: u32 = 2;
@@ -86,7 +88,8 @@ pub struct Study {
     /// Values that hold for all variants, as `--set` takes them.
     pub set: Vec<String>,
     /// The case without any variation.
-    pub base: Case,
+    pub base: AnyCase,
+    measures: Definitions,
     /// The values of a list: for each variant those of the factors, as far as it has them.
     list: Vec<Vec<Option<Value>>>,
     source: StudySource,
@@ -94,7 +97,7 @@ pub struct Study {
 }
 
 /// The texts that a study was read from: what another program needs to compute a part of it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StudySource {
     /// The study file's name.
     pub name: String,
@@ -104,17 +107,6 @@ pub struct StudySource {
     pub folder: PathBuf,
     /// The case that is varied.
     pub case: CaseSource,
-}
-
-/// The text of the case that is varied.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CaseSource {
-    /// The case file's name.
-    pub name: String,
-    /// Its text.
-    pub text: String,
-    /// Where the files that it names are looked for.
-    pub folder: PathBuf,
 }
 
 /// What decides what a study computes; two studies with the same description have the same table.
@@ -181,7 +173,7 @@ impl Study {
     /// Units of the table.
     #[must_use]
     pub fn units(&self) -> Units {
-        self.base.simulation.output_units
+        self.base.units()
     }
 
     /// The values of the variant of this number, below [`Study::count`]: one a factor, `None` where a list leaves the
@@ -209,10 +201,14 @@ impl Study {
     ///
     /// # Errors
     /// Its values do not go together.
-    pub fn case(&self, number: u64) -> Result<Case, CaseError> {
-        let source = &self.source.case;
-        let overrides = self.overrides(number);
-        Case::parse(&source.name, &source.text, &source.folder, &overrides)
+    pub fn case(&self, number: u64) -> Result<AnyCase, CaseError> {
+        self.source.case.case(&self.overrides(number))
+    }
+
+    /// The measures that are kept of each variant.
+    #[must_use]
+    pub fn measures(&self) -> &Definitions {
+        &self.measures
     }
 
     /// What decides what it computes.
@@ -227,7 +223,7 @@ impl Study {
             factors: &self.factors,
             list: &self.list,
             set: &self.set,
-            case: self.base.document.clone().with_tables_embedded().to_toml(),
+            case: self.source.case.description(&self.base),
         }
     }
 

@@ -4,17 +4,21 @@ mod vary;
 
 use std::path::Path;
 
+use nucars::together::{Instead, RunFiles, find};
+
 use input::file::{Expected, Reason, read_text};
 use input::{FileType, limits};
 
 use super::factor::{Factor, Value};
-use super::{Accuracy, CaseSource, DIMENSIONS, Sampling, Study, StudySource, accuracy_overrides};
+use super::{Accuracy, DIMENSIONS, Sampling, Study, StudySource, accuracy_overrides};
+use crate::any_case::CaseSource;
 use crate::case::builtin;
 use crate::case::name;
 use crate::case::problem::{Place, Problem, Problems, Source};
 use crate::case::section::{Names, Section};
 use crate::case::tree::{self, Node, Table, Value as Toml};
-use crate::case::{CASE_FILE, Case, CaseDocument, CaseError};
+use crate::case::{CASE_FILE, CaseDocument, CaseError};
+use crate::truck::catalog;
 use vary::{RANGE_HELP, TRIED, assignments, check_paths, factors, variants};
 
 const KEYS: [&str; 10] = [
@@ -133,6 +137,14 @@ pub(super) fn text(
     let (Some(kind), Some(accuracy), Some(source)) = (kind, accuracy, source) else {
         return Err(failed(problems));
     };
+    let is_wedge = matches!(source, CaseSource::Wedge { .. });
+    if let (Accuracy::Engineering, false, Some(node)) = (accuracy, is_wedge, tree.get("accuracy")) {
+        let problem =
+            Problem::new("engineering accuracy is a choice for wedges, and the case is a half-truck");
+        let help = "take `accuracy` out; simulation.relative_tolerance below [set] says how tightly half-trucks are integrated";
+        problems.push(problem.at(&node.place).label("not here").help(help));
+        return Err(failed(problems));
+    }
     let mut drafts = Vec::new();
     let mut list = Vec::new();
     if kind == Kind::List {
@@ -192,7 +204,7 @@ pub(super) fn text(
                 .map(|(path, (value, _))| format!("{path}={}", value.to_toml(path))),
         )
         .collect();
-    let try_out = |overrides: &[String]| Case::parse(&source.name, &source.text, &source.folder, overrides);
+    let try_out = |overrides: &[String]| source.case(overrides);
     // The case itself, then what is set, then each value alone.
     let base = match try_out(&everywhere) {
         Ok(base) => base,
@@ -266,6 +278,7 @@ pub(super) fn text(
             .iter()
             .map(|(path, (value, _))| format!("{path}={}", value.to_toml(path)))
             .collect(),
+        measures: base.definitions(),
         base,
         list,
         source: StudySource {
@@ -343,17 +356,26 @@ fn whole(top: &Section<'_>, key: &str, least: f64, problems: &mut Problems) -> O
 /// The text of the case that is varied.
 fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) -> Option<CaseSource> {
     let path = folder.join(case);
+    if !path.is_file() && catalog::entry(case).is_some() {
+        return Some(CaseSource::BuiltInHalfTruck(case.to_owned()));
+    }
+    if path
+        .extension()
+        .is_some_and(|own| own.eq_ignore_ascii_case("run"))
+    {
+        return half_truck(&path, node, problems);
+    }
     if !path.is_file()
         && let Ok(text) = builtin::text(case)
     {
-        return Some(CaseSource {
+        return Some(CaseSource::Wedge {
             name: format!("{case}.toml"),
             text: text.to_owned(),
             folder: folder.to_owned(),
         });
     }
     match read_text(&path, &CASE_FILE) {
-        Ok(text) => Some(CaseSource {
+        Ok(text) => Some(CaseSource::Wedge {
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),
             name: path.display().to_string(),
             text,
@@ -379,6 +401,24 @@ fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) 
                     .label("this case")
                     .help(help),
             );
+            None
+        }
+    }
+}
+
+/// The texts of the half-truck that is varied.
+fn half_truck(path: &Path, node: &Node, problems: &mut Problems) -> Option<CaseSource> {
+    let read = find(path).and_then(|path| Ok((RunFiles::read(&path, &Instead::default())?, path)));
+    match read {
+        Ok((files, path)) => Some(CaseSource::HalfTruck {
+            path,
+            texts: Box::new(files.texts()),
+        }),
+        Err(error) => {
+            let problem = Problem::new(error.to_string()).at(&node.place);
+            problems.push(problem.label("this run file").help(
+                "files are looked for from the folder of the study; `wedgelab nucars run --list` lists the built-in half-trucks",
+            ));
             None
         }
     }

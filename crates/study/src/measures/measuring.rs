@@ -12,7 +12,7 @@ use wedge::resultants::Resultants;
 use wedge::{BOLSTER, Wedge};
 
 use super::clock::ContactClock;
-use super::{Measures, place};
+use super::{COUNT, Measures, place};
 use crate::case::Case;
 use crate::closed_form;
 use crate::metrics::{Cycle, first_harmonic};
@@ -46,6 +46,12 @@ struct Measured<'c>(&'c Case);
 impl RunCase for Measured<'_> {
     type Recorder = Measuring;
     type Output = Result<Measures, Unmeasured>;
+
+    const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
+
+    fn name(&self) -> &str {
+        &self.0.name
+    }
 
     fn duration_and_interval(&self) -> [f64; 2] {
         self.0.duration_and_interval()
@@ -204,9 +210,8 @@ impl Measuring {
 
     /// Returns the measures, after the last step; `residual` is the relative residual of the energy ledger.
     fn finish(&self, integrator: &Integrator<System>, residual: f64) -> Measures {
-        let mut measures = Measures::NONE;
-        let values = &mut measures.0;
-        self.averages(values);
+        let mut values = [f64::NAN; COUNT];
+        self.averages(&mut values);
         values[place::PEAKS..place::PEAKS + 6].copy_from_slice(&self.peaks);
         for face in 0..FACES.len() {
             values[place::LIFT_OFF + face] = self.clock.lift_off[face];
@@ -235,10 +240,10 @@ impl Measuring {
         values[place::RESIDUAL] = residual;
         values[place::EVENTS] = self.events as f64;
         values[place::STEPS] = integrator.statistics().steps as f64;
-        measures
+        Measures(values.to_vec())
     }
 
-    fn averages(&self, values: &mut [f64; super::COUNT]) {
+    fn averages(&self, values: &mut [f64; COUNT]) {
         let Some(cycle) = self.cycle else { return };
         for (branch, (sums, count)) in self.sums.iter().zip(self.counts).enumerate() {
             if count == 0 {

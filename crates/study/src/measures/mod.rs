@@ -1,6 +1,6 @@
 //! What a study keeps of a run: one number for each measure, without the table of the run.
 //!
-//! Definitions are those of [`metrics`](crate::metrics) and of the summary, taken at the same output times from the same
+//! Those of half-trucks are in [`half_truck`]. The definitions of wedges' measures are those of [`metrics`](crate::metrics) and of the summary, taken at the same output times from the same
 //! functions; a test holds every measure against the summary of the whole run. What is more here:
 //!
 //! - *lift-off time* of a face: time of the whole run in which none of its corners touches, from the contact events;
@@ -19,159 +19,216 @@
 //! are none, over the whole run. A measure that a run does not have is `NaN`.
 
 mod clock;
+pub mod half_truck;
 mod measuring;
+
+use std::borrow::Cow;
+use std::ops::Deref;
+use std::sync::LazyLock;
 
 use quantity::Kind;
 
 pub use measuring::{Unmeasured, measure};
 
-/// A measure.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What a measure is.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Measure {
     /// Its name, without unit.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// What it is, in a few words.
-    pub text: &'static str,
+    pub text: Cow<'static, str>,
     /// What kind of quantity it is; values are SI.
     pub kind: Kind,
+    /// Whether every run has it.
+    pub always: bool,
 }
 
-const fn define(name: &'static str, kind: Kind, text: &'static str) -> Measure {
-    Measure { name, text, kind }
+/// The measures that a study keeps, in the order of [`Measures`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Definitions(Vec<Measure>);
+
+impl Definitions {
+    /// Returns the place of the measure of this name.
+    #[must_use]
+    pub fn place(&self, name: &str) -> Option<usize> {
+        self.0.iter().position(|measure| measure.name == name)
+    }
+
+    /// Returns the measure of this name, if there is one and the run has it; SI.
+    #[must_use]
+    pub fn get(&self, measures: &Measures, name: &str) -> Option<f64> {
+        let value = *measures.0.get(self.place(name)?)?;
+        Some(value).filter(|value| !value.is_nan())
+    }
+
+    /// Returns the name of the first measure that is infinite, or is no number although every run has it.
+    pub(crate) fn not_finite(&self, measures: &Measures) -> Option<&str> {
+        let wrong =
+            |(measure, value): &(&Measure, &f64)| value.is_infinite() || (value.is_nan() && measure.always);
+        let found = self.0.iter().zip(&measures.0).find(wrong);
+        found.map(|(measure, _)| &*measure.name)
+    }
 }
 
-/// The measures, in the order of [`Measures`].
-pub const ALL: [Measure; COUNT] = [
-    define("cycles", Kind::Count, "whole cycles after the first half period"),
-    define(
+impl Deref for Definitions {
+    type Target = [Measure];
+
+    fn deref(&self) -> &[Measure] {
+        &self.0
+    }
+}
+
+/// Returns the measures of wedges.
+#[must_use]
+pub fn of_wedges() -> &'static Definitions {
+    static ALL: LazyLock<Definitions> = LazyLock::new(|| {
+        let always = [place::PEAKS..place::STICK, place::WEAR..place::EVENTS];
+        let measures = WEDGE
+            .iter()
+            .enumerate()
+            .map(|(place, (name, kind, text))| Measure {
+                name: Cow::Borrowed(name),
+                text: Cow::Borrowed(text),
+                kind: *kind,
+                always: always.iter().any(|places| places.contains(&place)),
+            });
+        Definitions(measures.collect())
+    });
+    &ALL
+}
+
+/// The measures of a wedge: name, kind, text.
+const WEDGE: [(&str, Kind, &str); COUNT] = [
+    ("cycles", Kind::Count, "whole cycles after the first half period"),
+    (
         "energy_per_cycle_side_frame",
         Kind::Energy,
         "lost in the column's friction each cycle",
     ),
-    define(
+    (
         "energy_per_cycle_bolster",
         Kind::Energy,
         "lost in the slope's friction each cycle",
     ),
-    define(
+    (
         "equivalent_damping",
         Kind::Damping,
         "of the column's friction: energy per cycle over pi omega A^2",
     ),
-    define(
+    (
         "equivalent_stiffness",
         Kind::Stiffness,
         "first harmonic of the vertical force of wedge and coil on the bolster, in phase",
     ),
-    define(
+    (
         "equivalent_damping_on_bolster",
         Kind::Damping,
         "the same first harmonic, out of phase",
     ),
-    define(
+    (
         "mean_vertical_wedge_force_up",
         Kind::Force,
         "column friction on the side frame, positive up; mean while the bolster rises",
     ),
-    define(
+    (
         "mean_vertical_wedge_force_down",
         Kind::Force,
         "the same while the bolster falls",
     ),
-    define(
+    (
         "mean_vertical_force_on_side_frame_up",
         Kind::Force,
         "the same with the spring force of a coil on the side frame; mean while the bolster rises",
     ),
-    define(
+    (
         "mean_vertical_force_on_side_frame_down",
         Kind::Force,
         "the same while the bolster falls",
     ),
-    define(
+    (
         "mean_longitudinal_wedge_force_up",
         Kind::Force,
         "normal forces of the column along x; mean while the bolster rises",
     ),
-    define(
+    (
         "mean_longitudinal_wedge_force_down",
         Kind::Force,
         "the same while the bolster falls",
     ),
-    define(
+    (
         "peak_side_frame_roll_moment",
         Kind::Moment,
         "largest moment of the column's forces on the wedge about x",
     ),
-    define("peak_side_frame_pitch_moment", Kind::Moment, "about y"),
-    define("peak_side_frame_yaw_moment", Kind::Moment, "about z"),
-    define(
+    ("peak_side_frame_pitch_moment", Kind::Moment, "about y"),
+    ("peak_side_frame_yaw_moment", Kind::Moment, "about z"),
+    (
         "peak_bolster_roll_moment",
         Kind::Moment,
         "largest moment of the slope's forces on the wedge about x",
     ),
-    define("peak_bolster_pitch_moment", Kind::Moment, "about y"),
-    define("peak_bolster_yaw_moment", Kind::Moment, "about z"),
-    define(
+    ("peak_bolster_pitch_moment", Kind::Moment, "about y"),
+    ("peak_bolster_yaw_moment", Kind::Moment, "about z"),
+    (
         "lift_off_time_column",
         Kind::Time,
         "time in which no corner touches the column",
     ),
-    define(
+    (
         "lift_off_time_slope",
         Kind::Time,
         "time in which no corner touches the slope",
     ),
-    define(
+    (
         "stick_share_column",
         Kind::Dimensionless,
         "of the time in which corners touch the column, the part in which they stick",
     ),
-    define("stick_share_slope", Kind::Dimensionless, "the same at the slope"),
-    define(
+    ("stick_share_slope", Kind::Dimensionless, "the same at the slope"),
+    (
         "column_force_ratio_up",
         Kind::Dimensionless,
         "normal forces of the column along x over the coil's force less the wedge's weight; means while the bolster rises",
     ),
-    define(
+    (
         "column_force_ratio_down",
         Kind::Dimensionless,
         "the same while the bolster falls",
     ),
-    define(
+    (
         "quasi_static_column_force_ratio_up",
         Kind::Dimensionless,
         "the same of the massless wedge in steady sliding (eq. 5-1); none where it jams",
     ),
-    define(
+    (
         "quasi_static_column_force_ratio_down",
         Kind::Dimensionless,
         "the same while the bolster falls",
     ),
-    define("jam_margin", Kind::Angle, "the smaller of the next two"),
-    define(
+    ("jam_margin", Kind::Angle, "the smaller of the next two"),
+    (
         "jam_margin_down",
         Kind::Angle,
         "of the massless wedge while the bolster falls; it jams at zero and below",
     ),
-    define("jam_margin_up", Kind::Angle, "the same while the bolster rises"),
-    define("wear_power_column", Kind::Power, "lost in the column's friction"),
-    define("wear_power_slope", Kind::Power, "lost in the slope's friction"),
-    define(
+    ("jam_margin_up", Kind::Angle, "the same while the bolster rises"),
+    ("wear_power_column", Kind::Power, "lost in the column's friction"),
+    ("wear_power_slope", Kind::Power, "lost in the slope's friction"),
+    (
         "ledger_residual",
         Kind::Dimensionless,
         "relative residual of the energy ledger: the largest residual over the largest of work, losses and change of stored energy",
     ),
-    define(
+    (
         "contact_events",
         Kind::Count,
         "changes between open, stick and slip",
     ),
-    define("steps", Kind::Count, "accepted steps of the integrator"),
+    ("steps", Kind::Count, "accepted steps of the integrator"),
 ];
 
-/// Number of measures.
-pub const COUNT: usize = 34;
+/// Number of measures of a wedge.
+const COUNT: usize = 34;
 
 /// Places of the measures.
 pub(crate) mod place {
@@ -195,43 +252,16 @@ pub(crate) mod place {
     pub const STEPS: usize = 33;
 }
 
-/// The measures of a run, SI, in the order of [`ALL`]; `NaN` for what it does not have.
-#[derive(Clone, Copy, Debug)]
-pub struct Measures(pub [f64; COUNT]);
-
-impl Measures {
-    /// None of them.
-    pub const NONE: Self = Self([f64::NAN; COUNT]);
-
-    /// The measure of this name, if there is one and the run has it; SI.
-    #[must_use]
-    pub fn get(&self, name: &str) -> Option<f64> {
-        let place = ALL.iter().position(|measure| measure.name == name)?;
-        Some(self.0[place]).filter(|value| !value.is_nan())
-    }
-}
-
-impl Measures {
-    /// The name of the first measure that is infinite, or is no number although every run has it.
-    pub(crate) fn not_finite(&self) -> Option<&'static str> {
-        let always = [place::PEAKS..place::STICK, place::WEAR..place::EVENTS];
-        let wrong = |(place, value): (usize, &f64)| {
-            let has_it = always.iter().any(|places| places.contains(&place));
-            value.is_infinite() || (value.is_nan() && has_it)
-        };
-        let found = self
-            .0
-            .iter()
-            .enumerate()
-            .find(|(place, value)| wrong((*place, value)));
-        found.map(|(place, _)| ALL[place].name)
-    }
-}
+/// The measures of a run, SI, in the order of the [`Definitions`]; `NaN` for what it does not have.
+/// Empty where nothing was measured.
+#[derive(Clone, Debug, Default)]
+pub struct Measures(pub Vec<f64>);
 
 impl PartialEq for Measures {
     /// The same bits, but any `NaN` equals any other.
     fn eq(&self, other: &Self) -> bool {
         let mut pairs = self.0.iter().zip(&other.0);
-        pairs.all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
+        self.0.len() == other.0.len()
+            && pairs.all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
     }
 }

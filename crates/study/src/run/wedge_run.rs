@@ -14,6 +14,7 @@ use super::{Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError, summari
 use crate::case::Case;
 use crate::finite::is_finite;
 use crate::metrics::Cycle;
+use crate::progress;
 use crate::result::{ContactEvent, RunResult};
 use crate::summary::Stopped;
 
@@ -52,6 +53,12 @@ pub struct WedgeRecorder {
 impl RunCase for Case {
     type Recorder = WedgeRecorder;
     type Output = RunResult;
+
+    const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
+
+    fn name(&self) -> &str {
+        &self.name
+    }
 
     fn duration_and_interval(&self) -> [f64; 2] {
         [self.simulation.duration, self.simulation.output_interval]

@@ -12,7 +12,7 @@ use nucars::truck::{Choices, Yaw};
 use wedge::parameters::Damping;
 
 use super::TruckCase;
-use super::files::{self, Files, Settings};
+use super::files::{self, Files, FilesError, Settings};
 
 /// The type of the wedges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -172,8 +172,8 @@ impl Entry {
     /// `choices.yaw` says how the intended yaw is reached; as printed stands for the default way.
     ///
     /// # Errors
-    /// None happen with the built-in files, which the tests read: a text that says why they make no model.
-    pub fn case(&self, choices: &Choices, duration: f64) -> Result<TruckCase, String> {
+    /// None happen with the built-in files, which the tests read.
+    pub fn case(&self, choices: &Choices, duration: f64) -> Result<TruckCase, FilesError> {
         self.case_with(&Settings {
             choices: choices.clone(),
             duration: Some(duration),
@@ -184,8 +184,8 @@ impl Entry {
     /// The run with other settings; without a duration, the files' 20 s.
     ///
     /// # Errors
-    /// None happen with the built-in files and sensible settings: a text that says why they make no run.
-    pub fn case_with(&self, settings: &Settings) -> Result<TruckCase, String> {
+    /// A value of the settings is wrong; the built-in files have no mistakes.
+    pub fn case_with(&self, settings: &Settings) -> Result<TruckCase, FilesError> {
         let [system, input, data] = self.files();
         let mut system = tree_of::<SystemFile>(system)?;
         let input = tree_of::<InputFile>(input)?;
@@ -204,8 +204,7 @@ impl Entry {
             data: Some(&data),
             run: None,
         };
-        let mut case =
-            files::case(&self.name(), &self.title(), files, &settings).map_err(|error| error.to_string())?;
+        let mut case = files::case(&self.name(), &self.title(), files, &settings)?;
         if !self.is_printed() {
             case.assumptions
                 .push("made from the printed files of the same type and damping by toe and yaw".to_owned());
@@ -227,15 +226,14 @@ pub fn entry(name: &str) -> Option<Entry> {
 
 /// Trees that are read from built-in files.
 trait Tree: Sized {
-    fn read(name: &str) -> Option<Result<Self, String>>;
+    fn read(name: &str) -> Option<Self>;
 }
 
 macro_rules! tree {
     ($tree:ty, $read:ident) => {
         impl Tree for $tree {
-            fn read(name: &str) -> Option<Result<Self, String>> {
-                let source = builtin::source(name)?;
-                Some($read(&source).strict().map_err(|errors| errors.to_string()))
+            fn read(name: &str) -> Option<Self> {
+                $read(&builtin::source(name)?).strict().ok()
             }
         }
     };
@@ -245,8 +243,8 @@ tree!(SystemFile, read_system);
 tree!(InputFile, read_input);
 tree!(DataFile, read_data);
 
-fn tree_of<T: Tree>(name: &str) -> Result<T, String> {
-    T::read(name).unwrap_or_else(|| Err(format!("there is no built-in file {name}")))
+fn tree_of<T: Tree>(name: &str) -> Result<T, FilesError> {
+    T::read(name).ok_or(FilesError::NoSystem)
 }
 
 /// Gives all wedges of a system with toe out another toe.

@@ -89,8 +89,13 @@ pub enum FilesError {
         interval: f64,
     },
     /// A value cannot be set.
-    #[error(transparent)]
-    Set(#[from] SetError),
+    #[error("{error}")]
+    Set {
+        /// As typed.
+        typed: String,
+        /// Why.
+        error: SetError,
+    },
     /// The intended yaw of files that command none.
     #[error("the yaw as intended was asked for, but no input body that drives a body yaws")]
     NoYaw,
@@ -107,7 +112,10 @@ pub fn case(name: &str, title: &str, files: Files<'_>, settings: &Settings) -> R
         files.input.map(Cow::Borrowed),
     );
     for typed in &settings.set.clone() {
-        set::apply(typed, &mut settings, &mut system, input.as_mut())?;
+        set::apply(typed, &mut settings, &mut system, input.as_mut()).map_err(|error| FilesError::Set {
+            typed: typed.clone(),
+            error,
+        })?;
     }
     let stepping = files.run.and_then(|run| run.stepping.as_ref());
     let duration = settings

@@ -16,6 +16,7 @@ use super::{SCHEMA, TruckCase, TruckResult, TruckStart, TruckSummary, WedgeSumma
 use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::metrics::{Cycle, mean};
+use crate::progress;
 use crate::run::{
     Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError, check_finite, check_length, damaged,
 };
@@ -67,6 +68,12 @@ pub struct TruckRecorder {
 impl RunCase for TruckCase {
     type Recorder = TruckRecorder;
     type Output = TruckResult;
+
+    const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY_WITH_FILES;
+
+    fn name(&self) -> &str {
+        &self.name
+    }
 
     fn duration_and_interval(&self) -> [f64; 2] {
         [self.duration, self.interval]

@@ -41,7 +41,7 @@ pub enum SetError {
         hint: String,
     },
     /// The value is none of its kind.
-    #[error("`{value}` is no value of `simulation.{name}`: {expected} is expected")]
+    #[error("`{value}` is no value of `simulation.{name}`; expected: {expected}")]
     Value {
         /// The setting.
         name: &'static str,
@@ -50,6 +50,18 @@ pub enum SetError {
         /// What would do.
         expected: &'static str,
     },
+}
+
+impl SetError {
+    /// Returns whether the path is right and the value wrong.
+    pub(crate) fn is_about_value(&self) -> bool {
+        matches!(
+            self,
+            Self::Value { .. }
+                | Self::File(nucars::set::SetError::Value { .. })
+                | Self::Option(OptionError::Value { .. })
+        )
+    }
 }
 
 /// The settings below `simulation`, and what is expected of each.

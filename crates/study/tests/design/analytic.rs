@@ -144,6 +144,7 @@ fn analytic_a_full_factorial_counts_like_a_clock() {
     assert_eq!(sorted.len(), 12, "no variant stands twice");
     // As in a case file.
     let case = study.case(8).unwrap();
+    let case = case.wedge().unwrap();
     assert_eq!(case.parameters.wedge.angle, 33_f64 * std::f64::consts::PI / 180.0);
     assert!(case.parameters.toe < 0.0);
     assert_eq!(case.parameters.column_friction.coefficient, 0.4);
@@ -168,6 +169,7 @@ fn analytic_ranges_scales_and_companions() {
     assert!((number(&values[2]).0 - 0.75).abs() < 1e-12);
     assert_eq!(number(&values[2]).1, "in");
     let case = study.case(1).unwrap();
+    let case = case.wedge().unwrap();
     assert_eq!(
         case.parameters.column_friction.coefficient,
         case.parameters.slope_friction.coefficient
@@ -184,7 +186,16 @@ fn analytic_a_list_is_what_is_written() {
     assert_eq!(study.overrides(0), ["friction.column=0.3"]);
     assert_eq!(study.values(0), [study.values(0)[0].clone(), None, None]);
     assert_eq!(study.overrides(1).len(), 2);
-    let angle = |number| study.case(number).unwrap().parameters.wedge.angle;
-    assert_eq!(angle(0), study.base.parameters.wedge.angle);
+    let angle = |number| {
+        study
+            .case(number)
+            .unwrap()
+            .wedge()
+            .unwrap()
+            .parameters
+            .wedge
+            .angle
+    };
+    assert_eq!(angle(0), study.base.wedge().unwrap().parameters.wedge.angle);
     assert!((angle(1) - 36_f64.to_radians()).abs() < 1e-15);
 }

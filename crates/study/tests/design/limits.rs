@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use study::case::builtin;
-use study::measures::measure;
+use study::measures::{measure, of_wedges};
 use study::metrics::Cycle;
 use study::run::Run;
 use study::summary::Measure;
@@ -36,7 +36,7 @@ fn limits_measures_are_those_of_the_summary() {
         let summary = &result.summary;
         let averages = &summary.averages;
         let same = |measure: &str, other: Option<f64>| {
-            let (own, other) = (found.get(measure), other);
+            let (own, other) = (of_wedges().get(&found, measure), other);
             match (own, other) {
                 (None, None) => {}
                 (Some(a), Some(b)) => {
@@ -93,17 +93,20 @@ fn limits_measures_are_those_of_the_summary() {
             let open = (0..rows)
                 .filter(|row| states.iter().all(|state| state[*row] == 0.0))
                 .count();
-            let off = found.get(&format!("lift_off_time_{face}")).unwrap();
+            let off = of_wedges().get(&found, &format!("lift_off_time_{face}")).unwrap();
             let end = case.simulation.duration;
             assert!(
                 (off - open as f64 / rows as f64 * end).abs() < 0.005 * end,
                 "{name} {off} {open}"
             );
         }
-        let losses = ["side_frame", "bolster"].map(|side| found.get(&format!("energy_per_cycle_{side}")));
+        let losses = ["side_frame", "bolster"]
+            .map(|side| of_wedges().get(&found, &format!("energy_per_cycle_{side}")));
         if let [Some(column), Some(slope)] = losses {
-            let period = column / found.get("wear_power_column").unwrap();
-            assert!((slope / found.get("wear_power_slope").unwrap() - period).abs() < 1e-9 * period);
+            let period = column / of_wedges().get(&found, "wear_power_column").unwrap();
+            assert!(
+                (slope / of_wedges().get(&found, "wear_power_slope").unwrap() - period).abs() < 1e-9 * period
+            );
         }
     }
 }

@@ -4,6 +4,7 @@
 
 mod analytic;
 mod common;
+mod half_truck;
 mod input;
 mod limits;
 mod records;

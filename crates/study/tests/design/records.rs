@@ -1,7 +1,8 @@
 //! Records survive what happens to files.
 
+use study::any_case::CaseSource;
 use study::design::Study;
-use study::measures::Measures;
+use study::measures::{Measures, of_wedges};
 use study::records::{self, Record, Status};
 
 use super::common::{HEAD, SHORT, study};
@@ -13,7 +14,7 @@ fn small() -> Study {
 }
 
 fn made_up(number: u64, reason: &str) -> Record {
-    let mut measures = Measures::NONE;
+    let mut measures = Measures(vec![f64::NAN; of_wedges().len()]);
     measures.0[3] = number as f64 / 7.0;
     Record {
         number,
@@ -109,7 +110,10 @@ fn limits_a_study_from_its_texts_is_the_same() {
     let mut elsewhere = study.source().clone();
     elsewhere.folder = "/nowhere".into();
     elsewhere.name = "/nowhere/some.toml".to_owned();
-    elsewhere.case.name = format!("/nowhere/{}", elsewhere.case.name);
+    let CaseSource::Wedge { name, .. } = &mut elsewhere.case else {
+        panic!("a wedge's case");
+    };
+    *name = format!("/nowhere/{name}");
     elsewhere.text = elsewhere
         .text
         .replace("cdrun_toe_-0.2_psi_0.012", "some/case.toml");
@@ -177,14 +181,18 @@ fn energy_a_variant_whose_ledger_does_not_close_has_failed_and_keeps_its_measure
         [Status::Complete, Status::Failed]
     );
     assert_eq!(Status::Failed.name(), "failed");
-    let residual = records[1].measures.get("ledger_residual").unwrap();
+    let residual = of_wedges().get(&records[1].measures, "ledger_residual").unwrap();
     assert!(residual > 1e-2, "{residual}");
     assert!(
         records[1].reason.contains(&format!("{residual:.2e}")),
         "{}",
         records[1].reason
     );
-    assert!(records[1].measures.get("energy_per_cycle_side_frame").is_some());
+    assert!(
+        of_wedges()
+            .get(&records[1].measures, "energy_per_cycle_side_frame")
+            .is_some()
+    );
     let bytes = records::run_all(&study, [0, 1]);
     assert_eq!(records::read(study.fingerprint(), &bytes).records, records);
 }

@@ -112,7 +112,7 @@ fn input_values_set_over_files_reach_model_run_and_assumptions() {
         ("option.bend=round", "half_cosine or linear"),
         ("wedges.colum_friction=1", "did you mean column_friction?"),
     ] {
-        let error = with(&[typed]).unwrap_err();
+        let error = with(&[typed]).unwrap_err().to_string();
         assert!(error.contains(text), "{typed}: {error}");
     }
 }

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 from ._optional import need
@@ -22,8 +21,6 @@ __all__ = ["run_study"]
 
 DEATHS = 5
 """A batch on which workers died so often, as often as Dask itself tries it each time, is given up."""
-
-_Texts = tuple[str, str, Path, str, str, Path]
 
 
 def run_study(
@@ -61,14 +58,14 @@ def run_study(
 
 def _kept(distributed: Any, client: Any, study: Study, native: NativeStudyFolder, batch: int) -> Iterator[int]:
     """Has all missing runs computed, and keeps them; how many, batch by batch."""
-    texts = study._native.texts()
+    saved = study._native.saved()
     waiting = _batches(native, batch)
     under_way: dict[Any, tuple[list[int], int]] = {}
     ended = distributed.as_completed()
 
     def send(numbers: list[int], deaths: int) -> None:
         # Not pure: a result is asked for once, and nobody keeps it for later.
-        future = client.submit(_records, texts, numbers, pure=False)
+        future = client.submit(_records, saved, numbers, pure=False)
         under_way[future] = (numbers, deaths)
         ended.add(future)
 
@@ -105,10 +102,10 @@ def _batches(native: NativeStudyFolder, size: int) -> Iterator[list[int]]:
 
 
 @lru_cache(maxsize=4)
-def _study(texts: _Texts) -> NativeStudy:
-    return NativeStudy.of_texts(texts)
+def _study(saved: bytes) -> NativeStudy:
+    return NativeStudy.load(saved)
 
 
-def _records(texts: _Texts, numbers: list[int]) -> bytes:
+def _records(saved: bytes, numbers: list[int]) -> bytes:
     """What a worker does."""
-    return _study(texts).records(numbers)
+    return _study(saved).records(numbers)

@@ -127,7 +127,8 @@ class TruckCase:
     taken instead of the named ones. ``yaw``: ``"printed"`` (as the files say), ``"drop"`` (without the springs that hold the bolster),
     ``"drive"`` (their input bodies move along). ``options`` choose where the files leave a choice, by the names of ``wedgelab nucars run
     --help``. ``duration`` (without it, what the run file says) and ``interval`` of rows are texts with units or in s; ``start`` is ``"drawn"`` or
-    ``"equilibrium"``; ``units`` of summary and tables are ``"us"`` or ``"si"``.
+    ``"equilibrium"``; ``units`` of summary and tables are ``"us"`` or ``"si"``. ``set`` lays single values over the files, by the paths of
+    ``wedgelab nucars run --set``: ``{"wedges.column_friction": 0.3, "body.2.mass": "2000 lb"}``.
     """
 
     __slots__ = ("_native",)
@@ -147,6 +148,7 @@ class TruckCase:
         all_outputs: bool = False,
         units: str = "us",
         relative_tolerance: float = 1e-5,
+        set: Mapping[str, str | float | bool] | None = None,
     ) -> None:
         choices = [(str(name), _option(value)) for name, value in (options or {}).items()]
         time = None if duration is None else si(duration, "time", "duration")
@@ -163,7 +165,14 @@ class TruckCase:
             all_outputs,
             units,
             relative_tolerance,
+            [f"{path}={_option(value)}" for path, value in (set or {}).items()],
         )
+
+    @classmethod
+    def _of(cls, native: NativeTruckCase) -> TruckCase:
+        case = cls.__new__(cls)
+        case._native = native
+        return case
 
     @property
     def name(self) -> str:
@@ -207,9 +216,7 @@ class TruckCase:
 
 
 def _truck_case(saved: bytes) -> TruckCase:
-    case = TruckCase.__new__(TruckCase)
-    case._native = NativeTruckCase.load(saved)
-    return case
+    return TruckCase._of(NativeTruckCase.load(saved))
 
 
 def _option(value: str | float | bool) -> str:

@@ -10,10 +10,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Union
 
-from ._wedgelab import NativeStudy, NativeStudyFolder
+from ._wedgelab import NativeStudy, NativeStudyFolder, NativeTruckCase
 from .case import Case
 from .errors import StudyError
 from .many import Progress, _teller, _workers
+from .nucars import TruckCase
 
 __all__ = ["Study", "StudyColumn", "StudyOutcome"]
 
@@ -76,7 +77,7 @@ class Study:
         return study
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_study_of_texts, (self._native.texts(),))
+        return (_loaded, (self._native.saved(),))
 
     def __repr__(self) -> str:
         return f"<Study {self.name!r}: {self.count} runs>"
@@ -114,9 +115,10 @@ class Study:
         """What is varied in a variant, by path, as a case file shows it."""
         return dict(self._native.values(self._number(number)))
 
-    def case(self, number: int) -> Case:
+    def case(self, number: int) -> Case | TruckCase:
         """The case of a variant, for example to run it with its time series: ``study.case(17).run()``."""
-        return Case._of(self._native.case(self._number(number)))
+        native = self._native.case(self._number(number))
+        return TruckCase._of(native) if isinstance(native, NativeTruckCase) else Case._of(native)
 
     def run(
         self,
@@ -144,8 +146,8 @@ class Study:
         return number
 
 
-def _study_of_texts(texts: tuple[str, str, Path, str, str, Path]) -> Study:
-    return Study._of(NativeStudy.of_texts(texts))
+def _loaded(saved: bytes) -> Study:
+    return Study._of(NativeStudy.load(saved))
 
 
 @contextmanager

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use report::study_folder::StudyFolder;
 use study::design::Study;
-use study::measures::Measures;
+use study::measures::{Measures, of_wedges};
 use study::records::{Record, Status};
 use tempfile::tempdir;
 
@@ -114,7 +114,7 @@ fn make_up(path: &Path, study: &str, out: &str, runs: u64) {
     let study = Study::read(&path.join(study)).unwrap();
     let mut bytes = Vec::new();
     for number in 0..runs {
-        let mut measures = Measures::NONE;
+        let mut measures = Measures(vec![f64::NAN; of_wedges().len()]);
         for (place, value) in measures.0.iter_mut().enumerate() {
             *value = (number as f64 + place as f64).sin();
         }

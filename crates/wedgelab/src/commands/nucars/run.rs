@@ -3,22 +3,20 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 use nucars::Severity;
 use nucars::together::{RunFiles, find, kind, load};
 use nucars::truck::{Choices, Yaw};
-use quantity::{Kind, Number, Quantity, System as Units, nearest};
+use quantity::{Kind, Quantity, System as Units, nearest};
 use report::truck_files;
 use study::truck::catalog::{self, Entry, OUTPUT_INTERVAL, YawCase};
 use study::truck::files::{Settings, case_of_run};
-use study::truck::run::run_while;
 use study::truck::{TruckCase, TruckStart, TruckSummary, options};
 
 use super::files::Instead;
 use super::load::tell;
-use crate::execute::unsound_truck;
+use crate::execute::{compute, unsound_truck, write_truck};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -134,28 +132,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let folder = folders::check(path, &truck_files::NAMES, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
-    let start = Instant::now();
-    let mut reached = progress.of_run(case.duration);
-    let done = run_while(&case, |time| {
-        reached(time);
-        interrupt::go_on()
-    });
-    let wall = start.elapsed().as_secs_f64();
-    let result = done.map_err(|error| {
-        progress.finish();
-        Message::new(
-            format!("the run {} cannot begin: {error}", case.name),
-            "look for values that are out of proportion; `wedgelab nucars show` prints them as tables",
-        )
-    })?;
-    truck_files::write(&folder, &case, &result, script_interval)?;
-    let summary = &result.summary;
-    let how = match &summary.stopped {
-        Some(stopped) => format!("stopped at {} s", Number(stopped.time)),
-        None => format!("{wall:.2} s"),
-    };
-    progress.done(&case.name, &how);
+    let done = compute(&case, &progress)
+        .and_then(|done| write_truck(&done, &case, &folder, script_interval, &progress).map(|()| done));
     progress.finish();
+    let summary = &done?.result.summary;
     for warning in &summary.warnings {
         say(&format!("warning: {}: {warning}", case.name));
     }
@@ -233,8 +213,10 @@ impl Arguments {
                 "built-in runs with yaw as intended end with _yaw, those as printed with _yaw_as_printed",
             ));
         }
-        let wrong = |text: String| Message::new(text, "choose another interval or another option");
-        entry.case_with(&settings).map_err(wrong)
+        entry.case_with(&settings).map_err(|error| {
+            let advice = "choose another interval, option or value; `wedgelab nucars run --help` lists them";
+            Message::new(error.to_string(), advice)
+        })
     }
 
     /// The case of a run file, and its own interval of results, s.

@@ -1,8 +1,8 @@
 //! The half-truck's runs that the report compares with.
 
 use std::path::Path;
-use std::time::Instant;
 
+use crate::execute::{compute, write_truck};
 use nucars::truck::Choices;
 use rayon::prelude::*;
 use report::agreement::TruckOutcome;
@@ -13,7 +13,6 @@ use report::view::run::{Detail, Recording};
 use study::energy;
 use study::truck::TruckCase;
 use study::truck::catalog::{self, Entry};
-use study::truck::run::run_while;
 
 use crate::failure::{Failure, Message, say};
 use crate::folders;
@@ -76,25 +75,12 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<Kept>, Failure> {
         return Ok(None);
     }
     let Planned { entry, case, folder } = planned;
-    let start = Instant::now();
-    let mut reached = progress.of_run(case.duration);
-    let done = run_while(&case, |time| {
-        reached(time);
-        interrupt::go_on()
-    });
-    let result = done.map_err(|error| {
-        let message = format!("the run {} cannot begin: {error}", case.name);
-        Failure::Failed(Message::new(message, "").into())
-    })?;
-    if interrupt::is_reason(result.summary.stopped.as_ref()) {
+    let done = compute(&case, progress)?;
+    if interrupt::is_reason(done.result.summary.stopped.as_ref()) {
         return Ok(None);
     }
-    truck_files::write(&folder, &case, &result, catalog::OUTPUT_INTERVAL)?;
-    let how = match &result.summary.stopped {
-        Some(stopped) => format!("stopped at {} s", stopped.time),
-        None => format!("{:.2} s", start.elapsed().as_secs_f64()),
-    };
-    progress.done(&case.name, &how);
+    write_truck(&done, &case, &folder, catalog::OUTPUT_INTERVAL, progress)?;
+    let result = done.result;
     for warning in energy::among(&result.summary.warnings) {
         say(&format!("warning: {}: {warning}", case.name));
     }

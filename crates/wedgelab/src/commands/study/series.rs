@@ -4,11 +4,13 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use report::run_files;
 use report::study_folder::SERIES;
+use report::{run_files, truck_files};
+use study::any_case::AnyCase;
 use study::design::Study;
+use study::truck::catalog;
 
-use crate::execute::{execute_whole, unsound};
+use crate::execute::{compute, execute_whole, unsound, unsound_truck, write_truck};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -21,19 +23,40 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         "stopping: the run under way is not written (once more: ends at once)",
         "the runs that were written before are whole; the same command computes all of them again",
     );
+    let names: &[&str] = match study.base {
+        AnyCase::Wedge(_) => &run_files::NAMES,
+        AnyCase::HalfTruck(_) => &truck_files::NAMES,
+    };
     let (mut written, mut failures) = (Vec::new(), Vec::new());
     for number in numbers {
-        let mut case = study.case(*number)?;
-        case.name = format!("{}_{number}", study.name);
-        case.document.name.clone_from(&case.name);
         let path = out.join(SERIES).join(number.to_string());
+        let name = format!("{}_{number}", study.name);
         // The same run gives the same files.
-        let folder = folders::check(&path, &run_files::NAMES, true)?;
-        let Some(done) = execute_whole(&case, &folder, &progress)? else {
+        let folder = folders::check(&path, names, true)?;
+        let whole = match study.case(*number)? {
+            AnyCase::Wedge(mut case) => {
+                case.name = name;
+                case.document.name.clone_from(&case.name);
+                let done = execute_whole(&case, &folder, &progress)?;
+                done.map(|done| unsound(&done.result.summary, folder.path()))
+            }
+            AnyCase::HalfTruck(mut case) => {
+                case.name = name;
+                let done = compute(&*case, &progress)?;
+                let stopped = done.result.summary.stopped.as_ref();
+                if interrupt::is_reason(stopped) {
+                    None
+                } else {
+                    write_truck(&done, &case, &folder, catalog::OUTPUT_INTERVAL, &progress)?;
+                    Some(unsound_truck(&done.result.summary, folder.path()))
+                }
+            }
+        };
+        let Some(failure) = whole else {
             progress.finish();
             return Err(interrupted(numbers, written.len()));
         };
-        failures.extend(unsound(&done.result.summary, folder.path()));
+        failures.extend(failure);
         written.push(path.display().to_string());
     }
     progress.finish();
@@ -41,7 +64,7 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         io::stdout().lock(),
         "Written into {}: {}.",
         written.join(", "),
-        run_files::NAMES.join(", ")
+        names.join(", ")
     )?;
     let mut code = ExitCode::SUCCESS;
     for failure in failures {

@@ -1,0 +1,150 @@
+//! A case of any model, and where it comes from: what a study varies.
+
+use std::path::PathBuf;
+
+use nucars::Severity;
+use nucars::together::{RunFiles, Texts};
+use quantity::System as Units;
+use serde::{Deserialize, Serialize};
+
+use crate::case::{Case, CaseError, Problem};
+use crate::measures::{self, Definitions, Measures, Unmeasured, half_truck};
+use crate::truck::TruckCase;
+use crate::truck::catalog;
+use crate::truck::files::{FilesError, Settings, case_of_run};
+
+/// A case of any model.
+#[derive(Clone, Debug)]
+pub enum AnyCase {
+    /// A wedge's.
+    Wedge(Box<Case>),
+    /// A half-truck's.
+    HalfTruck(Box<TruckCase>),
+}
+
+impl AnyCase {
+    /// Returns its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Wedge(case) => &case.name,
+            Self::HalfTruck(case) => &case.name,
+        }
+    }
+
+    /// Returns the units of its results.
+    #[must_use]
+    pub fn units(&self) -> Units {
+        match self {
+            Self::Wedge(case) => case.simulation.output_units,
+            Self::HalfTruck(case) => case.units,
+        }
+    }
+
+    /// Returns the wedge's case, if it is one.
+    #[must_use]
+    pub fn wedge(&self) -> Option<&Case> {
+        match self {
+            Self::Wedge(case) => Some(case),
+            Self::HalfTruck(_) => None,
+        }
+    }
+
+    /// Returns the measures that a study keeps of its runs.
+    #[must_use]
+    pub fn definitions(&self) -> Definitions {
+        match self {
+            Self::Wedge(_) => measures::of_wedges().clone(),
+            Self::HalfTruck(case) => half_truck::definitions(case),
+        }
+    }
+
+    /// Runs it and measures it.
+    ///
+    /// # Errors
+    /// The run cannot begin or does not come to its end.
+    pub fn measure(&self) -> Result<Measures, Unmeasured> {
+        match self {
+            Self::Wedge(case) => measures::measure(case),
+            Self::HalfTruck(case) => half_truck::measure(case),
+        }
+    }
+}
+
+/// Where a case comes from: all that is needed to make it, or a variant of it, again on another machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum CaseSource {
+    /// The text of a wedge's case.
+    Wedge {
+        /// The case file's name.
+        name: String,
+        /// Its text.
+        text: String,
+        /// Where the files that it names are looked for.
+        folder: PathBuf,
+    },
+    /// The name of a built-in half-truck.
+    BuiltInHalfTruck(String),
+    /// The texts of a half-truck's files.
+    HalfTruck {
+        /// The run file.
+        path: PathBuf,
+        /// What it and the files that it names hold.
+        texts: Box<Texts>,
+    },
+}
+
+impl CaseSource {
+    /// Returns the case with these values over it, as `--set` takes them.
+    ///
+    /// # Errors
+    /// Something in it is wrong, or a value does not fit.
+    pub fn case(&self, overrides: &[String]) -> Result<AnyCase, CaseError> {
+        let settings = Settings {
+            set: overrides.to_vec(),
+            ..Settings::default()
+        };
+        let case = match self {
+            Self::Wedge { name, text, folder } => {
+                let case = Case::parse(name, text, &**folder, overrides)?;
+                return Ok(AnyCase::Wedge(Box::new(case)));
+            }
+            Self::BuiltInHalfTruck(name) => {
+                let entry = catalog::entry(name)
+                    .ok_or_else(|| Problem::new(format!("there is no built-in half-truck {name}")))?;
+                entry.case_with(&settings)
+            }
+            Self::HalfTruck { path, texts } => {
+                let files = RunFiles::of_texts(texts).map_err(|error| Problem::new(error.to_string()))?;
+                let shown = path.display();
+                let errors = files.count(Severity::Error);
+                if errors > 0 {
+                    let message = format!("{shown} cannot be run: {errors} errors in its files");
+                    let help = format!("`wedgelab nucars check {shown}` tells them with their places");
+                    return Err(Problem::new(message).help(help).into());
+                }
+                case_of_run(path, &files, &settings)
+            }
+        };
+        let case = case.map_err(|error| problem(&error))?;
+        Ok(AnyCase::HalfTruck(Box::new(case)))
+    }
+
+    /// Returns what decides which case it is, as text.
+    pub(crate) fn description(&self, base: &AnyCase) -> String {
+        match base {
+            AnyCase::Wedge(case) => case.document.clone().with_tables_embedded().to_toml(),
+            AnyCase::HalfTruck(_) => serde_json::to_string(self).unwrap_or_default(),
+        }
+    }
+}
+
+/// Returns the mistake, shown in the value that was set if it is about one.
+fn problem(error: &FilesError) -> Problem {
+    let problem = Problem::new(error.to_string());
+    let problem = match error {
+        FilesError::Set { typed, error } => problem.in_override(typed, error.is_about_value()),
+        _ => problem,
+    };
+    problem.help("`wedgelab nucars show` prints what can be set in the files, with its numbers")
+}

@@ -1,0 +1,148 @@
+//! The measures of half-trucks: those of the summary, by the numbers of wedges and bodies in the files.
+
+use std::borrow::Cow;
+
+use mechanics::body::COORDINATES;
+use quantity::{Kind, System as Units};
+
+use super::{Definitions, Measure, Measures, Unmeasured};
+use crate::progress;
+use crate::run::Run;
+use crate::summary;
+use crate::truck::{TruckCase, TruckSummary, WedgeSummary};
+
+/// What is measured of a wedge: its name after `wedge_NUMBER_`, kind, text, and where it stands in the summary.
+type OfWedge = (&'static str, Kind, &'static str, fn(&WedgeSummary) -> Option<f64>);
+
+const OF_WEDGES: [OfWedge; 5] = [
+    (
+        "energy_per_cycle",
+        Kind::Energy,
+        "lost in the column's friction each cycle of the vertical input",
+        |wedge| value(wedge.energy_per_cycle.as_ref()),
+    ),
+    (
+        "mean_column_friction_up",
+        Kind::Force,
+        "column friction on the side frame, positive up; mean while the input rises",
+        |wedge| value(wedge.up.as_ref()),
+    ),
+    (
+        "mean_column_friction_down",
+        Kind::Force,
+        "the same while the input falls",
+        |wedge| value(wedge.down.as_ref()),
+    ),
+    (
+        "largest_column_normal_force",
+        Kind::Force,
+        "largest normal force of the column at any output time",
+        |wedge| value(wedge.largest_normal_force.as_ref()),
+    ),
+    (
+        "jammed_share",
+        Kind::Dimensionless,
+        "share of the output times at which no steady sliding exists",
+        |wedge| Some(wedge.jammed),
+    ),
+];
+
+fn value(measure: Option<&summary::Measure>) -> Option<f64> {
+    measure.map(|measure| measure.value)
+}
+
+/// Returns the measures of a half-truck's runs.
+#[must_use]
+pub fn definitions(case: &TruckCase) -> Definitions {
+    let define = |name: String, kind, text: &str, always| Measure {
+        name: Cow::Owned(name),
+        text: Cow::Owned(text.to_owned()),
+        kind,
+        always,
+    };
+    let mut all = vec![define(
+        "energy_per_cycle".to_owned(),
+        Kind::Energy,
+        "lost in the friction of all columns each cycle of the vertical input",
+        false,
+    )];
+    for place in case.truck.wedges() {
+        let number = case.truck.connections[place];
+        all.extend(
+            OF_WEDGES
+                .iter()
+                .map(|(name, kind, text, _)| define(format!("wedge_{number}_{name}"), *kind, text, false)),
+        );
+    }
+    for (name, coordinate) in displacements(case) {
+        let kind = if coordinate < 3 { Kind::Length } else { Kind::Angle };
+        let text = "largest displacement or angle from the drawn layout, without sign";
+        all.push(define(format!("largest_{name}"), kind, text, true));
+    }
+    all.push(define(
+        "ledger_residual".to_owned(),
+        Kind::Dimensionless,
+        "relative residual of the energy ledger: the largest residual over the largest of work, losses and change of stored energy",
+        true,
+    ));
+    all.push(define(
+        "steps".to_owned(),
+        Kind::Count,
+        "accepted steps of the integrator",
+        true,
+    ));
+    Definitions(all)
+}
+
+/// Returns names and coordinates of the free bodies' displacements, as the summary has them.
+fn displacements(case: &TruckCase) -> Vec<(String, usize)> {
+    let bodies = case.truck.bodies.iter().zip(&case.truck.model.bodies);
+    bodies
+        .flat_map(|(number, body)| {
+            let free = COORDINATES.iter().enumerate().filter(|(k, _)| body.free[*k]);
+            free.map(move |(k, name)| (format!("body_{number}_{name}"), k))
+        })
+        .collect()
+}
+
+/// Runs a half-truck and measures it, in the order of [`definitions`].
+///
+/// # Errors
+/// The run cannot begin or does not come to its end.
+pub fn measure(case: &TruckCase) -> Result<Measures, Unmeasured> {
+    // The summary's numbers are in the units of the results.
+    let case = TruckCase {
+        units: Units::Si,
+        ..case.clone()
+    };
+    let run = Run::new(&case).map_err(|error| Unmeasured::Refused(error.to_string()))?;
+    let summary = run.finish(|_| ()).summary;
+    if let Some(stopped) = &summary.stopped {
+        let (reason, advice) = (&stopped.reason, progress::WHAT_TO_TRY_WITH_FILES);
+        return Err(Unmeasured::Stopped(format!("{reason}; {advice}")));
+    }
+    Ok(of_summary(&case, &summary))
+}
+
+fn of_summary(case: &TruckCase, summary: &TruckSummary) -> Measures {
+    let or_none = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let energies = summary
+        .wedges
+        .values()
+        .map(|own| value(own.energy_per_cycle.as_ref()));
+    // Without wedges there is nothing to add up.
+    let total: Option<f64> = energies
+        .sum::<Option<f64>>()
+        .filter(|_| !summary.wedges.is_empty());
+    let mut values = vec![or_none(total)];
+    for place in case.truck.wedges() {
+        let wedge = summary.wedges.get(&case.truck.connections[place].to_string());
+        values.extend(OF_WEDGES.iter().map(|(_, _, _, of)| or_none(wedge.and_then(of))));
+    }
+    for (name, _) in displacements(case) {
+        values.push(or_none(value(summary.largest_displacements.get(&name))));
+    }
+    values.push(summary.largest_relative_residual);
+    values.push(summary.statistics.steps as f64);
+    Measures(values)
+}
