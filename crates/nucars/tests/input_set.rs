@@ -4,10 +4,10 @@
 use nucars::read::{read_input, read_system};
 use nucars::set::set;
 use nucars::tree::{InputFile, Law, SystemFile, Toe};
-use nucars::{builtin, source::Source};
+use nucars::{builtin, source::SourceText};
 use std::sync::Arc;
 
-fn source(name: &str) -> Arc<Source> {
+fn source(name: &str) -> Arc<SourceText> {
     builtin::source(name).unwrap()
 }
 
@@ -40,7 +40,7 @@ fn input_a_value_that_is_set_is_the_value_of_an_edited_file() {
         line,
         "  14    0    0   35.0  3000.0  2.0E6  1.0E3  0.40  0.25  .F.  9.0D4",
     );
-    let edited = read_system(&Source::from_text(name, edited).unwrap())
+    let edited = read_system(&SourceText::from_text(name, edited).unwrap())
         .strict()
         .unwrap();
     let values = [

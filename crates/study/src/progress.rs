@@ -10,7 +10,7 @@
 
 use integrate::{Integrator, Problem, StepError};
 use mechanics::body::COORDINATES;
-use mechanics::system::{ChannelKind, System};
+use mechanics::system::{EnergyTermKind, System};
 use quantity::Number;
 use serde::{Deserialize, Serialize};
 
@@ -162,10 +162,15 @@ pub fn state_name(system: &System, numbers: [&[u32]; 2], index: usize) -> String
             return format!("the force accumulators of {connection}");
         }
     }
-    match system.channels().get(internal.saturating_sub(layout.internals)) {
-        Some(channel) if channel.kind == ChannelKind::MotionWork => "the work of the motions".to_owned(),
-        Some(channel) if channel.element.is_empty() => format!("`{}`", channel.kind.name()),
-        Some(channel) => format!("the loss at the {}", channel.element),
+    match system
+        .energy_terms()
+        .get(internal.saturating_sub(layout.internals))
+    {
+        Some(energy_term) if energy_term.kind == EnergyTermKind::MotionWork => {
+            "the work of the motions".to_owned()
+        }
+        Some(energy_term) if energy_term.element.is_empty() => format!("`{}`", energy_term.kind.name()),
+        Some(energy_term) => format!("the loss at the {}", energy_term.element),
         None => format!("state {index}"),
     }
 }

@@ -1,6 +1,6 @@
 //! Whether saved counts can be those of a wedge's run.
 
-use mechanics::system::Mode;
+use mechanics::system::ContactState;
 use wedge::outputs::{CORNERS, FACES};
 
 use super::state::check_count;
@@ -37,13 +37,14 @@ impl Counts {
 
 fn check_event(event: &ContactEvent) -> Result<(), RunError> {
     check_finite("counts.listed.time", event.time)?;
-    let modes = [Mode::Open, Mode::Stick, Mode::Slip].map(Mode::name);
+    let contact_states =
+        [ContactState::Open, ContactState::Stick, ContactState::Slip].map(ContactState::name);
     let (face, corner, from, to) = (&*event.face, &*event.corner, &*event.from, &*event.to);
     for (member, found, known) in [
         ("counts.listed.face", face, &FACES[..]),
         ("counts.listed.corner", corner, &CORNERS[..]),
-        ("counts.listed.from", from, &modes[..]),
-        ("counts.listed.to", to, &modes[..]),
+        ("counts.listed.from", from, &contact_states[..]),
+        ("counts.listed.to", to, &contact_states[..]),
     ] {
         if !known.contains(&found) {
             return damaged(

@@ -3,7 +3,7 @@
 
 use integrate::{MAXIMUM_COUNT, State};
 use mechanics::energy_balance::EnergyBalance;
-use mechanics::system::Mode;
+use mechanics::system::ContactState;
 use serde::{Deserialize, Serialize};
 
 use super::{RunCase, RunError};
@@ -55,7 +55,7 @@ impl<N> RunState<N> {
             );
         }
         let states = &self.integrator.discrete_states;
-        if let Some(state) = states.iter().find(|state| **state > Mode::Slip as u8) {
+        if let Some(state) = states.iter().find(|state| **state > ContactState::Slip as u8) {
             return damaged(
                 "integrator.modes",
                 state,

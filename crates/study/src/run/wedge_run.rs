@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use integrate::{Family, Integrator, Options};
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
-use mechanics::system::{ChannelKind, Mode, System};
+use mechanics::system::{ContactState, EnergyTermKind, System};
 use serde::{Deserialize, Serialize};
 use wedge::Wedge;
 use wedge::outputs::{CORNERS, FACES, Outputs};
@@ -164,11 +164,14 @@ impl WedgeRecorder {
     fn count_events(&mut self, integrator: &Integrator<System>) {
         for event in integrator.events() {
             let (face, corner) = face_and_corner(event.index);
-            let kind = match (Mode::from_number(event.from), Mode::from_number(event.to)) {
-                (_, Mode::Open) => 0,
-                (Mode::Open, _) => 1,
-                (_, Mode::Stick) => 2,
-                (_, Mode::Slip) => 3,
+            let kind = match (
+                ContactState::from_number(event.from),
+                ContactState::from_number(event.to),
+            ) {
+                (_, ContactState::Open) => 0,
+                (ContactState::Open, _) => 1,
+                (_, ContactState::Stick) => 2,
+                (_, ContactState::Slip) => 3,
             };
             self.counts.events[event.index / CORNERS.len()][kind] += 1;
             self.counts.event_total += 1;
@@ -177,8 +180,8 @@ impl WedgeRecorder {
                     time: event.time,
                     face: face.to_owned(),
                     corner: corner.to_owned(),
-                    from: Mode::from_number(event.from).name().to_owned(),
-                    to: Mode::from_number(event.to).name().to_owned(),
+                    from: ContactState::from_number(event.from).name().to_owned(),
+                    to: ContactState::from_number(event.to).name().to_owned(),
                 });
             }
         }
@@ -186,7 +189,7 @@ impl WedgeRecorder {
 
     /// Adds the creep of corners that were stuck at both ends of the step (trapezoidal rule).
     fn count_creep(&mut self, integrator: &Integrator<System>, system: &mut System) {
-        let stuck = Mode::Stick as u8;
+        let stuck = ContactState::Stick as u8;
         let (before, after) = (
             integrator.discrete_states_before_step(),
             integrator.discrete_states(),
@@ -229,9 +232,9 @@ fn probe_times(case: &Case) -> Vec<f64> {
 pub(crate) fn friction_losses(system: &System, x: &[f64]) -> [f64; 2] {
     let [_, _, _, quadratures] = system.layout().split(x);
     let mut losses = [0.0; 2];
-    for (channel, value) in system.channels().iter().zip(quadratures) {
-        if channel.kind == ChannelKind::FrictionLoss {
-            losses[usize::from(channel.element != FACES[0])] += value;
+    for (energy_term, value) in system.energy_terms().iter().zip(quadratures) {
+        if energy_term.kind == EnergyTermKind::FrictionLoss {
+            losses[usize::from(energy_term.element != FACES[0])] += value;
         }
     }
     losses
@@ -243,7 +246,7 @@ pub(crate) fn contact_states_in_words(contact_states: &[u8]) -> BTreeMap<String,
     points
         .map(|(point, state)| {
             let (face, corner) = face_and_corner(point);
-            let name = Mode::from_number(*state).name();
+            let name = ContactState::from_number(*state).name();
             (format!("{face}_{corner}"), name.to_owned())
         })
         .collect()

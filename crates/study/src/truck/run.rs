@@ -7,7 +7,7 @@ use integrate::{Integrator, Options};
 use mechanics::body::COORDINATES;
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
-use mechanics::system::{ChannelKind, Mode, NoEquilibrium, Observation, StaticFriction, System};
+use mechanics::system::{ContactState, EnergyTermKind, NoEquilibrium, Observation, StaticFriction, System};
 use quantity::Kind;
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +20,7 @@ use crate::progress;
 use crate::run::{
     Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError, check_finite, check_length, damaged,
 };
-use crate::summary::{Measure, Stopped};
+use crate::summary::{Stopped, SummaryValue};
 
 /// Returns the state at the start.
 ///
@@ -156,7 +156,7 @@ impl Recorder for TruckRecorder {
         let pairs = self.frictional.iter().zip(contact_states);
         pairs
             .map(|(number, state)| {
-                let name = Mode::from_number(*state).name();
+                let name = ContactState::from_number(*state).name();
                 (format!("connection_{number}"), name.to_owned())
             })
             .collect()
@@ -171,7 +171,7 @@ fn output(run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     let complete = stopped.is_none() && run.is_finished();
     let case = run.case.clone();
     let balance = run.energy_balance;
-    let joules = |value| Measure::new(value, Kind::Energy, case.units);
+    let joules = |value| SummaryValue::new(value, Kind::Energy, case.units);
     let mut result = TruckResult {
         columns: run.recorder.table.columns.clone(),
         values: run.recorder.values.clone(),
@@ -219,11 +219,11 @@ fn entries(system: &System, seen: &Observation, start: f64) -> Entries {
         stored_change: seen.energies.total() - start,
         residual: -seen.residual(start),
     };
-    for (channel, value) in system.channels().iter().zip(&seen.quadratures) {
-        match channel.kind {
-            ChannelKind::MotionWork => entries.work += value,
+    for (energy_term, value) in system.energy_terms().iter().zip(&seen.quadratures) {
+        match energy_term.kind {
+            EnergyTermKind::MotionWork => entries.work += value,
             // An entry of either sign, which is neither.
-            ChannelKind::WedgeKinematics => {}
+            EnergyTermKind::WedgeKinematics => {}
             _ => entries.losses += value,
         }
     }
@@ -348,7 +348,7 @@ fn summarize(case: &TruckCase, system: &System, works: &Works, result: &mut Truc
             };
             let most = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
             let kind = if coordinate < 3 { Kind::Length } else { Kind::Angle };
-            largest.insert(column, Measure::new(most, kind, units));
+            largest.insert(column, SummaryValue::new(most, kind, units));
         }
     }
     let mut ledger = BTreeMap::new();
@@ -360,10 +360,13 @@ fn summarize(case: &TruckCase, system: &System, works: &Works, result: &mut Truc
         "accumulator_energy",
         "ledger_residual",
     ];
-    let channels = system.channels().iter().map(|channel| channel.kind.name());
-    for name in names.into_iter().chain(channels) {
+    let energy_terms = system
+        .energy_terms()
+        .iter()
+        .map(|energy_term| energy_term.kind.name());
+    for name in names.into_iter().chain(energy_terms) {
         if let Some(last) = result.column(name).and_then(<[f64]>::last) {
-            ledger.insert(name.to_owned(), Measure::new(*last, Kind::Energy, units));
+            ledger.insert(name.to_owned(), SummaryValue::new(*last, Kind::Energy, units));
         }
     }
     let yaw = super::yaw::summary(&case.truck, result, units);
@@ -407,7 +410,7 @@ fn wedge(case: &TruckCase, result: &TruckResult, works: &Works, place: usize) ->
             .iter()
             .copied()
             .max_by(f64::total_cmp)
-            .map(|most| Measure::new(most, Kind::Force, units)),
+            .map(|most| SummaryValue::new(most, Kind::Force, units)),
         ..WedgeSummary::default()
     };
     let (Some(cycle), Law::Wedge(law)) = (cycle(case), &case.truck.model.connections[place].law) else {
@@ -422,7 +425,7 @@ fn wedge(case: &TruckCase, result: &TruckResult, works: &Works, place: usize) ->
     summary.energy_per_cycle = works
         .per_cycle(place)
         .filter(|_| result.summary.complete)
-        .map(|energy| Measure::new(energy, Kind::Energy, units));
+        .map(|energy| SummaryValue::new(energy, Kind::Energy, units));
     let (input, rate) = (
         result.column("input_vertical").unwrap_or_default(),
         result.column("input_vertical_rate").unwrap_or_default(),
@@ -433,7 +436,8 @@ fn wedge(case: &TruckCase, result: &TruckResult, works: &Works, place: usize) ->
             branches[usize::from(up)].push(row);
         }
     }
-    let average = |rows: &[usize]| mean(friction, rows).map(|value| Measure::new(value, Kind::Force, units));
+    let average =
+        |rows: &[usize]| mean(friction, rows).map(|value| SummaryValue::new(value, Kind::Force, units));
     summary.down = average(&branches[0]);
     summary.up = average(&branches[1]);
     summary
