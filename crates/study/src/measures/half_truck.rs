@@ -47,7 +47,7 @@ const OF_WEDGES: [OfWedge; 5] = [
     ),
 ];
 
-fn value(measure: Option<&summary::Measure>) -> Option<f64> {
+fn value(measure: Option<&summary::SummaryValue>) -> Option<f64> {
     measure.map(|measure| measure.value)
 }
 
