@@ -16,7 +16,7 @@ use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLaw};
 use mechanics::energy_balance::Entries;
 use mechanics::frame::Frame;
-use mechanics::link::Mount;
+use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::system::{Model, System};
 use mechanics::vector::{Matrix, Vector, rotation_x, rotation_y, rotation_z};
@@ -383,7 +383,7 @@ pub fn on_core(coordinates: Coordinates) -> Result<(System, Vec<f64>), String> {
                 rotational_damping: 0.0,
                 pulls: true,
             };
-            coils.push((1, 0, Mount::new(seat, [0.0; 3]), coil));
+            coils.push((1, 0, Marker::new(seat, [0.0; 3]), coil));
         }
     }
     let model = Model {

@@ -105,12 +105,12 @@ fn least(calls: usize, mut call: impl FnMut()) -> f64 {
 
 /// Returns what an energy balance takes from an instant; `start` is the stored energy at the start, J.
 #[must_use]
-pub fn ledger(seen: &Observation, start: f64) -> Entries {
-    let (work, losses) = seen
+pub fn ledger(observation: &Observation, start: f64) -> Entries {
+    let (work, losses) = observation
         .quadratures
         .split_first()
         .map_or((0.0, 0.0), |(work, losses)| (*work, losses.iter().sum::<f64>()));
-    let stored_change = seen.energies.total() - start;
+    let stored_change = observation.energies.total() - start;
     Entries {
         work,
         losses,

@@ -17,7 +17,7 @@ use mechanics::coil::{Coil, CoilLaw};
 use mechanics::contact::{ContactFace, ContactPoint};
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
-use mechanics::link::Mount;
+use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::surface::Plane;
 use mechanics::system::{Model, System};
@@ -230,14 +230,14 @@ impl Rig {
         let column_place = [end * at, 0.0, middle - HEIGHT];
         let slope_place = [end * (at - 0.5 * length), SIDE * side, middle - BOLSTER_HEIGHT];
         let toe = self.toe.to_radians();
-        let mounts = [
+        let markers = [
             (side_frame, "column", column, column_place, pitch(toe)),
             (BOLSTER, "slope", slope, slope_place, pitch(PI - angle)),
         ];
-        for (on, name, points, place, pitch) in mounts {
-            let mount = Mount::new(inches(place), [0.0, pitch, 0.0]);
+        for (on, name, points, place, pitch) in markers {
+            let marker = Marker::new(inches(place), [0.0, pitch, 0.0]);
             let face = face(name, points, 0.4, 1e6, 1e3);
-            model.faces.push((wedge, on, mount, face));
+            model.faces.push((wedge, on, marker, face));
         }
         let seat = match self.damping {
             Damping::Constant => BOLSTER,
@@ -254,9 +254,9 @@ fn adapters(model: &mut Model, side_frame: usize, side: f64) {
     let top = 22.5 + 15_691.0 / STIFFNESS;
     for (name, end) in [("leading_adapter", 1.0), ("trailing_adapter", -1.0)] {
         let points = [3.0, -3.0].map(|y| point([AXLE * end, y, 22.5 - HEIGHT], STIFFNESS, 1000.0, 0.5));
-        let mount = Mount::new(inches([AXLE * end, SIDE * side, top]), [0.0, -0.5 * PI, 0.0]);
+        let marker = Marker::new(inches([AXLE * end, SIDE * side, top]), [0.0, -0.5 * PI, 0.0]);
         let face = face(name, points.to_vec(), 0.5, 2e6, 2e3);
-        model.faces.push((side_frame, 0, mount, face));
+        model.faces.push((side_frame, 0, marker, face));
     }
 }
 
@@ -290,7 +290,7 @@ fn add_spring(model: &mut Model, body: usize, on: usize, at: [f64; 3], way: f64,
             rotational_damping: 0.0,
             pulls,
         };
-        model.coils.push((body, on, Mount::new(seat, [0.0; 3]), coil));
+        model.coils.push((body, on, Marker::new(seat, [0.0; 3]), coil));
     }
 }
 

@@ -3,7 +3,7 @@
 use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLaw};
 use mechanics::frame::Frame;
-use mechanics::link::Mount;
+use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::system::{Model, System};
 use mechanics::vector::{Matrix, Vector};
@@ -36,13 +36,13 @@ pub enum Arrangement {
 }
 
 /// Where a wedge of the chain stands: moved along x, and turned by half a turn about the vertical axis if it looks backwards.
-struct Place {
+struct WedgePose {
     shift: f64,
     center: f64,
     turned: bool,
 }
 
-impl Place {
+impl WedgePose {
     fn point(&self, p: [f64; 3]) -> [f64; 3] {
         let p = if self.turned {
             [2.0 * self.center - p[0], -p[1], p[2]]
@@ -53,15 +53,15 @@ impl Place {
     }
 
     /// A mount on a body of one wedge, as a mount on a body with this origin.
-    fn mount(&self, mount: &Mount, from: [f64; 3], on: [f64; 3]) -> Mount {
-        let place = self.point(std::array::from_fn(|k| from[k] + mount.origin.0[k]));
+    fn marker(&self, marker: &Marker, from: [f64; 3], on: [f64; 3]) -> Marker {
+        let pose = self.point(std::array::from_fn(|k| from[k] + marker.origin.0[k]));
         let rotation: Matrix<f64> = if self.turned {
-            mechanics::turn::fixed([0.0, 0.0, PI]).times(mount.rotation)
+            mechanics::orientation::fixed([0.0, 0.0, PI]).times(marker.rotation)
         } else {
-            mount.rotation
+            marker.rotation
         };
-        Mount {
-            origin: Vector(std::array::from_fn(|k| place[k] - on[k])),
+        Marker {
+            origin: Vector(std::array::from_fn(|k| pose[k] - on[k])),
             rotation,
         }
     }
@@ -94,13 +94,13 @@ fn uncoupled(one: &Wedge, count: usize) -> Model {
             let element = face.element.clone();
             model
                 .faces
-                .push((first + face.body, first + face.on, face.mount, element));
+                .push((first + face.body, first + face.on, face.marker, element));
         }
         for coil in system.coils() {
             let element = coil.element.clone();
             model
                 .coils
-                .push((first + coil.body, first + coil.on, coil.mount, element));
+                .push((first + coil.body, first + coil.on, coil.marker, element));
         }
     }
     model
@@ -122,14 +122,14 @@ fn chained(one: &Wedge, count: usize, with_wedges: bool) -> Model {
     let mut behind = ground;
     for number in 0..count {
         let turned = number % 2 == 1;
-        let place = Place {
+        let pose = WedgePose {
             shift: (number / 2) as f64 * period,
             center,
             turned,
         };
         // What the wedge leans on in front: a bolster of its own, or the next column.
         let ahead = model.bodies.len();
-        let x = place.shift
+        let x = pose.shift
             + if turned {
                 period - HALF_THICKNESS + column[0]
             } else {
@@ -152,7 +152,7 @@ fn chained(one: &Wedge, count: usize, with_wedges: bool) -> Model {
         let wedge = model.bodies.len();
         let mut body = bodies[WEDGE].clone();
         body.name = format!("wedge_{}", number + 1);
-        body.frame.origin = place.point(body.frame.origin);
+        body.frame.origin = pose.point(body.frame.origin);
         body.frame.orientation = [0.0, 0.0, if turned { PI } else { 0.0 }];
         model.bodies.push(body);
         // A wedge that looks backwards has its bolster behind and its column ahead.
@@ -166,14 +166,14 @@ fn chained(one: &Wedge, count: usize, with_wedges: bool) -> Model {
         for face in system.faces() {
             let on = on(face.on);
             let (from, to) = (bodies[face.on].frame.origin, model.bodies[on].frame.origin);
-            let mount = place.mount(&face.mount, from, to);
-            model.faces.push((wedge, on, mount, face.element.clone()));
+            let marker = pose.marker(&face.marker, from, to);
+            model.faces.push((wedge, on, marker, face.element.clone()));
         }
         for coil in system.coils() {
             let on = on(coil.on);
             let (from, to) = (bodies[coil.on].frame.origin, model.bodies[on].frame.origin);
-            let mount = place.mount(&coil.mount, from, to);
-            model.coils.push((wedge, on, mount, coil.element.clone()));
+            let marker = pose.marker(&coil.marker, from, to);
+            model.coils.push((wedge, on, marker, coil.element.clone()));
         }
         behind = ahead;
     }
@@ -228,6 +228,6 @@ fn add_supports(model: &mut Model, body: usize, on: usize, origin: [f64; 3], fro
             pulls: true,
         };
         let seat = std::array::from_fn(|k| origin[k] + seat[k] - from[k]);
-        model.coils.push((body, on, Mount::new(seat, [0.0; 3]), coil));
+        model.coils.push((body, on, Marker::new(seat, [0.0; 3]), coil));
     }
 }

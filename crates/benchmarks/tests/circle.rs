@@ -34,17 +34,17 @@ fn analytic_force_and_gyroscopic_moment_at_any_heading() {
         let body = wheelset(heading);
         let end = 20.0;
         let x = after(body, end);
-        let seen = body.loads(end, &x);
+        let observation = body.loads(end, &x);
         assert!(
-            (seen.force.0[1] / force - 1.0).abs() < 1e-6,
+            (observation.force.0[1] / force - 1.0).abs() < 1e-6,
             "{heading}: {}",
-            seen.force.0[1]
+            observation.force.0[1]
         );
         let ((s, c), spin) = (libm::sincos(x[4]), x[11]);
         let along = INERTIA[1] * (spin + HEADING_RATE * s);
         let moment = HEADING_RATE * (INERTIA[2] * HEADING_RATE * c * s - along * c);
         assert!(moment.abs() > 200.0);
-        let found = seen.moment.0[0];
+        let found = observation.moment.0[0];
         assert!((found / moment - 1.0).abs() < 1e-6, "{heading}: {found} {moment}");
     }
 }

@@ -221,7 +221,7 @@ pub trait Element: Send {
     ///
     /// # Errors
     /// Lists of other lengths.
-    fn along(&mut self, states: &[f64], inputs: &[f64]) -> Result<Slopes, Error>;
+    fn jacobian_vector_product(&mut self, states: &[f64], inputs: &[f64]) -> Result<Slopes, Error>;
     /// Its state, to go on from with the same bits.
     fn save(&self) -> ElementState;
     /// Goes back to a saved state.

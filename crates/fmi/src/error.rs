@@ -77,8 +77,8 @@ impl Error {
     }
 }
 
-impl From<study::driven::DrivenError> for Error {
-    fn from(error: study::driven::DrivenError) -> Self {
+impl From<study::stepping::SteppingError> for Error {
+    fn from(error: study::stepping::SteppingError) -> Self {
         Self::new(error.to_string())
     }
 }

@@ -7,7 +7,7 @@ use study::case::Case;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
-use crate::description::{Description, Model, Version};
+use crate::description::{Description, FmuModel, Version};
 use crate::resources::{CASE, MODEL};
 use crate::{Error, limits};
 
@@ -101,7 +101,7 @@ impl Platform {
 /// # Errors
 /// The case makes no such element, or the library cannot be read.
 pub fn fmu(
-    model: Model,
+    model: FmuModel,
     version: Version,
     case: &Case,
     library: &Path,

@@ -5,7 +5,7 @@ use mechanics::system::scales;
 use quantity::Kind;
 use serde::{Deserialize, Serialize};
 use study::case::Case;
-use study::driven::{CoilDrive, Neighbours};
+use study::stepping::{CoilInput, Neighbours};
 use wedge::Parameters;
 use wedge::outputs::FACES;
 use wedge::quasi_static::{PlanePlace, PlaneReading, read};
@@ -278,12 +278,12 @@ impl QuasiStaticElement {
         valid
     }
 
-    fn coil(&self, inputs: &[f64]) -> CoilDrive {
+    fn coil(&self, inputs: &[f64]) -> CoilInput {
         let input = |index: usize| inputs.get(index).copied().unwrap_or(0.0);
         match self.coil_mode {
-            1 => CoilDrive::Stiffness(input(COIL_STIFFNESS)),
-            2 => CoilDrive::Force(input(COIL_FORCE)),
-            _ => CoilDrive::Internal,
+            1 => CoilInput::Stiffness(input(COIL_STIFFNESS)),
+            2 => CoilInput::Force(input(COIL_FORCE)),
+            _ => CoilInput::Internal,
         }
     }
 
@@ -427,7 +427,7 @@ impl Element for QuasiStaticElement {
 
     fn columns(&mut self, _: &mut [f64]) {}
 
-    fn along(&mut self, _: &[f64], inputs: &[f64]) -> Result<Slopes, Error> {
+    fn jacobian_vector_product(&mut self, _: &[f64], inputs: &[f64]) -> Result<Slopes, Error> {
         let change = |k: usize| inputs.get(k).copied().unwrap_or(0.0);
         let dual = |value: f64, change: f64| Dual::<1> {
             value,
@@ -435,9 +435,9 @@ impl Element for QuasiStaticElement {
         };
         let compression = self.here()?.coil_compression;
         let coil_change = match self.coil(&self.inputs) {
-            CoilDrive::Internal => 0.0,
-            CoilDrive::Stiffness(_) => change(COIL_STIFFNESS) * compression,
-            CoilDrive::Force(_) => change(COIL_FORCE),
+            CoilInput::Internal => 0.0,
+            CoilInput::Stiffness(_) => change(COIL_STIFFNESS) * compression,
+            CoilInput::Force(_) => change(COIL_FORCE),
         };
         let here = &self.inputs;
         let place = |k: usize| dual(here.get(k).copied().unwrap_or(0.0), change(k));

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use study::case::Case;
 
-use crate::description::Model;
+use crate::description::FmuModel;
 use crate::{Error, limits};
 
 /// The file with the case.
@@ -16,7 +16,7 @@ pub const MODEL: &str = "model.txt";
 ///
 /// # Errors
 /// The folder is not one of an FMU of this program, or its case is damaged.
-pub fn read(folder: &Path) -> Result<(Model, Case), Error> {
+pub fn read(folder: &Path) -> Result<(FmuModel, Case), Error> {
     let text = |file: &str, most: u64| {
         limits::read_text(&folder.join(file), most).map_err(|error| {
             Error::new(format!(
@@ -25,7 +25,7 @@ pub fn read(folder: &Path) -> Result<(Model, Case), Error> {
         })
     };
     let name = text(MODEL, limits::MODEL_FILE)?;
-    let model = Model::of(name.trim()).ok_or_else(|| {
+    let model = FmuModel::of(name.trim()).ok_or_else(|| {
         let shown: String = name.trim().chars().take(40).collect();
         Error::new(format!(
             "`{shown}` in {} is no model of this library: take the FMU's `resources` as they were unpacked",

@@ -16,7 +16,7 @@ use study::case::Case;
 
 use crate::Error;
 use crate::description::xml::{Attributes, Xml, number};
-use crate::description::{Description, Model, Version};
+use crate::description::{Description, FmuModel, Version};
 use crate::package::{self, Platform};
 use crate::truck::WEDGES;
 use crate::unit::Unit;
@@ -53,12 +53,12 @@ pub struct Connection {
 /// As [`package::fmu`].
 pub fn truck(case: &Case, library: &Path, platform: Platform) -> Result<(Vec<u8>, Vec<Connection>), Error> {
     let mut files = Vec::new();
-    let mut fmu = |model: Model| -> Result<Description, Error> {
+    let mut fmu = |model: FmuModel| -> Result<Description, Error> {
         let (bytes, description) = package::fmu(model, Version::Two, case, library, platform)?;
         files.push((format!("resources/{}.fmu", model.name()), bytes));
         Ok(description)
     };
-    let (truck, wedge) = (fmu(Model::Truck)?, fmu(Model::Wedge)?);
+    let (truck, wedge) = (fmu(FmuModel::Truck)?, fmu(FmuModel::Wedge)?);
     let connections = connections(&truck, &wedge)?;
     files.insert(
         0,

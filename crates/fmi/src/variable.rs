@@ -88,7 +88,7 @@ pub enum Role {
     /// A value that is only looked at.
     Column(usize),
     /// A contact state.
-    Mode(usize),
+    ContactState(usize),
     /// An event indicator.
     Indicator(usize),
 }

@@ -8,7 +8,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use fmi::description::{Description, Model, Version};
+use fmi::description::{Description, FmuModel, Version};
 use fmi::element::Interface;
 use fmi::instance::{Instance, Phase, Saved};
 use fmi::{limits, package, resources};
@@ -22,7 +22,7 @@ fn case() -> Case {
 }
 
 /// An instance on its way.
-fn under_way(model: Model, interface: Interface) -> Instance {
+fn under_way(model: FmuModel, interface: Interface) -> Instance {
     let mut instance = Instance::of_case("wedge", None, model, case(), Version::Two, interface).unwrap();
     instance.set_experiment(0.5, Some(100.0), Some(1e-6)).unwrap();
     instance.enter_initialization().unwrap();
@@ -78,10 +78,10 @@ fn use_it(instance: &mut Instance) -> Result<(), fmi::Error> {
 #[test]
 fn issue_029_every_member_of_an_instance_edited_by_hand_is_refused_or_goes_on() {
     for (model, interface) in [
-        (Model::Wedge, Interface::CoSimulation),
-        (Model::Wedge, Interface::ModelExchange),
-        (Model::QuasiStatic, Interface::CoSimulation),
-        (Model::Truck, Interface::CoSimulation),
+        (FmuModel::Wedge, Interface::CoSimulation),
+        (FmuModel::Wedge, Interface::ModelExchange),
+        (FmuModel::QuasiStatic, Interface::CoSimulation),
+        (FmuModel::Truck, Interface::CoSimulation),
     ] {
         let mut instance = under_way(model, interface);
         let good = instance.save();
@@ -122,7 +122,7 @@ fn issue_029_every_member_of_an_instance_edited_by_hand_is_refused_or_goes_on() 
 
 #[test]
 fn issue_029_members_of_an_instance_that_led_astray_are_refused_by_name() {
-    let mut instance = under_way(Model::Wedge, Interface::CoSimulation);
+    let mut instance = under_way(FmuModel::Wedge, Interface::CoSimulation);
     let good: Value = serde_json::from_slice(&instance.save().to_bytes().unwrap()).unwrap();
     let integrator = "/element/Wedge/Driven/integrator";
     for (place, value, member) in [
@@ -180,7 +180,7 @@ fn issue_029_an_experiment_set_up_after_a_value_was_read_counts() {
         let mut instance = Instance::of_case(
             "wedge",
             None,
-            Model::Wedge,
+            FmuModel::Wedge,
             case(),
             Version::Two,
             Interface::CoSimulation,
@@ -205,7 +205,7 @@ fn issue_029_an_experiment_set_up_after_a_value_was_read_counts() {
 
 #[test]
 fn issue_029_steps_that_are_lost_against_the_time_are_refused() {
-    let mut instance = under_way(Model::Truck, Interface::CoSimulation);
+    let mut instance = under_way(FmuModel::Truck, Interface::CoSimulation);
     let time = instance.time();
     let reason = instance.do_step(time, 1e-18).unwrap_err();
     assert!(reason.message.contains("make it longer"), "{reason}");
@@ -215,7 +215,7 @@ fn issue_029_steps_that_are_lost_against_the_time_are_refused() {
 
 /// The folder `resources` of an FMU.
 fn resources_of(folder: &Path) -> PathBuf {
-    let description = Description::new(Model::Wedge, &case()).unwrap();
+    let description = Description::new(FmuModel::Wedge, &case()).unwrap();
     fs::write(folder.join(resources::CASE), description.toml).unwrap();
     fs::write(folder.join(resources::MODEL), "FrictionWedge\n").unwrap();
     folder.to_owned()
@@ -354,7 +354,7 @@ fn issue_029_what_is_no_library_is_not_put_into_an_fmu() {
     let library = folder.path().join("library");
     let write = |platform: usize| {
         let platform = package::PLATFORMS[platform];
-        let written = package::fmu(Model::Wedge, Version::Two, &case(), &library, platform);
+        let written = package::fmu(FmuModel::Wedge, Version::Two, &case(), &library, platform);
         written.map(|_| ()).map_err(|error| error.message)
     };
     let reason = write(0).unwrap_err();

@@ -47,7 +47,7 @@ fn main() {
         }
         let wall = start.elapsed().as_secs_f64();
         let (time, x) = (integrator.time(), integrator.x().to_vec());
-        let seen = system.observe(time, &x);
+        let observation = system.observe(time, &x);
         let statistics = integrator.statistics();
         println!("{name}: {} states, {connections} connections", x.len());
         println!(
@@ -55,11 +55,11 @@ fn main() {
             statistics.steps,
             statistics.rejected(),
             statistics.events,
-            seen.residual(energy),
-            seen.quadratures[1..].iter().sum::<f64>(),
+            observation.residual(energy),
+            observation.quadratures[1..].iter().sum::<f64>(),
         );
-        for (channel, value) in system.channels().iter().zip(&seen.quadratures) {
-            println!("    {:22} {value:12.3} J", channel.kind.name());
+        for (energy_term, value) in system.energy_terms().iter().zip(&observation.quadratures) {
+            println!("    {:22} {value:12.3} J", energy_term.kind.name());
         }
         let (mut dx, mut df_dt) = (vec![0.0; x.len()], vec![0.0; x.len()]);
         let mut at = time;

@@ -11,7 +11,7 @@ use mechanics::coil::{Coil, CoilLaw};
 use mechanics::contact::{ContactFace, ContactPoint};
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
-use mechanics::link::Mount;
+use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::surface::Plane;
 use mechanics::system::{Model, System};
@@ -59,12 +59,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         pulls: true,
     };
     // The normal of a plane is the mount's x axis: here it points up.
-    let up = Mount::new([0.0; 3], [0.0, -FRAC_PI_2, 0.0]);
+    let up = Marker::new([0.0; 3], [0.0, -FRAC_PI_2, 0.0]);
     let model = Model {
         bodies: vec![ground, belt, block],
         gravity: [0.0, 0.0, -GRAVITY],
         faces: vec![(2, 1, up, face)],
-        coils: vec![(2, 0, Mount::new([-1.0, 0.0, 0.0], [0.0; 3]), spring)],
+        coils: vec![(2, 0, Marker::new([-1.0, 0.0, 0.0], [0.0; 3]), spring)],
         ..Model::default()
     };
     let mut system = System::new(model)?;
@@ -76,16 +76,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         integrator.step_to(2.0)?;
         farthest = farthest.max(integrator.x()[0]);
     }
-    let seen = system.observe(2.0, integrator.x());
+    let observation = system.observe(2.0, integrator.x());
     // Slipping begins where the spring pulls as hard as friction holds; the block then overshoots by its speed.
     let (slips_at, omega) = (FRICTION * MASS * GRAVITY / STIFFNESS, (STIFFNESS / MASS).sqrt());
     println!("carried to {farthest:.4} m, friction holds up to {slips_at:.4} m");
     println!(
         "lost {:.4} J, residual {:.1e} J",
-        seen.losses,
-        seen.residual(stored)
+        observation.losses,
+        observation.residual(stored)
     );
     assert!(farthest > 0.999 * slips_at && farthest < slips_at + 1.01 * BELT_SPEED / omega);
-    assert!(seen.residual(stored).abs() < 1e-4 * seen.work.abs());
+    assert!(observation.residual(stored).abs() < 1e-4 * observation.work.abs());
     Ok(())
 }

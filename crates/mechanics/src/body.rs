@@ -16,9 +16,9 @@ use integrate::scalar::Number;
 use serde::{Deserialize, Serialize};
 
 use crate::frame::{Frame, FrameMotion};
-use crate::link::Turning;
+use crate::link::RotationAxes;
 use crate::motion::Motion;
-use crate::turn::Turn;
+use crate::orientation::Orientation;
 use crate::vector::{Matrix, Vector};
 
 /// The names of a body's coordinates, in their order.
@@ -122,7 +122,7 @@ impl Body {
 
     /// Whether it is prescribed and moves.
     #[must_use]
-    pub fn is_driven(&self) -> bool {
+    pub fn is_moving_prescribed(&self) -> bool {
         self.is_prescribed() && !self.frame.is_fixed()
     }
 
@@ -172,7 +172,7 @@ pub struct Kinematics<S> {
     /// Velocity of the body's origin.
     pub velocity: Vector<S>,
     /// Rotation and axes of the angles.
-    pub turn: Turn<S>,
+    pub orientation: Orientation<S>,
     /// Rates of roll, pitch, yaw.
     pub rates: [S; 3],
     /// Angular velocity, body axes.
@@ -186,12 +186,12 @@ impl<S: Number> Kinematics<S> {
     pub fn new(coordinates: [S; 6], speeds: [S; 6], rolls: bool) -> Self {
         let [x, y, z, roll, pitch, yaw] = coordinates;
         let rates = [speeds[3], speeds[4], speeds[5]];
-        let turn = Turn::new([roll, pitch, yaw], rolls);
-        let spin = turn.spin(rates, rolls);
+        let orientation = Orientation::new([roll, pitch, yaw], rolls);
+        let spin = orientation.spin(rates, rolls);
         Self {
             position: Vector([x, y, z]),
             velocity: Vector([speeds[0], speeds[1], speeds[2]]),
-            turn,
+            orientation,
             rates,
             spin,
         }
@@ -201,7 +201,7 @@ impl<S: Number> Kinematics<S> {
     #[inline(always)]
     #[must_use]
     pub fn angular_velocity(&self) -> Vector<S> {
-        self.turn.rotation.apply(self.spin)
+        self.orientation.rotation.apply(self.spin)
     }
 
     /// The generalized force of coordinate `k` by a force at the body's origin (frame axes) and a moment about it (body axes).
@@ -211,7 +211,7 @@ impl<S: Number> Kinematics<S> {
         match k {
             0..=2 => force.0[k],
             3 => moment.0[0],
-            _ => self.turn.axes[k - 3].dot(*moment),
+            _ => self.orientation.axes[k - 3].dot(*moment),
         }
     }
 
@@ -233,9 +233,12 @@ impl<S: Number> Kinematics<S> {
         T: Number + Mul<S, Output = S>,
     {
         let a = accelerations;
-        let turn = &self.turn;
-        let turning = [S::from(a[3]), S::from(a[4]), S::from(a[5])];
-        let (mut omega, mut alpha) = (self.spin, turn.spin_rate(self.rates, turning, body.rolls));
+        let orientation = &self.orientation;
+        let angle_accelerations = [S::from(a[3]), S::from(a[4]), S::from(a[5])];
+        let (mut omega, mut alpha) = (
+            self.spin,
+            orientation.spin_rate(self.rates, angle_accelerations, body.rolls),
+        );
         let field: Vector<T> = frame.acceleration - Vector::<T>::lift(gravity);
         let own: Vector<T> = frame.rotation.apply_transposed(field);
         let mut force = Vector([S::from(a[0]), S::from(a[1]), S::from(a[2])]) + own;
@@ -249,14 +252,16 @@ impl<S: Number> Kinematics<S> {
             let coriolis: Vector<S> = spin.cross(self.velocity);
             force += transport + centripetal + coriolis + coriolis;
             let drag: Vector<S> = spin.cross(self.angular_velocity());
-            alpha += turn.rotation.apply_transposed::<S, S>(drag + spin_rate);
-            omega += turn.rotation.apply_transposed::<S, S>(Vector::<S>::zero() + spin);
+            alpha += orientation.rotation.apply_transposed::<S, S>(drag + spin_rate);
+            omega += orientation
+                .rotation
+                .apply_transposed::<S, S>(Vector::<S>::zero() + spin);
         }
         if !body.central {
             let arm = body.center_of_gravity;
             let swing: Vector<S> = omega.cross(arm);
             let own: Vector<S> = alpha.cross::<f64, S>(arm) + omega.cross(swing);
-            force += turn.rotation.apply::<S, S>(own);
+            force += orientation.rotation.apply::<S, S>(own);
         }
         let force = force.scale::<f64, S>(body.mass);
         // Euler's equations.
@@ -269,7 +274,7 @@ impl<S: Number> Kinematics<S> {
         ]);
         if !body.central {
             let [x, y, z] = body.center_of_gravity.0;
-            let [f1, f2, f3] = turn.rotation.apply_transposed::<S, S>(force).0;
+            let [f1, f2, f3] = orientation.rotation.apply_transposed::<S, S>(force).0;
             moment += Vector([f3 * y - f2 * z, f1 * z - f3 * x, f2 * x - f1 * y]);
         }
         (force, moment)
@@ -280,7 +285,7 @@ impl Kinematics<f64> {
     /// The parts of a moment (body axes) about the axes of roll, pitch, yaw.
     #[inline(always)]
     pub(crate) fn about_axes(&self, moment: &Vector<f64>) -> [f64; 3] {
-        [0, 1, 2].map(|k| self.turn.axes[k].dot::<f64, f64>(*moment))
+        [0, 1, 2].map(|k| self.orientation.axes[k].dot::<f64, f64>(*moment))
     }
 
     /// Accelerations of the six coordinates (held ones: zero) under a force at the body's origin (frame axes) and moments about
@@ -292,7 +297,7 @@ impl Kinematics<f64> {
     #[inline(always)]
     #[must_use]
     pub(crate) fn accelerations(&self, body: &Rigid, force: &Vector<f64>, moments: [f64; 3]) -> [f64; 6] {
-        let (free, axes, rotation) = (&body.free, &self.turn.axes, &self.turn.rotation);
+        let (free, axes, rotation) = (&body.free, &self.orientation.axes, &self.orientation.rotation);
         let (arm, central) = (body.center_of_gravity, body.central);
         let (zero, one) = (0.0, 1.0);
         // By the angles' rates: the angular velocity, and the centre of gravity's velocity in held directions.
@@ -367,29 +372,29 @@ impl Kinematics<f64> {
 
 impl Kinematics<f64> {
     /// What the elements on the body need to know of its free angles.
-    pub(crate) fn turning(&self, free: &[usize]) -> Turning {
-        let [roll, pitch, yaw] = self.turn.axes;
+    pub(crate) fn rotation_axes(&self, free: &[usize]) -> RotationAxes {
+        let [roll, pitch, yaw] = self.orientation.axes;
         let before_yaw = pitch.scale::<f64, f64>(self.rates[1]);
         let before_roll = before_yaw + yaw.scale::<f64, f64>(self.rates[2]);
         // An axis turns with the angles behind it: pitch comes first, then yaw, then roll.
-        let drifts = [before_roll.cross(roll), Vector::zero(), before_yaw.cross(yaw)];
-        let mut turning = Turning {
-            axes: self.turn.axes,
-            drifts,
+        let axis_rates = [before_roll.cross(roll), Vector::zero(), before_yaw.cross(yaw)];
+        let mut rotation_axes = RotationAxes {
+            axes: self.orientation.axes,
+            axis_rates,
             spin: self.spin,
         };
         for (slot, k) in free.iter().filter(|k| **k >= 3).enumerate() {
-            turning.axes[slot] = self.turn.axes[k - 3];
-            turning.drifts[slot] = drifts[k - 3];
+            rotation_axes.axes[slot] = self.orientation.axes[k - 3];
+            rotation_axes.axis_rates[slot] = axis_rates[k - 3];
         }
-        turning
+        rotation_axes
     }
 
     /// The velocity of the centre of gravity by the rate of angle `k` (roll, pitch, yaw), frame axes.
     #[inline(always)]
     fn lever(&self, body: &Body, k: usize) -> Vector<f64> {
-        let own: Vector<f64> = self.turn.axes[k].cross(Vector(body.center_of_gravity));
-        self.turn.rotation.apply(own)
+        let own: Vector<f64> = self.orientation.axes[k].cross(Vector(body.center_of_gravity));
+        self.orientation.rotation.apply(own)
     }
 
     /// The block of the mass matrix for the free coordinates, row-major `n × n`.
@@ -402,7 +407,7 @@ impl Kinematics<f64> {
                 velocity[k].0[k] = 1.0;
             } else {
                 velocity[k] = self.lever(body, k - 3);
-                spin[k] = self.turn.axes[k - 3];
+                spin[k] = self.orientation.axes[k - 3];
             }
         }
         let n = free.len();
@@ -424,7 +429,7 @@ impl Kinematics<f64> {
     #[must_use]
     pub fn kinetic_energy(&self, body: &Body, frame: &FrameMotion<f64>) -> f64 {
         let (velocity, omega) = self.absolute(frame, Vector(body.center_of_gravity));
-        let w: Vector<f64> = self.turn.rotation.apply_transposed(omega);
+        let w: Vector<f64> = self.orientation.rotation.apply_transposed(omega);
         let spin: f64 = (0..3).map(|k| body.inertia[k] * w.0[k] * w.0[k]).sum();
         0.5 * (body.mass * velocity.dot::<f64, f64>(velocity) + spin)
     }
@@ -432,26 +437,26 @@ impl Kinematics<f64> {
     /// Velocity of a point of the body and its angular velocity in the fixed frame, along the reference frame's axes.
     #[must_use]
     pub fn absolute(&self, frame: &FrameMotion<f64>, point: Vector<f64>) -> (Vector<f64>, Vector<f64>) {
-        let arm: Vector<f64> = self.turn.rotation.apply(point);
-        let place: Vector<f64> = self.position + arm;
+        let arm: Vector<f64> = self.orientation.rotation.apply(point);
+        let offset: Vector<f64> = self.position + arm;
         let spin: Vector<f64> = frame.rotation.apply_transposed(frame.angular_velocity);
         let origin: Vector<f64> = frame.rotation.apply_transposed(frame.velocity);
-        let turning = self.angular_velocity();
-        let own: Vector<f64> = turning.cross(arm);
-        let carried: Vector<f64> = spin.cross(place);
-        (origin + self.velocity + own + carried, turning + spin)
+        let angular_velocity = self.angular_velocity();
+        let own: Vector<f64> = angular_velocity.cross(arm);
+        let carried: Vector<f64> = spin.cross(offset);
+        (origin + self.velocity + own + carried, angular_velocity + spin)
     }
 
     /// Position of a point of the body in the fixed frame.
     #[must_use]
-    pub fn place(&self, frame: &FrameMotion<f64>, point: Vector<f64>) -> Vector<f64> {
-        let arm: Vector<f64> = self.turn.rotation.apply(point);
+    pub fn point_position(&self, frame: &FrameMotion<f64>, point: Vector<f64>) -> Vector<f64> {
+        let arm: Vector<f64> = self.orientation.rotation.apply(point);
         frame.position + frame.rotation.apply::<f64, f64>(self.position + arm)
     }
 
     /// The rotation from body axes to fixed axes.
     #[must_use]
     pub fn orientation(&self, frame: &FrameMotion<f64>) -> Matrix<f64> {
-        frame.rotation.times(self.turn.rotation)
+        frame.rotation.times(self.orientation.rotation)
     }
 }

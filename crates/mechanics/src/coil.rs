@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::Kinematics;
 use crate::characteristic::Characteristic;
-use crate::element::{Action, Element, Inputs};
-use crate::link::{BodyWrench, Relative, Sight};
+use crate::element::{Element, Inputs, Wrench};
+use crate::link::{BodyWrench, RelativeFrame, RelativeMotion};
 use crate::vector::Vector;
 
 /// Force by compression.
@@ -113,13 +113,17 @@ impl CoilLaw {
 impl Coil {
     /// The coil's force.
     #[inline(always)]
-    pub fn on_body<S: Real>(&self, relative: &Relative<S>) -> CoilForce<S> {
+    pub fn on_body<S: Real>(&self, relative: &RelativeMotion<S>) -> CoilForce<S> {
         self.on_body_with(relative, |length| self.spring(length))
     }
 
     /// The same with a spring force (N) by the length (m) of the caller's own.
     #[inline(always)]
-    pub fn on_body_with<S: Real>(&self, relative: &Relative<S>, spring: impl FnOnce(S) -> S) -> CoilForce<S> {
+    pub fn on_body_with<S: Real>(
+        &self,
+        relative: &RelativeMotion<S>,
+        spring: impl FnOnce(S) -> S,
+    ) -> CoilForce<S> {
         // A coil that ends at the body's origin, as in a wedge, needs no lever.
         if self.end == Vector::zero() {
             return self.at_end(relative, spring);
@@ -134,18 +138,18 @@ impl Coil {
 
     /// The same by the motion of the coil's end, with the moment about it.
     #[inline(always)]
-    fn at_end<S: Real>(&self, relative: &Relative<S>, spring: impl FnOnce(S) -> S) -> CoilForce<S> {
+    fn at_end<S: Real>(&self, relative: &RelativeMotion<S>, spring: impl FnOnce(S) -> S) -> CoilForce<S> {
         let pull = pull(self.damping, relative.position, relative.velocity, spring);
         let force = pull.force;
-        let turn = relative.angular_velocity;
-        let mut moment = turn.scale(-self.rotational_damping);
-        let loss = pull.loss + turn.dot(turn) * self.rotational_damping;
+        let angular_velocity = relative.angular_velocity;
+        let mut moment = angular_velocity.scale(-self.rotational_damping);
+        let loss = pull.loss + angular_velocity.dot(angular_velocity) * self.rotational_damping;
         let mut guide_power = S::zero();
         if self.acts_at != self.end {
             let offset: Vector<S> = relative.rotation.apply(self.acts_at - self.end);
             let couple: Vector<S> = offset.cross(force);
             moment += couple;
-            guide_power = couple.dot(turn);
+            guide_power = couple.dot(angular_velocity);
         }
         CoilForce {
             force,
@@ -160,18 +164,22 @@ impl Coil {
 
     /// What the coil does to its body, seen from a mount that does not turn: [`Coil::on_body`] with as few products as there need be.
     #[inline(always)]
-    pub(crate) fn effect(&self, sight: &Sight<f64>, body: &Kinematics<f64>) -> BodyWrench {
-        let (rotation, spin, end) = (&body.turn.rotation, body.spin, self.end);
-        let (mut place, mut velocity) = (body.position, body.velocity);
+    pub(crate) fn wrench_on_body(
+        &self,
+        relative_frame: &RelativeFrame<f64>,
+        body: &Kinematics<f64>,
+    ) -> BodyWrench {
+        let (rotation, spin, end) = (&body.orientation.rotation, body.spin, self.end);
+        let (mut end_position, mut velocity) = (body.position, body.velocity);
         if end != Vector::zero() {
-            place += rotation.apply(end);
+            end_position += rotation.apply(end);
             velocity += rotation.apply(spin.cross::<f64, f64>(end));
         }
-        let d = sight.position + sight.rotation.apply::<f64, f64>(place);
-        let rate = sight.velocity + sight.rotation.apply::<f64, f64>(velocity);
+        let d = relative_frame.position + relative_frame.rotation.apply::<f64, f64>(end_position);
+        let rate = relative_frame.velocity + relative_frame.rotation.apply::<f64, f64>(velocity);
         let pull = pull(self.damping, d, rate, |length| self.spring(length));
         let own: Vector<f64> =
-            rotation.apply_transposed(sight.rotation.apply_transposed::<f64, f64>(pull.force));
+            rotation.apply_transposed(relative_frame.rotation.apply_transposed::<f64, f64>(pull.force));
         let brake = self.rotational_damping;
         let moment = self.acts_at.cross::<f64, f64>(own) - spin.scale::<f64, f64>(brake);
         let couple: Vector<f64> = (self.acts_at - end).cross(own);
@@ -212,7 +220,7 @@ impl Element for Coil {
         "coil"
     }
 
-    fn energy(&self, relative: &Relative<f64>) -> f64 {
+    fn energy(&self, relative: &RelativeMotion<f64>) -> f64 {
         let d = relative.position;
         self.stored_energy(d.dot::<f64, f64>(d).sqrt())
     }
@@ -226,9 +234,9 @@ impl Element for Coil {
     }
 
     #[inline(always)]
-    fn evaluate<S: Real>(&self, relative: &Relative<S>) -> Action<S> {
+    fn evaluate<S: Real>(&self, relative: &RelativeMotion<S>) -> Wrench<S> {
         let coil = self.at_end(relative, |length| self.spring(length));
-        Action {
+        Wrench {
             force: coil.force,
             moment: coil.moment,
             powers: [coil.loss, coil.guide_power],

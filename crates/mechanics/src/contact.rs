@@ -12,10 +12,10 @@ mod tangent;
 
 use integrate::scalar::{Number, Real};
 
-pub(crate) use blocks::{Points, View};
+pub(crate) use blocks::{PlaneMotion, Points};
 
 use crate::friction::{Friction, FrictionLaw, bristle, dot, tanh};
-use crate::link::Relative;
+use crate::link::RelativeMotion;
 use crate::surface::Surface;
 use crate::vector::Vector;
 
@@ -51,7 +51,7 @@ pub struct ContactFace<F> {
 #[derive(Clone, Copy, Debug)]
 pub struct PointContact<S: Number> {
     /// From the mount's origin to the point, mount axes, m.
-    pub place: Vector<S>,
+    pub position: Vector<S>,
     /// From the body's origin to the point, mount axes, m.
     pub arm: Vector<S>,
     /// Signed distance, m.
@@ -120,7 +120,7 @@ impl<F: Surface> ContactFace<F> {
     #[inline(always)]
     pub fn evaluate<S: Real + From<D>, D: Copy>(
         &self,
-        relative: &Relative<S>,
+        relative: &RelativeMotion<S>,
         deflections: &[D],
         mut each: impl FnMut(usize, &PointContact<S>),
     ) -> FaceResultant<S> {
@@ -149,7 +149,7 @@ impl<F: Surface> ContactFace<F> {
             sum.friction_loss += contact.friction.loss;
             if closed {
                 let [t1, t2] = contact.friction.force;
-                let force = self.surface.compose(contact.place, [contact.normal, t1, t2]);
+                let force = self.surface.compose(contact.position, [contact.normal, t1, t2]);
                 sum.force += force;
                 sum.moment += contact.arm.cross(force);
                 sum.damping_loss += contact.damping_loss;
@@ -177,15 +177,15 @@ impl<F: Surface> ContactFace<F> {
 
     /// Where a point is and how it moves; no forces yet.
     #[inline(always)]
-    pub fn geometry<S: Real>(&self, point: &ContactPoint, relative: &Relative<S>) -> PointContact<S> {
+    pub fn geometry<S: Real>(&self, point: &ContactPoint, relative: &RelativeMotion<S>) -> PointContact<S> {
         let arm: Vector<S> = relative.rotation.apply(point.position);
-        let place = relative.position + arm;
+        let position = relative.position + arm;
         let velocity: Vector<S> = relative.velocity + relative.angular_velocity.cross::<S, S>(arm);
-        let [gap_rate, s1, s2] = self.surface.resolve(place, velocity);
+        let [gap_rate, s1, s2] = self.surface.resolve(position, velocity);
         PointContact {
-            place,
+            position,
             arm,
-            gap: self.surface.gap(place),
+            gap: self.surface.gap(position),
             gap_rate,
             slip: [s1, s2],
             normal: S::zero(),

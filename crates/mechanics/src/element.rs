@@ -11,13 +11,13 @@ use std::fmt::Debug;
 
 use integrate::scalar::{Dual, Real};
 
-use crate::link::{Mount, Relative};
+use crate::link::{Marker, RelativeMotion};
 use crate::tangent::Tangent;
 use crate::vector::Vector;
 
 /// The wrench of an element on the body that it carries.
 #[derive(Clone, Copy, Debug)]
-pub struct Action<S> {
+pub struct Wrench<S> {
     /// Force, axes of marker B, N.
     pub force: Vector<S>,
     /// Moment about marker A, axes of marker B, N·m.
@@ -43,11 +43,11 @@ pub trait Element: Clone + Debug + Send + Sync + 'static {
     /// Returns the wrench on marker A and the power lost, at a relative motion of marker A seen from marker B.
     ///
     /// It must not depend on anything else, so that momentum is conserved: the opposite wrench acts on B.
-    fn evaluate<S: Real>(&self, motion: &Relative<S>) -> Action<S>;
+    fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S>;
 
     /// Returns the stored energy at a relative motion, J. The power of the wrench is what it takes from this energy, less the power lost:
     /// else the ledger does not close.
-    fn energy(&self, motion: &Relative<f64>) -> f64;
+    fn energy(&self, motion: &RelativeMotion<f64>) -> f64;
 
     /// Returns on what the wrench depends; elements between two points are differentiated at less cost.
     fn inputs(&self) -> Inputs {
@@ -58,10 +58,10 @@ pub trait Element: Clone + Debug + Send + Sync + 'static {
 /// An element of any kind, by the scalars that the core uses.
 pub(crate) trait AnyElement: Debug + Send + Sync {
     fn name(&self) -> &str;
-    fn value(&self, motion: &Relative<f64>) -> Action<f64>;
-    fn derivative(&self, motion: &Relative<Dual<1>>) -> Action<Dual<1>>;
-    fn tangent(&self, motion: &Relative<f64>) -> Tangent;
-    fn energy(&self, motion: &Relative<f64>) -> f64;
+    fn value(&self, motion: &RelativeMotion<f64>) -> Wrench<f64>;
+    fn derivative(&self, motion: &RelativeMotion<Dual<1>>) -> Wrench<Dual<1>>;
+    fn tangent(&self, motion: &RelativeMotion<f64>) -> Tangent;
+    fn energy(&self, motion: &RelativeMotion<f64>) -> f64;
     fn boxed(&self) -> Box<dyn AnyElement>;
 }
 
@@ -69,16 +69,16 @@ impl<E: Element> AnyElement for E {
     fn name(&self) -> &str {
         Element::name(self)
     }
-    fn value(&self, motion: &Relative<f64>) -> Action<f64> {
+    fn value(&self, motion: &RelativeMotion<f64>) -> Wrench<f64> {
         self.evaluate(motion)
     }
-    fn derivative(&self, motion: &Relative<Dual<1>>) -> Action<Dual<1>> {
+    fn derivative(&self, motion: &RelativeMotion<Dual<1>>) -> Wrench<Dual<1>> {
         self.evaluate(motion)
     }
-    fn tangent(&self, motion: &Relative<f64>) -> Tangent {
+    fn tangent(&self, motion: &RelativeMotion<f64>) -> Tangent {
         Tangent::of(self.inputs(), motion, self)
     }
-    fn energy(&self, motion: &Relative<f64>) -> f64 {
+    fn energy(&self, motion: &RelativeMotion<f64>) -> f64 {
         Element::energy(self, motion)
     }
     fn boxed(&self) -> Box<dyn AnyElement> {
@@ -88,17 +88,17 @@ impl<E: Element> AnyElement for E {
 
 /// A scalar over which elements of any kind can be evaluated.
 pub(crate) trait Scalar: Real {
-    fn evaluate(element: &dyn AnyElement, motion: &Relative<Self>) -> Action<Self>;
+    fn evaluate(element: &dyn AnyElement, motion: &RelativeMotion<Self>) -> Wrench<Self>;
 }
 
 impl Scalar for f64 {
-    fn evaluate(element: &dyn AnyElement, motion: &Relative<Self>) -> Action<Self> {
+    fn evaluate(element: &dyn AnyElement, motion: &RelativeMotion<Self>) -> Wrench<Self> {
         element.value(motion)
     }
 }
 
 impl Scalar for Dual<1> {
-    fn evaluate(element: &dyn AnyElement, motion: &Relative<Self>) -> Action<Self> {
+    fn evaluate(element: &dyn AnyElement, motion: &RelativeMotion<Self>) -> Wrench<Self> {
         element.derivative(motion)
     }
 }
@@ -107,7 +107,7 @@ impl Scalar for Dual<1> {
 #[derive(Debug)]
 pub(crate) struct Marked {
     pub element: Box<dyn AnyElement>,
-    pub marker: Mount,
+    pub marker: Marker,
 }
 
 impl Clone for Marked {
@@ -121,20 +121,20 @@ impl Clone for Marked {
 
 impl Marked {
     /// The motion of marker A by that of its origin.
-    pub fn turned<S: Real>(&self, origin: &Relative<S>) -> Relative<S> {
-        Relative {
+    pub fn turned<S: Real>(&self, origin: &RelativeMotion<S>) -> RelativeMotion<S> {
+        RelativeMotion {
             rotation: origin.rotation.times(self.marker.rotation),
             ..*origin
         }
     }
 
     /// The wrench about the origin of the body that carries marker A, by the motion of that body.
-    pub fn on_body<S: Scalar>(&self, body: &Relative<S>) -> Action<S> {
-        let action = S::evaluate(&*self.element, &self.turned(&body.at(self.marker.origin)));
+    pub fn on_body<S: Scalar>(&self, body: &RelativeMotion<S>) -> Wrench<S> {
+        let wrench = S::evaluate(&*self.element, &self.turned(&body.at(self.marker.origin)));
         let arm: Vector<S> = body.rotation.apply(self.marker.origin);
-        Action {
-            moment: action.moment + arm.cross::<S, S>(action.force),
-            ..action
+        Wrench {
+            moment: wrench.moment + arm.cross::<S, S>(wrench.force),
+            ..wrench
         }
     }
 }
@@ -143,7 +143,7 @@ impl Marked {
 #[derive(Debug)]
 pub struct Placement {
     pub(crate) ends: [usize; 2],
-    pub(crate) markers: [Mount; 2],
+    pub(crate) markers: [Marker; 2],
     pub(crate) element: Box<dyn AnyElement>,
 }
 
@@ -158,7 +158,11 @@ impl Clone for Placement {
 
 impl Placement {
     /// An element between marker A on body `a`, which must have free coordinates, and marker B on body `b`.
-    pub fn new(element: impl Element, (a, marker_a): (usize, Mount), (b, marker_b): (usize, Mount)) -> Self {
+    pub fn new(
+        element: impl Element,
+        (a, marker_a): (usize, Marker),
+        (b, marker_b): (usize, Marker),
+    ) -> Self {
         Self {
             ends: [a, b],
             markers: [marker_a, marker_b],

@@ -4,7 +4,7 @@ use integrate::scalar::Real;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::{Jet, Motion};
-use crate::turn::Turn;
+use crate::orientation::Orientation;
 use crate::vector::{Matrix, Vector};
 
 /// A reference frame: a base pose in the fixed frame, and motions along and about the base's axes.
@@ -14,7 +14,7 @@ use crate::vector::{Matrix, Vector};
 pub struct Frame {
     /// Origin at zero motion, in the fixed frame, m.
     pub origin: [f64; 3],
-    /// Orientation at zero motion: roll, pitch, yaw, rad (see [`Turn`]).
+    /// Orientation at zero motion: roll, pitch, yaw, rad (see [`Orientation`]).
     pub orientation: [f64; 3],
     /// Motions of x, y, z (m), roll, pitch, yaw (rad), along and about the base's axes.
     pub motions: [Motion; 6],
@@ -80,18 +80,18 @@ impl Frame {
     /// The frame where its six motions have these values, rates and second derivatives.
     #[must_use]
     pub fn moved<S: Real>(&self, jets: &[Jet<S>; 6]) -> FrameMotion<S> {
-        let base: Matrix<S> = Matrix::lift(crate::turn::fixed(self.orientation));
+        let base: Matrix<S> = Matrix::lift(crate::orientation::fixed(self.orientation));
         let translation = |order: usize| Vector([jets[0][order], jets[1][order], jets[2][order]]);
         let angles = |order: usize| [jets[3][order], jets[4][order], jets[5][order]];
-        let turn = Turn::new(angles(0), true);
-        let rotation: Matrix<S> = base.times(turn.rotation);
+        let orientation = Orientation::new(angles(0), true);
+        let rotation: Matrix<S> = base.times(orientation.rotation);
         FrameMotion {
             position: Vector::<S>::lift(Vector(self.origin)) + base.apply::<S, S>(translation(0)),
             rotation,
             velocity: base.apply(translation(1)),
-            angular_velocity: rotation.apply(turn.spin(angles(1), true)),
+            angular_velocity: rotation.apply(orientation.spin(angles(1), true)),
             acceleration: base.apply(translation(2)),
-            angular_acceleration: rotation.apply(turn.spin_rate(angles(1), angles(2), true)),
+            angular_acceleration: rotation.apply(orientation.spin_rate(angles(1), angles(2), true)),
         }
     }
 }

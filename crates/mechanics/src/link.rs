@@ -14,27 +14,27 @@ use crate::vector::{Matrix, Vector};
 
 /// A mount on a body: where an element sits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mount {
+pub struct Marker {
     /// From the body's origin, body axes, m.
     pub origin: Vector<f64>,
     /// From mount axes to body axes.
     pub rotation: Matrix<f64>,
 }
 
-impl Mount {
+impl Marker {
     /// A mount at `origin` (m), turned by roll, pitch, yaw (rad).
     #[must_use]
     pub fn new(origin: [f64; 3], angles: [f64; 3]) -> Self {
         Self {
             origin: Vector(origin),
-            rotation: crate::turn::fixed(angles),
+            rotation: crate::orientation::fixed(angles),
         }
     }
 }
 
 /// The reference frame of body `a` seen from the mount on body `b`, in the mount's axes.
 #[derive(Clone, Copy, Debug)]
-pub struct Sight<S> {
+pub struct RelativeFrame<S> {
     /// From the mount's origin to the frame's origin.
     pub position: Vector<S>,
     /// From the frame's axes to the mount's.
@@ -44,24 +44,24 @@ pub struct Sight<S> {
     /// Angular velocity of the frame relative to body `b`.
     pub angular_velocity: Vector<S>,
     /// Velocity of the mount's origin in the fixed frame.
-    pub mount_velocity: Vector<S>,
+    pub marker_velocity: Vector<S>,
     /// Angular velocity of body `b` in the fixed frame.
-    pub mount_angular_velocity: Vector<S>,
+    pub marker_angular_velocity: Vector<S>,
 }
 
-impl<S: Real> Sight<S> {
+impl<S: Real> RelativeFrame<S> {
     /// The frame of `a` seen from the mount on `b`.
-    pub fn new(a: &FrameMotion<S>, b: &FrameMotion<S>, body: &Kinematics<S>, mount: &Mount) -> Self {
-        let turn: Matrix<S> = b.rotation.times(body.turn.rotation);
-        let axes: Matrix<S> = turn.times(mount.rotation);
-        let arm: Vector<S> = turn.apply(mount.origin);
-        let place: Vector<S> = b.rotation.apply(body.position);
-        let swing: Vector<S> = b.angular_velocity.cross(place);
+    pub fn new(a: &FrameMotion<S>, b: &FrameMotion<S>, body: &Kinematics<S>, marker: &Marker) -> Self {
+        let rotation: Matrix<S> = b.rotation.times(body.orientation.rotation);
+        let axes: Matrix<S> = rotation.times(marker.rotation);
+        let arm: Vector<S> = rotation.apply(marker.origin);
+        let offset: Vector<S> = b.rotation.apply(body.position);
+        let swing: Vector<S> = b.angular_velocity.cross(offset);
         let own: Vector<S> = b.rotation.apply(body.velocity);
         let spin: Vector<S> = b.angular_velocity + b.rotation.apply::<S, S>(body.angular_velocity());
         let lever: Vector<S> = spin.cross(arm);
         let velocity = b.velocity + swing + own + lever;
-        let origin = b.position + place + arm;
+        let origin = b.position + offset + arm;
         let distance = a.position - origin;
         let carried: Vector<S> = spin.cross(distance);
         Self {
@@ -69,26 +69,26 @@ impl<S: Real> Sight<S> {
             rotation: axes.transpose().times(a.rotation),
             velocity: axes.apply_transposed(a.velocity - velocity - carried),
             angular_velocity: axes.apply_transposed(a.angular_velocity - spin),
-            mount_velocity: axes.apply_transposed(velocity),
-            mount_angular_velocity: axes.apply_transposed(spin),
+            marker_velocity: axes.apply_transposed(velocity),
+            marker_angular_velocity: axes.apply_transposed(spin),
         }
     }
 }
 
-impl<S: Number> Sight<S> {
+impl<S: Number> RelativeFrame<S> {
     /// Body `a` seen from the mount.
     #[inline(always)]
-    pub fn relative<A: Number, O: Number>(&self, a: &Kinematics<A>) -> Relative<O>
+    pub fn relative<A: Number, O: Number>(&self, a: &Kinematics<A>) -> RelativeMotion<O>
     where
         S: Mul<A, Output = O> + Mul<O, Output = O> + Add<O, Output = O> + Sub<O, Output = O>,
     {
-        let place: Vector<O> = self.rotation.apply(a.position);
+        let offset: Vector<O> = self.rotation.apply(a.position);
         let velocity: Vector<O> = self.rotation.apply(a.velocity);
-        let swing: Vector<O> = self.angular_velocity.cross(place);
+        let swing: Vector<O> = self.angular_velocity.cross(offset);
         let spin: Vector<O> = self.rotation.apply(a.angular_velocity());
-        Relative {
-            position: self.position + place,
-            rotation: self.rotation.times(a.turn.rotation),
+        RelativeMotion {
+            position: self.position + offset,
+            rotation: self.rotation.times(a.orientation.rotation),
             velocity: self.velocity + velocity + swing,
             angular_velocity: self.angular_velocity + spin,
         }
@@ -111,12 +111,12 @@ impl Translation {
         b: &FrameMotion<f64>,
         (rest, ways): (Vector<f64>, impl Iterator<Item = Vector<f64>>),
         body: &Kinematics<f64>,
-        mount: &Mount,
+        marker: &Marker,
     ) -> Self {
-        let turn: Matrix<f64> = b.rotation.times(body.turn.rotation);
-        let place: Vector<f64> = b.rotation.apply(body.position);
-        let axes: Matrix<f64> = turn.times(mount.rotation);
-        let arm = place + turn.apply::<f64, f64>(mount.origin);
+        let rotation: Matrix<f64> = b.rotation.times(body.orientation.rotation);
+        let offset: Vector<f64> = b.rotation.apply(body.position);
+        let axes: Matrix<f64> = rotation.times(marker.rotation);
+        let arm = offset + rotation.apply::<f64, f64>(marker.origin);
         let mut own = [Vector::zero(); 3];
         for (own, way) in own.iter_mut().zip(ways) {
             *own = axes.apply_transposed(way);
@@ -131,15 +131,15 @@ impl Translation {
 impl Translation {
     /// Brings position and velocities of a sight up to date with value, rate and second derivative of each way.
     #[inline(always)]
-    pub fn update(&self, sight: &mut Sight<f64>, jets: impl Iterator<Item = [f64; 3]>) {
+    pub fn update(&self, relative_frame: &mut RelativeFrame<f64>, jets: impl Iterator<Item = [f64; 3]>) {
         let (mut position, mut velocity) = (self.rest, Vector::zero());
         for (way, [value, rate, _]) in self.ways.iter().zip(jets) {
             position = position - way.scale::<f64, f64>(value);
             velocity += way.scale::<f64, f64>(rate);
         }
-        sight.position = position;
-        sight.mount_velocity = velocity;
-        sight.velocity = -velocity;
+        relative_frame.position = position;
+        relative_frame.marker_velocity = velocity;
+        relative_frame.velocity = -velocity;
     }
 
     /// The acceleration of the frame as the mount sees it: the rate of the sight's velocity.
@@ -155,7 +155,7 @@ impl Translation {
 
 /// Body `a` seen from the mount on body `b`: what an element sees, in the mount's axes (SI).
 #[derive(Clone, Copy, Debug)]
-pub struct Relative<S> {
+pub struct RelativeMotion<S> {
     /// From the mount's origin to the body's origin.
     pub position: Vector<S>,
     /// From body axes to mount axes.
@@ -166,7 +166,7 @@ pub struct Relative<S> {
     pub angular_velocity: Vector<S>,
 }
 
-impl<S: Real> Relative<S> {
+impl<S: Real> RelativeMotion<S> {
     /// Returns the small rotations about the mount's axes, rad: half the antisymmetric part of the rotation, `sin(angle)` times its axis.
     #[inline(always)]
     #[must_use]
@@ -206,17 +206,17 @@ pub(crate) struct BodyWrench {
 /// The free angles of a body: their axes, how its angular velocity changes with them at fixed rates, and the angular velocity (body axes).
 /// Slots beyond the number of free angles are of no meaning.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Turning {
+pub(crate) struct RotationAxes {
     pub axes: [Vector<f64>; 3],
-    pub drifts: [Vector<f64>; 3],
+    pub axis_rates: [Vector<f64>; 3],
     pub spin: Vector<f64>,
 }
 
-impl Turning {
+impl RotationAxes {
     /// Of a body without free angles.
     pub const NONE: Self = Self {
         axes: [Vector([0.0; 3]); 3],
-        drifts: [Vector([0.0; 3]); 3],
+        axis_rates: [Vector([0.0; 3]); 3],
         spin: Vector([0.0; 3]),
     };
 }

@@ -9,14 +9,14 @@
 use integrate::lanes::Lanes;
 use integrate::scalar::Dual;
 
-use crate::element::{Action, Element, Inputs};
-use crate::link::Relative;
+use crate::element::{Element, Inputs, Wrench};
+use crate::link::RelativeMotion;
 use crate::vector::{Matrix, Vector};
 
-impl Action<Dual<1>> {
+impl Wrench<Dual<1>> {
     /// The wrench of a tangent with a change as its derivative; the powers have no value.
     #[inline(always)]
-    pub(crate) fn with_change(tangent: &Tangent, change: &Column) -> Self {
+    pub(crate) fn with_change(tangent: &Tangent, change: &TangentColumn) -> Self {
         let [[fx, fy, fz, first], [mx, my, mz, second]] = change.map(Lanes::to_array);
         let dual = |value: f64, derivative: f64| Dual {
             value,
@@ -32,10 +32,10 @@ impl Action<Dual<1>> {
 }
 
 /// A change of eight quantities: of a wrench those of force and first power, moment and second power.
-pub(crate) type Column = [Lanes; 2];
+pub(crate) type TangentColumn = [Lanes; 2];
 
 /// No change.
-pub(crate) const NO_CHANGE: Column = [Lanes::ZERO; 2];
+pub(crate) const NO_CHANGE: TangentColumn = [Lanes::ZERO; 2];
 
 /// A small change of a relative motion, axes of marker B.
 #[derive(Clone, Copy, Debug)]
@@ -52,15 +52,15 @@ pub(crate) struct Change {
 
 /// Derivatives of up to eight quantities by the relative motion.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Columns {
+pub(crate) struct TangentColumns {
     /// By the position d.
-    pub position: [Column; 3],
+    pub position: [TangentColumn; 3],
     /// By the rotation φ.
-    pub rotation: [Column; 3],
+    pub rotation: [TangentColumn; 3],
     /// By the velocity v.
-    pub velocity: [Column; 3],
+    pub velocity: [TangentColumn; 3],
     /// By the angular velocity ω.
-    pub angular_velocity: [Column; 3],
+    pub angular_velocity: [TangentColumn; 3],
 }
 
 /// The wrench of an element, and its derivatives and those of its powers by the relative motion.
@@ -71,32 +71,32 @@ pub(crate) struct Tangent {
     /// Moment about marker A, N·m.
     pub moment: Vector<f64>,
     /// The derivatives.
-    pub by: Columns,
+    pub by: TangentColumns,
 }
 
 /// `Σ_i weights_i columns_i`.
 #[inline(always)]
-pub(crate) fn combined(columns: &[Column; 3], weights: Vector<f64>) -> Column {
+pub(crate) fn combined(columns: &[TangentColumn; 3], weights: Vector<f64>) -> TangentColumn {
     let [x, y, z] = weights.0;
     [0, 1].map(|o| columns[0][o] * x + columns[1][o] * y + columns[2][o] * z)
 }
 
 /// The sum of two changes.
 #[inline(always)]
-pub(crate) fn sum(a: Column, b: Column) -> Column {
+pub(crate) fn sum(a: TangentColumn, b: TangentColumn) -> TangentColumn {
     [a[0] + b[0], a[1] + b[1]]
 }
 
 /// The force of a column.
 #[inline(always)]
-pub(crate) fn force_of(column: &Column) -> Vector<f64> {
+pub(crate) fn force_of(column: &TangentColumn) -> Vector<f64> {
     let [x, y, z, _] = column[0].to_array();
     Vector([x, y, z])
 }
 
 /// The moment of a column.
 #[inline(always)]
-pub(crate) fn moment_of(column: &Column) -> Vector<f64> {
+pub(crate) fn moment_of(column: &TangentColumn) -> Vector<f64> {
     let [x, y, z, _] = column[1].to_array();
     Vector([x, y, z])
 }
@@ -106,12 +106,12 @@ impl Tangent {
     pub const NONE: Self = Self {
         force: Vector([0.0; 3]),
         moment: Vector([0.0; 3]),
-        by: Columns::NONE,
+        by: TangentColumns::NONE,
     };
 
     /// The tangent of a law that is written over any scalar.
     #[inline(always)]
-    pub fn of(inputs: Inputs, relative: &Relative<f64>, law: &impl Element) -> Self {
+    pub fn of(inputs: Inputs, relative: &RelativeMotion<f64>, law: &impl Element) -> Self {
         match inputs {
             Inputs::Points => Self::seeded::<6>(relative, law),
             Inputs::Motion => Self::seeded::<12>(relative, law),
@@ -120,7 +120,7 @@ impl Tangent {
 
     /// The tangent by numbers with `N` derivatives: by position and velocity, and from 12 on by rotation and angular velocity.
     #[inline(always)]
-    fn seeded<const N: usize>(relative: &Relative<f64>, law: &impl Element) -> Self {
+    fn seeded<const N: usize>(relative: &RelativeMotion<f64>, law: &impl Element) -> Self {
         let seed = |vector: Vector<f64>, first: usize| {
             Vector(std::array::from_fn(|i| {
                 Dual::<N>::variable(vector.0[i], first + i)
@@ -140,15 +140,15 @@ impl Tangent {
                 }
             }
         }
-        let action = law.evaluate(&Relative {
+        let wrench = law.evaluate(&RelativeMotion {
             position: seed(relative.position, 0),
             rotation,
             velocity: seed(relative.velocity, 3),
             angular_velocity,
         });
         let mut tangent = Self {
-            force: action.force.value(),
-            moment: action.moment.value(),
+            force: wrench.force.value(),
+            moment: wrench.moment.value(),
             ..Self::NONE
         };
         let column = |k: usize| {
@@ -157,8 +157,8 @@ impl Tangent {
                 Lanes::new([x, y, z, power].map(|value| value.derivative[k]))
             };
             [
-                lanes(&action.force, &action.powers[0]),
-                lanes(&action.moment, &action.powers[1]),
+                lanes(&wrench.force, &wrench.powers[0]),
+                lanes(&wrench.moment, &wrench.powers[1]),
             ]
         };
         for k in 0..3 {
@@ -173,7 +173,7 @@ impl Tangent {
     }
 }
 
-impl Columns {
+impl TangentColumns {
     /// No derivatives.
     pub const NONE: Self = Self {
         position: [NO_CHANGE; 3],
@@ -184,7 +184,7 @@ impl Columns {
 
     /// The change along a change of the relative motion.
     #[inline(always)]
-    pub fn along(&self, change: &Change) -> Column {
+    pub fn along(&self, change: &Change) -> TangentColumn {
         sum(
             sum(
                 combined(&self.position, change.position),
@@ -208,7 +208,7 @@ impl Change {
     };
 
     /// The change that a relative motion carries as its only derivative.
-    pub fn of(relative: &Relative<Dual<1>>) -> Self {
+    pub fn of(relative: &RelativeMotion<Dual<1>>) -> Self {
         let part = |v: &Vector<Dual<1>>| Vector([0, 1, 2].map(|i| v.0[i].derivative[0]));
         let Matrix(r) = &relative.rotation;
         // δR Rᵀ is the skew matrix of φ.

@@ -26,16 +26,16 @@ impl Kinematics<f64> {
         force: &Vector<f64>,
         moment: &Vector<f64>,
     ) -> [f64; 6] {
-        let (free, rotation, arm) = (&body.free, &self.turn.rotation, body.center_of_gravity);
-        let [sine, cosine, _] = self.turn.axes[1].0;
+        let (free, rotation, arm) = (&body.free, &self.orientation.rotation, body.center_of_gravity);
+        let [sine, cosine, _] = self.orientation.axes[1].0;
         let (zero, one) = (0.0, 1.0);
         let product = self.rates[1] * self.rates[2];
-        let drift = Vector([cosine * product, -(sine * product), zero]);
+        let axis_rate = Vector([cosine * product, -(sine * product), zero]);
         let ([w1, w2, w3], [i1, i2, i3]) = (self.spin.0, body.inertia);
         let mut right = *moment
             - Vector([
-                i1 * drift.0[0] + w2 * w3 * (i3 - i2),
-                i2 * drift.0[1] + w3 * w1 * (i1 - i3),
+                i1 * axis_rate.0[0] + w2 * w3 * (i3 - i2),
+                i2 * axis_rate.0[1] + w3 * w1 * (i1 - i3),
                 w1 * w2 * (i2 - i1),
             ]);
         let (mut pitch, mut both, mut yaw) = (i1 * sine * sine + i2 * cosine * cosine, zero, i3);
@@ -43,7 +43,7 @@ impl Kinematics<f64> {
         let mut own = Vector::zero();
         if !body.central {
             let swing: Vector<f64> = self.spin.cross(arm);
-            own = drift.cross::<f64, f64>(arm) + self.spin.cross::<f64, f64>(swing);
+            own = axis_rate.cross::<f64, f64>(arm) + self.spin.cross::<f64, f64>(swing);
             let mut carried = *force;
             for c in 0..3 {
                 if free[c] {
@@ -122,8 +122,8 @@ mod tests {
             let (force, moment) = (Vector([fx, fy, fz]), Vector([mx, my, mz]));
             let rigid = body.rigid();
 
-            let (inertia, turning) = kinematics.inertia(&rigid, &frame, false, gravity, &[0.0; 6]);
-            let expected = kinematics.accelerations(&rigid, &(force - inertia), kinematics.about_axes(&(moment - turning)));
+            let (inertia, gyroscopic) = kinematics.inertia(&rigid, &frame, false, gravity, &[0.0; 6]);
+            let expected = kinematics.accelerations(&rigid, &(force - inertia), kinematics.about_axes(&(moment - gyroscopic)));
             let field: Vector<f64> = frame.rotation.apply_transposed(frame.acceleration - gravity);
             let found = kinematics.accelerations_without_roll(&rigid, &field, &force, &moment);
             for (found, expected) in found.iter().zip(expected) {

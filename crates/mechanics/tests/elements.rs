@@ -10,9 +10,9 @@ use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLaw};
 use mechanics::connection::{Connection, Law, SpringDamper};
 use mechanics::curve::Curve;
-use mechanics::element::{Action, Element, Inputs};
+use mechanics::element::{Element, Inputs, Wrench};
 use mechanics::frame::Frame;
-use mechanics::link::{Mount, Relative};
+use mechanics::link::{Marker, RelativeMotion};
 use mechanics::motion::Motion;
 use mechanics::system::{Model, ModelError, System};
 use mechanics::vector::Vector;
@@ -38,17 +38,17 @@ impl Element for Bushing {
     fn name(&self) -> &str {
         "bushing"
     }
-    fn evaluate<S: Real>(&self, motion: &Relative<S>) -> Action<S> {
+    fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S> {
         let (k, c, t) = (self.stiffness, self.damping, self.torsion);
         let (v, w) = (motion.velocity, motion.angular_velocity);
         let rotations = motion.small_rotations();
-        Action {
+        Wrench {
             force: motion.position.scale::<f64, S>(-k) - v.scale::<f64, S>(c),
             moment: rotations.scale::<f64, S>(-k * t) - w.scale::<f64, S>(c * t),
             powers: [(v.dot::<S, S>(v) + w.dot::<S, S>(w) * t) * c, S::zero()],
         }
     }
-    fn energy(&self, motion: &Relative<f64>) -> f64 {
+    fn energy(&self, motion: &RelativeMotion<f64>) -> f64 {
         let (d, r) = (motion.position, motion.small_rotations());
         0.5 * self.told * self.stiffness * (d.dot::<f64, f64>(d) + self.torsion * r.dot::<f64, f64>(r))
     }
@@ -74,10 +74,10 @@ impl Element for Strut {
     fn name(&self) -> &str {
         "strut"
     }
-    fn evaluate<S: Real>(&self, motion: &Relative<S>) -> Action<S> {
+    fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S> {
         self.0.evaluate(motion)
     }
-    fn energy(&self, motion: &Relative<f64>) -> f64 {
+    fn energy(&self, motion: &RelativeMotion<f64>) -> f64 {
         Element::energy(&self.0, motion)
     }
     fn inputs(&self) -> Inputs {
@@ -113,11 +113,11 @@ fn chain(random: &mut Random, frames: [Frame; 2]) -> System {
         free("second", random, second),
     ];
     let mut model = Model::new(bodies, [0.0, 0.0, -9.8]);
-    let mut mount = || Mount::new(random.vector(0.3), random.vector(0.4));
-    model.add(BUSHING, (1, mount()), (0, mount()));
-    model.add(BUSHING, (2, mount()), (1, mount()));
-    model.add(Strut(coil()), (1, mount()), (2, mount()));
-    model.coils = vec![(2, 1, mount(), coil())];
+    let mut marker = || Marker::new(random.vector(0.3), random.vector(0.4));
+    model.add(BUSHING, (1, marker()), (0, marker()));
+    model.add(BUSHING, (2, marker()), (1, marker()));
+    model.add(Strut(coil()), (1, marker()), (2, marker()));
+    model.coils = vec![(2, 1, marker(), coil())];
     System::new(model).unwrap()
 }
 
@@ -194,13 +194,13 @@ fn analytic_a_coil_is_an_element_at_its_end() {
     let mut random = Random(4);
     let frame = || Frame::fixed([0.0; 3], [0.0; 3]);
     let bodies = vec![free("a", &mut random, frame()), free("b", &mut random, frame())];
-    let seat = Mount::new(random.vector(0.3), random.vector(0.4));
+    let seat = Marker::new(random.vector(0.3), random.vector(0.4));
     let mut listed = Model::new(bodies.clone(), [0.0; 3]);
     listed.coils = vec![(0, 1, seat, coil())];
     let mut added = Model::new(bodies, [0.0; 3]);
     added.add(
         Strut(coil()),
-        (0, Mount::new(coil().end.0, [0.3, 0.2, 0.1])),
+        (0, Marker::new(coil().end.0, [0.3, 0.2, 0.1])),
         (1, seat),
     );
     let (mut listed, mut added) = (System::new(listed).unwrap(), System::new(added).unwrap());
@@ -227,8 +227,8 @@ fn run(system: &System, end: f64) -> (f64, f64) {
     while integrator.time() < end {
         integrator.step_to(end).unwrap();
     }
-    let seen = copy.observe(end, integrator.x());
-    (seen.residual(stored).abs(), seen.losses)
+    let observation = copy.observe(end, integrator.x());
+    (observation.residual(stored).abs(), observation.losses)
 }
 
 /// What is stored and what is lost account for the work, with a driver that turns and bodies in moving frames; an element that hides a
@@ -250,9 +250,9 @@ fn energy_an_element_that_is_left_out_of_the_ledger_is_noticed() {
             told,
             ..BUSHING
         };
-        let mut mount = || Mount::new(random.vector(0.2), random.vector(0.2));
+        let mut marker = || Marker::new(random.vector(0.2), random.vector(0.2));
         for (a, b) in [(1, 0), (2, 1), (2, 0)] {
-            model.add(bushing.clone(), (a, mount()), (b, mount()));
+            model.add(bushing.clone(), (a, marker()), (b, marker()));
         }
         let (residual, losses) = run(&System::new(model).unwrap(), 0.5);
         if told == 1.0 {
@@ -270,26 +270,26 @@ fn analytic_momentum_is_conserved() {
     let frame = || Frame::fixed([0.0; 3], [0.0; 3]);
     let bodies = vec![free("a", &mut random, frame()), free("b", &mut random, frame())];
     let mut model = Model::new(bodies, [0.0; 3]);
-    let mut mount = || Mount::new(random.vector(0.3), random.vector(0.4));
-    model.add(BUSHING, (0, mount()), (1, mount()));
-    model.add(Strut(coil()), (1, mount()), (0, mount()));
+    let mut marker = || Marker::new(random.vector(0.3), random.vector(0.4));
+    model.add(BUSHING, (0, marker()), (1, marker()));
+    model.add(Strut(coil()), (1, marker()), (0, marker()));
     let mut system = System::new(model).unwrap();
     let x = state(&system, &mut random);
     let (h, mut dx) = (1e-6, vec![0.0; x.len()]);
     system.derivative(0.0, &x, &mut dx);
     let mut momenta = |sign: f64| {
         let moved: Vec<f64> = x.iter().zip(&dx).map(|(x, rate)| x + sign * h * rate).collect();
-        let seen = system.observe(0.0, &moved);
+        let observation = system.observe(0.0, &moved);
         let (mut linear, mut angular) = (Vector([0.0; 3]), Vector([0.0; 3]));
-        for (place, body) in seen.bodies.iter().zip(system.bodies()) {
-            let arm = place.center_of_gravity - place.origin;
-            let velocity: Vector<f64> = place.velocity + place.angular_velocity.cross::<f64, f64>(arm);
-            let own: Vector<f64> = place.rotation.apply_transposed(place.angular_velocity);
+        for (state, body) in observation.bodies.iter().zip(system.bodies()) {
+            let arm = state.center_of_gravity - state.origin;
+            let velocity: Vector<f64> = state.velocity + state.angular_velocity.cross::<f64, f64>(arm);
+            let own: Vector<f64> = state.rotation.apply_transposed(state.angular_velocity);
             let spin = Vector([0, 1, 2].map(|k| body.inertia[k] * own.0[k]));
             let momentum: Vector<f64> = velocity.scale(body.mass);
             linear += momentum;
-            angular += place.center_of_gravity.cross::<f64, f64>(momentum);
-            angular += place.rotation.apply::<f64, f64>(spin);
+            angular += state.center_of_gravity.cross::<f64, f64>(momentum);
+            angular += state.rotation.apply::<f64, f64>(spin);
         }
         [linear, angular]
     };
@@ -335,7 +335,7 @@ fn limits_a_linearized_body_is_a_finite_one_at_small_angles() {
         [0.0; 3],
     );
     for point in SPRINGS {
-        let marker = Mount::new(point, [0.0; 3]);
+        let marker = Marker::new(point, [0.0; 3]);
         finite.add(spring.clone(), (1, marker), (0, marker));
         let law = SpringDamper::spring(Curve::linear(stiffness));
         linear.connections.push(Connection {
@@ -374,7 +374,7 @@ fn limits_a_linearized_body_is_a_finite_one_at_small_angles() {
 fn input_kinematics_that_do_not_fit_are_refused() {
     let small = Body::linearized("small", [0.0; 3], [true; 6], 1.0, [1.0; 3]);
     let large = Body::free("large", 1.0, [1.0; 3], [0.0; 6]);
-    let at = Mount::new([0.0; 3], [0.0; 3]);
+    let at = Marker::new([0.0; 3], [0.0; 3]);
     let mut model = Model::new(vec![small.clone(), large.clone()], [0.0; 3]);
     model.add(BUSHING, (1, at), (0, at));
     let error = System::new(model).unwrap_err();

@@ -8,9 +8,9 @@ use integrate::{Method, Options, Problem};
 use mechanics::body::Body;
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
-use mechanics::link::Mount;
+use mechanics::link::Marker;
 use mechanics::motion::{Motion, RampProfile};
-use mechanics::system::{ChannelKind, Model, System};
+use mechanics::system::{EnergyTermKind, Model, System};
 
 /// Energy at start and end.
 fn energies(system: System, options: Options, x: &[f64], end: f64) -> [f64; 2] {
@@ -94,17 +94,17 @@ fn a_thrown_body() {
         integrate(system, options(Method::Rodas5P, 1e-10), &x, 0.8, |_| {}),
     );
     let after = momenta(&mut twin, 0.8, done.x());
-    let place = cg(&mut twin, 0.8, done.x());
+    let position = cg(&mut twin, 0.8, done.x());
     for k in 0..3 {
         // The centre of gravity flies on a parabola, the spin about it stays.
         let flown = start[k] + before[k] / 2.0 * 0.8 + 0.5 * gravity[k] * 0.64;
-        assert!((place[k] - flown).abs() < 1e-8, "{place:?} {k} {flown}");
+        assert!((position[k] - flown).abs() < 1e-8, "{position:?} {k} {flown}");
     }
     let spin = |r: [f64; 3], m: &[f64]| {
         let orbital = common::cross(r, [m[0], m[1], m[2]]);
         [0, 1, 2].map(|k| m[3 + k] - orbital[k])
     };
-    let (a, b) = (spin(start, &before), spin(place, &after));
+    let (a, b) = (spin(start, &before), spin(position, &after));
     for k in 0..3 {
         assert!((a[k] - b[k]).abs() < 1e-7 * norm(&a), "{a:?} -> {b:?}");
     }
@@ -118,7 +118,7 @@ fn energy_converges_with_the_tolerance() {
     let spring = coil([0.1, 0.0, 0.0], [0.1, 0.0, 0.0], 300.0, 0.8);
     parts
         .coils
-        .push((0, 1, Mount::new([0.0, 0.0, 1.0], [0.0; 3]), spring));
+        .push((0, 1, Marker::new([0.0, 0.0, 1.0], [0.0; 3]), spring));
     let system = System::new(parts).unwrap();
     let mut x = system.initial_state();
     x[6..12].copy_from_slice(&[0.5, -0.3, 0.2, 1.0, 2.0, -0.7]);
@@ -161,12 +161,12 @@ fn dropped(law: FrictionLaw, damping: f64, frame: Frame) -> Model {
         [-0.1, -0.1, 0.0],
     ];
     let floor = face("floor", &corners, 5e4, damping, 0.3, law);
-    model.faces.push((0, 1, Mount::new([0.0; 3], UP), floor));
+    model.faces.push((0, 1, Marker::new([0.0; 3], UP), floor));
     let mut one = coil([0.0, 0.0, 0.2], [0.01, 0.02, 0.1], 300.0, 0.3);
     (one.damping, one.rotational_damping) = (10.0, 0.1);
     model
         .coils
-        .push((0, 1, Mount::new([0.3, 0.0, 0.3], [0.2, 0.1, 0.3]), one));
+        .push((0, 1, Marker::new([0.3, 0.0, 0.3], [0.2, 0.1, 0.3]), one));
     model
 }
 
@@ -223,7 +223,7 @@ fn cases(damping: f64) -> Vec<(Model, bool)> {
 }
 
 fn closes(damping: f64) {
-    for (i, (model, driven)) in cases(damping).into_iter().enumerate() {
+    for (i, (model, prescribed)) in cases(damping).into_iter().enumerate() {
         for tolerance in [1e-6, 1e-8, 1e-10] {
             let (start, end, size) = ledgers(&model, tolerance);
             let residual = end.residual(&start, |_| true).abs();
@@ -231,7 +231,7 @@ fn closes(damping: f64) {
                 residual < 10.0 * tolerance * size,
                 "case {i}, tolerance {tolerance:e}: {residual:e} of {size}"
             );
-            assert_eq!(end.work != 0.0, driven);
+            assert_eq!(end.work != 0.0, prescribed);
             assert!(end.guide.abs() > 1e-4 * size);
             assert!(end.losses.iter().all(|(_, lost)| *lost > 0.0));
         }
@@ -253,12 +253,12 @@ fn the_ledger_closes_with_contact_damping() {
 /// A ledger from which any one entry is left out does not close: so the ones above say something.
 #[test]
 fn a_ledger_without_one_entry_fails() {
-    for (model, driven) in cases(100.0) {
+    for (model, prescribed) in cases(100.0) {
         let (start, end, size) = ledgers(&model, 1e-8);
         for kind in [
-            ChannelKind::FrictionLoss,
-            ChannelKind::ContactDampingLoss,
-            ChannelKind::CoilDampingLoss,
+            EnergyTermKind::FrictionLoss,
+            EnergyTermKind::ContactDampingLoss,
+            EnergyTermKind::CoilDampingLoss,
         ] {
             let residual = end.residual(&start, |counted| counted != kind);
             assert!(
@@ -269,7 +269,7 @@ fn a_ledger_without_one_entry_fails() {
         let mut without = end.clone();
         without.guide = 0.0;
         assert!(without.residual(&start, |_| true).abs() > 1e-4 * size);
-        if driven {
+        if prescribed {
             let mut without = end.clone();
             without.work = 0.0;
             assert!(without.residual(&start, |_| true).abs() > 1e-3 * size);
@@ -295,7 +295,7 @@ fn rebound_from_a_damped_contact() {
     parts.faces.push((
         0,
         1,
-        Mount::new([0.0; 3], UP),
+        Marker::new([0.0; 3], UP),
         face("floor", &[[0.0; 3]], k, c, 0.0, TANH),
     ));
     let system = System::new(parts).unwrap();
@@ -317,9 +317,9 @@ fn rebound_from_a_damped_contact() {
     // What is missing is what the damper took, and the spring still holds at the end of the force.
     let problem = done.problem();
     let lost = problem
-        .channels()
+        .energy_terms()
         .iter()
-        .position(|channel| channel.kind == ChannelKind::ContactDampingLoss)
+        .position(|energy_term| energy_term.kind == EnergyTermKind::ContactDampingLoss)
         .unwrap();
     let lost = done.x()[problem.layout().len() - problem.layout().quadratures + lost];
     let expected = 0.5 * mass * (v * v - rebound * rebound);

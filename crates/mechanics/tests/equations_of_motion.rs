@@ -10,7 +10,7 @@ use integrate::Problem;
 use mechanics::body::Body;
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
-use mechanics::link::Mount;
+use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::system::System;
 use std::ops::{Add, Mul, Sub};
@@ -213,8 +213,8 @@ impl Mechanism<'_> {
                 shifted[i] = shifted[i] + unit(1);
                 let poses = self.poses(&shifted, &plain(u), n(time));
                 let weight = self.bodies.iter().zip(&poses).fold(n(0.0), |sum, (body, pose)| {
-                    let place = point(pose, body.center_of_gravity);
-                    sum - n(body.mass) * inner(&lift(self.gravity), &place)
+                    let position = point(pose, body.center_of_gravity);
+                    sum - n(body.mass) * inner(&lift(self.gravity), &position)
                 });
                 let field = (self.potential)(&poses).0[1] + weight.0[1];
                 // ∂D/∂u_i by e1.
@@ -404,10 +404,10 @@ fn elements_between_bodies() {
     let (end, seat_a, seat_b) = ([0.1, 0.2, -0.3], [0.2, -0.1, 0.3], [-0.4, 0.1, 0.2]);
     let tip = [0.05, -0.1, -0.2];
     let (stiffness, free_length, damping, hardness) = (400.0, 0.9, 7.0, 900.0);
-    let mount_angles = [0.3, -0.8, 0.5];
+    let marker_angles = [0.3, -0.8, 0.5];
     for case in 0..12 {
         let (frame, sines) = swinging_frame(&mut random);
-        let (driven, driven_sines) = swinging_frame(&mut random);
+        let (prescribed, prescribed_sines) = swinging_frame(&mut random);
         let mut a = body("a", 3.0, [0.2, 0.5, 0.7], [-0.3, 0.2, 0.4], ALL, [0.0; 6]);
         let b_free = if case % 2 == 0 {
             ALL
@@ -431,7 +431,7 @@ fn elements_between_bodies() {
         let base = Body {
             initial: [0.1, -0.2, 0.3, 0.2, 0.1, -0.3],
             linearized: false,
-            ..Body::prescribed("base", driven)
+            ..Body::prescribed("base", prescribed)
         };
         let gravity = random.vector(10.0);
         let mut parts = model(vec![a.clone(), b.clone(), base.clone()], gravity);
@@ -442,18 +442,22 @@ fn elements_between_bodies() {
             }
             parts
                 .coils
-                .push((body, on, Mount::new(seat, mount_angles), spring));
+                .push((body, on, Marker::new(seat, marker_angles), spring));
         }
         // Absolute damping needs a seat that neither turns nor moves.
         parts.bodies.push(ground());
         let mut damper = coil(end, end, stiffness, free_length);
         damper.damping = damping;
         damper.rotational_damping = 2.5;
-        parts.coils.push((0, 3, Mount::new(seat_b, mount_angles), damper));
+        parts
+            .coils
+            .push((0, 3, Marker::new(seat_b, marker_angles), damper));
         let no_friction = FrictionLaw::Tanh { reference_speed: 0.1 };
         for (body, on) in [(0, 1), (1, 0), (1, 2)] {
             let one = face("face", &[tip], hardness, 0.0, 0.0, no_friction);
-            parts.faces.push((body, on, Mount::new([0.1, 0.2, 0.3], UP), one));
+            parts
+                .faces
+                .push((body, on, Marker::new([0.1, 0.2, 0.3], UP), one));
         }
         let length_energy = move |pose: &[Pose], body: usize, on: usize, seat: [f64; 3]| {
             let d = minus(&point(&pose[body], end), &point(&pose[on], seat));
@@ -472,7 +476,7 @@ fn elements_between_bodies() {
         };
         let mechanism = Mechanism {
             bodies: vec![a, b, base, ground()],
-            sines: vec![sines_of(false), sines_of(true), driven_sines, STILL],
+            sines: vec![sines_of(false), sines_of(true), prescribed_sines, STILL],
             gravity,
             potential: Box::new(move |pose| {
                 length_energy(pose, 0, 1, seat_a)

@@ -11,7 +11,7 @@ use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::{Motion, RampProfile};
 use mechanics::spline::Spline;
-use mechanics::system::{ChannelKind, Model, ModelError, System, mount_at};
+use mechanics::system::{EnergyTermKind, Model, ModelError, System, marker_at};
 
 const TANH: FrictionLaw = FrictionLaw::Tanh { reference_speed: 0.1 };
 const BRISTLE: FrictionLaw = FrictionLaw::Bristle {
@@ -26,14 +26,14 @@ fn free(name: &str) -> Body {
 fn with_face(bodies: Vec<Body>, body: usize, on: usize) -> Model {
     let mut model = model(bodies, [0.0; 3]);
     let one = face("face", &[[0.0; 3]], 1.0, 0.0, 0.3, TANH);
-    model.faces.push((body, on, mount_at([0.0; 3]), one));
+    model.faces.push((body, on, marker_at([0.0; 3]), one));
     model
 }
 
 fn with_coil(bodies: Vec<Body>, body: usize, on: usize) -> Model {
     let mut model = model(bodies, [0.0; 3]);
     let one = coil([0.0; 3], [0.0; 3], 1.0, 1.0);
-    model.coils.push((body, on, mount_at([0.0, 0.0, -1.0]), one));
+    model.coils.push((body, on, marker_at([0.0, 0.0, -1.0]), one));
     model
 }
 
@@ -105,14 +105,14 @@ fn places_in_the_state_vector() {
     a.initial = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
     let b = free("b");
     let mut parts = with_face(vec![a, ground(), b], 0, 1);
-    let mount = mount_at([0.0; 3]);
+    let marker = marker_at([0.0; 3]);
     let mut damped = face("damped", &[[0.0; 3], [1.0, 0.0, 0.0]], 1.0, 2.0, 0.3, BRISTLE);
     damped.name = "two".to_owned();
-    parts.faces.push((2, 0, mount, damped));
+    parts.faces.push((2, 0, marker, damped));
     let mut one = coil([0.0; 3], [1.0, 0.0, 0.0], 1.0, 1.0);
-    parts.coils.push((0, 1, mount_at([0.0, 0.0, -1.0]), one.clone()));
+    parts.coils.push((0, 1, marker_at([0.0, 0.0, -1.0]), one.clone()));
     one.damping = 1.0;
-    parts.coils.push((2, 1, mount_at([0.0, 0.0, -1.0]), one));
+    parts.coils.push((2, 1, marker_at([0.0, 0.0, -1.0]), one));
     let system = System::new(parts).unwrap();
     let layout = system.layout();
     assert_eq!((layout.speeds, layout.internals, layout.quadratures), (10, 4, 7));
@@ -126,21 +126,21 @@ fn places_in_the_state_vector() {
     let mut expected = vec![0.1, 0.3, 0.5, 0.6];
     expected.resize(layout.len(), 0.0);
     assert_eq!(system.initial_state(), expected);
-    let channels: Vec<(ChannelKind, &str)> = system
-        .channels()
+    let energy_terms: Vec<(EnergyTermKind, &str)> = system
+        .energy_terms()
         .iter()
-        .map(|channel| (channel.kind, channel.element.as_str()))
+        .map(|energy_term| (energy_term.kind, energy_term.element.as_str()))
         .collect();
     assert_eq!(
-        channels,
+        energy_terms,
         [
-            (ChannelKind::MotionWork, ""),
-            (ChannelKind::FrictionLoss, "face"),
-            (ChannelKind::FrictionLoss, "two"),
-            (ChannelKind::ContactDampingLoss, "two"),
-            (ChannelKind::CoilGuideWork, "coil"),
-            (ChannelKind::CoilDampingLoss, "coil_2"),
-            (ChannelKind::CoilGuideWork, "coil_2"),
+            (EnergyTermKind::MotionWork, ""),
+            (EnergyTermKind::FrictionLoss, "face"),
+            (EnergyTermKind::FrictionLoss, "two"),
+            (EnergyTermKind::ContactDampingLoss, "two"),
+            (EnergyTermKind::CoilGuideWork, "coil"),
+            (EnergyTermKind::CoilDampingLoss, "coil_2"),
+            (EnergyTermKind::CoilGuideWork, "coil_2"),
         ]
     );
 }

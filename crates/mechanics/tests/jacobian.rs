@@ -10,7 +10,7 @@ use mechanics::characteristic::Characteristic;
 use mechanics::coil::CoilLaw;
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
-use mechanics::link::Mount;
+use mechanics::link::Marker;
 use mechanics::motion::{Motion, RampProfile};
 use mechanics::spline::Spline;
 use mechanics::system::{Model, System};
@@ -24,9 +24,9 @@ const BRISTLE: FrictionLaw = FrictionLaw::Bristle {
 
 /// What must not change within a difference: on which piece every law is.
 fn pieces(system: &mut System, time: f64, x: &[f64]) -> Vec<i64> {
-    let seen = system.observe(time, x);
+    let observation = system.observe(time, x);
     let mut out = Vec::new();
-    for (mounted, face) in system.faces().iter().zip(&seen.faces) {
+    for (mounted, face) in system.faces().iter().zip(&observation.faces) {
         let bristle = mounted.internal_count > 0;
         for point in &face.points {
             out.push(i64::from(point.gap < 0.0));
@@ -34,7 +34,7 @@ fn pieces(system: &mut System, time: f64, x: &[f64]) -> Vec<i64> {
             out.push(i64::from(bristle && point.friction.load <= 1.0));
         }
     }
-    for (mounted, coil) in system.coils().iter().zip(&seen.coils) {
+    for (mounted, coil) in system.coils().iter().zip(&observation.coils) {
         out.push(i64::from(coil.coil.spring > 0.0));
         if let CoilLaw::Table(table) = &mounted.element.law {
             let compression = mounted.element.free_length - coil.coil.length;
@@ -80,7 +80,7 @@ fn inverse(mut a: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
 
 /// What a comparison saw, so that a test can demand that it saw the cases that it is about.
 #[derive(Default)]
-struct Seen {
+struct Counts {
     states: usize,
     closed: usize,
     open: usize,
@@ -162,15 +162,15 @@ fn check_matrix(system: &mut System, time: f64, x: &[f64], expected: &[Vec<f64>]
 }
 
 /// Compares matrix and time derivative at random states; passes over states with a kink within the difference.
-fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Seen {
+fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Counts {
     let mut system = System::new(model.clone()).unwrap();
     let layout = system.layout();
     let n = layout.len();
     let mut random = Random(seed);
-    let mut seen = Seen::default();
+    let mut counts = Counts::default();
     let h = 5e-4;
     for _ in 0..200 * wanted {
-        if seen.states == wanted {
+        if counts.states == wanted {
             break;
         }
         let time = random.between(0.3, 1.9);
@@ -198,16 +198,16 @@ fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Seen {
         if !smooth {
             continue;
         }
-        seen.states += 1;
+        counts.states += 1;
         let observation = system.observe(time, &x);
         for (face, state) in model.faces.iter().zip(&observation.faces) {
             for point in &state.points {
-                seen.open += usize::from(point.gap >= 0.0);
-                seen.closed += usize::from(point.normal > 0.0);
-                seen.lifted += usize::from(point.gap < 0.0 && point.normal == 0.0);
+                counts.open += usize::from(point.gap >= 0.0);
+                counts.closed += usize::from(point.normal > 0.0);
+                counts.lifted += usize::from(point.gap < 0.0 && point.normal == 0.0);
                 if face.3.state_count() > 0 && point.normal > 0.0 {
-                    seen.stick += usize::from(point.friction.load <= 1.0);
-                    seen.slip += usize::from(point.friction.load > 1.0);
+                    counts.stick += usize::from(point.friction.load <= 1.0);
+                    counts.slip += usize::from(point.friction.load > 1.0);
                 }
             }
         }
@@ -228,7 +228,7 @@ fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Seen {
                 "{fastest} 1/s, bound {bound}, turning {turning}"
             );
             if bound > 20.0 * turning {
-                seen.bounds.push(fastest / bound);
+                counts.bounds.push(fastest / bound);
             }
         }
         let dx = rates(&mut system, time, &x);
@@ -250,8 +250,8 @@ fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Seen {
             "linearize must leave nothing behind"
         );
     }
-    assert_eq!(seen.states, wanted, "too few smooth states");
-    seen
+    assert_eq!(counts.states, wanted, "too few smooth states");
+    counts
 }
 
 const CORNERS: [[f64; 3]; 4] = [
@@ -320,7 +320,7 @@ fn table() -> CoilLaw {
 }
 
 /// One free body on a prescribed one: a face (damped or not), coils with both lines of action.
-fn one_on_driven(free: [bool; 6], law: FrictionLaw, damping: f64, frame: Frame, held: [f64; 6]) -> Model {
+fn one_on_prescribed(free: [bool; 6], law: FrictionLaw, damping: f64, frame: Frame, held: [f64; 6]) -> Model {
     let mut one = body("b", 2.0, [0.3, 0.5, 0.7], [-0.1, 0.05, 0.1], free, held);
     one.frame = Frame::fixed([0.02, 0.03, 0.0], [0.1, 0.05, -0.1]);
     let base = Body {
@@ -330,11 +330,13 @@ fn one_on_driven(free: [bool; 6], law: FrictionLaw, damping: f64, frame: Frame, 
     };
     let mut model = model(vec![one, base, ground()], [0.3, 0.1, -9.8]);
     let points = face("face", &CORNERS, 500.0, damping, 0.4, law);
-    model.faces.push((0, 1, Mount::new([0.0, 0.1, -0.2], UP), points));
+    model
+        .faces
+        .push((0, 1, Marker::new([0.0, 0.1, -0.2], UP), points));
     let other = face("side", &CORNERS[..2], 300.0, 0.0, 0.3, TANH);
     model
         .faces
-        .push((0, 2, Mount::new([0.0, 0.1, -0.2], [0.3, -1.2, 0.2]), other));
+        .push((0, 2, Marker::new([0.0, 0.1, -0.2], [0.3, -1.2, 0.2]), other));
     let mut through_end = coil([0.1, 0.0, -0.1], [0.1, 0.0, -0.1], 300.0, 1.2);
     through_end.damping = 8.0;
     let mut through_center = coil([0.1, 0.2, -0.1], [-0.1, 0.05, 0.1], 0.0, 1.1);
@@ -343,18 +345,18 @@ fn one_on_driven(free: [bool; 6], law: FrictionLaw, damping: f64, frame: Frame, 
     through_center.damping = 5.0;
     model
         .coils
-        .push((0, 1, Mount::new([0.2, -0.1, -1.1], [0.3, 0.2, 0.5]), through_end));
+        .push((0, 1, Marker::new([0.2, -0.1, -1.1], [0.3, 0.2, 0.5]), through_end));
     model.coils.push((
         0,
         1,
-        Mount::new([-0.2, 0.1, -1.0], [0.1, 0.2, 0.1]),
+        Marker::new([-0.2, 0.1, -1.0], [0.1, 0.2, 0.1]),
         through_center,
     ));
     let mut slack = coil([0.0; 3], [0.2, 0.0, 0.0], 200.0, 1.0);
     slack.pulls = false;
     model
         .coils
-        .push((0, 2, Mount::new([0.9, 0.4, 0.3], [0.0; 3]), slack));
+        .push((0, 2, Marker::new([0.9, 0.4, 0.3], [0.0; 3]), slack));
     model
 }
 
@@ -372,7 +374,7 @@ fn bodies_with_one_to_six_free_coordinates() {
         let roll = if i % 2 == 0 { 0.0 } else { 0.2 };
         let held = [0.05, -0.05, 0.02, roll, 0.1, -0.1];
         compare(
-            &one_on_driven(free, BRISTLE, 4.0, moving(true), held),
+            &one_on_prescribed(free, BRISTLE, 4.0, moving(true), held),
             100 + choice,
             3,
             SPREAD,
@@ -382,23 +384,23 @@ fn bodies_with_one_to_six_free_coordinates() {
 
 #[test]
 fn tanh_on_a_turning_body() {
-    let model = one_on_driven(ALL, TANH, 0.0, moving(true), [0.0; 6]);
-    let seen = compare(&model, 1, 12, SPREAD);
-    assert!(seen.open > 5 && seen.closed > 5);
+    let model = one_on_prescribed(ALL, TANH, 0.0, moving(true), [0.0; 6]);
+    let counts = compare(&model, 1, 12, SPREAD);
+    assert!(counts.open > 5 && counts.closed > 5);
 }
 
 #[test]
 fn tanh_with_contact_damping() {
-    let model = one_on_driven(ALL, TANH, 60.0, moving(true), [0.0; 6]);
-    let seen = compare(&model, 2, 20, [0.2, 1.5, 0.1]);
-    assert!(seen.open > 5 && seen.closed > 5 && seen.lifted > 2);
+    let model = one_on_prescribed(ALL, TANH, 60.0, moving(true), [0.0; 6]);
+    let counts = compare(&model, 2, 20, [0.2, 1.5, 0.1]);
+    assert!(counts.open > 5 && counts.closed > 5 && counts.lifted > 2);
 }
 
 #[test]
 fn bristles_on_a_turning_body() {
-    let model = one_on_driven(ALL, BRISTLE, 60.0, moving(true), [0.0; 6]);
-    let seen = compare(&model, 3, 30, [0.25, 0.4, 0.03]);
-    assert!(seen.open > 5 && seen.lifted > 0 && seen.stick > 2 && seen.slip > 2);
+    let model = one_on_prescribed(ALL, BRISTLE, 60.0, moving(true), [0.0; 6]);
+    let counts = compare(&model, 3, 30, [0.25, 0.4, 0.03]);
+    assert!(counts.open > 5 && counts.lifted > 0 && counts.stick > 2 && counts.slip > 2);
 }
 
 /// A base that moves without turning is evaluated by lines of its own.
@@ -409,20 +411,29 @@ fn on_a_base_that_does_not_turn() {
         (BRISTLE, ALL),
         (BRISTLE, [true, false, true, false, true, true]),
     ] {
-        let model = one_on_driven(free, law, 4.0, moving(false), [0.0; 6]);
-        let seen = compare(&model, 4, 8, SPREAD);
-        assert!(seen.open > 5 && seen.closed > 5);
+        let model = one_on_prescribed(free, law, 4.0, moving(false), [0.0; 6]);
+        let counts = compare(&model, 4, 8, SPREAD);
+        assert!(counts.open > 5 && counts.closed > 5);
         // Only tanh has a bound of its answers, which is of use: not ten times too large.
-        assert_eq!(seen.bounds.len() > 3, law == TANH);
-        assert!(seen.bounds.iter().all(|share| *share > 0.1), "{:?}", seen.bounds);
+        assert_eq!(counts.bounds.len() > 3, law == TANH);
+        assert!(
+            counts.bounds.iter().all(|share| *share > 0.1),
+            "{:?}",
+            counts.bounds
+        );
     }
 }
 
 #[test]
 fn on_a_base_at_rest() {
     let rest = Frame::fixed([0.05, -0.1, 0.02], [0.1, -0.2, 0.3]);
-    let seen = compare(&one_on_driven(ALL, BRISTLE, 4.0, rest, [0.0; 6]), 5, 8, SPREAD);
-    assert!(seen.open > 5 && seen.closed > 5);
+    let counts = compare(
+        &one_on_prescribed(ALL, BRISTLE, 4.0, rest, [0.0; 6]),
+        5,
+        8,
+        SPREAD,
+    );
+    assert!(counts.open > 5 && counts.closed > 5);
 }
 
 /// Two free bodies, faces and coils in both directions, all on a driven base.
@@ -445,7 +456,7 @@ fn two_free(free: [[bool; 6]; 2], frames: [Frame; 2]) -> Model {
         let one = face("face", &CORNERS, 400.0, damping, 0.4, law);
         model
             .faces
-            .push((body, on, Mount::new([0.1, 0.05, height], [0.1, -1.4, 0.2]), one));
+            .push((body, on, Marker::new([0.1, 0.05, height], [0.1, -1.4, 0.2]), one));
     }
     for (body, on) in [(0, 2), (2, 0), (0, 1), (2, 1)] {
         let acts_at = if on == 2 {
@@ -461,7 +472,7 @@ fn two_free(free: [[bool; 6]; 2], frames: [Frame; 2]) -> Model {
         }
         model
             .coils
-            .push((body, on, Mount::new([-0.2, 0.1, -1.0], [0.1, 0.2, 0.4]), one));
+            .push((body, on, Marker::new([-0.2, 0.1, -1.0], [0.1, 0.2, 0.4]), one));
     }
     model
 }
@@ -470,7 +481,7 @@ fn two_free(free: [[bool; 6]; 2], frames: [Frame; 2]) -> Model {
 fn two_free_bodies() {
     let rest = || Frame::fixed([0.0; 3], [0.05, 0.1, -0.05]);
     let four = [true, false, true, false, true, true];
-    let mut total = Seen::default();
+    let mut total = Counts::default();
     for (i, free) in [
         [ALL, ALL],
         [four, ALL],
@@ -480,17 +491,17 @@ fn two_free_bodies() {
     .into_iter()
     .enumerate()
     {
-        let seen = compare(
+        let counts = compare(
             &two_free(free, [rest(), rest()]),
             10 + i as u64,
             8,
             [0.25, 0.6, 0.04],
         );
-        total.open += seen.open;
-        total.stick += seen.stick;
-        total.slip += seen.slip;
+        total.open += counts.open;
+        total.stick += counts.stick;
+        total.slip += counts.slip;
     }
-    let Seen {
+    let Counts {
         open, stick, slip, ..
     } = total;
     assert!(
@@ -522,7 +533,7 @@ fn open_points_at_rest_with_relaxed_bristles() {
     model.faces.push((
         0,
         1,
-        Mount::new([0.0; 3], UP),
+        Marker::new([0.0; 3], UP),
         face("floor", &CORNERS, 500.0, 0.0, 0.4, BRISTLE),
     ));
     let mut system = System::new(model).unwrap();

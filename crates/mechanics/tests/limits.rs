@@ -11,9 +11,9 @@ use integrate::{Integrator, Method, Options, Problem, State};
 use mechanics::body::Body;
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
-use mechanics::link::Mount;
+use mechanics::link::Marker;
 use mechanics::motion::{Motion, RampProfile};
-use mechanics::system::{ChannelKind, Mode, Model, StaticFriction, System};
+use mechanics::system::{ContactState, EnergyTermKind, Model, StaticFriction, System};
 use mechanics::vector::Vector;
 
 // Mass on a spring with Coulomb friction
@@ -38,12 +38,12 @@ fn sliding_mass(law: FrictionLaw) -> System {
     );
     let mut model = model(vec![one, ground()], [0.0, 0.0, -gravity]);
     let floor = face("floor", &[[0.0; 3]], normal, 0.0, 0.3, law);
-    model.faces.push((0, 1, Mount::new([0.0; 3], UP), floor));
+    model.faces.push((0, 1, Marker::new([0.0; 3], UP), floor));
     // The seat lies at the height at which the mass rests.
     let spring = coil([0.0; 3], [0.0; 3], STIFFNESS, 1.0);
     model
         .coils
-        .push((0, 1, Mount::new([-1.0, 0.0, sunk], [0.0; 3]), spring));
+        .push((0, 1, Marker::new([-1.0, 0.0, sunk], [0.0; 3]), spring));
     System::new(model).unwrap()
 }
 
@@ -111,7 +111,7 @@ fn friction_stops_a_mass_on_a_spring_for_ever() {
     assert!((x + 0.00601).abs() <= bound, "stopped at {x}, bound {bound}");
     assert!((x - settled).abs() <= 1e-12, "drifted from {settled} to {x}");
     assert!(u.abs() <= 1e-12, "still moves by {u}");
-    assert_eq!(end.discrete_states(), [Mode::Stick as u8]);
+    assert_eq!(end.discrete_states(), [ContactState::Stick as u8]);
     // It holds by elastic deflection: K e = k x.
     // (The face's second tangent is -x.)
     let held = -end.x()[5] * bristle;
@@ -212,7 +212,7 @@ fn equilibrium_on_springs() {
     model.faces.push((
         0,
         1,
-        Mount::new([0.0; 3], UP),
+        Marker::new([0.0; 3], UP),
         face("floor", &corners, stiffness, 0.0, 0.4, law),
     ));
     let mut system = System::new(model).unwrap();
@@ -220,8 +220,12 @@ fn equilibrium_on_springs() {
     x[2] = -1e-5;
     let rest = system.equilibrium(0.0, &x, StaticFriction::Without).unwrap();
     let weight = 20.0 * 9.81;
-    let seen = system.observe(0.0, &rest);
-    let normals: Vec<f64> = seen.faces[0].points.iter().map(|point| point.normal).collect();
+    let observation = system.observe(0.0, &rest);
+    let normals: Vec<f64> = observation.faces[0]
+        .points
+        .iter()
+        .map(|point| point.normal)
+        .collect();
     // Share of each corner of a rigid rectangle on equal springs: W/4 (1 + x_c x_i/a² + y_c y_i/b²).
     for (normal, corner) in normals.iter().zip(corners) {
         let expected = 0.25 * weight * (1.0 + 0.05 * corner[0] / 0.04 - 0.02 * corner[1] / 0.01);
@@ -265,12 +269,12 @@ fn floating(law: FrictionLaw, damping: f64) -> Model {
         [-0.1, -0.1, -0.1],
     ];
     // Which pair meets where is a matter of the mount: the plane is placed so that three corners are closed at the start.
-    for (body, on, mount) in [
-        (0, 1, Mount::new([0.0, 0.05, -0.2], UP)),
-        (1, 0, Mount::new([0.05, 0.0, -0.3], UP)),
+    for (body, on, marker) in [
+        (0, 1, Marker::new([0.0, 0.05, -0.2], UP)),
+        (1, 0, Marker::new([0.05, 0.0, -0.3], UP)),
     ] {
         let one = face("face", &corners, 2e4, damping, 0.4, law);
-        model.faces.push((body, on, mount, one));
+        model.faces.push((body, on, marker, one));
     }
     let mut through_end = coil([0.05, 0.0, 0.1], [0.05, 0.0, 0.1], 800.0, 0.4);
     (through_end.damping, through_end.rotational_damping) = (3.0, 0.05);
@@ -278,11 +282,11 @@ fn floating(law: FrictionLaw, damping: f64) -> Model {
     through_center.damping = 2.0;
     model
         .coils
-        .push((0, 1, Mount::new([0.1, -0.1, 0.2], [0.3, 0.2, 0.1]), through_end));
+        .push((0, 1, Marker::new([0.1, -0.1, 0.2], [0.3, 0.2, 0.1]), through_end));
     model.coils.push((
         0,
         1,
-        Mount::new([-0.1, 0.1, -0.1], [0.1, -0.2, 0.1]),
+        Marker::new([-0.1, 0.1, -0.1], [0.1, -0.2, 0.1]),
         through_center,
     ));
     model
@@ -316,8 +320,8 @@ fn action_and_reaction_at_random_states() {
             for value in &mut x[2 * layout.speeds..2 * layout.speeds + layout.internals] {
                 *value = random.between(-1e-3, 1e-3);
             }
-            let seen = system.observe(0.0, &x);
-            contacts += seen
+            let observation = system.observe(0.0, &x);
+            contacts += observation
                 .faces
                 .iter()
                 .flat_map(|f| &f.points)
@@ -335,10 +339,10 @@ fn action_and_reaction_at_random_states() {
             }
             // The wrenches as observed: what carries the points, and the reaction on the other body, about any point.
             let about: [f64; 3] = random.vector(1.0);
-            for (mounted, state) in system.faces().iter().zip(&seen.faces) {
-                let from = seen.bodies[mounted.body].origin.0;
+            for (mounted, state) in system.faces().iter().zip(&observation.faces) {
+                let from = observation.bodies[mounted.body].origin.0;
                 let (mut force, mut moment, mut own) = ([0.0; 3], [0.0; 3], [0.0; 3]);
-                for (i, place) in state.places.iter().enumerate() {
+                for (i, place) in state.point_positions.iter().enumerate() {
                     let f = add(state.normal_forces[i].0, state.friction_forces[i].0);
                     force = add(force, f);
                     moment = add(moment, cross(add(place.0, about.map(|v| -v)), f));
@@ -373,7 +377,7 @@ fn floating_bodies_keep_their_momentum() {
             contacts += integrator
                 .discrete_states()
                 .iter()
-                .filter(|mode| **mode != Mode::Open as u8)
+                .filter(|contact_state| **contact_state != ContactState::Open as u8)
                 .count();
         });
         let after = momenta(&mut twin, 1.0, end.x());
@@ -383,7 +387,7 @@ fn floating_bodies_keep_their_momentum() {
             assert!(change < 1e-7 * size, "{change} of {size}");
         }
         let ledger = common::Ledger::at(&mut twin, 1.0, end.x());
-        for kind in [ChannelKind::FrictionLoss, ChannelKind::CoilDampingLoss] {
+        for kind in [EnergyTermKind::FrictionLoss, EnergyTermKind::CoilDampingLoss] {
             let lost: f64 = ledger
                 .losses
                 .iter()
@@ -443,7 +447,7 @@ fn shaken() -> System {
     model.faces.push((
         0,
         1,
-        Mount::new([0.0; 3], UP),
+        Marker::new([0.0; 3], UP),
         face("floor", &corners, 1e5, 100.0, 0.3, law),
     ));
     System::new(model).unwrap()
@@ -514,7 +518,7 @@ fn evaluation_leaves_no_trace() {
     let dx = rates(&mut system, 0.37, &other);
     system.linearize(0.37, &other, &dx, &mut df_dt);
     let _ = system.observe(0.9, &other);
-    let mut modes = vec![0; system.discrete_state_count()];
-    system.initial_discrete_states(0.1, &other, &mut modes);
+    let mut contact_states = vec![0; system.discrete_state_count()];
+    system.initial_discrete_states(0.1, &other, &mut contact_states);
     assert_eq!(rates(&mut system, 0.31, &x), fresh);
 }

@@ -8,7 +8,7 @@ use integrate::Problem;
 use mechanics::body::Body;
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
-use mechanics::link::Mount;
+use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::system::{Loads, Model, System};
 use mechanics::vector::Vector;
@@ -59,13 +59,13 @@ fn tower(turns: bool, law: FrictionLaw) -> Model {
         let one = face("face", &CORNERS, 1e5, damping, 0.3, law);
         model
             .faces
-            .push((carried, on, Mount::new([0.0, 0.0, height], UP), one));
+            .push((carried, on, Marker::new([0.0, 0.0, height], UP), one));
         let mut spring = coil([0.0, 0.05, 0.1], [0.0, 0.05, 0.1], 600.0, 0.5);
         (spring.damping, spring.rotational_damping) = (3.0, 0.05);
         model.coils.push((
             carried,
             on,
-            Mount::new([0.0, 0.1, -0.4], [0.2, 0.1, -0.1]),
+            Marker::new([0.0, 0.1, -0.4], [0.2, 0.1, -0.1]),
             spring,
         ));
     }
@@ -105,15 +105,20 @@ fn state(system: &System, random: &mut Random) -> Vec<f64> {
 }
 
 /// Margins of all switches, and the modes that follow, by the signs of all at once.
-fn margins(system: &mut System, time: f64, x: &[f64], modes: &[u8]) -> (Vec<f64>, Vec<u8>) {
-    let mut signs = vec![f64::NAN; system.event_variable_count()];
-    system.event_variables(time, x, &mut signs);
-    let (mut margins, mut next) = (vec![f64::NAN; modes.len()], modes.to_vec());
+fn margins(system: &mut System, time: f64, x: &[f64], contact_states: &[u8]) -> (Vec<f64>, Vec<u8>) {
+    let mut variables = vec![f64::NAN; system.event_variable_count()];
+    system.event_variables(time, x, &mut variables);
+    let (mut margins, mut next) = (vec![f64::NAN; contact_states.len()], contact_states.to_vec());
     for (number, group) in system.event_groups().into_iter().enumerate() {
-        let (own, signs) = (group.discrete_states, &signs[group.variables]);
-        system.group_event_functions(number, signs, &modes[own.clone()], &mut margins[own.clone()]);
+        let (own, variables) = (group.discrete_states, &variables[group.variables]);
+        system.group_event_functions(
+            number,
+            variables,
+            &contact_states[own.clone()],
+            &mut margins[own.clone()],
+        );
         for (index, next) in next[own].iter_mut().enumerate() {
-            *next = system.next_discrete_state(number, signs, index, *next);
+            *next = system.next_discrete_state(number, variables, index, *next);
         }
     }
     (margins, next)
@@ -182,21 +187,21 @@ fn limits_loads_are_the_sums_over_the_points() {
     for mut system in models() {
         for _ in 0..60 {
             let (x, time) = (state(&system, &mut random), random.between(0.0, 1.0));
-            let seen = system.clone().observe(time, &x);
-            assert_eq!(system.clone().energies(time, &x), seen.energies);
+            let observation = system.clone().observe(time, &x);
+            assert_eq!(system.clone().energies(time, &x), observation.energies);
             system.loads(time, &x, &mut loads);
-            assert_eq!(system.energies(time, &x), seen.energies);
+            assert_eq!(system.energies(time, &x), observation.energies);
             assert_eq!(
                 (loads.faces.len(), loads.coils.len()),
-                (seen.faces.len(), seen.coils.len())
+                (observation.faces.len(), observation.coils.len())
             );
             let close = |a: Vector<f64>, b: Vector<f64>, size: f64| {
                 let apart = (a - b).0.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
                 assert!(apart <= 1e-11 * size, "{a:?} instead of {b:?}");
             };
             for (number, face) in loads.faces.iter().enumerate() {
-                let body = &seen.bodies[system.faces()[number].body];
-                let expected = seen.faces[number].load(body.center_of_gravity);
+                let body = &observation.bodies[system.faces()[number].body];
+                let expected = observation.faces[number].load(body.center_of_gravity);
                 let size = 1.0 + expected.normal.dot::<f64, f64>(expected.normal).sqrt();
                 close(face.normal, expected.normal, size);
                 close(face.friction, expected.friction, size);
@@ -204,15 +209,15 @@ fn limits_loads_are_the_sums_over_the_points() {
                 close(face.origin, expected.origin, 1.0);
                 pressed += u32::from(size > 2.0);
             }
-            for (coil, seen) in loads.coils.iter().zip(&seen.coils) {
-                let (expected, size) = (seen.load(), 1e3);
+            for (coil, observation) in loads.coils.iter().zip(&observation.coils) {
+                let (expected, size) = (observation.load(), 1e3);
                 close(coil.spring, expected.spring, size);
                 close(coil.force, expected.force, size);
                 close(coil.moment, expected.moment, size);
             }
-            for (body, seen) in loads.bodies.iter().zip(&seen.bodies) {
-                close(body.travel, seen.travel, 1.0);
-                close(body.velocity, seen.velocity, 1.0);
+            for (body, observation) in loads.bodies.iter().zip(&observation.bodies) {
+                close(body.travel, observation.travel, 1.0);
+                close(body.velocity, observation.velocity, 1.0);
             }
         }
     }
@@ -226,7 +231,7 @@ fn input_what_presses_on_a_contact_is_held_to_a_bound() {
         one.frame = Frame::fixed([0.0; 3], orientation);
         let mut model = model(vec![one, ground()], [0.0; 3]);
         let floor = face("floor", &CORNERS, 1e5, 0.0, 0.3, law);
-        model.faces.push((0, 1, Mount::new([0.0; 3], UP), floor));
+        model.faces.push((0, 1, Marker::new([0.0; 3], UP), floor));
         let system = System::new(model).unwrap();
         let held: Vec<bool> = system
             .error_bounds()
@@ -264,7 +269,7 @@ fn limits_a_mode_is_left_where_its_margin_is_used_up() {
             // All of one mode, and mixed.
             let one = random.between(0.0, 3.0) as u8;
             let mixed = random.between(0.0, 1.0) < 0.5;
-            let modes: Vec<u8> = (0..count)
+            let contact_states: Vec<u8> = (0..count)
                 .map(|_| {
                     if mixed {
                         random.between(0.0, 3.0) as u8
@@ -273,16 +278,20 @@ fn limits_a_mode_is_left_where_its_margin_is_used_up() {
                     }
                 })
                 .collect();
-            let (margins, next) = margins(&mut system, time, &x, &modes);
-            for (i, (&margin, &mode)) in margins.iter().zip(&modes).enumerate() {
+            let (margins, next) = margins(&mut system, time, &x, &contact_states);
+            for (i, (&margin, &contact_state)) in margins.iter().zip(&contact_states).enumerate() {
                 // An open point is not asked before its margin is used up.
-                if mode == 0 && margin > 0.0 {
+                if contact_state == 0 && margin > 0.0 {
                     left[0][0] += 1;
                     continue;
                 }
-                let leaves = next[i] != mode;
-                assert_eq!(margin <= 0.0, leaves, "switch {i}: {margin} in mode {mode}");
-                left[usize::from(mode)][usize::from(leaves)] += 1;
+                let leaves = next[i] != contact_state;
+                assert_eq!(
+                    margin <= 0.0,
+                    leaves,
+                    "switch {i}: {margin} in mode {contact_state}"
+                );
+                left[usize::from(contact_state)][usize::from(leaves)] += 1;
             }
         }
     }
@@ -295,10 +304,10 @@ fn limits_a_face_is_placed_anew_when_a_motion_changes() {
     let system = System::new(tower(true, TANH)).unwrap();
     let (x, time) = (state(&system, &mut random), 0.3);
     let (group, own) = (2, system.event_groups()[2].variables.clone()); // upper body on the base
-    let signs = |system: &mut System| {
-        let mut signs = vec![0.0; own.len()];
-        system.group_event_variables(group, time, &x, &mut signs);
-        signs
+    let variables = |system: &mut System| {
+        let mut variables = vec![0.0; own.len()];
+        system.group_event_variables(group, time, &x, &mut variables);
+        variables
     };
     let mut motions = system.bodies()[2].frame.motions.clone();
     motions[0] = Motion::Constant(0.3);
@@ -308,17 +317,17 @@ fn limits_a_face_is_placed_anew_when_a_motion_changes() {
         phase: 0.0,
     };
     let mut asked_before = system.clone();
-    let before = signs(&mut asked_before);
-    assert_eq!(signs(&mut asked_before), before);
-    asked_before.drive(2, motions.clone()).unwrap();
+    let before = variables(&mut asked_before);
+    assert_eq!(variables(&mut asked_before), before);
+    asked_before.set_motions(2, motions.clone()).unwrap();
     let mut fresh = system.clone();
-    fresh.drive(2, motions).unwrap();
-    let expected = signs(&mut fresh);
+    fresh.set_motions(2, motions).unwrap();
+    let expected = variables(&mut fresh);
     assert_ne!(before, expected);
-    assert_eq!(signs(&mut asked_before), expected);
+    assert_eq!(variables(&mut asked_before), expected);
     // Nor does it keep what it saw when all else has moved on.
     let mut signs_elsewhere = vec![0.0; system.event_variable_count()];
     let elsewhere = state(&system, &mut random);
     asked_before.event_variables(time, &elsewhere, &mut signs_elsewhere);
-    assert_eq!(signs(&mut asked_before), expected);
+    assert_eq!(variables(&mut asked_before), expected);
 }

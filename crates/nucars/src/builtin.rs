@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use crate::source::Source;
+use crate::source::SourceText;
 
 macro_rules! files {
     ($($name:literal),* $(,)?) => {
@@ -44,7 +44,7 @@ pub fn text(name: &str) -> Option<&'static str> {
 }
 
 /// The file of this name, ready to be read.
-pub fn source(name: &str) -> Option<Arc<Source>> {
+pub fn source(name: &str) -> Option<Arc<SourceText>> {
     // Only files of 4 GiB are refused.
-    Source::from_text(name, text(name)?).ok()
+    SourceText::from_text(name, text(name)?).ok()
 }

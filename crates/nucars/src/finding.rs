@@ -7,7 +7,7 @@ use input::{bounded, limits};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use thiserror::Error;
 
-use crate::source::{Place, Source, Span};
+use crate::source::{SourceLocation, SourceText, Span};
 
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -38,14 +38,14 @@ pub struct Finding {
     message: String,
     label: String,
     help: String,
-    place: Place,
+    place: SourceLocation,
 }
 
 impl Finding {
     pub(crate) fn new(
         severity: Severity,
         code: &'static str,
-        source: &Arc<Source>,
+        source: &Arc<SourceText>,
         span: Span,
         message: impl Into<String>,
     ) -> Self {
@@ -55,7 +55,7 @@ impl Finding {
             message: bounded(message.into()),
             label: String::new(),
             help: String::new(),
-            place: Place {
+            place: SourceLocation {
                 source: Arc::clone(source),
                 span,
             },
@@ -93,7 +93,7 @@ impl Finding {
     }
 
     /// Where.
-    pub fn place(&self) -> &Place {
+    pub fn place(&self) -> &SourceLocation {
         &self.place
     }
 }
@@ -142,14 +142,14 @@ impl Diagnostic for Finding {
 /// Findings of one file.
 #[derive(Clone, Debug)]
 pub struct Findings {
-    source: Arc<Source>,
+    source: Arc<SourceText>,
     list: Vec<Finding>,
     /// How many of each severity were found.
     found: [usize; 3],
 }
 
 impl Findings {
-    pub(crate) fn new(source: &Arc<Source>) -> Self {
+    pub(crate) fn new(source: &Arc<SourceText>) -> Self {
         Findings {
             source: Arc::clone(source),
             list: Vec::new(),
@@ -172,7 +172,7 @@ impl Findings {
         self.found[severity as usize] >= limits::MISTAKES
     }
 
-    pub(crate) fn source(&self) -> &Arc<Source> {
+    pub(crate) fn source(&self) -> &Arc<SourceText> {
         &self.source
     }
 

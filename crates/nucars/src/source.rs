@@ -9,7 +9,7 @@ use input::structure::{self, Excess};
 use miette::{MietteError, SourceCode, SourceSpan, SpanContents};
 use thiserror::Error;
 
-/// A piece of a text, in bytes of [`Source::text`]; texts are far below 4 GiB.
+/// A piece of a text, in bytes of [`SourceText::text`]; texts are far below 4 GiB.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
     /// First byte.
@@ -109,12 +109,12 @@ pub struct SourceError {
 
 /// A file's text.
 #[derive(Debug)]
-pub struct Source {
+pub struct SourceText {
     text: Text,
     latin1: bool,
 }
 
-impl Source {
+impl SourceText {
     /// The text of a file: UTF-8, with or without byte order mark, UTF-16 with one, or else Latin-1. Lines end with `\n`, `\r\n` or `\r`.
     ///
     /// # Errors
@@ -137,7 +137,7 @@ impl Source {
         if let Err(excess) = structure::lines(&text) {
             return Err(SourceError { name, excess });
         }
-        Ok(Arc::new(Source {
+        Ok(Arc::new(SourceText {
             text: Text::new(name, text),
             latin1,
         }))
@@ -146,9 +146,9 @@ impl Source {
     /// A text that is not from a file.
     ///
     /// # Errors
-    /// As [`Source::from_bytes`].
+    /// As [`SourceText::from_bytes`].
     pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Result<Arc<Self>, SourceError> {
-        Source::from_bytes(name, text.into().into_bytes())
+        SourceText::from_bytes(name, text.into().into_bytes())
     }
 
     /// The file as the user named it.
@@ -193,7 +193,7 @@ fn utf16(bytes: &[u8]) -> Option<String> {
     char::decode_utf16(units).collect::<Result<String, _>>().ok()
 }
 
-impl SourceCode for Source {
+impl SourceCode for SourceText {
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,
@@ -206,14 +206,14 @@ impl SourceCode for Source {
 
 /// A piece of a source.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct SourceLocation {
     /// The text.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
     /// The piece of it.
     pub span: Span,
 }
 
-impl Place {
+impl SourceLocation {
     /// The text of the piece.
     pub fn text(&self) -> &str {
         self.source.slice(self.span)

@@ -11,7 +11,7 @@ use thiserror::Error;
 
 use crate::files::locate;
 use crate::read::{FileKind, Read, read_data, read_input, read_run, read_system};
-use crate::source::{Source, SourceError};
+use crate::source::{SourceError, SourceText};
 use crate::tree::{DataFile, InputFile, RunFile, SystemFile};
 use crate::{Findings, Severity, check};
 
@@ -72,10 +72,10 @@ const NUCARS_FILE: Expected = Expected {
 ///
 /// # Errors
 /// It cannot be read, is something else, or too large.
-pub fn load(path: &Path) -> Result<Arc<Source>, LoadError> {
+pub fn load(path: &Path) -> Result<Arc<SourceText>, LoadError> {
     let bytes = file::read(path, &NUCARS_FILE)
         .map_err(|error| LoadError::new(error.to_string(), error.help().unwrap_or_default()))?;
-    Source::from_bytes(path.display().to_string(), bytes).map_err(|error| too_long(&error))
+    SourceText::from_bytes(path.display().to_string(), bytes).map_err(|error| too_long(&error))
 }
 
 fn too_long(error: &SourceError) -> LoadError {
@@ -86,7 +86,7 @@ fn too_long(error: &SourceError) -> LoadError {
 ///
 /// # Errors
 /// It is none of ours.
-pub fn kind(source: &Source) -> Result<FileKind, LoadError> {
+pub fn kind(source: &SourceText) -> Result<FileKind, LoadError> {
     FileKind::of(source).ok_or_else(|| {
         LoadError::new(
             format!("{} is no file of NUCARS", source.name()),
@@ -409,10 +409,10 @@ impl RunFiles {
         fn add<T>(
             list: &mut Vec<Entry<T>>,
             text: Option<&Text>,
-            read: impl FnOnce(&Arc<Source>) -> Read<T>,
+            read: impl FnOnce(&Arc<SourceText>) -> Read<T>,
         ) -> Result<Option<usize>, LoadError> {
             let Some(text) = text else { return Ok(None) };
-            let source = Source::from_text(&*text.name, &*text.text).map_err(|error| too_long(&error))?;
+            let source = SourceText::from_text(&*text.name, &*text.text).map_err(|error| too_long(&error))?;
             list.push(Entry {
                 path: PathBuf::from(&text.name),
                 read: read(&source),

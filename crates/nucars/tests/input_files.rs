@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use nucars::read::{AnyFile, FileKind, Read, read, read_data, read_input, read_run, read_system};
-use nucars::source::Source;
+use nucars::source::SourceText;
 use nucars::tree::{DataFile, DataRequest, Element, InputFile, Law, RunFile, Shape, SystemFile, Toe};
 use nucars::{Severity, builtin, write};
 
@@ -218,7 +218,7 @@ fn functions_have_the_slopes_and_zeros_of_the_thesis() {
 fn written_and_read_again_is_the_same() {
     for name in builtin::names() {
         let source = builtin::source(name).unwrap();
-        let again = |text: String| Source::from_text(name, text).unwrap();
+        let again = |text: String| SourceText::from_text(name, text).unwrap();
         match read(&source, FileKind::of(&source).unwrap()) {
             AnyFile::System(read) => {
                 let text = write::write_system(&read.tree);
@@ -253,7 +253,7 @@ fn commented_elements_can_be_switched_on() {
         assert!(text.contains(record));
         let changed = text.replace("  6.8  1", &format!("  {kind}  1")).replace(new, "");
         let changed = changed.replace(record, &record[1..]);
-        let file = read_system(&Source::from_text("older.sys", changed).unwrap())
+        let file = read_system(&SourceText::from_text("older.sys", changed).unwrap())
             .strict()
             .unwrap();
         assert_eq!(file.connection(127).unwrap().element.code(), kind);
@@ -293,7 +293,7 @@ fn other_bytes_read_the_same() {
         let marked = format!("\u{feff}{text}");
         let upper = text.replace("\n\\BODY DATA", "\n\\Body  Data  ");
         for changed in [windows, old_mac, tabs, marked, upper] {
-            let read = read_system(&Source::from_text(name, changed).unwrap());
+            let read = read_system(&SourceText::from_text(name, changed).unwrap());
             let tree = read.strict().unwrap();
             assert!(tree.connections == plain.connections, "{name}");
             assert!(tree.bodies == plain.bodies, "{name}");
@@ -304,7 +304,7 @@ fn other_bytes_read_the_same() {
         let at = bytes.windows(4).position(|four| four == b"Tr?g").unwrap();
         bytes[at + 2] = 0xe4;
         bytes.extend_from_slice(b"! 0.2\xb0\n");
-        let read = read_system(&Source::from_bytes(name, bytes).unwrap());
+        let read = read_system(&SourceText::from_bytes(name, bytes).unwrap());
         assert_eq!(read.findings.count(Severity::Error), 0);
         assert_eq!(read.tree.body(1).unwrap().name.value, " Half Car+Träger");
         assert!(read.tree.connections == plain.connections);
@@ -323,7 +323,7 @@ fn utf_16_is_read() {
             }
         };
         let bytes = marked.encode_utf16().flat_map(bytes).collect();
-        let read = read_system(&Source::from_bytes(SYSTEMS[0], bytes).unwrap());
+        let read = read_system(&SourceText::from_bytes(SYSTEMS[0], bytes).unwrap());
         assert!(read.strict().unwrap() == system(SYSTEMS[0]).tree);
     }
 }
@@ -359,7 +359,7 @@ fn records_wrap_over_lines() {
         assert!(text.contains(old), "{old}");
         text = text.replacen(old, new, 1);
     }
-    let read = read_system(&Source::from_text("wrapped.sys", text).unwrap());
+    let read = read_system(&SourceText::from_text("wrapped.sys", text).unwrap());
     assert!(read.strict().unwrap() == system(SYSTEMS[0]).tree);
 }
 
@@ -379,6 +379,6 @@ fn values_may_stand_in_the_line_of_their_keyword() {
         text.replace(&format!("{keyword}\n"), &format!("{keyword}  "))
     });
     assert_eq!(joined.lines().count() + 5, text.lines().count());
-    let read = read_run(&Source::from_text(name, joined).unwrap());
+    let read = read_run(&SourceText::from_text(name, joined).unwrap());
     assert!(read.strict().unwrap() == run(name));
 }

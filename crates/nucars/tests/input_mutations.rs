@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use nucars::read::{AnyFile, FileKind, read, read_data, read_input, read_run, read_system};
-use nucars::source::Source;
+use nucars::source::SourceText;
 use nucars::{Findings, builtin, check, show, write};
 
 /// xorshift64*: the same mutants everywhere.
@@ -93,7 +93,7 @@ fn mutated(text: &[u8], random: &mut Random) -> Vec<u8> {
     bytes
 }
 
-fn placed(findings: &Findings, source: &Source, name: &str) {
+fn placed(findings: &Findings, source: &SourceText, name: &str) {
     for finding in findings.list() {
         let place = finding.place();
         let range = place.span.range();
@@ -124,8 +124,8 @@ fn placed(findings: &Findings, source: &Source, name: &str) {
 
 /// Reads, checks, shows; writes and reads again what has no errors, and says whether that was so.
 fn survives(bytes: Vec<u8>, kind: FileKind, name: &str) -> bool {
-    let source = Source::from_bytes(name, bytes).unwrap();
-    let again = |text: String| Source::from_text(name, text).unwrap();
+    let source = SourceText::from_bytes(name, bytes).unwrap();
+    let again = |text: String| SourceText::from_text(name, text).unwrap();
     let system = read_system(&builtin::source("Bolst_wedge_sf_68_constant.sys").unwrap());
     let input = read_input(&builtin::source("bolst_displ_input36.inp").unwrap());
     let has_errors;
@@ -191,7 +191,7 @@ fn mutants_of_the_printed_files() {
     let mut sound = 0;
     for name in builtin::names() {
         let text = builtin::text(name).unwrap();
-        let kind = FileKind::of(&Source::from_text(name, text).unwrap()).unwrap();
+        let kind = FileKind::of(&SourceText::from_text(name, text).unwrap()).unwrap();
         for _ in 0..250 {
             sound += usize::from(survives(mutated(text.as_bytes(), &mut random), kind, name));
         }
@@ -208,7 +208,7 @@ fn every_truncation_of_a_file() {
         "bolst_wedge_sf_bolst-vert-displ_69_var.run",
     ] {
         let text = builtin::text(name).unwrap();
-        let kind = FileKind::of(&Source::from_text(name, text).unwrap()).unwrap();
+        let kind = FileKind::of(&SourceText::from_text(name, text).unwrap()).unwrap();
         for length in 0..text.len() {
             survives(text.as_bytes()[..length].to_vec(), kind, name);
         }

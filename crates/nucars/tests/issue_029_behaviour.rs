@@ -6,7 +6,7 @@ use std::fs;
 
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use nucars::read::read_system;
-use nucars::source::Source;
+use nucars::source::SourceText;
 use nucars::together::load;
 use nucars::{Finding, Severity};
 
@@ -22,7 +22,7 @@ fn shown(finding: &Finding) -> String {
 fn issue_029_a_mistake_far_right_in_its_line() {
     for before in [100, 65_535, 1_000_000] {
         let text = format!("\\BODY DATA\n1\n1 'a' {}wrong 0 0\n", " ".repeat(before));
-        let read = read_system(&Source::from_text("some.sys", text).unwrap());
+        let read = read_system(&SourceText::from_text("some.sys", text).unwrap());
         let far = read
             .findings
             .list()
@@ -46,7 +46,7 @@ fn issue_029_at_most_20_mistakes_are_told_and_the_others_counted() {
         .map(|number| format!(" {number} 'body' x y z\n"))
         .collect();
     let text = format!("\\BODY DATA\n500\n{lines}");
-    let findings = read_system(&Source::from_text("some.sys", text).unwrap()).findings;
+    let findings = read_system(&SourceText::from_text("some.sys", text).unwrap()).findings;
     let errors = findings
         .list()
         .iter()
@@ -69,7 +69,7 @@ fn issue_029_messages_are_short_whatever_was_written() {
         format!("\\{long}\n"),
         format!("\\BODY DATA\n 1 '{long}"),
     ] {
-        for finding in read_system(&Source::from_text("some.sys", text).unwrap())
+        for finding in read_system(&SourceText::from_text("some.sys", text).unwrap())
             .findings
             .list()
         {
@@ -100,7 +100,7 @@ fn issue_029_files_of_another_kind_are_recognized() {
         assert!(error.advice.contains(advice), "{}", error.advice);
     }
     let long = "x".repeat(5 << 20);
-    let error = Source::from_text("some.sys", format!("\\BODY DATA\n{long}")).unwrap_err();
+    let error = SourceText::from_text("some.sys", format!("\\BODY DATA\n{long}")).unwrap_err();
     assert!(error.to_string().contains("this line has"), "{error}");
 }
 
@@ -108,10 +108,10 @@ fn issue_029_files_of_another_kind_are_recognized() {
 #[test]
 fn issue_029_keywords_are_read_as_written() {
     for keyword in ["=\u{2028}\u{2028}", "A -\u{a0}", "B :\t="] {
-        let source = Source::from_text("some.run", format!("\\{keyword}\n1\n")).unwrap();
+        let source = SourceText::from_text("some.run", format!("\\{keyword}\n1\n")).unwrap();
         let read = nucars::read::read_run(&source);
         let written = nucars::write::write_run(&read.tree);
-        let again = nucars::read::read_run(&Source::from_text("some.run", written).unwrap());
+        let again = nucars::read::read_run(&SourceText::from_text("some.run", written).unwrap());
         assert!(again.tree == read.tree, "{keyword:?}");
     }
 }

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::time::Instant;
 
 use nucars::read::{AnyFile, FileKind, Read, read, read_system};
-use nucars::source::Source;
+use nucars::source::SourceText;
 use nucars::tree::SystemFile;
 use nucars::{builtin, check};
 
@@ -47,7 +47,7 @@ fn large(section: &str, bytes: usize) -> (String, usize) {
 
 fn timed(text: String) -> (Read<SystemFile>, f64) {
     let start = Instant::now();
-    let read = read_system(&Source::from_bytes("large.sys", text.into_bytes()).unwrap());
+    let read = read_system(&SourceText::from_bytes("large.sys", text.into_bytes()).unwrap());
     (read, start.elapsed().as_secs_f64())
 }
 
@@ -113,7 +113,7 @@ fn large_nonsense_takes_time_in_proportion() {
     for line in lines {
         for head in heads {
             let text = format!("{head}{}", line.repeat(300_000 / line.len()));
-            let source = Source::from_text("nonsense", text).unwrap();
+            let source = SourceText::from_text("nonsense", text).unwrap();
             for kind in FileKind::ALL {
                 let start = Instant::now();
                 let findings = match read(&source, kind) {

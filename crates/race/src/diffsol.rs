@@ -27,7 +27,7 @@ pub enum Method {
 }
 
 /// The Jacobian matrix, kept between the products that diffsol asks for.
-struct Kept {
+struct StoredStates {
     time: f64,
     state: Vec<f64>,
     matrix: Vec<f64>,
@@ -54,7 +54,7 @@ pub fn run(
     let mut states = Vec::with_capacity(rows * n);
     states.extend_from_slice(&start);
     let equations = RefCell::new(equations);
-    let kept = RefCell::new(Kept {
+    let kept = RefCell::new(StoredStates {
         time: f64::NAN,
         state: vec![f64::NAN; n],
         matrix: vec![0.0; n * n],

@@ -5,7 +5,7 @@
 //! the energy ledger besides, as it always does.
 
 use integrate::{Problem as _, Singular};
-use mechanics::system::{ChannelKind, System};
+use mechanics::system::{EnergyTermKind, System};
 use nalgebra::DMatrix;
 
 use crate::problem::{Problem, ProblemError};
@@ -46,9 +46,9 @@ impl Equations {
         let layout = system.layout();
         let mechanical = 2 * layout.speeds + layout.internals;
         let loss = system
-            .channels()
+            .energy_terms()
             .iter()
-            .position(|channel| channel.kind == ChannelKind::FrictionLoss)
+            .position(|energy_term| energy_term.kind == EnergyTermKind::FrictionLoss)
             .unwrap_or(0);
         let full_scales = system.scales().to_vec();
         // No problem of the race has a motion with breaks: one smooth piece.

@@ -175,12 +175,12 @@ fn all(words: &[&str]) -> Result<(), String> {
         println!("docs/race.md is written by a race over all cases, solvers and tolerances only.");
         return Ok(());
     }
-    let told = |name: &str| options.get(name).copied().unwrap_or("unknown").to_owned();
+    let option = |name: &str| options.get(name).copied().unwrap_or("unknown").to_owned();
     let measured = Measured {
-        date: told("--date"),
-        machine: told("--machine"),
-        cores: told("--cores"),
-        rustc: told("--rustc"),
+        date: option("--date"),
+        machine: option("--machine"),
+        cores: option("--cores"),
+        rustc: option("--rustc"),
         compiled_for: tables::processors().to_owned(),
         limit: plan.limit.to_string(),
     };

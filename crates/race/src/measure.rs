@@ -72,14 +72,20 @@ impl Judge {
             let position = states.chunks_exact(n).take(rows).map(|z| z[0]).collect();
             return Some(Quantities::Series(vec![position]));
         };
-        let modes = vec![0; self.equations.system().point_count()];
+        let contact_states = vec![0; self.equations.system().point_count()];
         let mut columns = vec![Vec::with_capacity(rows); places.len()];
         let mut values = Vec::new();
         for (row, z) in states.chunks_exact(n).take(rows).enumerate() {
             let x = self.equations.complete(z);
-            let seen = self.equations.system().observe(self.problem.time(row), &x);
+            let observation = self.equations.system().observe(self.problem.time(row), &x);
             values.clear();
-            outputs.values(self.equations.system(), &seen, &modes, 0.0, &mut values);
+            outputs.values(
+                self.equations.system(),
+                &observation,
+                &contact_states,
+                0.0,
+                &mut values,
+            );
             for (column, place) in columns.iter_mut().zip(places) {
                 column.push(values[*place]);
             }

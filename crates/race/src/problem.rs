@@ -5,7 +5,7 @@ use mechanics::coil::{Coil, CoilLaw};
 use mechanics::contact::{ContactFace, ContactPoint};
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
-use mechanics::link::Mount;
+use mechanics::link::Marker;
 use mechanics::surface::Plane;
 use mechanics::system::{Model, System};
 use mechanics::vector::Vector;
@@ -252,8 +252,8 @@ impl Problem {
         let model = Model {
             bodies: vec![body("mass", true, [0.2, 0.0, sunk, 0.0, 0.0, 0.0]), ground],
             gravity: [0.0, 0.0, -gravity],
-            faces: vec![(0, 1, Mount::new([0.0; 3], upwards), floor)],
-            coils: vec![(0, 1, Mount::new([-1.0, 0.0, sunk], [0.0; 3]), spring)],
+            faces: vec![(0, 1, Marker::new([0.0; 3], upwards), floor)],
+            coils: vec![(0, 1, Marker::new([-1.0, 0.0, sunk], [0.0; 3]), spring)],
             ..Model::default()
         };
         let system = System::new(model).map_err(|error| error.to_string())?;

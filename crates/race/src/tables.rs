@@ -88,7 +88,7 @@ fn seconds(value: f64) -> String {
 }
 
 /// A count; some drivers do not count everything.
-fn told(count: u64) -> String {
+fn count_text(count: u64) -> String {
     if count == 0 {
         "-".to_owned()
     } else {
@@ -195,8 +195,8 @@ pub fn at_level(standings: &[Standing], level: f64) -> Table {
                 power(run.error.unwrap_or(f64::INFINITY)),
                 seconds(outcome.cpu),
                 outcome.steps.to_string(),
-                told(outcome.derivatives),
-                told(outcome.jacobians),
+                count_text(outcome.derivatives),
+                count_text(outcome.jacobians),
                 times,
             ]);
         }
@@ -297,10 +297,10 @@ pub fn standing(one: &Standing) -> String {
                 if front { " *" } else { "" },
                 power(run.error.unwrap_or(f64::INFINITY)),
                 seconds(outcome.cpu),
-                told(outcome.steps),
-                told(outcome.rejected),
-                told(outcome.derivatives),
-                told(outcome.jacobians),
+                count_text(outcome.steps),
+                count_text(outcome.rejected),
+                count_text(outcome.derivatives),
+                count_text(outcome.jacobians),
             );
         }
     }

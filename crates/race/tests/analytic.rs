@@ -154,8 +154,8 @@ fn another_start_is_lower() {
             .collect();
         assert_eq!(differs.len(), 1, "{case}");
         let heights = |problem: &Problem| -> Vec<f64> {
-            let seen = problem.system.clone().observe(0.0, &problem.start);
-            seen.bodies.iter().map(|body| body.origin.0[2]).collect()
+            let observation = problem.system.clone().observe(0.0, &problem.start);
+            observation.bodies.iter().map(|body| body.origin.0[2]).collect()
         };
         // Side frame and bolster stay where they are.
         let lower: Vec<f64> = heights(&own)

@@ -38,14 +38,14 @@ fn octave(driver: &str, arguments: &[&str]) -> String {
 
 /// What corners do in states, for all of which there must be states.
 #[derive(Default, Debug)]
-struct Seen {
+struct Counts {
     open: usize,
     stick: usize,
     between: usize,
     slip: usize,
 }
 
-impl Seen {
+impl Counts {
     /// Counts the corners of a state: open, or by slip over reference speed. Says how large the rates would be if nothing balanced.
     fn count(
         &mut self,
@@ -58,11 +58,11 @@ impl Seen {
             panic!("the thesis's friction is tanh");
         };
         let x = equations.complete(z);
-        let seen = equations.system().observe(time, &x);
+        let observation = equations.system().observe(time, &x);
         let wedge = &parameters.wedge;
-        let mut forces = wedge.mass * parameters.gravity + seen.coils[0].coil.spring.abs();
+        let mut forces = wedge.mass * parameters.gravity + observation.coils[0].coil.spring.abs();
         let mut power = 0.0;
-        for point in seen.faces.iter().flat_map(|face| &face.points) {
+        for point in observation.faces.iter().flat_map(|face| &face.points) {
             let slip = point.slip[0].hypot(point.slip[1]);
             let place = match slip / reference_speed {
                 _ if point.normal <= 0.0 => &mut self.open,
@@ -121,19 +121,19 @@ fn cross_code_the_equations_in_octave_are_the_compiled_ones() {
         let mut equations = Equations::named(name).unwrap();
         let parameters = Problem::named(name).unwrap().parameters.unwrap();
         let list = states_of(name, &equations);
-        let mut seen = Seen::default();
+        let mut counts = Counts::default();
         numbers.push(list.len() as f64);
         for (time, z) in list {
             let mut rates = vec![0.0; z.len()];
             equations.rates(time, &z, &mut rates);
-            let sizes = seen.count(&mut equations, &parameters, time, &z);
+            let sizes = counts.count(&mut equations, &parameters, time, &z);
             expected.push((name, time, rates, sizes));
             numbers.push(time);
             numbers.extend(z);
         }
-        println!("{name}: {seen:?}");
-        let all = [seen.open, seen.stick, seen.between, seen.slip];
-        assert!(all.iter().all(|count| *count > 0), "{name}: {seen:?}");
+        println!("{name}: {counts:?}");
+        let all = [counts.open, counts.stick, counts.between, counts.slip];
+        assert!(all.iter().all(|count| *count > 0), "{name}: {counts:?}");
     }
     write_states(&given, &numbers).unwrap();
     let mut words = vec![

@@ -70,7 +70,7 @@ pub fn truck_column<'r>(result: &'r TruckResult, name: &str) -> Option<&'r [f64]
 
 /// What is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Model {
+pub enum ComparedModel {
     /// The stand-alone wedge.
     StandAlone,
     /// Our reading of a type, in the half-truck.
@@ -79,7 +79,7 @@ pub enum Model {
     ClosedForm,
 }
 
-impl Model {
+impl ComparedModel {
     /// In tables.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -96,7 +96,7 @@ impl Model {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Numbers {
     /// Whose.
-    pub model: Model,
+    pub model: ComparedModel,
     /// Mean vertical wedge force while the bolster goes up, N.
     pub up: f64,
     /// While it goes down, N.
@@ -250,7 +250,7 @@ fn stand_alone(case: &Case, result: &RunResult, cycle: &Cycle) -> Option<Numbers
     let summary = &result.summary;
     let energy = summary.averages.energy_per_cycle.get("side_frame")?;
     Some(Numbers {
-        model: Model::StandAlone,
+        model: ComparedModel::StandAlone,
         up,
         down,
         energy: energy.value / Kind::Energy.from_si(summary.units),
@@ -279,7 +279,7 @@ fn truck(case: &Case, entry: &Entry, result: &TruckResult, cycle: &Cycle) -> Opt
     )?;
     let energy = result.summary.wedges.get(COMPONENT)?.energy_per_cycle.as_ref()?;
     Some(Numbers {
-        model: Model::Type(entry.wedges),
+        model: ComparedModel::Type(entry.wedges),
         up,
         down,
         energy: energy.value / Kind::Energy.from_si(result.summary.units),
@@ -306,7 +306,7 @@ fn closed(case: &Case, times: &[f64], cycle: &Cycle) -> Option<Numbers> {
     )?;
     let mean = |branch: usize| (counts[branch] > 0).then(|| sums[branch] / counts[branch] as f64);
     Some(Numbers {
-        model: Model::ClosedForm,
+        model: ComparedModel::ClosedForm,
         up: mean(1)?,
         down: mean(0)?,
         energy,

@@ -12,7 +12,7 @@ use quantity::{Kind, System as Units};
 use crate::drawing::Figure;
 use crate::overlay::{self, Axes};
 use crate::plot;
-use crate::table::{Column, Table};
+use crate::table::{Table, TableColumn};
 use choose::choose;
 use energies::energies;
 pub use error::ComparisonError;
@@ -383,7 +383,7 @@ fn words_of(units: Units) -> &'static str {
 }
 
 /// A column's values in these units at these times, all of them within the table's span.
-fn sampled(table: &Table, column: &Column, units: Units, times: &[f64]) -> Vec<f64> {
+fn sampled(table: &Table, column: &TableColumn, units: Units, times: &[f64]) -> Vec<f64> {
     let own = table.times();
     let values = column.in_units(units);
     let at = |time: &f64| {
@@ -399,7 +399,7 @@ fn sampled(table: &Table, column: &Column, units: Units, times: &[f64]) -> Vec<f
 }
 
 fn difference(
-    column: &Column,
+    column: &TableColumn,
     units: Units,
     result: usize,
     times: &[f64],

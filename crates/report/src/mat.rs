@@ -43,14 +43,14 @@ pub const FILE_NAME: &str = "result.mat";
 pub const CONSTANT_NOMINAL_HEIGHT: f64 = 9.95;
 
 /// A column in the thesis's units.
-type Column = Vec<f64>;
+type MatColumn = Vec<f64>;
 
 /// A variable: its name, what it is, its unit, its columns.
 struct Variable {
     name: &'static str,
     text: String,
     unit: &'static str,
-    columns: Vec<Column>,
+    columns: Vec<MatColumn>,
 }
 
 /// Writes the file.
@@ -184,7 +184,7 @@ struct Thesis<'r> {
 }
 
 impl Thesis<'_> {
-    fn one(&self, name: &str) -> io::Result<Column> {
+    fn one(&self, name: &str) -> io::Result<MatColumn> {
         let missing = || io::Error::other(format!("the result has no column `{name}`"));
         let columns = self.result.columns.iter().zip(&self.result.values);
         let (column, values) = columns
@@ -195,20 +195,20 @@ impl Thesis<'_> {
         Ok(values.iter().map(convert).collect())
     }
 
-    fn negative(&self, name: &str) -> io::Result<Column> {
+    fn negative(&self, name: &str) -> io::Result<MatColumn> {
         Ok(self.one(name)?.into_iter().map(|value| -value).collect())
     }
 
-    fn all(&self, names: &[&str]) -> io::Result<Vec<Column>> {
+    fn all(&self, names: &[&str]) -> io::Result<Vec<MatColumn>> {
         names.iter().map(|name| self.one(name)).collect()
     }
 
-    fn corners(&self, face: &str, what: &str) -> io::Result<Vec<Column>> {
+    fn corners(&self, face: &str, what: &str) -> io::Result<Vec<MatColumn>> {
         let names = CORNERS.iter().map(|corner| format!("{face}_{corner}_{what}"));
         names.map(|name| self.one(&name)).collect()
     }
 
-    fn friction_sizes(&self, face: &str) -> io::Result<Vec<Column>> {
+    fn friction_sizes(&self, face: &str) -> io::Result<Vec<MatColumn>> {
         let parts = ["x", "y", "z"].map(|axis| self.corners(face, &format!("friction_force_{axis}")));
         let [x, y, z] = parts;
         let (x, y, z) = (x?, y?, z?);

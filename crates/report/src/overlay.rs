@@ -4,7 +4,7 @@ use quantity::System as Units;
 
 use crate::drawing::{Colour, Curve, Figure, Line, Panel};
 use crate::figures;
-use crate::table::Column;
+use crate::table::TableColumn;
 
 /// Axes with curves, each a name with its points.
 pub(crate) struct Axes {
@@ -14,7 +14,7 @@ pub(crate) struct Axes {
 }
 
 /// The name of a column with its unit, as an axis shows it: `wedge x (in)`.
-pub(crate) fn axis(column: &Column, units: Units) -> String {
+pub(crate) fn axis(column: &TableColumn, units: Units) -> String {
     figures::axis(&words(&column.name), column.kind, units)
 }
 

@@ -36,7 +36,7 @@ pub enum Content {
 
 /// A column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Column {
+pub struct ParquetColumn {
     /// Its name.
     pub name: String,
     /// Its unit, such as `lbf·in`; empty for pure numbers and texts.
@@ -73,7 +73,7 @@ struct Gathered {
 /// Writes a table row by row.
 pub struct TableWriter<W: Write + Send> {
     writer: SerializedFileWriter<W>,
-    columns: Vec<Column>,
+    columns: Vec<ParquetColumn>,
     gathered: Vec<Gathered>,
     rows: usize,
 }
@@ -83,7 +83,11 @@ impl<W: Write + Send> TableWriter<W> {
     ///
     /// # Errors
     /// It cannot be written.
-    pub fn new(out: W, columns: Vec<Column>, metadata: &[(&str, String)]) -> Result<Self, ParquetError> {
+    pub fn new(
+        out: W,
+        columns: Vec<ParquetColumn>,
+        metadata: &[(&str, String)],
+    ) -> Result<Self, ParquetError> {
         let described =
             serde_json::to_string(&columns).map_err(|error| ParquetError::External(error.into()))?;
         let mut pairs = vec![KeyValue::new(COLUMNS_KEY.to_owned(), described)];
@@ -178,7 +182,7 @@ impl<W: Write + Send> TableWriter<W> {
     }
 }
 
-fn field(column: &Column) -> Result<Arc<Type>, ParquetError> {
+fn field(column: &ParquetColumn) -> Result<Arc<Type>, ParquetError> {
     let (physical, logical) = match column.content {
         Content::Integer => (Physical::INT64, None),
         Content::Number => (Physical::DOUBLE, None),

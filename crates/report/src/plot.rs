@@ -2,7 +2,7 @@
 
 use crate::drawing::Figure;
 use crate::overlay::{self, Axes};
-use crate::table::{Column, Table, TableError};
+use crate::table::{Table, TableColumn, TableError};
 
 /// The figure of the columns `ys` over the column `x`, in the table's units; one panel a unit.
 ///
@@ -14,8 +14,8 @@ pub fn figure(table: &Table, label: &str, x: &str, ys: &[String]) -> Result<Figu
     let columns = ys
         .iter()
         .map(|y| table.column(y))
-        .collect::<Result<Vec<&Column>, _>>()?;
-    let mut panels: Vec<(&str, Vec<&Column>)> = Vec::new();
+        .collect::<Result<Vec<&TableColumn>, _>>()?;
+    let mut panels: Vec<(&str, Vec<&TableColumn>)> = Vec::new();
     for column in columns {
         let unit = column.kind.label(units);
         match panels.iter_mut().find(|(other, _)| *other == unit) {
@@ -23,7 +23,7 @@ pub fn figure(table: &Table, label: &str, x: &str, ys: &[String]) -> Result<Figu
             None => panels.push((unit, vec![column])),
         }
     }
-    let points = |column: &Column| {
+    let points = |column: &TableColumn| {
         abscissa
             .written
             .iter()

@@ -26,7 +26,7 @@ use study::records::{self, Record};
 
 use crate::files::{self, FileError, Folder};
 use crate::page::study as page;
-use crate::parquet::{Cell, Column, Content, TableWriter};
+use crate::parquet::{Cell, Content, ParquetColumn, TableWriter};
 
 mod error;
 
@@ -372,8 +372,8 @@ pub fn factor_column(factor: &Factor) -> String {
 
 /// The columns of a study's table.
 #[must_use]
-pub fn columns(study: &Study) -> Vec<Column> {
-    let column = |name: String, unit: &str, text: String, content| Column {
+pub fn columns(study: &Study) -> Vec<ParquetColumn> {
+    let column = |name: String, unit: &str, text: String, content| ParquetColumn {
         name,
         unit: unit.to_owned(),
         text,

@@ -4,7 +4,7 @@
 //! numbers, one of the columns being `time_s`, which increases. Columns may be fewer, more, and in any order; a name without
 //! a known unit is a pure number. Lines that begin with `#` and empty lines do not count.
 //!
-//! Numbers are kept as written, so that nothing is lost; [`Column::si`] and [`Column::in_units`] convert.
+//! Numbers are kept as written, so that nothing is lost; [`TableColumn::si`] and [`TableColumn::in_units`] convert.
 
 use std::fs;
 use std::io;
@@ -16,7 +16,7 @@ use input::{FileType, limits, shortened};
 use quantity::{Kind, System as Units, nearest};
 
 pub use error::TableError;
-use header::{Header, Place};
+use header::{Header, HeaderLocation};
 
 mod error;
 mod header;
@@ -30,18 +30,18 @@ const RESULT_FILE: Expected = Expected {
 
 /// A column.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Column {
+pub struct TableColumn {
     /// Its name without unit, such as `wedge_x`.
     pub name: String,
     /// What kind of quantity it is. Where moments and energies are written alike and the name is none of ours, a moment.
     pub kind: Kind,
-    /// The system of units of [`Column::written`].
+    /// The system of units of [`TableColumn::written`].
     pub units: Units,
     /// The numbers as they stand in the file.
     pub written: Vec<f64>,
 }
 
-impl Column {
+impl TableColumn {
     /// The values in SI units.
     #[must_use]
     pub fn si(&self) -> Vec<f64> {
@@ -66,7 +66,7 @@ pub struct Table {
     pub file: PathBuf,
     /// The units in which it was written.
     pub units: Units,
-    columns: Vec<Column>,
+    columns: Vec<TableColumn>,
     time: usize,
 }
 
@@ -116,7 +116,7 @@ impl Table {
 
     /// All columns, in the order of the file.
     #[must_use]
-    pub fn columns(&self) -> &[Column] {
+    pub fn columns(&self) -> &[TableColumn] {
         &self.columns
     }
 
@@ -131,7 +131,7 @@ impl Table {
     ///
     /// # Errors
     /// There is none; the error names those that are near.
-    pub fn column(&self, name: &str) -> Result<&Column, TableError> {
+    pub fn column(&self, name: &str) -> Result<&TableColumn, TableError> {
         self.find(name).ok_or_else(|| {
             let names = self.columns.iter().map(|column| column.name.as_str());
             TableError::NoColumn {
@@ -144,8 +144,8 @@ impl Table {
 
     /// The column with this name, if there is one.
     #[must_use]
-    pub fn find(&self, name: &str) -> Option<&Column> {
-        let full = |column: &Column, units| match column.kind.suffix(units) {
+    pub fn find(&self, name: &str) -> Option<&TableColumn> {
+        let full = |column: &TableColumn, units| match column.kind.suffix(units) {
             "" => false,
             suffix => name.strip_suffix(suffix).and_then(|base| base.strip_suffix('_')) == Some(&column.name),
         };
@@ -171,7 +171,7 @@ struct Rows<'f> {
 impl Rows<'_> {
     fn add(&mut self, line: u64, cells: &[&str]) -> Result<(), TableError> {
         let Some((header, _)) = &self.header else {
-            let place = Place {
+            let place = HeaderLocation {
                 file: self.file,
                 line,
             };
@@ -255,7 +255,7 @@ impl Rows<'_> {
             units: header.units,
             time: header.time,
             columns: columns
-                .map(|(name, written)| Column {
+                .map(|(name, written)| TableColumn {
                     name: name.base,
                     kind: name.kind,
                     units: header.units,

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 use nucars::truck::Choices;
-use report::agreement::{Group as Agreement, Model, Numbers, TruckOutcome, groups};
+use report::agreement::{ComparedModel, Group as Agreement, Numbers, TruckOutcome, groups};
 use report::claims::{Claims, Evidence, Group, Row, Verdict, evaluate};
 use report::figures::{Exhibit, Outcome, comparison};
 use report::page::{self, Comparison, Contents};
@@ -56,7 +56,7 @@ fn agreement(damping: Damping, yawed: bool) -> &'static Agreement {
         .unwrap()
 }
 
-fn numbers(group: &Agreement, model: Model) -> Numbers {
+fn numbers(group: &Agreement, model: ComparedModel) -> Numbers {
     *group.models.iter().find(|own| own.model == model).unwrap()
 }
 
@@ -230,7 +230,7 @@ fn numbers_are_found_again_from_the_columns() {
         };
         let own = &alone(name).1;
         let column = |what: &str| own.column(what).unwrap();
-        let found = numbers(group, Model::StandAlone);
+        let found = numbers(group, ComparedModel::StandAlone);
         let [down, up] = means(
             column("time"),
             column("bolster_vertical"),
@@ -245,7 +245,7 @@ fn numbers_are_found_again_from_the_columns() {
             let own = truck(wedges, damping, YawCase::Straight);
             let column = |what: &str| own.column(what).unwrap();
             let times = column("time");
-            let found = numbers(group, Model::Type(wedges));
+            let found = numbers(group, ComparedModel::Type(wedges));
             let [down, up] = means(
                 times,
                 column("input_vertical"),
@@ -366,7 +366,7 @@ fn claims_are_decided_from_the_half_truck() {
     let group = agreement(Damping::Variable, false);
     close(
         value.measure.value * POUND,
-        numbers(group, Model::Type(WedgeType::Spatial)).up,
+        numbers(group, ComparedModel::Type(WedgeType::Spatial)).up,
         1e-9,
     );
     assert_eq!(row.verdict, Verdict::DoesNot);
@@ -448,7 +448,7 @@ fn the_page_tells_how_far_they_agree() {
     let text = page::render(&contents);
     let straight = numbers(
         agreement(Damping::Constant, false),
-        Model::Type(WedgeType::Spatial),
+        ComparedModel::Type(WedgeType::Spatial),
     );
     let energy = format!("{:.0} (", straight.energy / (POUND * INCH));
     assert!(

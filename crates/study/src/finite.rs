@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::summary::Measure;
+use crate::summary::SummaryValue;
 
 /// Largest size, SI, of a number that counts as finite: in other units it must not overflow either.
 const LARGEST: f64 = 1e300;
@@ -13,7 +13,7 @@ pub(crate) fn is_finite(value: f64) -> bool {
 }
 
 /// Returns the name of the first measure that is not finite.
-pub(crate) fn find(measures: &BTreeMap<String, Measure>) -> Option<&str> {
+pub(crate) fn find(measures: &BTreeMap<String, SummaryValue>) -> Option<&str> {
     let found = measures.iter().find(|(_, measure)| !is_finite(measure.value));
     found.map(|(name, _)| name.as_str())
 }

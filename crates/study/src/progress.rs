@@ -148,9 +148,12 @@ pub fn state_name(system: &System, index: usize) -> String {
             return format!("the bristles at point {} of the {}", point + 1, face.element.name);
         }
     }
-    match system.channels().get(internal.saturating_sub(layout.internals)) {
-        Some(channel) if channel.element.is_empty() => "the work of the motions".to_owned(),
-        Some(channel) => format!("the loss at the {}", channel.element),
+    match system
+        .energy_terms()
+        .get(internal.saturating_sub(layout.internals))
+    {
+        Some(energy_term) if energy_term.element.is_empty() => "the work of the motions".to_owned(),
+        Some(energy_term) => format!("the loss at the {}", energy_term.element),
         None => format!("state {index}"),
     }
 }
@@ -183,10 +186,10 @@ pub fn truck_state_name(system: &System, numbers: [&[u32]; 2], index: usize) -> 
         }
     }
     match system
-        .channels()
+        .energy_terms()
         .get(index - 2 * layout.speeds - layout.internals)
     {
-        Some(channel) => format!("`{}`", channel.kind.name()),
+        Some(energy_term) => format!("`{}`", energy_term.kind.name()),
         None => format!("state {index}"),
     }
 }

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use integrate::{Family, Integrator, Options, SetupError, State};
 use mechanics::energy_balance::EnergyBalance;
 use mechanics::output::Column;
-use mechanics::system::{ChannelKind, Mode, System};
+use mechanics::system::{ContactState, EnergyTermKind, System};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use wedge::outputs::{CORNERS, FACES, Outputs};
@@ -127,7 +127,7 @@ pub struct Run {
     values: Vec<Vec<f64>>,
     buffer: Vec<f64>,
     row: Vec<f64>,
-    modes: Vec<u8>,
+    contact_states: Vec<u8>,
     speeds: Vec<f64>,
 }
 
@@ -189,7 +189,7 @@ impl Run {
             values: vec![Vec::new(); outputs.columns().len()],
             buffer: vec![0.0; wedge.initial_state.len()],
             row: Vec::with_capacity(outputs.columns().len()),
-            modes: integrator.discrete_states().to_vec(),
+            contact_states: integrator.discrete_states().to_vec(),
             speeds: vec![0.0; points],
             case: case.clone(),
             rows: Rows::of(&case.simulation),
@@ -319,11 +319,11 @@ impl Run {
             .discrete_states()
             .iter()
             .enumerate()
-            .map(|(point, mode)| {
+            .map(|(point, contact_state)| {
                 let (face, corner) = place(point);
                 (
                     format!("{face}_{corner}"),
-                    Mode::from_number(*mode).name().to_owned(),
+                    ContactState::from_number(*contact_state).name().to_owned(),
                 )
             })
             .collect()
@@ -333,7 +333,7 @@ impl Run {
         let words: Vec<String> = self
             .contact_states()
             .into_iter()
-            .map(|(place, mode)| format!("{place} {mode}"))
+            .map(|(place, contact_state)| format!("{place} {contact_state}"))
             .collect();
         words.join(", ")
     }
@@ -341,11 +341,14 @@ impl Run {
     fn count_events(&mut self) {
         for event in self.integrator.events() {
             let (face, corner) = place(event.index);
-            let kind = match (Mode::from_number(event.from), Mode::from_number(event.to)) {
-                (_, Mode::Open) => 0,
-                (Mode::Open, _) => 1,
-                (_, Mode::Stick) => 2,
-                (_, Mode::Slip) => 3,
+            let kind = match (
+                ContactState::from_number(event.from),
+                ContactState::from_number(event.to),
+            ) {
+                (_, ContactState::Open) => 0,
+                (ContactState::Open, _) => 1,
+                (_, ContactState::Stick) => 2,
+                (_, ContactState::Slip) => 3,
             };
             self.counts.events[event.index / CORNERS.len()][kind] += 1;
             self.counts.event_total += 1;
@@ -354,8 +357,8 @@ impl Run {
                     time: event.time,
                     face: face.to_owned(),
                     corner: corner.to_owned(),
-                    from: Mode::from_number(event.from).name().to_owned(),
-                    to: Mode::from_number(event.to).name().to_owned(),
+                    from: ContactState::from_number(event.from).name().to_owned(),
+                    to: ContactState::from_number(event.to).name().to_owned(),
                 });
             }
         }
@@ -363,7 +366,7 @@ impl Run {
 
     /// Adds the creep of corners that were stuck at both ends of the step (trapezoidal rule).
     fn count_creep(&mut self) {
-        let stuck = Mode::Stick as u8;
+        let stuck = ContactState::Stick as u8;
         let (before, after) = (
             self.integrator.discrete_states_before_step(),
             self.integrator.discrete_states(),
@@ -406,10 +409,11 @@ impl Run {
         if rows.time(self.next_row) > self.integrator.time() {
             return Ok(());
         }
-        self.modes
+        self.contact_states
             .copy_from_slice(self.integrator.discrete_states_before_step());
         if first {
-            self.modes.copy_from_slice(self.integrator.discrete_states());
+            self.contact_states
+                .copy_from_slice(self.integrator.discrete_states());
         }
         let mut seen_events = 0;
         while self.next_row < rows.count {
@@ -419,7 +423,7 @@ impl Run {
             }
             let events = self.integrator.events().iter().skip(seen_events);
             for event in events.take_while(|event| event.time <= time && !first) {
-                self.modes[event.index] = event.to;
+                self.contact_states[event.index] = event.to;
                 seen_events += 1;
             }
             if first {
@@ -431,9 +435,13 @@ impl Run {
             let seen = self.wedge.system.observe(time, &self.buffer);
             self.row.clear();
             let start = self.counts.start_energy;
-            let ledger = self
-                .outputs
-                .values(&self.wedge.system, &seen, &self.modes, start, &mut self.row);
+            let ledger = self.outputs.values(
+                &self.wedge.system,
+                &seen,
+                &self.contact_states,
+                start,
+                &mut self.row,
+            );
             if let Some(index) = self.row.iter().position(|value| !is_finite(*value)) {
                 return Err(RunError::NotFinite {
                     column: self.outputs.columns()[index].name.clone(),
@@ -461,9 +469,9 @@ fn probe_times(case: &Case) -> Vec<f64> {
 pub(crate) fn friction_losses(system: &System, x: &[f64]) -> [f64; 2] {
     let [_, _, _, quadratures] = system.layout().split(x);
     let mut losses = [0.0; 2];
-    for (channel, value) in system.channels().iter().zip(quadratures) {
-        if channel.kind == ChannelKind::FrictionLoss {
-            losses[usize::from(channel.element != FACES[0])] += value;
+    for (energy_term, value) in system.energy_terms().iter().zip(quadratures) {
+        if energy_term.kind == EnergyTermKind::FrictionLoss {
+            losses[usize::from(energy_term.element != FACES[0])] += value;
         }
     }
     losses

@@ -1,6 +1,6 @@
 //! The summary of a run: what `summary.json` holds.
 //!
-//! Schema `wedgelab.summary/2`. Every dimensional number is a [`Measure`] with its unit, in the case's output units;
+//! Schema `wedgelab.summary/2`. Every dimensional number is a [`SummaryValue`] with its unit, in the case's output units;
 //! times are seconds. A reader should ignore keys that it does not know; the number behind the slash grows when a key
 //! changes its meaning or goes.
 
@@ -19,14 +19,14 @@ pub const SCHEMA: &str = "wedgelab.summary/2";
 
 /// A number with its unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Measure {
+pub struct SummaryValue {
     /// The number.
     pub value: f64,
     /// Its unit, such as `lbf·in`; empty for plain numbers.
     pub unit: String,
 }
 
-impl Measure {
+impl SummaryValue {
     /// An SI value in output units.
     #[must_use]
     pub fn new(si: f64, kind: Kind, units: Units) -> Self {
@@ -129,19 +129,19 @@ pub struct Averages {
     /// Number of whole cycles after the first half period.
     pub cycles: u32,
     /// Friction energy per cycle at the side frame and at the bolster.
-    pub energy_per_cycle: BTreeMap<String, Measure>,
+    pub energy_per_cycle: BTreeMap<String, SummaryValue>,
     /// Equivalent viscous damping of the side-frame friction, W/(π ω A²).
-    pub equivalent_damping: Option<Measure>,
+    pub equivalent_damping: Option<SummaryValue>,
     /// Stiffness of the first harmonic of the vertical force of wedge and coil on the bolster.
     #[serde(default)]
-    pub equivalent_stiffness: Option<Measure>,
+    pub equivalent_stiffness: Option<SummaryValue>,
     /// Damping of the same first harmonic: of all that resists the bolster.
     #[serde(default)]
-    pub equivalent_damping_on_bolster: Option<Measure>,
+    pub equivalent_damping_on_bolster: Option<SummaryValue>,
     /// Means over the branch in which the bolster goes up, by column.
-    pub up: BTreeMap<String, Measure>,
+    pub up: BTreeMap<String, SummaryValue>,
     /// Means over the branch in which it goes down, by column.
-    pub down: BTreeMap<String, Measure>,
+    pub down: BTreeMap<String, SummaryValue>,
 }
 
 /// Changes of contact states.
@@ -171,22 +171,22 @@ pub struct FrictionSummary {
     /// Coefficient of friction.
     pub coefficient: f64,
     /// Speed at which a corner creeps while it holds half its friction limit.
-    pub creep_speed_at_half_load: Measure,
+    pub creep_speed_at_half_load: SummaryValue,
     /// Greatest distance that a corner crept while its state was `stick`, over the whole run.
-    pub crept_while_stuck: Measure,
+    pub crept_while_stuck: SummaryValue,
 }
 
 /// The energy ledger at the end of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LedgerSummary {
     /// Entries by name: work, stored energy, losses, residual.
-    pub entries: BTreeMap<String, Measure>,
+    pub entries: BTreeMap<String, SummaryValue>,
     /// Energy stored at the start.
-    pub stored_at_start: Measure,
+    pub stored_at_start: SummaryValue,
     /// Largest absolute change of the stored energy at any output time.
-    pub largest_stored_change: Measure,
+    pub largest_stored_change: SummaryValue,
     /// Largest absolute residual at any output time.
-    pub largest_residual: Measure,
+    pub largest_residual: SummaryValue,
     /// The first output time with this residual, s.
     pub largest_residual_time: f64,
     /// The measure of how well the ledger closes: [`mechanics::energy_balance::relative_residual`] of the largest residual.

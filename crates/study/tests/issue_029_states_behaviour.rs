@@ -7,9 +7,9 @@ mod damage;
 use integrate::MAXIMUM_COUNT;
 use serde_json::{Value, json};
 use study::case::{Case, builtin};
-use study::driven::{CoilDrive, DrivenError, DrivenState, DrivenWedge, MOST_STATE_BYTES};
 use study::progress::most_attempts;
 use study::run::{EVENT_CAP, Run, RunError, RunState};
+use study::stepping::{CoilInput, MOST_STATE_BYTES, SteppedState, SteppedWedge, SteppingError};
 
 const YAWED: &str = "cdrun_toe_-0.2_psi_0.012";
 
@@ -178,14 +178,14 @@ fn issue_029_members_of_a_run_that_led_astray_are_refused_by_name() {
 }
 
 /// A wedge on its way, its bolster rising.
-fn driven(coil: CoilDrive) -> DrivenWedge {
-    let mut wedge = DrivenWedge::new(&case(&[])).unwrap();
+fn driven(coil: CoilInput) -> SteppedWedge {
+    let mut wedge = SteppedWedge::new(&case(&[])).unwrap();
     wedge.set_coil(coil).unwrap();
     rise(&mut wedge, 1e-3, 30).unwrap();
     wedge
 }
 
-fn rise(wedge: &mut DrivenWedge, duration: f64, steps: u32) -> Result<(), DrivenError> {
+fn rise(wedge: &mut SteppedWedge, duration: f64, steps: u32) -> Result<(), SteppingError> {
     for _ in 0..steps {
         let mut place = *wedge.neighbours();
         place.bolster.position[2] += 0.05 * duration;
@@ -197,13 +197,13 @@ fn rise(wedge: &mut DrivenWedge, duration: f64, steps: u32) -> Result<(), Driven
 
 #[test]
 fn issue_029_every_member_of_a_driven_wedge_edited_by_hand_is_refused_or_goes_on() {
-    let mut wedge = driven(CoilDrive::Force(9e3));
+    let mut wedge = driven(CoilInput::Force(9e3));
     let good = wedge.state();
     let saved: Value = serde_json::from_slice(&good.to_bytes().unwrap()).unwrap();
     let mut tally = Tally::default();
     for (what, state) in damage::damaged(&saved) {
         let bytes = serde_json::to_vec(&state).unwrap();
-        let restored = DrivenState::from_bytes(&bytes).and_then(|state| wedge.restore(&state));
+        let restored = SteppedState::from_bytes(&bytes).and_then(|state| wedge.restore(&state));
         match restored {
             Ok(()) => {
                 let before = wedge.statistics().clone();
@@ -223,18 +223,18 @@ fn issue_029_every_member_of_a_driven_wedge_edited_by_hand_is_refused_or_goes_on
     assert!(tally.refused > 500 && tally.went_on > 100, "{tally:?}");
     // And then it goes on as if nothing had been.
     rise(&mut wedge, 1e-3, 5).unwrap();
-    let mut straight = driven(CoilDrive::Force(9e3));
+    let mut straight = driven(CoilInput::Force(9e3));
     rise(&mut straight, 1e-3, 5).unwrap();
     assert_eq!(wedge.state(), straight.state());
 }
 
 #[test]
 fn issue_029_members_of_a_driven_wedge_that_led_astray_are_refused_by_name() {
-    let mut wedge = driven(CoilDrive::Internal);
+    let mut wedge = driven(CoilInput::Internal);
     let good = wedge.state();
     for (edit, what) in [
         (
-            (|state| state.integrator.discrete_states[2] = 9) as fn(&mut DrivenState),
+            (|state| state.integrator.discrete_states[2] = 9) as fn(&mut SteppedState),
             "contact state of corner 2",
         ),
         (
@@ -250,7 +250,7 @@ fn issue_029_members_of_a_driven_wedge_that_led_astray_are_refused_by_name() {
             |state| state.integrator.statistics.solves = u64::MAX,
             "`statistics.solves`",
         ),
-        (|state| state.coil = CoilDrive::Stiffness(-1.0), "stiffness is -1"),
+        (|state| state.coil = CoilInput::Stiffness(-1.0), "stiffness is -1"),
         (|state| state.friction[1] = f64::NAN, "friction.slope is NaN"),
         (
             |state| state.neighbours.bolster.rate[0] = f64::INFINITY,
@@ -264,7 +264,7 @@ fn issue_029_members_of_a_driven_wedge_that_led_astray_are_refused_by_name() {
         assert_eq!(wedge.state(), good, "{what}: nothing has changed");
     }
     // More bytes than any state has are not read.
-    let reason = DrivenState::from_bytes(&vec![b' '; MOST_STATE_BYTES + 1])
+    let reason = SteppedState::from_bytes(&vec![b' '; MOST_STATE_BYTES + 1])
         .unwrap_err()
         .to_string();
     assert!(
@@ -277,7 +277,7 @@ fn issue_029_members_of_a_driven_wedge_that_led_astray_are_refused_by_name() {
         "[".repeat(200_000),
         "]".repeat(200_000)
     );
-    let reason = DrivenState::from_bytes(deep.as_bytes()).unwrap_err().to_string();
+    let reason = SteppedState::from_bytes(deep.as_bytes()).unwrap_err().to_string();
     assert!(
         reason.contains("this is no saved state") && reason.len() < 500,
         "{reason}"

@@ -10,11 +10,11 @@ use nucars::truck::Choices;
 use quantity::Number;
 use runs::{LBF, LBF_IN, column};
 use study::case::builtin;
-use study::driven::{DrivenError, DrivenWedge};
 use study::measures::{Unmeasured, measure};
 use study::progress::{state_name, truck_state_name};
 use study::result::RunResult;
 use study::run::Run;
+use study::stepping::{SteppedWedge, SteppingError};
 use study::truck::catalog::entry;
 use wedge::Wedge;
 
@@ -148,14 +148,14 @@ fn limits_a_run_that_hardly_progresses_stops_by_the_rule_and_says_where() {
 #[test]
 fn limits_a_communication_step_that_hardly_progresses_stops_by_the_same_rule() {
     let case = builtin::case_with("cdrun_toe_0.2_psi_0.012", &STALLS.map(str::to_owned)).unwrap();
-    let mut wedge = DrivenWedge::new(&case).unwrap();
+    let mut wedge = SteppedWedge::new(&case).unwrap();
     let place = *wedge.neighbours();
     let error = wedge.step(&place, 0.01).unwrap_err();
     let (text, attempts) = (
         error.to_string(),
         wedge.statistics().steps + wedge.statistics().rejected(),
     );
-    assert!(matches!(error, DrivenError::TooLong { .. }), "{text}");
+    assert!(matches!(error, SteppingError::TooLong { .. }), "{text}");
     assert!(text.contains("the step of 0.01 s from time 0 s"), "{text}");
     assert!(
         text.contains("the largest error is that of the speed in"),

@@ -15,7 +15,7 @@ use mechanics::coil::{Coil, CoilLine};
 use mechanics::contact::{ContactFace, ContactPoint};
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
-use mechanics::link::Mount;
+use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::surface::Plane;
 use mechanics::system::{Model, ModelError, NoEquilibrium, StaticFriction, System};
@@ -97,13 +97,13 @@ impl Wedge {
 fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
     let mut system = System::new(model(parameters, [0.0; 2]))?;
     let start = system.initial_state();
-    let seen = system.observe(0.0, &start);
+    let observation = system.observe(0.0, &start);
     Ok([COLUMN, SLOPE].map(|face| {
-        let depth = seen.faces[face]
+        let depth = observation.faces[face]
             .points
             .iter()
             .fold(0.0, |depth: f64, point| depth.max(-point.gap));
-        depth / system.faces()[face].mount.rotation.0[0][0].abs()
+        depth / system.faces()[face].marker.rotation.0[0][0].abs()
     }))
 }
 
@@ -180,14 +180,14 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
     );
     let worn_column = along(parameters.wear.column, parameters.toe);
     let worn_slope = along(parameters.wear.slope, PI - wedge.angle);
-    let column_mount = Mount::new(
+    let column_marker = Marker::new(
         sub(
             sub([face_x - shifts[0], 0.0, middle], worn_column),
             side_frame_origin,
         ),
         [0.0, parameters.toe, 0.0],
     );
-    let slope_mount = Mount::new(
+    let slope_marker = Marker::new(
         sub(
             sub([pocket_center[0] + shifts[1], 0.0, middle], worn_slope),
             bolster_origin,
@@ -216,13 +216,13 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
         bodies: vec![side_frame, bolster, body],
         gravity: [0.0, 0.0, -parameters.gravity],
         faces: vec![
-            (WEDGE, SIDE_FRAME, column_mount, column),
-            (WEDGE, BOLSTER, slope_mount, slope),
+            (WEDGE, SIDE_FRAME, column_marker, column),
+            (WEDGE, BOLSTER, slope_marker, slope),
         ],
         coils: vec![(
             WEDGE,
             seat_body,
-            Mount::new(sub([0.0; 3], seat_origin), [0.0; 3]),
+            Marker::new(sub([0.0; 3], seat_origin), [0.0; 3]),
             control_coil,
         )],
         ..Model::default()

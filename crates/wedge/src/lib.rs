@@ -3,7 +3,7 @@
 //! One wedge body, two contact faces of four corners each, a control coil, two prescribed neighbours: put
 //! together from [`mechanics`] by [`Wedge::new`]. [`outputs`] says what comes out.
 
-pub mod driven;
+pub mod inputs;
 pub mod outputs;
 pub mod parameters;
 pub mod quasi_static;

@@ -7,7 +7,7 @@
 
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
-use mechanics::system::{ChannelKind, Observation, System};
+use mechanics::system::{EnergyTermKind, Observation, System};
 use mechanics::vector::Vector;
 use quantity::Kind;
 
@@ -21,9 +21,9 @@ pub const CORNERS: [&str; 4] = ["lower_right", "lower_left", "upper_right", "upp
 pub const FACES: [&str; 2] = ["column", "slope"];
 
 /// Everything that a column may need.
-struct Scene<'s> {
-    seen: &'s Observation,
-    modes: &'s [u8],
+struct Instant<'s> {
+    observation: &'s Observation,
+    contact_states: &'s [u8],
     start_energy: f64,
     derived: Resultants,
     ledger: Ledger,
@@ -58,14 +58,14 @@ impl Ledger {
             stored,
             ..Self::default()
         };
-        for (channel, value) in system.channels().iter().zip(quadratures) {
-            let entry = match (channel.kind, channel.element.as_str()) {
-                (ChannelKind::MotionWork, _) => &mut ledger.motion_work,
-                (ChannelKind::FrictionLoss, "column") => &mut ledger.side_frame_friction_loss,
-                (ChannelKind::FrictionLoss, _) => &mut ledger.bolster_friction_loss,
-                (ChannelKind::ContactDampingLoss, _) => &mut ledger.contact_damping_loss,
-                (ChannelKind::CoilDampingLoss, _) => &mut ledger.coil_damping_loss,
-                (ChannelKind::CoilGuideWork, _) => &mut ledger.coil_guide_work,
+        for (energy_term, value) in system.energy_terms().iter().zip(quadratures) {
+            let entry = match (energy_term.kind, energy_term.element.as_str()) {
+                (EnergyTermKind::MotionWork, _) => &mut ledger.motion_work,
+                (EnergyTermKind::FrictionLoss, "column") => &mut ledger.side_frame_friction_loss,
+                (EnergyTermKind::FrictionLoss, _) => &mut ledger.bolster_friction_loss,
+                (EnergyTermKind::ContactDampingLoss, _) => &mut ledger.contact_damping_loss,
+                (EnergyTermKind::CoilDampingLoss, _) => &mut ledger.coil_damping_loss,
+                (EnergyTermKind::CoilGuideWork, _) => &mut ledger.coil_guide_work,
                 // What connections lose: a wedge has none.
                 _ => continue,
             };
@@ -96,10 +96,10 @@ impl Ledger {
 }
 
 /// Name, value and text of a column of stored energy.
-type StoredRow = (&'static str, fn(&Scene<'_>) -> f64, &'static str);
+type StoredRow = (&'static str, fn(&Instant<'_>) -> f64, &'static str);
 /// Name, value and text of a column of work or losses.
 type SpentRow = (&'static str, fn(&Ledger) -> f64, &'static str);
-type Value = Box<dyn Fn(&Scene<'_>) -> f64 + Send + Sync>;
+type Value = Box<dyn Fn(&Instant<'_>) -> f64 + Send + Sync>;
 
 /// The output table of wedge runs.
 pub struct Outputs {
@@ -131,31 +131,35 @@ impl Outputs {
         &self.columns
     }
 
-    /// The values of all columns (SI) at one instant; `modes` are those of the contact points, `start_energy` the
+    /// The values of all columns (SI) at one instant; `contact_states` are those of the contact points, `start_energy` the
     /// stored energy at the start (J). Returns the ledger, which is among them.
     pub fn values(
         &self,
         system: &System,
-        seen: &Observation,
-        modes: &[u8],
+        observation: &Observation,
+        contact_states: &[u8],
         start_energy: f64,
         out: &mut Vec<f64>,
     ) -> Ledger {
-        let scene = Scene {
-            seen,
-            modes,
+        let instant = Instant {
+            observation,
+            contact_states,
             start_energy,
-            derived: Resultants::seen(self.damping, seen),
-            ledger: Self::ledger(system, seen, start_energy),
+            derived: Resultants::of_observation(self.damping, observation),
+            ledger: Self::ledger(system, observation, start_energy),
         };
-        out.extend(self.values.iter().map(|value| value(&scene)));
-        scene.ledger
+        out.extend(self.values.iter().map(|value| value(&instant)));
+        instant.ledger
     }
 
     /// The energy ledger at one instant.
     #[must_use]
-    pub fn ledger(system: &System, seen: &Observation, start_energy: f64) -> Ledger {
-        Ledger::new(system, seen.energies.total() - start_energy, &seen.quadratures)
+    pub fn ledger(system: &System, observation: &Observation, start_energy: f64) -> Ledger {
+        Ledger::new(
+            system,
+            observation.energies.total() - start_energy,
+            &observation.quadratures,
+        )
     }
 
     fn add(
@@ -164,7 +168,7 @@ impl Outputs {
         kind: Kind,
         place: (&'static str, &'static str),
         text: impl Into<String>,
-        value: impl Fn(&Scene<'_>) -> f64 + Send + Sync + 'static,
+        value: impl Fn(&Instant<'_>) -> f64 + Send + Sync + 'static,
     ) {
         let (frame, reference) = place;
         self.columns.push(Column {
@@ -182,7 +186,7 @@ impl Outputs {
         let nominal = ("fixed", "nominal position");
         let none = ("fixed", "");
         let cg = ("fixed", "wedge centre of gravity");
-        self.add("time", Kind::Time, ("", ""), "time", |s| s.seen.time);
+        self.add("time", Kind::Time, ("", ""), "time", |s| s.observation.time);
         self.add(
             "bolster_vertical",
             Kind::Length,
@@ -201,7 +205,7 @@ impl Outputs {
                 kind,
                 nominal,
                 "displacement of the wedge frame's origin, or angle",
-                move |s| s.seen.bodies[WEDGE].coordinates[k],
+                move |s| s.observation.bodies[WEDGE].coordinates[k],
             );
         }
         self.add(
@@ -238,13 +242,13 @@ impl Outputs {
             ),
         ] {
             self.add(name, Kind::Power, none, text, move |s| {
-                s.seen.faces[face].friction_power
+                s.observation.faces[face].friction_power
             });
         }
         for (name, face) in [("side_frame_dissipation", COLUMN), ("bolster_dissipation", SLOPE)] {
             let text = "the part of the friction power that is lost; never positive";
             self.add(name, Kind::Power, none, text, move |s| {
-                -s.seen.faces[face].friction_loss
+                -s.observation.faces[face].friction_loss
             });
         }
         self.moment_columns("side_frame", COLUMN, cg);
@@ -253,14 +257,14 @@ impl Outputs {
             Kind::Force,
             ("along the coil", ""),
             "spring force, positive when it pushes",
-            |s| s.seen.coils[0].coil.spring,
+            |s| s.observation.coils[0].coil.spring,
         );
         self.add(
             "coil_length",
             Kind::Length,
             ("along the coil", ""),
             "length of the coil",
-            |s| s.seen.coils[0].coil.length,
+            |s| s.observation.coils[0].coil.length,
         );
     }
 
@@ -286,7 +290,7 @@ impl Outputs {
                 kind,
                 nominal,
                 "displacement of the wedge frame's origin, or angle",
-                move |s| s.seen.bodies[WEDGE].coordinates[k],
+                move |s| s.observation.bodies[WEDGE].coordinates[k],
             );
         }
         for (k, axis) in ["x", "y", "z", "roll", "pitch", "yaw"].into_iter().enumerate() {
@@ -296,7 +300,7 @@ impl Outputs {
                 kind,
                 nominal,
                 "rate of the coordinate",
-                move |s| s.seen.bodies[WEDGE].speeds[k],
+                move |s| s.observation.bodies[WEDGE].speeds[k],
             );
         }
         for (body, name) in [(BOLSTER, "bolster"), (SIDE_FRAME, "side_frame")] {
@@ -313,7 +317,7 @@ impl Outputs {
                     Kind::Speed,
                     ("fixed", ""),
                     text,
-                    move |s| s.seen.bodies[body].velocity.0[k],
+                    move |s| s.observation.bodies[body].velocity.0[k],
                 );
             }
             for (k, axis) in ["roll", "pitch", "yaw"].into_iter().enumerate() {
@@ -327,7 +331,7 @@ impl Outputs {
                     Kind::AngularSpeed,
                     ("fixed", ""),
                     text,
-                    move |s| s.seen.bodies[body].angular_velocity.0[k],
+                    move |s| s.observation.bodies[body].angular_velocity.0[k],
                 );
             }
         }
@@ -343,7 +347,7 @@ impl Outputs {
                     Kind::Length,
                     place,
                     "signed distance, negative inside",
-                    move |s| s.seen.faces[face].points[point].gap,
+                    move |s| s.observation.faces[face].points[point].gap,
                 );
                 let text = "normal force on the wedge";
                 self.add(
@@ -351,7 +355,7 @@ impl Outputs {
                     Kind::Force,
                     place,
                     text,
-                    move |s| s.seen.faces[face].points[point].normal,
+                    move |s| s.observation.faces[face].points[point].normal,
                 );
                 for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
                     let text = format!("{axis} part of the friction force on the wedge");
@@ -360,7 +364,7 @@ impl Outputs {
                         Kind::Force,
                         place,
                         text,
-                        move |s| s.seen.faces[face].friction_forces[point].0[k],
+                        move |s| s.observation.faces[face].friction_forces[point].0[k],
                     );
                 }
                 let text = "speed along the surface";
@@ -370,13 +374,13 @@ impl Outputs {
                     place,
                     text,
                     move |s| {
-                        let [a, b] = s.seen.faces[face].points[point].slip;
+                        let [a, b] = s.observation.faces[face].points[point].slip;
                         (a * a + b * b).sqrt()
                     },
                 );
                 let text = "contact state: 0 open, 1 stick, 2 slip";
                 self.add(format!("{corner}_state"), Kind::Count, ("", ""), text, move |s| {
-                    f64::from(s.modes[face * CORNERS.len() + point])
+                    f64::from(s.contact_states[face * CORNERS.len() + point])
                 });
             }
         }
@@ -414,30 +418,34 @@ impl Outputs {
     fn energy_columns(&mut self) {
         let none = ("", "");
         let stored: [StoredRow; 6] = [
-            ("kinetic_energy", |s| s.seen.energies.kinetic, "kinetic energy"),
+            (
+                "kinetic_energy",
+                |s| s.observation.energies.kinetic,
+                "kinetic energy",
+            ),
             (
                 "coil_energy",
-                |s| s.seen.energies.coil,
+                |s| s.observation.energies.coil,
                 "energy stored in the coil",
             ),
             (
                 "contact_energy",
-                |s| s.seen.energies.contact,
+                |s| s.observation.energies.contact,
                 "energy stored in the contact springs",
             ),
             (
                 "bristle_energy",
-                |s| s.seen.energies.bristle,
+                |s| s.observation.energies.bristle,
                 "energy stored in the friction bristles",
             ),
             (
                 "gravity_energy",
-                |s| s.seen.energies.gravity,
+                |s| s.observation.energies.gravity,
                 "potential energy of the weight",
             ),
             (
                 "stored_energy_change",
-                |s| s.seen.energies.total() - s.start_energy,
+                |s| s.observation.energies.total() - s.start_energy,
                 "all stored energy, less that at the start",
             ),
         ];
@@ -488,14 +496,14 @@ impl Outputs {
 }
 
 /// Displacement of a neighbour's turning centre from its place at zero motion.
-fn displacement(scene: &Scene<'_>, body: usize) -> Vector<f64> {
-    scene.seen.bodies[body].travel
+fn displacement(instant: &Instant<'_>, body: usize) -> Vector<f64> {
+    instant.observation.bodies[body].travel
 }
 
 /// Roll, pitch and yaw of a neighbour.
-fn angles(scene: &Scene<'_>, body: usize) -> [f64; 3] {
+fn angles(instant: &Instant<'_>, body: usize) -> [f64; 3] {
     // R = Ry(pitch) Rz(yaw) Rx(roll)
-    let r = scene.seen.bodies[body].rotation.0;
+    let r = instant.observation.bodies[body].rotation.0;
     [
         libm::atan2(-r[1][2], r[1][1]),
         libm::atan2(-r[2][0], r[0][0]),

@@ -4,14 +4,14 @@
 //! `w = (z sin θ + x cos θ) cos φ / sin(θ+φ)` with the bolster's displacements x and z relative to the side frame, plus the rise by
 //! wear; the coil's force follows from w. Friction is mobilized by `tanh(w˙/v0)`, v0 the reference speed of the column's tanh law (with a
 //! bristle law 0.001 in/s): it creeps under a held load as that law does. Where the weight exceeds the coil's force nothing
-//! is carried. Units SI; x longitudinal, z up, as in [`crate::driven`].
+//! is carried. Units SI; x longitudinal, z up, as in [`crate::inputs`].
 
 use integrate::scalar::Real;
 use mechanics::friction::FrictionLaw;
 use mechanics::quasi_static::QuasiStaticWedge;
 use thiserror::Error;
 
-use crate::driven::CoilDrive;
+use crate::inputs::CoilInput;
 use crate::parameters::{Damping, Parameters};
 
 /// The reference speed where the column's law has none, m/s: 0.001 in/s.
@@ -72,7 +72,7 @@ pub fn read<S: Real>(
     parameters: &Parameters,
     bolster: &PlanePlace<S>,
     side_frame: &PlanePlace<S>,
-    coil: &CoilDrive,
+    coil: &CoilInput,
     coil_change: S,
 ) -> Result<PlaneReading<S>, Jams> {
     let wedge = massless(parameters);

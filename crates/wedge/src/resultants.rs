@@ -1,6 +1,6 @@
 //! Resultants of what acts on the wedge, and what acts on its neighbours in return.
 
-use mechanics::system::{BodyPlace, CoilLoad, FaceLoad, Loads, Observation, System};
+use mechanics::system::{BodyState, CoilLoad, FaceLoad, Loads, Observation, System};
 use mechanics::vector::Vector;
 
 use crate::assemble::{COLUMN, SLOPE, WEDGE};
@@ -33,13 +33,13 @@ impl Resultants {
 
     /// The resultants of what [`System::observe`] says.
     #[must_use]
-    pub fn seen(damping: Damping, seen: &Observation) -> Self {
-        let wedge = &seen.bodies[WEDGE];
-        let faces = [COLUMN, SLOPE].map(|face| seen.faces[face].load(wedge.center_of_gravity));
-        Self::new(damping, wedge, faces, &seen.coils[0].load())
+    pub fn of_observation(damping: Damping, observation: &Observation) -> Self {
+        let wedge = &observation.bodies[WEDGE];
+        let faces = [COLUMN, SLOPE].map(|face| observation.faces[face].load(wedge.center_of_gravity));
+        Self::new(damping, wedge, faces, &observation.coils[0].load())
     }
 
-    fn new(damping: Damping, wedge: &BodyPlace, faces: [FaceLoad; 2], coil: &CoilLoad) -> Self {
+    fn new(damping: Damping, wedge: &BodyState, faces: [FaceLoad; 2], coil: &CoilLoad) -> Self {
         let vertical = -faces[COLUMN].friction.0[2];
         // The neighbour that the coil stands on.
         let (on_frame, seat) = match damping {

@@ -37,9 +37,9 @@ fn worn_faces_lie_deeper_by_the_wear() {
             parameters.start = Start::Rest;
             let mut wedge = Wedge::new(parameters).unwrap();
             let start = wedge.initial_state.clone();
-            let seen = wedge.system.observe(0.0, &start);
+            let observation = wedge.system.observe(0.0, &start);
             for (face, depth) in [(COLUMN, column), (SLOPE, slope)] {
-                for point in &seen.faces[face].points {
+                for point in &observation.faces[face].points {
                     assert!((point.gap / INCH - depth).abs() < 1e-13, "{} {depth}", point.gap);
                 }
             }
@@ -70,8 +70,8 @@ fn a_wedge_on_stiff_contacts_rises_by_the_closed_form() {
                 let expected = parameters.wedge_rise();
                 let mut wedge = Wedge::new(parameters).unwrap();
                 let start = wedge.initial_state.clone();
-                let seen = wedge.system.observe(0.0, &start);
-                (seen.bodies[WEDGE].coordinates[2] / INCH, expected / INCH)
+                let observation = wedge.system.observe(0.0, &start);
+                (observation.bodies[WEDGE].coordinates[2] / INCH, expected / INCH)
             };
             let (unworn, _) = height((0.0, 0.0));
             for wear in WEARS {
@@ -123,8 +123,8 @@ fn a_wedge_on_elastic_contacts_rises_by_the_closed_form() {
                 let above = (rise + give * load) / (1.0 + give * coil);
                 let mut wedge = Wedge::new(parameters).unwrap();
                 let start = wedge.initial_state.clone();
-                let seen = wedge.system.observe(0.0, &start);
-                let found = seen.bodies[WEDGE].coordinates[2] / INCH - follows;
+                let observation = wedge.system.observe(0.0, &start);
+                let found = observation.bodies[WEDGE].coordinates[2] / INCH - follows;
                 // The give is 0.01 to 0.03 in: it is there, and to 2 %.
                 assert!(above - rise > 0.005, "{above} {rise}");
                 assert!(

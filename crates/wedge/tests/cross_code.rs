@@ -93,9 +93,9 @@ fn own(damping: Damping, toe: f64, amplitude: f64, tolerance: f64) -> Vec<Row> {
     };
     let wedge = Wedge::new(parameters).unwrap();
     let mut rows = Vec::new();
-    run(&wedge, tolerance, (UNTIL, INTERVAL), |seen, _| {
-        let q = seen.bodies[WEDGE].coordinates;
-        let (longitudinal, vertical) = column_forces(seen);
+    run(&wedge, tolerance, (UNTIL, INTERVAL), |observation, _| {
+        let q = observation.bodies[WEDGE].coordinates;
+        let (longitudinal, vertical) = column_forces(observation);
         rows.push([
             q[0] / INCH,
             q[2] / INCH,

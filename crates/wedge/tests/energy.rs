@@ -10,7 +10,7 @@ use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::energy_balance::EnergyBalance;
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::{Motion, RampProfile};
-use mechanics::system::ChannelKind;
+use mechanics::system::EnergyTermKind;
 use wedge::parameters::{Damping, Parameters, Start};
 use wedge::{Wedge, thesis};
 
@@ -22,11 +22,11 @@ const UNTIL: f64 = 10.0;
 /// Returns the end and the relative residual of the ledger.
 fn checked(parameters: Parameters, tolerance: f64, until: f64) -> (End, f64) {
     let wedge = Wedge::new(parameters).unwrap();
-    let losses: Vec<usize> = (0..wedge.system.channels().len())
+    let losses: Vec<usize> = (0..wedge.system.energy_terms().len())
         .filter(|&i| {
             !matches!(
-                wedge.system.channels()[i].kind,
-                ChannelKind::MotionWork | ChannelKind::CoilGuideWork
+                wedge.system.energy_terms()[i].kind,
+                EnergyTermKind::MotionWork | EnergyTermKind::CoilGuideWork
             )
         })
         .collect();
@@ -37,26 +37,26 @@ fn checked(parameters: Parameters, tolerance: f64, until: f64) -> (End, f64) {
     .map(|f| matches!(f.law, FrictionLaw::Tanh { .. }));
     let mut start = None;
     let mut balance = EnergyBalance::default();
-    let mut before = vec![0.0; wedge.system.channels().len()];
+    let mut before = vec![0.0; wedge.system.energy_terms().len()];
     let mut fall = 0.0_f64;
-    let end = run(&wedge, tolerance, (until, 0.01), |seen, _| {
-        let start = *start.get_or_insert(seen.energies.total());
-        let ledger = wedge::outputs::Outputs::ledger(&wedge.system, seen, start);
-        balance.note(seen.time, &ledger.entries());
-        for (face, tanh) in seen.faces.iter().zip(tanh) {
+    let end = run(&wedge, tolerance, (until, 0.01), |observation, _| {
+        let start = *start.get_or_insert(observation.energies.total());
+        let ledger = wedge::outputs::Outputs::ledger(&wedge.system, observation, start);
+        balance.note(observation.time, &ledger.entries());
+        for (face, tanh) in observation.faces.iter().zip(tanh) {
             assert!(
                 face.friction_loss >= 0.0,
                 "friction adds energy at {} s",
-                seen.time
+                observation.time
             );
             assert!(!tanh || face.friction_power <= 0.0);
             // Equal with tanh.
             assert!(!tanh || (face.friction_power + face.friction_loss).abs() <= 1e-12 * face.friction_loss);
         }
         for &i in &losses {
-            fall = fall.max(before[i] - seen.quadratures[i]);
+            fall = fall.max(before[i] - observation.quadratures[i]);
         }
-        before.copy_from_slice(&seen.quadratures);
+        before.copy_from_slice(&observation.quadratures);
     });
     // What went through the wedge.
     let entries = end.ledger.entries();

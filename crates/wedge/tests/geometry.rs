@@ -16,8 +16,8 @@ const BOTH: [Damping; 2] = [Damping::Variable, Damping::Constant];
 fn start_gaps(parameters: Parameters) -> [[f64; 4]; 2] {
     let mut wedge = Wedge::new(parameters).unwrap();
     let start = wedge.initial_state.clone();
-    let seen = wedge.system.observe(0.0, &start);
-    [COLUMN, SLOPE].map(|face| std::array::from_fn(|i| seen.faces[face].points[i].gap / INCH))
+    let observation = wedge.system.observe(0.0, &start);
+    [COLUMN, SLOPE].map(|face| std::array::from_fn(|i| observation.faces[face].points[i].gap / INCH))
 }
 
 fn assert_gaps(gaps: [f64; 4], expected: [f64; 4]) {
@@ -88,10 +88,16 @@ fn equilibrium_is_at_rest_with_the_closed_forms_of_statics() {
         let mut wedge = Wedge::new(parameters).unwrap();
         // The bolster moves at time zero, and friction with it: look at the frictionless forces only.
         let start = wedge.initial_state.clone();
-        let seen = wedge.system.observe(0.0, &start);
-        let sum =
-            |face: usize| -> f64 { seen.faces[face].points.iter().map(|p| p.normal).sum::<f64>() / LBF };
-        let coil = seen.coils[0].spring_force.0.map(|f| f / LBF);
+        let observation = wedge.system.observe(0.0, &start);
+        let sum = |face: usize| -> f64 {
+            observation.faces[face]
+                .points
+                .iter()
+                .map(|p| p.normal)
+                .sum::<f64>()
+                / LBF
+        };
+        let coil = observation.coils[0].spring_force.0.map(|f| f / LBF);
         // Two unknown normal forces: n_c = (cos φ, -sin φ), n_s = (-cos θ, -sin θ); coil (0, F) and weight (0, -W).
         let (column, slope) = (sum(COLUMN), sum(SLOPE));
         let x = column * toe.cos() - slope * angle.cos() + coil[0];
@@ -140,10 +146,10 @@ fn a_free_wedge_sags_by_its_weight_over_the_coil() {
         };
         let mut wedge = Wedge::new(parameters).unwrap();
         let start = wedge.initial_state.clone();
-        let seen = wedge.system.observe(0.0, &start);
-        let z = seen.bodies[WEDGE].coordinates[2] / INCH;
+        let observation = wedge.system.observe(0.0, &start);
+        let z = observation.bodies[WEDGE].coordinates[2] / INCH;
         assert!((z + 50.0 / 3000.0).abs() < 1e-9, "{z}");
-        assert!((seen.coils[0].coil.spring / LBF - 50.0).abs() < 1e-5);
+        assert!((observation.coils[0].coil.spring / LBF - 50.0).abs() < 1e-5);
     }
 }
 
@@ -195,7 +201,7 @@ fn gaps_at_random_poses() {
         let mut x = wedge.initial_state.clone();
         let q: [f64; 6] = std::array::from_fn(|i| random.between(-0.1, 0.1) * if i < 3 { INCH } else { 1.0 });
         x[..6].copy_from_slice(&q);
-        let seen = wedge.system.observe(1.0, &x);
+        let observation = wedge.system.observe(1.0, &x);
 
         let bottom = 6.125 * theta.tan();
         let face_x = -1.0734 - bottom / 3.0;
@@ -220,7 +226,7 @@ fn gaps_at_random_poses() {
                 [face_x, -5.25, 6.125],
                 [face_x, 5.25, 6.125],
             ];
-            for (point, corner) in seen.faces[face].points.iter().zip(corners) {
+            for (point, corner) in observation.faces[face].points.iter().zip(corners) {
                 let r = apply(&body, corner);
                 let place = [
                     r[0] + q[0] / INCH,

@@ -7,7 +7,7 @@ use common::{INCH, LBF, LBF_PER_IN, TOE, YAW, bristle, column_forces, free, run,
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::{Motion, RampProfile};
-use mechanics::system::Mode;
+use mechanics::system::ContactState;
 use wedge::outputs::Outputs;
 use wedge::parameters::{Damping, Parameters, Start};
 use wedge::{COLUMN, SLOPE, WEDGE, Wedge, thesis};
@@ -27,13 +27,13 @@ fn sliding(damping: Damping, contact_damping: f64, windows: [(f64, f64); 2]) -> 
     parameters.contact.damping = contact_damping * LBF_PER_IN;
     let wedge = Wedge::new(parameters).unwrap();
     let mut sums = [[(0.0, 0.0); 4]; 2];
-    run(&wedge, 1e-6, (10.0, 0.01), |seen, _| {
-        let phase = (2.0 * seen.time).to_degrees();
+    run(&wedge, 1e-6, (10.0, 0.01), |observation, _| {
+        let phase = (2.0 * observation.time).to_degrees();
         let (cycle, phase) = ((phase / 360.0) as usize, phase % 360.0);
         for (sums, (from, to)) in sums.iter_mut().zip(windows) {
             if phase >= from && phase <= to {
-                let net = seen.coils[0].spring_force.0[2] / LBF - 50.0;
-                sums[cycle].0 += column_forces(seen).1 / LBF / net;
+                let net = observation.coils[0].spring_force.0[2] / LBF - 50.0;
+                sums[cycle].0 += column_forces(observation).1 / LBF / net;
                 sums[cycle].1 += 1.0;
             }
         }
@@ -120,13 +120,13 @@ fn a_lifted_off_wedge_rings_on_its_coil() {
         let mut before = (0.0, 0.0);
         for (tolerance, worst) in [1e-6, 1e-9].into_iter().zip(&mut worst) {
             crossings.clear();
-            run(&wedge, tolerance, (1.5, 0.001), |seen, _| {
-                let t = seen.time;
-                let z = seen.bodies[WEDGE].coordinates[2] / INCH;
+            run(&wedge, tolerance, (1.5, 0.001), |observation, _| {
+                let t = observation.time;
+                let z = observation.bodies[WEDGE].coordinates[2] / INCH;
                 let swing = (damped * t).cos() + decay / damped * (damped * t).sin();
                 let exact = -sag * (1.0 - (-decay * t).exp() * swing);
                 *worst = worst.max((z - exact).abs());
-                pressed = seen
+                pressed = observation
                     .faces
                     .iter()
                     .flat_map(|f| &f.points)
@@ -199,21 +199,27 @@ fn a_jam_is_an_elastic_ramp() {
         };
         let wedge = Wedge::new(parameters).unwrap();
         let mut points = Vec::new();
-        run(&wedge, 1e-8, (2.2, 0.01), |seen, modes| {
-            if seen.time < 1.2 {
+        run(&wedge, 1e-8, (2.2, 0.01), |observation, contact_states| {
+            if observation.time < 1.2 {
                 return;
             }
-            let (normal, vertical) = column_forces(seen);
+            let (normal, vertical) = column_forces(observation);
             assert!(
                 (vertical / normal / -mu - 1.0).abs() < 1e-4 + 2.0 * TOE.tan(),
                 "the column slides down"
             );
             assert!(
-                modes[4..].iter().all(|mode| *mode == Mode::Stick as u8),
-                "the slope sticks: {modes:?}"
+                contact_states[4..]
+                    .iter()
+                    .all(|contact_state| *contact_state == ContactState::Stick as u8),
+                "the slope sticks: {contact_states:?}"
             );
-            let closed = seen.faces[COLUMN].points.iter().filter(|p| p.gap < 0.0).count();
-            points.push((seen.bodies[1].travel.0[2] / INCH, normal / LBF, closed));
+            let closed = observation.faces[COLUMN]
+                .points
+                .iter()
+                .filter(|p| p.gap < 0.0)
+                .count();
+            points.push((observation.bodies[1].travel.0[2] / INCH, normal / LBF, closed));
         });
         let (first, last) = (points[0], points[points.len() - 1]);
         let closed = if preload > 1e4 { 4 } else { 2 };
@@ -256,16 +262,16 @@ fn without_yaw_there_is_no_yaw_moment_and_no_lateral_force() {
             let mut observer = wedge.system.clone();
             let _ = observer.observe(0.0, &wedge.initial_state);
             let mut largest = (0.0_f64, 0.0_f64, 0.0_f64);
-            run(&wedge, 1e-6, (2.0, 0.01), |seen, modes| {
+            run(&wedge, 1e-6, (2.0, 0.01), |observation, contact_states| {
                 let mut row = Vec::new();
-                outputs.values(&observer, seen, modes, 0.0, &mut row);
+                outputs.values(&observer, observation, contact_states, 0.0, &mut row);
                 for i in zeros {
                     largest.0 = largest.0.max(row[i].abs());
                 }
                 for i in lateral {
                     largest.1 = largest.1.max(row[i].abs());
                 }
-                largest.2 = largest.2.max(column_forces(seen).0);
+                largest.2 = largest.2.max(column_forces(observation).0);
             });
             println!("{damping:?} {toe}: {largest:?}");
             // Left and right corners cancel; what is left is rounding of the forces.
@@ -279,9 +285,9 @@ fn without_yaw_there_is_no_yaw_moment_and_no_lateral_force() {
     // And yaw makes both.
     let wedge = Wedge::new(thesis::parameters(Damping::Constant, 0.0, YAW)).unwrap();
     let mut most = 0.0_f64;
-    run(&wedge, 1e-6, (1.0, 0.01), |seen, _| {
+    run(&wedge, 1e-6, (1.0, 0.01), |observation, _| {
         most = most.max(
-            seen.faces[SLOPE]
+            observation.faces[SLOPE]
                 .normal_forces
                 .iter()
                 .map(|f| f.0[1])
@@ -316,9 +322,9 @@ fn tanh_creeps_under_a_held_load_as_predicted() {
         };
         let wedge = Wedge::new(hanging(law, load)).unwrap();
         let mut fallen = [0.0; 2];
-        run(&wedge, 1e-8, (10.0, 1.0), |seen, _| {
-            let z = -seen.bodies[WEDGE].coordinates[2] / INCH;
-            if (seen.time - 1.0).abs() < 1e-9 {
+        run(&wedge, 1e-8, (10.0, 1.0), |observation, _| {
+            let z = -observation.bodies[WEDGE].coordinates[2] / INCH;
+            if (observation.time - 1.0).abs() < 1e-9 {
                 fallen[0] = z;
             }
             fallen[1] = z;
@@ -337,9 +343,14 @@ fn the_bristle_holds_a_load_without_creep() {
     for load in [0.25, 0.5, 0.9] {
         let wedge = Wedge::new(hanging(bristle(), load)).unwrap();
         let mut places = Vec::new();
-        run(&wedge, 1e-8, (11.0, 1.0), |seen, modes| {
-            places.push(-seen.bodies[WEDGE].coordinates[2] / INCH);
-            assert!(seen.time == 0.0 || modes[..4].iter().all(|mode| *mode == Mode::Stick as u8));
+        run(&wedge, 1e-8, (11.0, 1.0), |observation, contact_states| {
+            places.push(-observation.bodies[WEDGE].coordinates[2] / INCH);
+            assert!(
+                observation.time == 0.0
+                    || contact_states[..4]
+                        .iter()
+                        .all(|contact_state| *contact_state == ContactState::Stick as u8)
+            );
         });
         // Elastic: weight over the bristle's stiffness.
         let expected = 50.0 / 1e6;
@@ -353,8 +364,8 @@ fn the_bristle_holds_a_load_without_creep() {
     // Beyond its limit it slides, with the acceleration that is left: g (1 - 1/load).
     let wedge = Wedge::new(hanging(bristle(), 1.25)).unwrap();
     let mut last = (0.0, 0.0);
-    run(&wedge, 1e-8, (0.5, 0.5), |seen, _| {
-        last = (seen.time, -seen.bodies[WEDGE].speeds[2] / INCH);
+    run(&wedge, 1e-8, (0.5, 0.5), |observation, _| {
+        last = (observation.time, -observation.bodies[WEDGE].speeds[2] / INCH);
     });
     let expected = 386.0886 * 0.2 * last.0;
     assert!((last.1 / expected - 1.0).abs() < 1e-3, "{last:?} {expected}");
@@ -375,9 +386,14 @@ fn a_held_bolster_is_held_by_bristles_and_not_by_tanh() {
         };
         let wedge = Wedge::new(with_law(parameters, law)).unwrap();
         let mut rows = Vec::new();
-        run(&wedge, 1e-8, (12.0, 0.5), |seen, modes| {
-            let forces = column_forces(seen);
-            rows.push((seen.time, forces.0 / LBF, forces.1 / LBF, modes.to_vec()));
+        run(&wedge, 1e-8, (12.0, 0.5), |observation, contact_states| {
+            let forces = column_forces(observation);
+            rows.push((
+                observation.time,
+                forces.0 / LBF,
+                forces.1 / LBF,
+                contact_states.to_vec(),
+            ));
         });
         rows
     };

@@ -31,15 +31,20 @@ fn equal(a: f64, b: f64) -> bool {
 }
 
 /// Margins of all switches, and the modes that follow, by the signs of all at once.
-fn margins(system: &mut System, time: f64, x: &[f64], modes: &[u8]) -> (Vec<f64>, Vec<u8>) {
-    let mut signs = vec![f64::NAN; system.event_variable_count()];
-    system.event_variables(time, x, &mut signs);
-    let (mut margins, mut next) = (vec![f64::NAN; modes.len()], modes.to_vec());
+fn margins(system: &mut System, time: f64, x: &[f64], contact_states: &[u8]) -> (Vec<f64>, Vec<u8>) {
+    let mut variables = vec![f64::NAN; system.event_variable_count()];
+    system.event_variables(time, x, &mut variables);
+    let (mut margins, mut next) = (vec![f64::NAN; contact_states.len()], contact_states.to_vec());
     for (number, group) in system.event_groups().into_iter().enumerate() {
-        let (own, signs) = (group.discrete_states, &signs[group.variables]);
-        system.group_event_functions(number, signs, &modes[own.clone()], &mut margins[own.clone()]);
+        let (own, variables) = (group.discrete_states, &variables[group.variables]);
+        system.group_event_functions(
+            number,
+            variables,
+            &contact_states[own.clone()],
+            &mut margins[own.clone()],
+        );
         for (index, next) in next[own].iter_mut().enumerate() {
-            *next = system.next_discrete_state(number, signs, index, *next);
+            *next = system.next_discrete_state(number, variables, index, *next);
         }
     }
     (margins, next)
@@ -47,15 +52,15 @@ fn margins(system: &mut System, time: f64, x: &[f64], modes: &[u8]) -> (Vec<f64>
 
 /// The signs of all groups, one after the other.
 fn face_signs(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
-    let mut signs = vec![f64::NAN; system.event_variable_count()];
+    let mut variables = vec![f64::NAN; system.event_variable_count()];
     for (number, group) in system.event_groups().into_iter().enumerate() {
-        system.group_event_variables(number, time, x, &mut signs[group.variables]);
+        system.group_event_variables(number, time, x, &mut variables[group.variables]);
     }
-    signs
+    variables
 }
 
 /// All that an integrator may ask for at a place, one question after the other.
-fn ask(system: &mut System, question: usize, time: f64, x: &[f64], modes: &[u8]) -> Vec<f64> {
+fn ask(system: &mut System, question: usize, time: f64, x: &[f64], contact_states: &[u8]) -> Vec<f64> {
     let n = x.len();
     let mut dx = vec![0.0; n];
     match question {
@@ -64,7 +69,7 @@ fn ask(system: &mut System, question: usize, time: f64, x: &[f64], modes: &[u8])
             dx
         }
         1 => discontinuities(system, time, x),
-        2 => margins(system, time, x, modes).0,
+        2 => margins(system, time, x, contact_states).0,
         3 => face_signs(system, time, x),
         4 => vec![system.spectral_radius_bound(time, x)],
         _ => {
@@ -98,7 +103,7 @@ fn what_was_asked_before_changes_nothing() {
         let untouched = system(&parameters);
         let mut asked = untouched.clone();
         let speeds = asked.layout().speeds;
-        let mut modes = vec![0u8; asked.discrete_state_count()];
+        let mut contact_states = vec![0u8; asked.discrete_state_count()];
         let mut x = asked.initial_state();
         for _ in 0..3000 {
             // Now and then the same place is asked again.
@@ -109,12 +114,12 @@ fn what_was_asked_before_changes_nothing() {
                     *value += numbers.between(-size, size) * numbers.unit();
                 }
             }
-            for mode in &mut modes {
-                *mode = numbers.between(0.0, 3.0) as u8;
+            for contact_state in &mut contact_states {
+                *contact_state = numbers.between(0.0, 3.0) as u8;
             }
             let (question, time) = (numbers.between(0.0, 6.0) as usize, 0.25);
-            let found = ask(&mut asked, question, time, &x, &modes);
-            let expected = ask(&mut untouched.clone(), question, time, &x, &modes);
+            let found = ask(&mut asked, question, time, &x, &contact_states);
+            let expected = ask(&mut untouched.clone(), question, time, &x, &contact_states);
             assert_eq!(found.len(), expected.len());
             for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
                 assert!(
@@ -123,7 +128,7 @@ fn what_was_asked_before_changes_nothing() {
                 );
             }
             if question == 1 {
-                let faces = found[..modes.len()].chunks(4);
+                let faces = found[..contact_states.len()].chunks(4);
                 open += faces.filter(|gaps| gaps.iter().all(|gap| *gap > 0.0)).count();
             }
         }

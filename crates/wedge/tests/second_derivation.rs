@@ -94,8 +94,8 @@ fn compare(wedge: &mut Wedge, answer: &Answer, t: f64, x: &[f64]) -> f64 {
             worst = worst.max((a[i] - b[i]).abs() / scale);
         }
     }
-    let seen = wedge.system.observe(t, x);
-    for (face, gaps) in seen.faces.iter().zip(answer.gaps.chunks(4)) {
+    let totals = wedge.system.observe(t, x);
+    for (face, gaps) in totals.faces.iter().zip(answer.gaps.chunks(4)) {
         for (point, gap) in face.points.iter().zip(gaps) {
             assert!(
                 (point.gap / INCH - gap).abs() < 2e-14,
@@ -104,12 +104,12 @@ fn compare(wedge: &mut Wedge, answer: &Answer, t: f64, x: &[f64]) -> f64 {
             );
         }
     }
-    let (longitudinal, vertical) = common::column_forces(&seen);
+    let (longitudinal, vertical) = common::column_forces(&totals);
     let force = answer.longitudinal.max(1.0);
     assert!((longitudinal / LBF - answer.longitudinal).abs() < 1e-9 * force);
     assert!((vertical / LBF - answer.vertical).abs() < 1e-9 * force);
     // The rates of the quadratures, through the ledger.
-    let mut powers = seen.clone();
+    let mut powers = totals.clone();
     powers.quadratures = dx[8..].to_vec();
     let ledger = wedge::outputs::Outputs::ledger(&wedge.system, &powers, 0.0);
     let pairs = [
@@ -144,34 +144,34 @@ fn compare(wedge: &mut Wedge, answer: &Answer, t: f64, x: &[f64]) -> f64 {
 fn check(plain: &Plain, count: usize, seed: u64) -> [usize; 9] {
     let mut wedge = Wedge::new(parameters(plain)).unwrap();
     let mut random = Random(seed);
-    let mut seen = [0; 9];
+    let mut totals = [0; 9];
     for i in 0..count {
         let (t, q, u) = random_state(&mut random, i % 2 == 0);
         let answer = plain.evaluate(t, &q, &u);
         let x = state(&wedge, &q, &u);
         let worst = compare(&mut wedge, &answer, t, &x);
         assert!(worst < 1e-9, "state {i}: {worst:e}, {answer:?}");
-        seen[answer.closed] += 1;
+        totals[answer.closed] += 1;
     }
-    seen
+    totals
 }
 
 #[test]
 fn the_wedge_of_the_thesis() {
-    let mut seen = [0; 9];
+    let mut totals = [0; 9];
     for (k, variable) in [true, false].into_iter().enumerate() {
         for (i, toe) in [-1.0, 0.0, 1.0].into_iter().enumerate() {
             for (j, yaw) in [0.0, common::YAW].into_iter().enumerate() {
                 let plain = Plain::thesis(variable, toe * common::TOE, yaw);
                 let counts = check(&plain, 100, (100 * k + 10 * i + j) as u64);
-                for (sum, count) in seen.iter_mut().zip(counts) {
+                for (sum, count) in totals.iter_mut().zip(counts) {
                     *sum += count;
                 }
             }
         }
     }
     // The states see everything from the free wedge to all eight corners at once.
-    assert!(seen.iter().all(|count| *count > 4), "{seen:?}");
+    assert!(totals.iter().all(|count| *count > 4), "{totals:?}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ mod common;
 
 use common::{INCH, LBF, TOE, YAW, bristle, run, run_system};
 use mechanics::body::Body;
-use mechanics::link::Mount;
+use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::system::{Model, Observation, System};
 use mechanics::vector::{Matrix, Vector};
@@ -27,7 +27,7 @@ fn parameters(damping: Damping) -> Parameters {
 /// The system of one wedge and its image.
 fn doubled(one: &Wedge) -> System {
     let system = &one.system;
-    let half_turn = mechanics::turn::fixed([0.0, 0.0, PI]);
+    let half_turn = mechanics::orientation::fixed([0.0, 0.0, PI]);
     let turn_point = |p: [f64; 3]| [2.0 * CENTER - p[0], -p[1], p[2]];
     let mut bodies = system.bodies().to_vec();
     let second: Body = {
@@ -38,36 +38,36 @@ fn doubled(one: &Wedge) -> System {
         body
     };
     bodies.push(second);
-    let turned = |on: usize, mount: &Mount| {
+    let turned = |on: usize, marker: &Marker| {
         let origin = bodies[on].frame.origin;
-        let place: [f64; 3] = std::array::from_fn(|k| origin[k] + mount.origin.0[k]);
+        let place: [f64; 3] = std::array::from_fn(|k| origin[k] + marker.origin.0[k]);
         let place = turn_point(place);
-        let rotation: Matrix<f64> = half_turn.times(mount.rotation);
-        Mount {
+        let rotation: Matrix<f64> = half_turn.times(marker.rotation);
+        Marker {
             origin: Vector(std::array::from_fn(|k| place[k] - origin[k])),
             rotation,
         }
     };
     let (mut faces, mut coils) = (Vec::new(), Vec::new());
     for mounted in system.faces() {
-        faces.push((WEDGE, mounted.on, mounted.mount, mounted.element.clone()));
+        faces.push((WEDGE, mounted.on, mounted.marker, mounted.element.clone()));
     }
     for mounted in system.faces() {
         faces.push((
             3,
             mounted.on,
-            turned(mounted.on, &mounted.mount),
+            turned(mounted.on, &mounted.marker),
             mounted.element.clone(),
         ));
     }
     for mounted in system.coils() {
-        coils.push((WEDGE, mounted.on, mounted.mount, mounted.element.clone()));
+        coils.push((WEDGE, mounted.on, mounted.marker, mounted.element.clone()));
     }
     for mounted in system.coils() {
         coils.push((
             3,
             mounted.on,
-            turned(mounted.on, &mounted.mount),
+            turned(mounted.on, &mounted.marker),
             mounted.element.clone(),
         ));
     }
@@ -84,19 +84,19 @@ fn doubled(one: &Wedge) -> System {
 
 /// What one wedge of a system does, in its own frame (the second is looked at from the other side): coordinates,
 /// then for each corner the gap, the normal force and the friction force, then the coil. m, rad, N.
-fn seen_by(seen: &Observation, number: usize) -> Vec<f64> {
+fn seen_by(observation: &Observation, number: usize) -> Vec<f64> {
     let (body, side) = if number == 0 { (WEDGE, 1.0) } else { (3, -1.0) };
     let own = |f: &Vector<f64>| [side * f.0[0], side * f.0[1], f.0[2]];
-    let mut out = seen.bodies[body].coordinates.to_vec();
-    out.extend(seen.bodies[body].speeds);
-    for face in &seen.faces[2 * number..2 * number + 2] {
+    let mut out = observation.bodies[body].coordinates.to_vec();
+    out.extend(observation.bodies[body].speeds);
+    for face in &observation.faces[2 * number..2 * number + 2] {
         for (i, point) in face.points.iter().enumerate() {
             out.extend([point.gap, point.normal]);
             out.extend(own(&face.normal_forces[i]));
             out.extend(own(&face.friction_forces[i]));
         }
     }
-    let coil = &seen.coils[number];
+    let coil = &observation.coils[number];
     out.extend(own(&coil.force));
     out.push(coil.coil.length);
     out
@@ -154,7 +154,7 @@ fn the_same_state_gives_the_same_forces() {
             }
             // The powers of both add up.
             let powers = |system: &System, dx: &[f64]| -> f64 {
-                let first = dx.len() - system.channels().len();
+                let first = dx.len() - system.energy_terms().len();
                 dx[first..].iter().sum()
             };
             let (a, b) = (powers(&single, &dx), powers(&double, &both_dx));
@@ -189,12 +189,14 @@ fn a_reversed_wedge_gives_what_one_gives() {
             let one = Wedge::new(parameters).unwrap();
             let rows = (2.0, 0.02);
             let mut alone = Vec::new();
-            let end = run(&one, 1e-8, rows, |seen, _| alone.push(seen_by(seen, 0)));
+            let end = run(&one, 1e-8, rows, |observation, _| {
+                alone.push(seen_by(observation, 0))
+            });
             let double = doubled(&one);
             let (mut between, mut against) = (0.0_f64, 0.0_f64);
             let mut row = 0;
-            let both = run_system(&double, &double.initial_state(), 1e-8, rows, |seen, _| {
-                let (first, second) = (seen_by(seen, 0), seen_by(seen, 1));
+            let both = run_system(&double, &double.initial_state(), 1e-8, rows, |observation, _| {
+                let (first, second) = (seen_by(observation, 0), seen_by(observation, 1));
                 between = between.max(difference(&first, &second));
                 against = against.max(difference(&first, &alone[row]));
                 row += 1;
@@ -210,14 +212,14 @@ fn a_reversed_wedge_gives_what_one_gives() {
             assert!(against < limit, "{damping:?}, {law:?}: {against:e}");
             // The image stands on the other side, and faces it.
             let mut observer = double.clone();
-            let seen = observer.observe(both.time, &both.x);
-            assert!(seen.bodies[3].origin.0[0] > seen.bodies[BOLSTER].origin.0[0]);
-            assert!(seen.bodies[WEDGE].origin.0[0] < seen.bodies[BOLSTER].origin.0[0]);
+            let observation = observer.observe(both.time, &both.x);
+            assert!(observation.bodies[3].origin.0[0] > observation.bodies[BOLSTER].origin.0[0]);
+            assert!(observation.bodies[WEDGE].origin.0[0] < observation.bodies[BOLSTER].origin.0[0]);
             assert_eq!(
-                seen.faces[2].origin.0[0] > CENTER,
-                seen.faces[0].origin.0[0] < CENTER
+                observation.faces[2].origin.0[0] > CENTER,
+                observation.faces[0].origin.0[0] < CENTER
             );
-            assert_eq!(seen.bodies[SIDE_FRAME].speeds, [0.0; 6]);
+            assert_eq!(observation.bodies[SIDE_FRAME].speeds, [0.0; 6]);
         }
     }
 }

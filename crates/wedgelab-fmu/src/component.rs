@@ -343,7 +343,7 @@ mod tests {
 
     use std::sync::Mutex;
 
-    use fmi::description::{Model, Version};
+    use fmi::description::{FmuModel, Version};
     use fmi::element::Interface;
     use study::case::builtin;
 
@@ -365,7 +365,7 @@ mod tests {
             Instance::of_case(
                 name,
                 None,
-                Model::QuasiStatic,
+                FmuModel::QuasiStatic,
                 case.clone(),
                 Version::Three,
                 Interface::CoSimulation,

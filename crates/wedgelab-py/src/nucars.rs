@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use ::nucars::read::{FileKind, read_data, read_input, read_run, read_system};
-use ::nucars::source::Source;
+use ::nucars::source::SourceText;
 use ::nucars::together::{Files, Instead, LoadError, find, kind, load};
 use ::nucars::{Findings, builtin, check, show, write};
 use pyo3::prelude::*;
@@ -87,7 +87,7 @@ fn word(kind: FileKind) -> &'static str {
     }
 }
 
-fn of_source(source: &std::sync::Arc<Source>) -> Result<NativeFile, LoadError> {
+fn of_source(source: &std::sync::Arc<SourceText>) -> Result<NativeFile, LoadError> {
     let kind = kind(source)?;
     let mut tables = Vec::new();
     let (title, written, found) = match kind {

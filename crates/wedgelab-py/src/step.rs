@@ -3,7 +3,7 @@
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use study::driven::{CoilDrive, DrivenError, DrivenState, DrivenWedge, Neighbours, Place};
+use study::stepping::{CoilInput, NeighbourState, Neighbours, SteppedState, SteppedWedge, SteppingError};
 
 use crate::case::NativeCase;
 use crate::errors::{guarded, simple};
@@ -17,14 +17,14 @@ type Answer = (Load, Load, f64, f64, [f64; 2], [f64; 2]);
 /// A wedge between neighbours that are moved from outside.
 #[pyclass(module = "wedgelab._wedgelab", name = "NativeWedge")]
 pub struct NativeWedge {
-    wedge: DrivenWedge,
+    wedge: SteppedWedge,
 }
 
-fn refused(py: Python<'_>, error: &DrivenError) -> PyErr {
+fn refused(py: Python<'_>, error: &SteppingError) -> PyErr {
     let help = match error {
-        DrivenError::NoStep { .. } => "give a positive dt in s, or as a text such as \"1 ms\"",
-        DrivenError::Value { .. } | DrivenError::Length { .. } => "the step was not made",
-        DrivenError::State(_) | DrivenError::Version { .. } | DrivenError::OtherCase => {
+        SteppingError::NoStep { .. } => "give a positive dt in s, or as a text such as \"1 ms\"",
+        SteppingError::Value { .. } | SteppingError::Length { .. } => "the step was not made",
+        SteppingError::State(_) | SteppingError::Version { .. } | SteppingError::OtherCase => {
             "restore takes what save of a wedge of the same case has given"
         }
         _ => "restore a saved state, or begin anew with smaller steps",
@@ -33,9 +33,9 @@ fn refused(py: Python<'_>, error: &DrivenError) -> PyErr {
 }
 
 /// From where a neighbour is to where it shall be: without rates, the mean rates on the way.
-fn place(from: &Place, position: Six, rate: Option<Six>, duration: f64) -> Place {
+fn place(from: &NeighbourState, position: Six, rate: Option<Six>, duration: f64) -> NeighbourState {
     match rate {
-        Some(rate) => Place { position, rate },
+        Some(rate) => NeighbourState { position, rate },
         None => from.reached(position, duration),
     }
 }
@@ -52,14 +52,14 @@ impl NativeWedge {
     ) -> PyResult<Self> {
         guarded(py, || {
             let mut start = Neighbours::of(&case.case.parameters, 0.0);
-            let given = |(position, rate)| Place { position, rate };
+            let given = |(position, rate)| NeighbourState { position, rate };
             if let Some(bolster) = bolster {
                 start.bolster = given(bolster);
             }
             if let Some(side_frame) = side_frame {
                 start.side_frame = given(side_frame);
             }
-            let wedge = DrivenWedge::starting(&case.case, &start).map_err(|error| refused(py, &error))?;
+            let wedge = SteppedWedge::starting(&case.case, &start).map_err(|error| refused(py, &error))?;
             Ok(Self { wedge })
         })
     }
@@ -94,7 +94,7 @@ impl NativeWedge {
             // Before the rates that follow from it are looked at.
             if !(duration > 0.0 && duration.is_finite()) {
                 let (step, time) = (duration, wedge.time());
-                return Err(refused(py, &DrivenError::NoStep { step, time }));
+                return Err(refused(py, &SteppingError::NoStep { step, time }));
             }
             wedge.step(&end, duration).map_err(|error| refused(py, &error))
         })
@@ -147,9 +147,9 @@ impl NativeWedge {
     #[pyo3(signature = (stiffness, force))]
     fn set_coil(&mut self, py: Python<'_>, stiffness: Option<f64>, force: Option<f64>) -> PyResult<()> {
         let coil = match (stiffness, force) {
-            (None, None) => CoilDrive::Internal,
-            (Some(stiffness), None) => CoilDrive::Stiffness(stiffness),
-            (None, Some(force)) => CoilDrive::Force(force),
+            (None, None) => CoilInput::Internal,
+            (Some(stiffness), None) => CoilInput::Stiffness(stiffness),
+            (None, Some(force)) => CoilInput::Force(force),
             _ => {
                 let message = "both a stiffness and a force of the coil are given";
                 return Err(simple(py, "StepError", message, "give one of them"));
@@ -181,7 +181,7 @@ impl NativeWedge {
     fn restore(&mut self, py: Python<'_>, state: &[u8]) -> PyResult<()> {
         let wedge = &mut self.wedge;
         guarded(py, || {
-            let state = DrivenState::from_bytes(state).map_err(|error| refused(py, &error))?;
+            let state = SteppedState::from_bytes(state).map_err(|error| refused(py, &error))?;
             wedge.restore(&state).map_err(|error| refused(py, &error))
         })
     }

@@ -10,7 +10,7 @@ use study::case::Case;
 use study::progress::{WHAT_TO_TRY, WHAT_TO_TRY_WITH_FILES};
 use study::result::RunResult;
 use study::run::{Run, RunError};
-use study::summary::{Measure, Stopped, Summary};
+use study::summary::{Stopped, Summary, SummaryValue};
 use study::truck::TruckSummary;
 
 use crate::failure::{Failure, Message, say};
@@ -131,7 +131,7 @@ fn stopped_run(name: &str, stopped: &Stopped, folder: &Path, suspects: &str) -> 
 
 /// The table of runs; all of them in the same units.
 pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone) -> Table {
-    let unit = |of: fn(&Summary) -> Option<&Measure>| {
+    let unit = |of: fn(&Summary) -> Option<&SummaryValue>| {
         let found = runs.clone().into_iter().find_map(|(summary, _)| of(summary));
         found.map_or(String::new(), |measure| measure.unit.clone())
     };
@@ -147,7 +147,7 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
         ],
     );
     for (summary, wall) in runs {
-        let cell = |measure: Option<&Measure>| {
+        let cell = |measure: Option<&SummaryValue>| {
             measure.map_or("-".to_owned(), |measure| format!("{:.1}", measure.value))
         };
         table.row([
@@ -168,14 +168,14 @@ Mean force: vertical wedge force (column friction on the side frame, positive up
 bolster goes up or down. Energy per cycle: lost in friction at the side frame. Ledger residual: the largest at any output time,
 over the largest of work, losses and change of stored energy.";
 
-fn up(summary: &Summary) -> Option<&Measure> {
+fn up(summary: &Summary) -> Option<&SummaryValue> {
     summary.averages.up.get("vertical_wedge_force")
 }
 
-fn down(summary: &Summary) -> Option<&Measure> {
+fn down(summary: &Summary) -> Option<&SummaryValue> {
     summary.averages.down.get("vertical_wedge_force")
 }
 
-fn energy(summary: &Summary) -> Option<&Measure> {
+fn energy(summary: &Summary) -> Option<&SummaryValue> {
     summary.averages.energy_per_cycle.get("side_frame")
 }

@@ -98,11 +98,11 @@ fn core(name: &str, coordinates: Coordinates, by: (Method, f64)) -> Result<(), S
     let (mut worst, mut balance) = (0.0_f64, EnergyBalance::new(energy));
     let (run, _) = travel(system, &x, by, CIRCLE, |run| {
         observer.segment_like(run.problem());
-        let seen = observer.observe(run.time(), run.x());
+        let observation = observer.observe(run.time(), run.x());
         // The two coils across, in the seat's axes: those of the guide.
-        let force = seen.coils[2].coil.force.0[1] + seen.coils[3].coil.force.0[1];
+        let force = observation.coils[2].coil.force.0[1] + observation.coils[3].coil.force.0[1];
         worst = worst.max(deviation(run.time(), force));
-        balance.note(run.time(), &ledger(&seen, energy));
+        balance.note(run.time(), &ledger(&observation, energy));
     })
     .map_err(|error| error.to_string())?;
     line(name, &run, worst, balance.relative_residual());

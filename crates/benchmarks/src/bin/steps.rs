@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
-use fmi::description::{Model, Version};
+use fmi::description::{FmuModel, Version};
 use fmi::element::Interface;
 use fmi::instance::Instance;
 use study::case::builtin;
@@ -36,7 +36,7 @@ fn measure(name: &str, step: f64, read: bool) -> Result<f64, Box<dyn std::error:
     let mut instance = Instance::of_case(
         name,
         None,
-        Model::Wedge,
+        FmuModel::Wedge,
         case,
         Version::Two,
         Interface::CoSimulation,

@@ -44,7 +44,7 @@ fn main() -> ExitCode {
         let summary = run.finish(|_| ()).summary;
         let wall = clock.elapsed().as_secs_f64();
         total += wall;
-        let mean = |branch: &std::collections::BTreeMap<String, study::summary::Measure>| {
+        let mean = |branch: &std::collections::BTreeMap<String, study::summary::SummaryValue>| {
             branch
                 .get("vertical_wedge_force")
                 .map_or(f64::NAN, |measure| measure.value)

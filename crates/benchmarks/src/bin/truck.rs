@@ -104,8 +104,8 @@ fn measure(rig: &Rig, method: Method, tolerance: f64) -> Result<(System, f64, Ve
             let begun = cpu_seconds();
             integrator.interpolate(row * INTERVAL, &mut buffer);
             observer.segment_like(integrator.problem());
-            let seen = observer.observe(row * INTERVAL, &buffer);
-            balance.note(row * INTERVAL, &ledger(&seen, start));
+            let observation = observer.observe(row * INTERVAL, &buffer);
+            balance.note(row * INTERVAL, &ledger(&observation, start));
             row += 1.0;
             observing += cpu_seconds() - begun;
         }
@@ -113,9 +113,9 @@ fn measure(rig: &Rig, method: Method, tolerance: f64) -> Result<(System, f64, Ve
     let cpu = cpu_seconds() - begun - observing;
     let (time, x) = (integrator.time(), integrator.x().to_vec());
     observer.segment_like(integrator.problem());
-    let seen = observer.observe(time, &x);
+    let observation = observer.observe(time, &x);
     let residual = balance.relative_residual();
-    let column: f64 = seen
+    let column: f64 = observation
         .faces
         .iter()
         .zip(observer.faces())

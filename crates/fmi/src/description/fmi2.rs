@@ -134,7 +134,7 @@ fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
             ("dependencies", dependencies),
         ]
     };
-    let outputs = || description.those(|role| matches!(role, Role::Output(_) | Role::Mode(_)));
+    let outputs = || description.those(|role| matches!(role, Role::Output(_) | Role::ContactState(_)));
     let rates = || description.those(|role| matches!(role, Role::Rate(_)));
     xml.element("Outputs", &[], |xml| {
         outputs().try_for_each(|variable| xml.empty("Unknown", &unknown(variable)))
@@ -148,7 +148,7 @@ fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
             .those(|role| {
                 matches!(
                     role,
-                    Role::Output(_) | Role::Mode(_) | Role::State(_) | Role::Rate(_)
+                    Role::Output(_) | Role::ContactState(_) | Role::State(_) | Role::Rate(_)
                 )
             })
             .filter(|variable| variable.variability != Variability::Fixed)

@@ -115,7 +115,7 @@ fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
     for name in ["Output", "ContinuousStateDerivative"] {
         let rates = name != "Output";
         for variable in description.those(|role| match role {
-            Role::Output(_) | Role::Mode(_) => !rates,
+            Role::Output(_) | Role::ContactState(_) => !rates,
             Role::Rate(_) => rates,
             _ => false,
         }) {
@@ -131,7 +131,7 @@ fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
     for variable in description.those(|role| {
         matches!(
             role,
-            Role::Output(_) | Role::Mode(_) | Role::State(_) | Role::Rate(_)
+            Role::Output(_) | Role::ContactState(_) | Role::State(_) | Role::Rate(_)
         )
     }) {
         xml.empty(

@@ -23,7 +23,7 @@ pub enum Version {
 
 /// Which element an FMU holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Model {
+pub enum FmuModel {
     /// The wedge with mass.
     Wedge,
     /// The quasi-static wedge.
@@ -32,7 +32,7 @@ pub enum Model {
     Truck,
 }
 
-impl Model {
+impl FmuModel {
     /// Its name: of the model, and of the library in an FMU.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -62,7 +62,7 @@ impl Model {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
     /// The element.
-    pub model: Model,
+    pub model: FmuModel,
     /// The case's name.
     pub case: String,
     /// What it is, in one line.
@@ -86,21 +86,21 @@ impl Description {
     ///
     /// # Errors
     /// The case makes no such element.
-    pub fn new(model: Model, case: &Case) -> Result<Self, Error> {
+    pub fn new(model: FmuModel, case: &Case) -> Result<Self, Error> {
         let entries = match model {
-            Model::Wedge => crate::wedge::entries(case)?,
-            Model::QuasiStatic => crate::quasi_static::entries(case)?,
-            Model::Truck => crate::truck::entries(case)?,
+            FmuModel::Wedge => crate::wedge::entries(case)?,
+            FmuModel::QuasiStatic => crate::quasi_static::entries(case)?,
+            FmuModel::Truck => crate::truck::entries(case)?,
         };
         let text = match model {
-            Model::Wedge => {
+            FmuModel::Wedge => {
                 "Friction wedge of a three-piece truck between bolster and side frame: rigid body with mass, unilateral \
                  contact at eight corners, stick-slip friction"
             }
-            Model::QuasiStatic => {
+            FmuModel::QuasiStatic => {
                 "Friction wedge of a three-piece truck between bolster and side frame: quasi-static, without mass"
             }
-            Model::Truck => {
+            FmuModel::Truck => {
                 "Loaded half of a three-piece truck without its four friction wedges: half a car on a bolster, side frames, springs"
             }
         };
@@ -240,7 +240,12 @@ fn variables(entries: &Entries) -> Vec<Variable> {
         add(entry, Role::Output(i), Causality::Output, Variability::Continuous);
     }
     for (i, entry) in entries.modes.iter().enumerate() {
-        add(entry, Role::Mode(i), Causality::Output, Variability::Discrete);
+        add(
+            entry,
+            Role::ContactState(i),
+            Causality::Output,
+            Variability::Discrete,
+        );
     }
     for (i, entry) in entries.options.iter().enumerate() {
         add(entry, Role::Option(i), Causality::Parameter, Variability::Fixed);

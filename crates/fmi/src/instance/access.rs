@@ -100,7 +100,7 @@ impl Instance {
                 self.fresh()?.indicators(&mut indicators);
                 indicators.get(i).copied().ok_or_else(damaged)
             }
-            Role::Option(_) | Role::Mode(_) => Err(damaged()),
+            Role::Option(_) | Role::ContactState(_) => Err(damaged()),
         }
     }
 
@@ -110,7 +110,7 @@ impl Instance {
     /// There is no such variable, or no element starts from the values set so far.
     pub fn get_integer(&mut self, reference: u32) -> Result<i32, Error> {
         match self.find(reference, Type::Integer)?.role {
-            Role::Mode(i) => {
+            Role::ContactState(i) => {
                 let mode = self.fresh()?.modes().get(i).copied();
                 Ok(i32::from(mode.unwrap_or(0)))
             }
@@ -344,7 +344,7 @@ impl Instance {
                 }
             }
         }
-        let slopes = self.fresh()?.along(&states, &inputs)?;
+        let slopes = self.fresh()?.jacobian_vector_product(&states, &inputs)?;
         for (reference, target) in unknowns.iter().zip(out) {
             let variable = self.find(*reference, Type::Float)?;
             let value = match variable.role {

@@ -18,7 +18,7 @@ use std::sync::Arc;
 use integrate::processor::{self, OldProcessor};
 use study::case::Case;
 
-use crate::description::{Description, Model, Version};
+use crate::description::{Description, FmuModel, Version};
 use crate::element::{Element, Interface, Setting};
 use crate::quasi_static::QuasiStaticElement;
 use crate::truck::TruckElement;
@@ -117,7 +117,7 @@ impl Instance {
     pub fn of_case(
         name: &str,
         token: Option<&str>,
-        model: Model,
+        model: FmuModel,
         case: Case,
         version: Version,
         interface: Interface,
@@ -282,9 +282,9 @@ impl Instance {
             };
             let entries = &self.description.entries;
             let element: Box<dyn Element> = match self.description.model {
-                Model::Wedge => Box::new(WedgeElement::new(&self.case, entries, &setting)?),
-                Model::QuasiStatic => Box::new(QuasiStaticElement::new(&self.case, entries, &setting)?),
-                Model::Truck => Box::new(TruckElement::new(&self.case, &setting)?),
+                FmuModel::Wedge => Box::new(WedgeElement::new(&self.case, entries, &setting)?),
+                FmuModel::QuasiStatic => Box::new(QuasiStaticElement::new(&self.case, entries, &setting)?),
+                FmuModel::Truck => Box::new(TruckElement::new(&self.case, &setting)?),
             };
             self.stale = false;
             self.element = Some(element);

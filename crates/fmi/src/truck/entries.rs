@@ -1,7 +1,7 @@
 //! The quantities of the truck.
 
 use mechanics::body::COORDINATES;
-use mechanics::system::ChannelKind;
+use mechanics::system::EnergyTermKind;
 use mechanics::system::scales;
 use quantity::Kind;
 
@@ -158,12 +158,12 @@ fn states(truck: &Loaded) -> Vec<Entry> {
         entry.nominal = Some(scales::ENERGY);
         states.push(entry);
     };
-    for channel in truck.system.channels() {
-        let text = match channel.kind {
-            ChannelKind::MotionWork => "work of prescribed motions: there are none",
+    for energy_term in truck.system.energy_terms() {
+        let text = match energy_term.kind {
+            EnergyTermKind::MotionWork => "work of prescribed motions: there are none",
             _ => "energy lost",
         };
-        add(channel.kind.name(), text);
+        add(energy_term.kind.name(), text);
     }
     add(
         "load_work",

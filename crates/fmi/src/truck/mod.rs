@@ -8,7 +8,7 @@ mod entries;
 
 use integrate::{Integrator, Options, Problem, State};
 use mechanics::energy_balance;
-use mechanics::system::{Mode, System};
+use mechanics::system::{ContactState, System};
 use serde::{Deserialize, Serialize};
 use study::case::Case;
 use study::progress::{self, Pace};
@@ -82,7 +82,7 @@ impl TruckElement {
         let integrator = match setting.interface {
             Interface::ModelExchange => None,
             Interface::CoSimulation => {
-                let simulation = study::driven::options(&case.simulation);
+                let simulation = study::stepping::options(&case.simulation);
                 let options = Options {
                     relative_tolerance: setting
                         .tolerance
@@ -227,7 +227,7 @@ impl Element for TruckElement {
         }
     }
 
-    fn along(&mut self, _: &[f64], _: &[f64]) -> Result<Slopes, Error> {
+    fn jacobian_vector_product(&mut self, _: &[f64], _: &[f64]) -> Result<Slopes, Error> {
         Err(Error::new("the truck gives no directional derivatives"))
     }
 
@@ -267,7 +267,7 @@ impl Element for TruckElement {
                     .check_state(saved)
                     .map_err(|error| Error::new(error.to_string()))?;
                 let modes = &saved.discrete_states;
-                if let Some(mode) = modes.iter().find(|mode| **mode > Mode::Slip as u8) {
+                if let Some(mode) = modes.iter().find(|mode| **mode > ContactState::Slip as u8) {
                     let expected = "0 (open), 1 (stick) or 2 (slip)";
                     return Err(damaged("a contact state of the truck", mode, expected));
                 }

@@ -1,12 +1,12 @@
 //! The quantities of a wedge.
 
 use mechanics::body::COORDINATES;
-use mechanics::system::{ChannelKind, System, scales};
+use mechanics::system::{EnergyTermKind, System, scales};
 use quantity::Kind;
 use study::case::Case;
-use study::driven::{CoilDrive, Equations, Neighbours};
+use study::stepping::{CoilInput, Equations, Neighbours};
 use wedge::WEDGE;
-use wedge::driven::Place;
+use wedge::inputs::NeighbourState;
 use wedge::outputs::{CORNERS, FACES};
 use wedge::parameters::Start as StartOfRun;
 
@@ -80,7 +80,7 @@ pub(crate) fn relative_residual() -> Entry {
 /// The case makes no wedge.
 pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
     let start = Neighbours::of(&case.parameters, 0.0);
-    let equations = Equations::new(&case.parameters, &start, CoilDrive::Internal)?;
+    let equations = Equations::new(&case.parameters, &start, CoilInput::Internal)?;
     let system = equations.system();
     let states = states(system);
     Ok(Entries {
@@ -229,7 +229,7 @@ fn inputs(start: &Neighbours) -> Vec<Entry> {
 
 /// Positions and rates of the neighbours from the inputs.
 pub(crate) fn neighbours(inputs: &[f64]) -> Neighbours {
-    let place = |first: usize| Place {
+    let place = |first: usize| NeighbourState {
         position: std::array::from_fn(|k| inputs.get(first + k).copied().unwrap_or(0.0)),
         rate: std::array::from_fn(|k| inputs.get(first + 6 + k).copied().unwrap_or(0.0)),
     };
@@ -337,34 +337,34 @@ fn states(system: &System) -> Vec<Entry> {
             );
         }
     }
-    for channel in system.channels() {
-        let side = if channel.element == FACES[0] {
+    for energy_term in system.energy_terms() {
+        let side = if energy_term.element == FACES[0] {
             "side_frame"
         } else {
             "bolster"
         };
-        let (name, text, nominal) = match channel.kind {
-            ChannelKind::MotionWork => (
+        let (name, text, nominal) = match energy_term.kind {
+            EnergyTermKind::MotionWork => (
                 "motion_work".to_owned(),
                 "work that bolster and side frame have done on the wedge".to_owned(),
                 scales::ENERGY,
             ),
-            ChannelKind::FrictionLoss => (
+            EnergyTermKind::FrictionLoss => (
                 format!("{side}_friction_loss"),
-                format!("energy lost in friction at the {}", channel.element),
+                format!("energy lost in friction at the {}", energy_term.element),
                 scales::ENERGY,
             ),
-            ChannelKind::ContactDampingLoss => (
-                format!("{}_contact_damping_loss", channel.element),
-                format!("energy lost in contact damping at the {}", channel.element),
+            EnergyTermKind::ContactDampingLoss => (
+                format!("{}_contact_damping_loss", energy_term.element),
+                format!("energy lost in contact damping at the {}", energy_term.element),
                 scales::CONTACT_DAMPING_LOSS,
             ),
-            ChannelKind::CoilDampingLoss => (
+            EnergyTermKind::CoilDampingLoss => (
                 "coil_damping_loss".to_owned(),
                 "energy lost in the coil's damping".to_owned(),
                 scales::ENERGY,
             ),
-            ChannelKind::CoilGuideWork => (
+            EnergyTermKind::CoilGuideWork => (
                 "coil_guide_work".to_owned(),
                 "work of the couple that guides the coil's force".to_owned(),
                 scales::ENERGY,

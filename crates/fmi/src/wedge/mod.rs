@@ -7,8 +7,8 @@ use integrate::Options;
 use integrate::scalar::Dual;
 use serde::{Deserialize, Serialize};
 use study::case::Case;
-use study::driven::{CoilDrive, DrivenState, DrivenWedge, Equations, Neighbours, Reading};
-use wedge::driven::COIL;
+use study::stepping::{CoilInput, Equations, Neighbours, Reading, SteppedState, SteppedWedge};
+use wedge::inputs::COIL;
 use wedge::parameters::Start;
 
 use crate::Error;
@@ -28,7 +28,7 @@ pub fn entries(case: &Case) -> Result<Entries, Error> {
 
 /// A wedge, integrated by itself or by the importer.
 enum Core {
-    Driven(Box<DrivenWedge>),
+    Driven(Box<SteppedWedge>),
     Equations(Box<Equations>),
 }
 
@@ -52,7 +52,7 @@ pub struct WedgeElement {
 )]
 pub enum WedgeState {
     /// One that integrates itself.
-    Driven(DrivenState),
+    Driven(SteppedState),
     /// One that an importer integrates.
     Equations {
         /// Time, s.
@@ -66,20 +66,20 @@ pub enum WedgeState {
         /// Where they were at the start.
         start: Neighbours,
         /// The coil now.
-        coil: CoilDrive,
+        coil: CoilInput,
         /// The coil at the start.
-        start_coil: CoilDrive,
+        start_coil: CoilInput,
         /// Coefficients of friction.
         friction: [f64; 2],
     },
 }
 
-fn coil(mode: i32, inputs: &[f64]) -> CoilDrive {
+fn coil(mode: i32, inputs: &[f64]) -> CoilInput {
     let input = |index: usize| inputs.get(index).copied().unwrap_or(0.0);
     match mode {
-        1 => CoilDrive::Stiffness(input(COIL_STIFFNESS)),
-        2 => CoilDrive::Force(input(COIL_FORCE)),
-        _ => CoilDrive::Internal,
+        1 => CoilInput::Stiffness(input(COIL_STIFFNESS)),
+        2 => CoilInput::Force(input(COIL_FORCE)),
+        _ => CoilInput::Internal,
     }
 }
 
@@ -101,7 +101,7 @@ impl WedgeElement {
         let drive = coil(coil_mode, &setting.inputs);
         let core = match setting.interface {
             Interface::CoSimulation => {
-                let options = study::driven::options(&case.simulation);
+                let options = study::stepping::options(&case.simulation);
                 let relative_tolerance = match setting.tolerance {
                     Some(tolerance) => tolerance.clamp(TOLERANCES[0], TOLERANCES[1]),
                     None => options.relative_tolerance,
@@ -110,7 +110,7 @@ impl WedgeElement {
                     relative_tolerance,
                     ..options
                 };
-                Core::Driven(Box::new(DrivenWedge::with(&parameters, options, &start, drive)?))
+                Core::Driven(Box::new(SteppedWedge::with(&parameters, options, &start, drive)?))
             }
             Interface::ModelExchange => {
                 let mut equations = Equations::new(&parameters, &start, drive)?;
@@ -225,7 +225,7 @@ impl Element for WedgeElement {
     }
 
     fn modes(&self) -> &[u8] {
-        self.equations().modes()
+        self.equations().contact_states()
     }
 
     fn update_modes(&mut self) -> bool {
@@ -267,7 +267,7 @@ impl Element for WedgeElement {
         }
     }
 
-    fn along(&mut self, states: &[f64], inputs: &[f64]) -> Result<Slopes, Error> {
+    fn jacobian_vector_product(&mut self, states: &[f64], inputs: &[f64]) -> Result<Slopes, Error> {
         let change = neighbours(inputs);
         let input = |index: usize| inputs.get(index).copied().unwrap_or(0.0);
         let compression = match &mut self.core {
@@ -277,19 +277,20 @@ impl Element for WedgeElement {
         .coil_compression;
         let pulls = self.equations().parameters().coil.pulls;
         let force_change = match *self.equations().coil() {
-            CoilDrive::Internal => 0.0,
-            CoilDrive::Stiffness(_) if !pulls && compression <= 0.0 => 0.0,
-            CoilDrive::Stiffness(_) => input(COIL_STIFFNESS) * compression,
-            CoilDrive::Force(force) if !pulls && force <= 0.0 => 0.0,
-            CoilDrive::Force(_) => input(COIL_FORCE),
+            CoilInput::Internal => 0.0,
+            CoilInput::Stiffness(_) if !pulls && compression <= 0.0 => 0.0,
+            CoilInput::Stiffness(_) => input(COIL_STIFFNESS) * compression,
+            CoilInput::Force(force) if !pulls && force <= 0.0 => 0.0,
+            CoilInput::Force(_) => input(COIL_FORCE),
         };
-        let along = match &mut self.core {
-            Core::Driven(wedge) => wedge.along(states, &change, force_change)?,
-            Core::Equations(equations) => equations.along(states, &change, force_change)?,
+        let product = match &mut self.core {
+            Core::Driven(wedge) => wedge.jacobian_vector_product(states, &change, force_change)?,
+            Core::Equations(equations) => equations.jacobian_vector_product(states, &change, force_change)?,
         };
         let equations = self.equations();
-        let reading: Reading<Dual<1>> = Reading::of(&along.sense, equations.system(), equations.parameters())
-            .ok_or_else(|| Error::new("the derivatives cannot be read"))?;
+        let reading: Reading<Dual<1>> =
+            Reading::of(&product.evaluation, equations.system(), equations.parameters())
+                .ok_or_else(|| Error::new("the derivatives cannot be read"))?;
         let mut outputs = Vec::new();
         let slope = |value: Dual<1>| value.derivative[0];
         for load in [reading.on_bolster, reading.on_side_frame] {
@@ -300,7 +301,7 @@ impl Element for WedgeElement {
         outputs.extend(reading.friction_losses.map(slope));
         debug_assert_eq!(COIL, 0);
         Ok(Slopes {
-            rates: along.rates,
+            rates: product.rates,
             outputs,
         })
     }
@@ -311,7 +312,7 @@ impl Element for WedgeElement {
             Core::Equations(equations) => WedgeState::Equations {
                 time: equations.time(),
                 states: equations.states().to_vec(),
-                modes: equations.modes().to_vec(),
+                modes: equations.contact_states().to_vec(),
                 neighbours: *equations.neighbours(),
                 start: *equations.start(),
                 coil: *equations.coil(),
@@ -346,7 +347,7 @@ impl Element for WedgeElement {
                 fresh.set_friction(*friction)?;
                 fresh.set_states(*time, states)?;
                 fresh.set_neighbours(neighbours)?;
-                fresh.set_modes(modes)?;
+                fresh.set_contact_states(modes)?;
                 **equations = fresh;
                 Ok(())
             }

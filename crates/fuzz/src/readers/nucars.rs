@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock};
 
 use miette::Diagnostic;
 use nucars::read::{AnyFile, FileKind, Read, read, read_data, read_input, read_run, read_system};
-use nucars::source::Source;
+use nucars::source::SourceText;
 use nucars::tree::{DataFile, InputFile, RunFile, SystemFile};
 use nucars::{Findings, builtin, check, show, write};
 use study::truck::files::{self, Files, Settings};
@@ -112,10 +112,10 @@ fn file(input: &[u8], kind: FileKind) -> Outcome {
         return Outcome::NO_TEXT;
     };
     // Without an ending, what it is follows from its sections.
-    if let Ok(source) = Source::from_bytes("file", input.to_vec()) {
+    if let Ok(source) = SourceText::from_bytes("file", input.to_vec()) {
         let _ = FileKind::of(&source);
     }
-    let source = match Source::from_bytes("file", input.to_vec()) {
+    let source = match SourceText::from_bytes("file", input.to_vec()) {
         Ok(source) => source,
         Err(error) => return Outcome::refused_with(&error.to_string()),
     };
@@ -151,8 +151,8 @@ fn told(findings: &Findings) -> usize {
 }
 
 /// Another file, as it was written.
-fn written(text: String) -> Option<Arc<Source>> {
-    Source::from_text("written", text).ok()
+fn written(text: String) -> Option<Arc<SourceText>> {
+    SourceText::from_text("written", text).ok()
 }
 
 fn check_again<T: PartialEq>(own: &T, again: Option<Read<T>>) {

@@ -2,13 +2,13 @@
 
 use std::sync::LazyLock;
 
-use fmi::description::{Model, Version};
+use fmi::description::{FmuModel, Version};
 use fmi::element::Interface;
 use fmi::instance::{Instance, Saved};
 use serde::Deserialize;
 use study::case::{Case, builtin};
-use study::driven::{DrivenState, DrivenWedge, Neighbours};
 use study::run::{Run, RunState};
+use study::stepping::{Neighbours, SteppedState, SteppedWedge};
 
 use super::{Outcome, Reader};
 
@@ -79,7 +79,7 @@ fn driven_corpus() -> Vec<Vec<u8>> {
         return Vec::new();
     };
     let mut states = Vec::new();
-    let Ok(mut wedge) = DrivenWedge::new(case) else {
+    let Ok(mut wedge) = SteppedWedge::new(case) else {
         return states;
     };
     for number in 0..=STEPS {
@@ -100,11 +100,11 @@ fn driven(input: &[u8]) -> Outcome {
     let Some(case) = CASE.as_ref() else {
         return Outcome::NO_TEXT;
     };
-    let state = match DrivenState::from_bytes(input) {
+    let state = match SteppedState::from_bytes(input) {
         Ok(state) => state,
         Err(error) => return Outcome::refused_with(&error.to_string()),
     };
-    let Ok(mut wedge) = DrivenWedge::new(case) else {
+    let Ok(mut wedge) = SteppedWedge::new(case) else {
         return Outcome::NO_TEXT;
     };
     let before = wedge.state();
@@ -172,11 +172,11 @@ fn run_state(input: &[u8]) -> Outcome {
 }
 
 /// The FMUs whose states are read.
-const MODELS: [(Model, Version, Interface); 4] = [
-    (Model::Wedge, Version::Two, Interface::CoSimulation),
-    (Model::Wedge, Version::Three, Interface::ModelExchange),
-    (Model::QuasiStatic, Version::Two, Interface::CoSimulation),
-    (Model::Truck, Version::Two, Interface::CoSimulation),
+const MODELS: [(FmuModel, Version, Interface); 4] = [
+    (FmuModel::Wedge, Version::Two, Interface::CoSimulation),
+    (FmuModel::Wedge, Version::Three, Interface::ModelExchange),
+    (FmuModel::QuasiStatic, Version::Two, Interface::CoSimulation),
+    (FmuModel::Truck, Version::Two, Interface::CoSimulation),
 ];
 
 /// A new instance.

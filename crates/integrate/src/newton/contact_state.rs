@@ -17,7 +17,7 @@ use crate::tuning::contact_state as tuning;
 
 /// A contact state.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct ContactState {
+pub(crate) struct ActiveSet {
     /// Bits of the negative ones among the first 64 values, and among the others.
     first: u64,
     others: Vec<u64>,
@@ -25,7 +25,7 @@ pub(crate) struct ContactState {
     friction: Vec<[f64; 5]>,
 }
 
-impl ContactState {
+impl ActiveSet {
     /// Returns the memory for so many discontinuity functions.
     pub fn new(functions: &DiscontinuityFunctions) -> Self {
         Self {
@@ -93,12 +93,12 @@ mod tests {
 
     const NO_FRICTION: [f64; 2] = [f64::NAN; 2];
 
-    fn state(value: f64, slip: [f64; 2]) -> ContactState {
+    fn state(value: f64, slip: [f64; 2]) -> ActiveSet {
         let functions = DiscontinuityFunctions {
             values: vec![value],
             slips: vec![slip],
         };
-        let mut state = ContactState::new(&functions);
+        let mut state = ActiveSet::new(&functions);
         state.set(&functions);
         state
     }

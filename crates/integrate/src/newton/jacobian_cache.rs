@@ -7,7 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::contact_state::ContactState;
+use super::contact_state::ActiveSet;
 use crate::discontinuity::DiscontinuityFunctions;
 use crate::problem::Problem;
 
@@ -39,8 +39,8 @@ pub(crate) struct JacobianCache {
     filled: bool,
     point: LinearizationPoint,
     /// Contact state at that point, and at the point of the last [`JacobianCache::set_contact_state`].
-    contact_state: ContactState,
-    current: ContactState,
+    contact_state: ActiveSet,
+    current: ActiveSet,
     /// Scratch memory.
     functions: DiscontinuityFunctions,
 }
@@ -61,7 +61,7 @@ impl JacobianCache {
     /// Returns an empty cache for a problem.
     pub fn new<P: Problem>(problem: &P, stride: usize) -> Self {
         let functions = DiscontinuityFunctions::zeros(problem.discontinuity_counts());
-        let current = ContactState::new(&functions);
+        let current = ActiveSet::new(&functions);
         Self {
             filled: false,
             point: LinearizationPoint {

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::accumulator::Accumulator;
 use super::options::{Branch, Options, SlopeDirection};
-use super::wedge::Column;
+use super::wedge::ColumnFace;
 use super::{Connection, Law};
 use crate::body::Body;
 
@@ -266,8 +266,8 @@ impl Connection {
                     |slope: f64| angle - libm::atan(slope) > 0.0 && angle - libm::atan(slope) < right;
                 let must = "with the column's inclination lie between 0 and π/2 rad";
                 let steepest = match &wedge.column {
-                    Column::Plain { .. } => inclined(libm::tan(options.plain_toe_angle)),
-                    Column::Profile { depth, direction } => {
+                    ColumnFace::Plain { .. } => inclined(libm::tan(options.plain_toe_angle)),
+                    ColumnFace::Profile { depth, direction } => {
                         rule(
                             "the column's direction",
                             *direction,

@@ -64,14 +64,14 @@ impl Gap {
 
     /// The force at a stroke and its rate.
     #[inline(always)]
-    pub fn evaluate<S: Real>(&self, stroke: S, rate: S) -> AxisForce<S> {
-        let at = stroke.value();
+    pub fn evaluate<S: Real>(&self, extension: S, rate: S) -> AxisForce<S> {
+        let at = extension.value();
         let pushes = at <= self.ends[0];
         if !pushes && at < self.ends[1] {
             return AxisForce::none();
         }
         let spring = match &self.spring {
-            Some(curve) => curve.evaluate(stroke),
+            Some(curve) => curve.evaluate(extension),
             None => S::zero(),
         };
         let held = if self.wrong(pushes, spring.value()) {
@@ -99,16 +99,16 @@ impl Gap {
     }
 
     /// Stored energy, J; zero inside the gap.
-    pub fn energy(&self, stroke: f64) -> f64 {
-        let side = if stroke <= self.ends[0] {
+    pub fn energy(&self, extension: f64) -> f64 {
+        let side = if extension <= self.ends[0] {
             0
-        } else if stroke >= self.ends[1] {
+        } else if extension >= self.ends[1] {
             1
         } else {
             return 0.0;
         };
         self.held.as_ref().map_or(0.0, |held| {
-            held[side].integral(stroke) - held[side].integral(self.ends[side])
+            held[side].integral(extension) - held[side].integral(self.ends[side])
         })
     }
 }

@@ -12,7 +12,7 @@ use super::site::Site;
 use super::{Axis, Connections, Spatial};
 
 /// Everything that derivatives are taken at, and where derivatives by time are gathered.
-pub(crate) struct Scene<'s> {
+pub(crate) struct JacobianInputs<'s> {
     pub positions: &'s [[f64; 6]],
     pub rates: &'s [[f64; 6]],
     pub accelerations: &'s [[f64; 6]],
@@ -26,7 +26,7 @@ pub(crate) struct Scene<'s> {
 /// Derivatives of one quantity by strokes, rates and deflections.
 #[derive(Clone, Copy, Debug, Default)]
 struct Partial {
-    strokes: [f64; 3],
+    extensions: [f64; 3],
     rates: [f64; 3],
     deflection: [f64; 2],
 }
@@ -38,7 +38,7 @@ impl Partial {
         let d = &number.derivative;
         let first = N - 5;
         let mut partial = Self::default();
-        partial.strokes[..first].copy_from_slice(&d[..first]);
+        partial.extensions[..first].copy_from_slice(&d[..first]);
         partial.rates.copy_from_slice(&d[first..first + 3]);
         partial.deflection.copy_from_slice(&d[first + 3..]);
         partial
@@ -46,10 +46,10 @@ impl Partial {
 
     /// The derivative by time, strokes and rates changing at these rates.
     #[inline(always)]
-    fn in_time(&self, drive: &[f64; 3], drive_rate: &[f64; 3]) -> f64 {
+    fn in_time(&self, prescribed_rate: &[f64; 3], prescribed_acceleration: &[f64; 3]) -> f64 {
         let mut sum = 0.0;
         for k in 0..3 {
-            sum += self.strokes[k] * drive[k] + self.rates[k] * drive_rate[k];
+            sum += self.extensions[k] * prescribed_rate[k] + self.rates[k] * prescribed_acceleration[k];
         }
         sum
     }
@@ -65,30 +65,30 @@ struct Local {
 
 impl Connections {
     /// Adds the derivatives of all connections.
-    pub fn differentiate(&self, scene: &mut Scene<'_>) {
+    pub fn differentiate(&self, inputs: &mut JacobianInputs<'_>) {
         for spring in &self.springs {
-            scene.axis(spring);
+            inputs.axis(spring);
         }
         for gap in &self.gaps {
-            scene.axis(gap);
+            inputs.axis(gap);
         }
         for surface in &self.surfaces {
-            scene.spatial(surface, self.grips.surfaces);
+            inputs.spatial(surface, self.grips.surfaces);
         }
         for wedge in &self.wedges {
-            scene.spatial(wedge, self.grips.wedges);
+            inputs.spatial(wedge, self.grips.wedges);
         }
     }
 }
 
-impl Scene<'_> {
+impl JacobianInputs<'_> {
     #[inline(always)]
     fn axis<L: AxisLaw>(&mut self, axis: &Axis<L>) {
         let site = &axis.site;
-        let ([stroke], [rate]) = (site.strokes(self.positions), site.strokes(self.rates));
+        let ([extension], [rate]) = (site.extensions(self.positions), site.extensions(self.rates));
         let done = axis
             .law
-            .act(Dual::<2>::variable(stroke, 0), Dual::<2>::variable(rate, 1));
+            .force_at(Dual::<2>::variable(extension, 0), Dual::<2>::variable(rate, 1));
         let [stiffness, damping] = done.force.derivative;
         for (i, row_end) in site.ends.iter().enumerate() {
             for (j, column_end) in site.ends.iter().enumerate() {
@@ -106,8 +106,8 @@ impl Scene<'_> {
                 }
             }
         }
-        let drive = if site.driven {
-            site.drive(self.rates)[0]
+        let prescribed_rate = if site.prescribed {
+            site.prescribed_rates(self.rates)[0]
         } else {
             0.0
         };
@@ -116,32 +116,37 @@ impl Scene<'_> {
                 (site.quadratures[j][0], done.loss.derivative),
                 (
                     site.works[j],
-                    done.force.derivative.map(|derivative| derivative * drive),
+                    done.force
+                        .derivative
+                        .map(|derivative| derivative * prescribed_rate),
                 ),
             ];
-            for (row, [by_stroke, by_rate]) in rows {
+            for (row, [by_extension, by_rate]) in rows {
                 if let Some(row) = row {
                     let (p_q, p_u) = self.jacobian.row_mut(row);
-                    site.rows[j][0].add(end.sign * by_stroke, p_q);
+                    site.rows[j][0].add(end.sign * by_extension, p_q);
                     site.rows[j][0].add(end.sign * by_rate, p_u);
                 }
             }
         }
-        if site.driven {
-            let [drive_rate] = site.drive(self.accelerations);
-            let in_time = |[by_stroke, by_rate]: [f64; 2]| by_stroke * drive + by_rate * drive_rate;
+        if site.prescribed {
+            let [prescribed_acceleration] = site.prescribed_rates(self.accelerations);
+            let in_time = |[by_extension, by_rate]: [f64; 2]| {
+                by_extension * prescribed_rate + by_rate * prescribed_acceleration
+            };
             let force_rate = in_time(done.force.derivative);
             site.push([force_rate], self.loads);
-            self.d_quadratures[0] += force_rate * drive + done.force.value * drive_rate;
-            if let Some(channel) = site.channels[0] {
-                self.d_quadratures[channel] += in_time(done.loss.derivative);
+            self.d_quadratures[0] +=
+                force_rate * prescribed_rate + done.force.value * prescribed_acceleration;
+            if let Some(energy_term) = site.energy_terms[0] {
+                self.d_quadratures[energy_term] += in_time(done.loss.derivative);
             }
         }
     }
 
     #[inline(always)]
     fn spatial<L: SpatialLaw>(&mut self, element: &Spatial<L>, grip: Grip) {
-        let local = if element.law.uses_all_strokes() {
+        let local = if element.law.uses_all_extensions() {
             self.local::<L, 8>(element, grip)
         } else {
             self.local::<L, 6>(element, grip)
@@ -151,7 +156,7 @@ impl Scene<'_> {
         if let Some(internal) = element.internal {
             self.add_deflections(element, internal / 2, &local);
         }
-        if element.site.driven {
+        if element.site.prescribed {
             self.add_time(element, &local);
         }
     }
@@ -160,7 +165,7 @@ impl Scene<'_> {
     #[inline(always)]
     fn local<L: SpatialLaw, const N: usize>(&self, element: &Spatial<L>, grip: Grip) -> Local {
         let site = &element.site;
-        let (strokes, rates) = (site.strokes(self.positions), site.strokes(self.rates));
+        let (extensions, rates) = (site.extensions(self.positions), site.extensions(self.rates));
         let deflection = deflection_at(element.internal, self.internal);
         let first = N - 5;
         let seed = |values: [f64; 3], from: usize, count: usize| -> [Dual<N>; 3] {
@@ -170,8 +175,8 @@ impl Scene<'_> {
             };
             [number(0), number(1), number(2)]
         };
-        let done = element.law.act(
-            seed(strokes, 0, first),
+        let done = element.law.force_at(
+            seed(extensions, 0, first),
             seed(rates, first, 3),
             [
                 Dual::variable(deflection[0], first + 3),
@@ -199,9 +204,9 @@ impl Scene<'_> {
                 let (k, d) = self.jacobian.blocks_mut(site.pairs[i][j]);
                 for (partial, row) in local.forces.iter().zip(&site.rows[i]) {
                     for (b, column) in site.rows[j].iter().enumerate() {
-                        let (by_stroke, by_rate) = (partial.strokes[b], partial.rates[b]);
-                        if by_stroke != 0.0 {
-                            row.add_product(column, sign * by_stroke, width, k);
+                        let (by_extension, by_rate) = (partial.extensions[b], partial.rates[b]);
+                        if by_extension != 0.0 {
+                            row.add_product(column, sign * by_extension, width, k);
                         }
                         if by_rate != 0.0 {
                             row.add_product(column, sign * by_rate, width, d);
@@ -217,12 +222,12 @@ impl Scene<'_> {
         let site = &element.site;
         let work = self.work(site, local);
         for (j, end) in site.ends.iter().enumerate() {
-            let channels = site.quadratures[j].iter().zip(&local.powers);
-            for (row, power) in channels.chain([(&site.works[j], &work)]) {
+            let energy_terms = site.quadratures[j].iter().zip(&local.powers);
+            for (row, power) in energy_terms.chain([(&site.works[j], &work)]) {
                 let Some(row) = row else { continue };
                 let (p_q, p_u) = self.jacobian.row_mut(*row);
                 for (b, column) in site.rows[j].iter().enumerate() {
-                    column.add(end.sign * power.strokes[b], p_q);
+                    column.add(end.sign * power.extensions[b], p_q);
                     column.add(end.sign * power.rates[b], p_u);
                 }
             }
@@ -239,15 +244,15 @@ impl Scene<'_> {
     #[inline(always)]
     fn work(&self, site: &Site<3, 3>, local: &Local) -> Partial {
         let mut work = Partial::default();
-        if site.driven {
-            let drive = site.drive(self.rates);
-            for (force, drive) in local.forces.iter().zip(drive) {
+        if site.prescribed {
+            let prescribed_rate = site.prescribed_rates(self.rates);
+            for (force, prescribed_rate) in local.forces.iter().zip(prescribed_rate) {
                 for k in 0..3 {
-                    work.strokes[k] += drive * force.strokes[k];
-                    work.rates[k] += drive * force.rates[k];
+                    work.extensions[k] += prescribed_rate * force.extensions[k];
+                    work.rates[k] += prescribed_rate * force.rates[k];
                 }
                 for e in 0..2 {
-                    work.deflection[e] += drive * force.deflection[e];
+                    work.deflection[e] += prescribed_rate * force.deflection[e];
                 }
             }
         }
@@ -269,7 +274,7 @@ impl Scene<'_> {
             side += 1;
             for (b, column) in site.rows[j].iter().enumerate() {
                 for (e, rate) in local.deflection_rates.iter().enumerate() {
-                    column.add(end.sign * rate.strokes[b], &mut g_q[e * n..][..n]);
+                    column.add(end.sign * rate.extensions[b], &mut g_q[e * n..][..n]);
                     column.add(end.sign * rate.rates[b], &mut g_u[e * n..][..n]);
                 }
                 for e in 0..2 {
@@ -283,20 +288,26 @@ impl Scene<'_> {
     /// Derivatives by time.
     fn add_time<L>(&mut self, element: &Spatial<L>, local: &Local) {
         let site = &element.site;
-        let (drive, drive_rate) = (site.drive(self.rates), site.drive(self.accelerations));
-        let rates = local.forces.map(|force| force.in_time(&drive, &drive_rate));
+        let (prescribed_rate, prescribed_acceleration) = (
+            site.prescribed_rates(self.rates),
+            site.prescribed_rates(self.accelerations),
+        );
+        let rates = local
+            .forces
+            .map(|force| force.in_time(&prescribed_rate, &prescribed_acceleration));
         site.push(rates, self.loads);
         for k in 0..3 {
-            self.d_quadratures[0] += rates[k] * drive[k] + local.force[k] * drive_rate[k];
+            self.d_quadratures[0] +=
+                rates[k] * prescribed_rate[k] + local.force[k] * prescribed_acceleration[k];
         }
-        for (channel, power) in site.channels.iter().zip(&local.powers) {
-            if let Some(channel) = channel {
-                self.d_quadratures[*channel] += power.in_time(&drive, &drive_rate);
+        for (energy_term, power) in site.energy_terms.iter().zip(&local.powers) {
+            if let Some(energy_term) = energy_term {
+                self.d_quadratures[*energy_term] += power.in_time(&prescribed_rate, &prescribed_acceleration);
             }
         }
         if let Some(at) = element.internal {
             for (e, rate) in local.deflection_rates.iter().enumerate() {
-                self.d_internal[at + e] = rate.in_time(&drive, &drive_rate);
+                self.d_internal[at + e] = rate.in_time(&prescribed_rate, &prescribed_acceleration);
             }
         }
     }

@@ -13,23 +13,23 @@
 //! |---|---|
 //! | 1, 1.1, 1.3 | [`Law::Springs`], one [`SpringDamper`] a coordinate, with its two limits |
 //! | 1.2 | [`Law::Gap`] |
-//! | 6.3 | [`Law::Wedge`], [`Column::Plain`] toe out, [`Accumulator::Viscous`], both coefficients the same |
+//! | 6.3 | [`Law::Wedge`], [`ColumnFace::Plain`] toe out, [`Accumulator::Viscous`], both coefficients the same |
 //! | 6.7 | the same with two coefficients and a toe direction |
 //! | 6.5 | [`Law::Surface`] with [`Accumulator::Bristle`], coordinates 2, 0, 1 |
-//! | 6.8 | [`Law::Wedge`], [`Column::Plain`], [`Accumulator::Bristle`]; a constant force is `preload` with a zero `coil`, and stands in the bolster |
-//! | 6.9 | [`Law::Wedge`], [`Column::Profile`], [`Accumulator::Bristle`], no `preload` |
+//! | 6.8 | [`Law::Wedge`], [`ColumnFace::Plain`], [`Accumulator::Bristle`]; a constant force is `preload` with a zero `coil`, and stands in the bolster |
+//! | 6.9 | [`Law::Wedge`], [`ColumnFace::Profile`], [`Accumulator::Bristle`], no `preload` |
 
 mod accumulator;
+mod assembler;
 mod check;
+mod contact_states;
 mod forces;
 mod gap;
 mod jacobian;
 mod observe;
 mod options;
-mod place;
 mod site;
 mod spring;
-mod states;
 mod surface;
 mod wedge;
 
@@ -43,17 +43,17 @@ use wedge::WedgeLaw;
 
 pub use accumulator::Accumulator;
 pub(crate) use accumulator::Grip;
+pub(crate) use assembler::ConnectionAssembler;
 pub use check::ConnectionError;
+pub use contact_states::{CLOSING_FORCE, OPENING_FORCE};
+pub(crate) use contact_states::{FRICTION_VARIABLES, FrictionVariables};
 pub use gap::GapDamper;
-pub(crate) use jacobian::Scene;
+pub(crate) use jacobian::JacobianInputs;
 pub use observe::ConnectionState;
 pub use options::{Branch, GapTension, NegativeRise, Options, SlopeDirection};
-pub(crate) use place::Placer;
 pub use spring::SpringDamper;
-pub use states::{CLOSING_FORCE, OPENING_FORCE};
-pub(crate) use states::{SIGNS, Signs};
 pub use surface::SurfaceFriction;
-pub use wedge::{Column, Wedge, WedgeState};
+pub use wedge::{ColumnFace, Wedge, WedgeState};
 
 /// A connection of two bodies at a point.
 ///
@@ -97,8 +97,8 @@ impl Law {
             Self::Gap(coordinate, _) => vec![*coordinate],
             Self::Surface(surface) => surface.coordinates.to_vec(),
             Self::Wedge(wedge) => match wedge.column {
-                Column::Plain { .. } => vec![2, 1],
-                Column::Profile { .. } => vec![2, 0, 1],
+                ColumnFace::Plain { .. } => vec![2, 1],
+                ColumnFace::Profile { .. } => vec![2, 0, 1],
             },
         }
     }
@@ -129,7 +129,7 @@ struct Spatial<L> {
     /// Rows of the powers and of the work by the pair of internal states.
     internal_rows: [Option<usize>; 4],
     /// Its number among the connections with friction.
-    switch: usize,
+    discrete_state: usize,
 }
 
 /// What friction does in each kind of element.
@@ -148,7 +148,7 @@ pub(crate) struct Connections {
     surfaces: Vec<Spatial<Surface>>,
     wedges: Vec<Spatial<WedgeLaw>>,
     /// The connections with friction, whose contact states are recorded.
-    pub switches: Vec<usize>,
+    pub discrete_states: Vec<usize>,
     /// What friction does in surfaces and in wedges.
     pub grips: Grips,
 }

@@ -91,7 +91,7 @@ pub(crate) struct End {
     /// Number of its free coordinates.
     pub size: usize,
     /// Whether it is prescribed and moves.
-    pub driven: bool,
+    pub prescribed: bool,
     /// +1 for body A, -1 for body B: its share in the stroke.
     pub sign: f64,
 }
@@ -110,13 +110,13 @@ pub(crate) struct Site<const D: usize, const P: usize> {
     /// Coupling blocks by end and end.
     pub pairs: [[usize; 2]; 2],
     /// Its powers' quadratures.
-    pub channels: [Option<usize>; P],
+    pub energy_terms: [Option<usize>; P],
     /// Their rows in the Jacobian, by end; the last is that of the work of the inputs.
     pub quadratures: [[Option<usize>; P]; 2],
     /// The same for the work of the inputs.
     pub works: [Option<usize>; 2],
     /// Whether one end is prescribed and moves.
-    pub driven: bool,
+    pub prescribed: bool,
 }
 
 impl<const D: usize, const P: usize> Site<D, P> {
@@ -134,27 +134,27 @@ impl<const D: usize, const P: usize> Site<D, P> {
 
     /// Differences of both ends' displacements.
     #[inline(always)]
-    pub fn strokes(&self, coordinates: &[[f64; 6]]) -> [f64; D] {
+    pub fn extensions(&self, coordinates: &[[f64; 6]]) -> [f64; D] {
         let (a, b) = (&coordinates[self.ends[0].body], &coordinates[self.ends[1].body]);
-        let mut strokes = [0.0; D];
+        let mut extensions = [0.0; D];
         for k in 0..D {
-            strokes[k] = self.rows[0][k].along(a) - self.rows[1][k].along(b);
+            extensions[k] = self.rows[0][k].along(a) - self.rows[1][k].along(b);
         }
-        strokes
+        extensions
     }
 
     /// The part of the strokes' rates that prescribed ends make (from their coordinates' rates).
     #[inline(always)]
-    pub fn drive(&self, rates: &[[f64; 6]]) -> [f64; D] {
-        let mut drive = [0.0; D];
+    pub fn prescribed_rates(&self, rates: &[[f64; 6]]) -> [f64; D] {
+        let mut prescribed_rate = [0.0; D];
         for (end, rows) in self.ends.iter().zip(&self.rows) {
-            if end.driven {
+            if end.prescribed {
                 for k in 0..D {
-                    drive[k] += end.sign * rows[k].along(&rates[end.body]);
+                    prescribed_rate[k] += end.sign * rows[k].along(&rates[end.body]);
                 }
             }
         }
-        drive
+        prescribed_rate
     }
 
     /// Adds the forces on both bodies.

@@ -85,15 +85,15 @@ impl Spring {
 
     /// The force at a stroke and its rate.
     #[inline(always)]
-    pub fn evaluate<S: Real>(&self, stroke: S, rate: S) -> AxisForce<S> {
-        let held = self.held.evaluate(stroke);
+    pub fn evaluate<S: Real>(&self, extension: S, rate: S) -> AxisForce<S> {
+        let held = self.held.evaluate(extension);
         let (Some(damper), Some(free)) = (&self.damper, &self.free) else {
             return AxisForce {
                 force: held,
                 loss: S::zero(),
             };
         };
-        let sum = free.evaluate(stroke) + damper.evaluate(rate);
+        let sum = free.evaluate(extension) + damper.evaluate(rate);
         let force = if sum.value() < self.limits[0] {
             S::from(self.limits[0])
         } else if sum.value() > self.limits[1] {
@@ -108,7 +108,7 @@ impl Spring {
     }
 
     /// Stored energy, J; zero at zero stroke.
-    pub fn energy(&self, stroke: f64) -> f64 {
-        self.held.integral(stroke)
+    pub fn energy(&self, extension: f64) -> f64 {
+        self.held.integral(extension)
     }
 }

@@ -59,12 +59,12 @@ impl Surface {
     #[inline(always)]
     pub fn evaluate<S: Real>(
         &self,
-        strokes: [S; 3],
+        extensions: [S; 3],
         rates: [S; 3],
         deflection: [S; 2],
         grip: Grip,
     ) -> SpatialForce<S> {
-        let normal = self.normal.evaluate(strokes[0]);
+        let normal = self.normal.evaluate(extensions[0]);
         let mut push = normal;
         if let Some(curve) = &self.damper {
             if normal.value() > 0.0 {
@@ -94,7 +94,7 @@ impl Surface {
     }
 
     /// Energy of the normal spring, J; zero at zero stroke.
-    pub fn energy(&self, stroke: f64) -> f64 {
-        -self.normal.integral(stroke)
+    pub fn energy(&self, extension: f64) -> f64 {
+        -self.normal.integral(extension)
     }
 }

@@ -14,10 +14,10 @@
 //! quadratic equation. N is at most [`Wedge::normal_limit`], also where D is not positive: there no steady sliding
 //! exists, the wedge jams.
 //!
-//! Kinematics with a column profile h(z) (depth in m over the vertical stroke, positive away from the bolster) and
+//! Kinematics with a column profile h(z) (depth in m over the vertical extension, positive away from the bolster) and
 //! direction d (+1: the column lies ahead, +x of the bolster): gap `e = -d s_x + h(s_z)`, `φ = -atan h'(s_z)`, rise of
-//! the wedge in its pocket `r = e / tan θ`; stroke of the coil `s_z + r` (coil on the side frame) or `r` (coil in the
-//! bolster). Without a profile r = 0. Forces in the strokes' sense:
+//! the wedge in its pocket `r = e / tan θ`; extension of the coil `s_z + r` (coil on the side frame) or `r` (coil in the
+//! bolster). Without a profile r = 0. Forces in the extensions' sense:
 //! `f_z = -(F_s [coil on the side frame] + F_t cos φ - N sin φ)`, `f_x = d (N cos φ + F_t sin φ)`, f_y lateral friction.
 //! Without a profile f_x = 0, and a given inclination enters N only. Units: N, m, s, rad.
 //!
@@ -27,7 +27,7 @@
 //! stopping the rise leave the wedge's constraint forces with a small power (tan φ / tan θ of the column's: 0.6 % at 0.2°, all
 //! but 1e-4 of it by the slip velocity); it is integrated from its own forces and velocities and is a ledger entry of its own.
 //!
-//! Source: names of the parameters and signs from published input files and their comments; the law itself is derived,
+//! Source: names of the parameters and variables from published input files and their comments; the law itself is derived,
 //! choices are listed in [`crate::connection::Options`]. Defects: no mass, no moments, no lift-off ringing. The slope's friction is no slider of
 //! its own: where the bolster swings along x it can feed energy (a negative slope entry in the ledger tells), above all jammed (toe
 //! in with much friction: a half-truck with yaw then chatters at hundreds of hertz) and with
@@ -43,7 +43,7 @@ use crate::friction::Friction as Slip;
 
 /// The column that the wedge slides on.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Column {
+pub enum ColumnFace {
     /// A toe that is only a direction (types 6.3, 6.7, 6.8): vertical and lateral forces.
     Plain {
         /// Toe out (or none); else toe in.
@@ -51,7 +51,7 @@ pub enum Column {
     },
     /// A profile (type 6.9): vertical, longitudinal and lateral forces.
     Profile {
-        /// Depth (m, positive away from the bolster) over the vertical stroke (m).
+        /// Depth (m, positive away from the bolster) over the vertical extension (m).
         depth: Curve,
         /// +1: the column lies ahead of the wedge (+x), -1: behind.
         direction: f64,
@@ -63,14 +63,14 @@ pub enum Column {
 pub struct Wedge {
     /// Wedge angle θ from the vertical, rad, between 0 and π/2.
     pub angle: f64,
-    /// Force of the coil, N by m of its stroke, extension positive: negative where it pushes. It never pulls.
+    /// Force of the coil, N by m of its extension, extension positive: negative where it pushes. It never pulls.
     pub coil: Curve,
     /// Force added to the coil's, N, positive pushing.
     pub preload: f64,
     /// Whether the coil stands in the bolster's pocket (constant damping); else on the side frame (variable damping).
     pub coil_in_bolster: bool,
     /// The column.
-    pub column: Column,
+    pub column: ColumnFace,
     /// Coefficient of friction of the slope.
     pub slope_friction: f64,
     /// Coefficient of friction of the column.
@@ -130,7 +130,7 @@ pub struct WedgeState {
     /// Force of the coil.
     pub coil_force: f64,
     /// Stroke of the coil.
-    pub coil_stroke: f64,
+    pub coil_extension: f64,
     /// Rise of the wedge in its pocket.
     pub rise: f64,
     /// Normal force of the column.
@@ -169,11 +169,11 @@ impl WedgeLaw {
             }
         };
         let (profile, faces) = match &law.column {
-            Column::Plain { toe_out } => {
+            ColumnFace::Plain { toe_out } => {
                 let size = libm::tan(options.plain_toe_angle);
                 (None, vec![face(if *toe_out { -size } else { size }, *toe_out)])
             }
-            Column::Profile { depth, direction } => (
+            ColumnFace::Profile { depth, direction } => (
                 Some((depth.clone(), *direction)),
                 depth
                     .slopes()
@@ -251,23 +251,23 @@ impl WedgeLaw {
         }
     }
 
-    /// The wedge at strokes and rates (vertical, longitudinal, lateral) and deflections (vertical, lateral).
+    /// The wedge at extensions and rates (vertical, longitudinal, lateral) and deflections (vertical, lateral).
     #[inline(always)]
     pub fn evaluate<S: Real>(
         &self,
-        strokes: [S; 3],
+        extensions: [S; 3],
         rates: [S; 3],
         deflection: [S; 2],
         grip: Grip,
     ) -> SpatialForce<S> {
-        self.evaluate_with(strokes, rates, deflection, grip, |_| {})
+        self.evaluate_with(extensions, rates, deflection, grip, |_| {})
     }
 
     /// The same; `report` receives what happens inside.
     #[inline(always)]
     pub fn evaluate_with<S: Real>(
         &self,
-        strokes: [S; 3],
+        extensions: [S; 3],
         rates: [S; 3],
         deflection: [S; 2],
         grip: Grip,
@@ -277,22 +277,22 @@ impl WedgeLaw {
         // the gap's rate that a wedge stopped in its pocket does not follow
         let mut pressed = S::zero();
         if let Some((depth, ahead)) = &self.profile {
-            let piece = depth.piece(strokes[0].value());
+            let piece = depth.piece(extensions[0].value());
             face = &self.faces[piece];
             direction = *ahead;
-            rise = (depth.evaluate(strokes[0]) - strokes[1] * direction) * self.cotangent;
+            rise = (depth.evaluate(extensions[0]) - extensions[1] * direction) * self.cotangent;
             rise_rate = (rates[0] * depth.slopes()[piece] - rates[1] * direction) * self.cotangent;
             if self.stops && rise.value() < 0.0 {
                 pressed = rise_rate * (1.0 / self.cotangent);
                 (rise, rise_rate) = (S::zero(), S::zero());
             }
         }
-        let stroke = if self.coil_in_bolster {
+        let extension = if self.coil_in_bolster {
             rise
         } else {
-            strokes[0] + rise
+            extensions[0] + rise
         };
-        let coil = self.coil.evaluate(stroke);
+        let coil = self.coil.evaluate(extension);
         let mut along = rates[0];
         if self.rise_in_slip && direction != 0.0 {
             along = rates[0] * (1.0 / face.cosine) + rise_rate * face.cosine;
@@ -336,7 +336,7 @@ impl WedgeLaw {
         }
         report(WedgeState {
             coil_force: coil.value(),
-            coil_stroke: stroke.value(),
+            coil_extension: extension.value(),
             rise: rise.value(),
             column_normal: normal.value(),
             column_friction: up.value(),
@@ -419,8 +419,8 @@ impl WedgeLaw {
         at(slip, if self.friction > 0.0 { x } else { zero }, inside)
     }
 
-    /// Energy of the coil, J; zero at zero stroke of the coil.
-    pub fn energy(&self, coil_stroke: f64) -> f64 {
-        -self.coil.integral(coil_stroke)
+    /// Energy of the coil, J; zero at zero extension of the coil.
+    pub fn energy(&self, coil_extension: f64) -> f64 {
+        -self.coil.integral(coil_extension)
     }
 }

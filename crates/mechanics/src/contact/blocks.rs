@@ -7,7 +7,7 @@
 //! g = d·e_n + n·r,   v_i = c_i + (Qᵀ(e_i × ω))·r,   F = Qᵀ(N, T1, T2),   M = Σ r × F
 //! ```
 //!
-//! so that gap, gap rate and slip of all points are linear in their places. The laws are those of [`ContactFace`].
+//! so that gap, gap rate and slip of all points are linear in their coordinates. The laws are those of [`ContactFace`].
 
 use std::ops::Range;
 
@@ -16,7 +16,7 @@ use integrate::scalar::{Mask, Number};
 
 use super::{ContactFace, ContactPoint, PointForce, PointKinematics, PointProperties};
 use crate::body::Kinematics;
-use crate::link::{BodyWrench, Relative, Sight};
+use crate::link::{BodyWrench, RelativeFrame, RelativeMotion};
 use crate::surface::Plane;
 use crate::vector::{Matrix, Vector};
 
@@ -34,7 +34,7 @@ pub(super) const OUTPUTS: usize = 7;
 
 /// The derivatives of the law at four points.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Slopes {
+pub(super) struct PointDerivatives {
     /// Whether there is anything but zeros.
     pub active: bool,
     /// Forces along the normal and two tangents.
@@ -56,7 +56,7 @@ pub(crate) struct Points {
     kinematics: Vec<PointKinematics<Lanes>>,
     /// Whether all were open where forces were asked for last; never where there are internal states.
     open: bool,
-    pub(super) slopes: Vec<Slopes>,
+    pub(super) derivatives: Vec<PointDerivatives>,
 }
 
 impl Points {
@@ -71,19 +71,19 @@ impl Points {
         Self {
             kinematics: vec![nowhere; blocks.len()],
             open: false,
-            slopes: vec![Slopes::NONE; blocks.len()],
+            derivatives: vec![PointDerivatives::NONE; blocks.len()],
             blocks,
         }
     }
 
     /// Sees where the points are if all are still open, as they were where forces were asked for last; whether they are, else nothing is
-    /// known. How open points without internal states move makes no difference. Only for a mount that does not turn.
+    /// known. How open points without internal states move makes no difference. Only for a marker that does not turn.
     #[inline(always)]
-    pub fn update_if_open(&mut self, sight: &Sight<f64>, body: &Kinematics<f64>) -> bool {
+    pub fn update_if_open(&mut self, relative_frame: &RelativeFrame<f64>, body: &Kinematics<f64>) -> bool {
         if !self.open {
             return false;
         }
-        let (distance, normal) = View::wall(sight, body);
+        let (distance, normal) = PlaneMotion::distance_and_normal(relative_frame, body);
         for (block, kinematics) in self.blocks.iter().zip(&mut self.kinematics) {
             kinematics.gap = normal.dot::<Lanes, Lanes>(block.position) + distance;
         }
@@ -92,16 +92,16 @@ impl Points {
 
     /// Sees where the points are and how they move.
     #[inline(always)]
-    pub fn update(&mut self, view: &View) {
+    pub fn update(&mut self, plane: &PlaneMotion) {
         for (block, kinematics) in self.blocks.iter().zip(&mut self.kinematics) {
-            *kinematics = view.kinematics(block.position, block.properties.damped);
+            *kinematics = plane.kinematics(block.position, block.properties.damped);
         }
     }
 
     /// Whether the law, where it was differentiated, has anything but zeros at any of them: not where all are open.
     #[inline(always)]
     pub fn are_active(&self) -> bool {
-        self.slopes.iter().any(|slopes| slopes.active)
+        self.derivatives.iter().any(|derivatives| derivatives.active)
     }
 
     /// Gap and slip of every point.
@@ -151,47 +151,50 @@ impl PointBlock {
     }
 }
 
-/// A plane and its motion as the body sees them: what is linear in the places of points.
+/// A plane and its motion as the body sees them: what is linear in the coordinates of points.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct View {
+pub(crate) struct PlaneMotion {
     distance: f64,
     normal: Vector<f64>,
     speeds: [f64; 3],
-    /// By what the components of the velocity grow with the place.
+    /// By what the components of the velocity grow with the position.
     growth: [Vector<f64>; 3],
-    /// From body axes to mount axes.
+    /// From body axes to marker axes.
     rotation: Matrix<f64>,
 }
 
-impl View {
-    /// From a mount that does not turn: `v_i = c_i + (e_i × ω)·r` with ω in body axes.
+impl PlaneMotion {
+    /// From a marker that does not turn: `v_i = c_i + (e_i × ω)·r` with ω in body axes.
     #[inline(always)]
-    pub fn of(sight: &Sight<f64>, body: &Kinematics<f64>) -> Self {
-        let rotation: Matrix<f64> = sight.rotation.times(body.turn.rotation);
-        let place: Vector<f64> = sight.rotation.apply(body.position);
-        let velocity: Vector<f64> = sight.rotation.apply(body.velocity);
+    pub fn of(relative_frame: &RelativeFrame<f64>, body: &Kinematics<f64>) -> Self {
+        let rotation: Matrix<f64> = relative_frame.rotation.times(body.orientation.rotation);
+        let position: Vector<f64> = relative_frame.rotation.apply(body.position);
+        let velocity: Vector<f64> = relative_frame.rotation.apply(body.velocity);
         let [n, t1, t2] = rotation.0.map(Vector);
         Self {
-            distance: sight.position.0[0] + place.0[0],
+            distance: relative_frame.position.0[0] + position.0[0],
             normal: n,
-            speeds: (sight.velocity + velocity).0,
+            speeds: (relative_frame.velocity + velocity).0,
             growth: [n.cross(body.spin), t1.cross(body.spin), t2.cross(body.spin)],
             rotation,
         }
     }
 
-    /// Distance and normal alone, as [`View::of`] sees them.
+    /// Distance and normal alone, as [`PlaneMotion::of`] sees them.
     #[inline(always)]
-    fn wall(sight: &Sight<f64>, body: &Kinematics<f64>) -> (f64, Vector<f64>) {
-        let normal = Vector(sight.rotation.0[0]);
+    fn distance_and_normal(
+        relative_frame: &RelativeFrame<f64>,
+        body: &Kinematics<f64>,
+    ) -> (f64, Vector<f64>) {
+        let normal = Vector(relative_frame.rotation.0[0]);
         (
-            sight.position.0[0] + normal.dot::<f64, f64>(body.position),
-            body.turn.rotation.apply_transposed(normal),
+            relative_frame.position.0[0] + normal.dot::<f64, f64>(body.position),
+            body.orientation.rotation.apply_transposed(normal),
         )
     }
 
     #[inline(always)]
-    pub fn new(relative: &Relative<f64>) -> Self {
+    pub fn new(relative: &RelativeMotion<f64>) -> Self {
         let Matrix([n, t1, t2]) = relative.rotation;
         let [w0, w1, w2] = relative.angular_velocity.0;
         let mix = |a: f64, x: [f64; 3], b: f64, y: [f64; 3]| {
@@ -208,22 +211,22 @@ impl View {
 
     /// What the law sees of four points; the gap's rate only where there is contact damping.
     #[inline(always)]
-    pub fn kinematics(&self, place: Vector<Lanes>, damped: bool) -> PointKinematics<Lanes> {
-        let speed = |i: usize| -> Lanes { self.growth[i].dot::<Lanes, Lanes>(place) + self.speeds[i] };
+    pub fn kinematics(&self, position: Vector<Lanes>, damped: bool) -> PointKinematics<Lanes> {
+        let speed = |i: usize| -> Lanes { self.growth[i].dot::<Lanes, Lanes>(position) + self.speeds[i] };
         PointKinematics {
-            gap: self.normal.dot::<Lanes, Lanes>(place) + self.distance,
+            gap: self.normal.dot::<Lanes, Lanes>(position) + self.distance,
             gap_rate: if damped { speed(0) } else { Lanes::ZERO },
             slip: [speed(1), speed(2)],
         }
     }
 
-    /// What it does to the body: forces along the mount's axes, moments (body axes), losses in friction and in contact damping.
+    /// What it does to the body: forces along the marker's axes, moments (body axes), losses in friction and in contact damping.
     #[inline(always)]
-    pub fn push(&self, place: Vector<Lanes>, forces: &PointForce<Lanes>) -> [Lanes; 8] {
+    pub fn push(&self, position: Vector<Lanes>, forces: &PointForce<Lanes>) -> [Lanes; 8] {
         let [t1, t2] = forces.friction.force;
         let force = Vector([forces.normal, t1, t2]);
         let own: Vector<Lanes> = self.rotation.transpose().apply(force);
-        let moment: Vector<Lanes> = place.cross(own);
+        let moment: Vector<Lanes> = position.cross(own);
         let ([f1, f2, f3], [m1, m2, m3]) = (force.0, moment.0);
         [f1, f2, f3, m1, m2, m3, forces.friction.loss, forces.damping_loss]
     }
@@ -243,14 +246,14 @@ fn closed(block: &PointBlock, at: &PointKinematics<Lanes>) -> LaneMask {
 impl ContactFace<Plane> {
     /// What all points do to their body; `rates` receives the rates of the internal states.
     #[inline(always)]
-    pub(crate) fn effect(
+    pub(crate) fn wrench_on_body(
         &self,
         points: &mut Points,
-        view: &View,
+        plane: &PlaneMotion,
         deflections: &[f64],
         rates: &mut [f64],
     ) -> BodyWrench {
-        points.update(view);
+        points.update(plane);
         let mut sums = [Lanes::zero(); 8];
         points.open = true;
         for (number, (block, at)) in points.blocks.iter().zip(&points.kinematics).enumerate() {
@@ -266,7 +269,7 @@ impl ContactFace<Plane> {
                 at,
                 block.deflection(deflections, first),
             );
-            for (sum, term) in sums.iter_mut().zip(view.push(block.position, &forces)) {
+            for (sum, term) in sums.iter_mut().zip(plane.push(block.position, &forces)) {
                 *sum += term;
             }
             if !deflections.is_empty() {
@@ -289,7 +292,7 @@ impl ContactFace<Plane> {
 
     /// Gap and friction load of these points, four at a time; of no meaning is the load of open ones.
     #[inline(always)]
-    pub(crate) fn signs(
+    pub(crate) fn event_variables(
         &self,
         points: &Points,
         deflections: &[f64],
@@ -310,17 +313,17 @@ impl ContactFace<Plane> {
     /// Differentiates the law at every point.
     pub(crate) fn linearize(&self, points: &mut Points, deflections: &[f64]) {
         let blocks = points.blocks.iter().zip(&points.kinematics);
-        for (number, ((block, at), slopes)) in blocks.zip(&mut points.slopes).enumerate() {
+        for (number, ((block, at), derivatives)) in blocks.zip(&mut points.derivatives).enumerate() {
             let closed = closed(block, at);
-            slopes.active = !(closed.none() && deflections.is_empty());
-            if !slopes.active {
+            derivatives.active = !(closed.none() && deflections.is_empty());
+            if !derivatives.active {
                 continue;
             }
             let deflection = block.deflection(deflections, LANES * number);
             match (block.properties.damped, deflections.is_empty()) {
-                (false, true) => self.differentiate::<3>(block, closed, at, deflection, slopes),
-                (true, true) => self.differentiate::<4>(block, closed, at, deflection, slopes),
-                _ => self.differentiate::<6>(block, closed, at, deflection, slopes),
+                (false, true) => self.differentiate::<3>(block, closed, at, deflection, derivatives),
+                (true, true) => self.differentiate::<4>(block, closed, at, deflection, derivatives),
+                _ => self.differentiate::<6>(block, closed, at, deflection, derivatives),
             }
         }
     }
@@ -333,7 +336,7 @@ impl ContactFace<Plane> {
         closed: LaneMask,
         at: &PointKinematics<Lanes>,
         deflection: [Lanes; 2],
-        slopes: &mut Slopes,
+        derivatives: &mut PointDerivatives,
     ) {
         let seed = |value: Lanes, index: usize| {
             if index < N {
@@ -359,15 +362,15 @@ impl ContactFace<Plane> {
             r1,
             r2,
         ];
-        slopes.force = [forces.normal.value, t1.value, t2.value];
-        slopes.losses = [forces.friction.loss.value, forces.damping_loss.value];
-        let [slip1, slip2] = &mut slopes.by_slip;
-        let [deflection1, deflection2] = &mut slopes.by_deflection;
+        derivatives.force = [forces.normal.value, t1.value, t2.value];
+        derivatives.losses = [forces.friction.loss.value, forces.damping_loss.value];
+        let [slip1, slip2] = &mut derivatives.by_slip;
+        let [deflection1, deflection2] = &mut derivatives.by_deflection;
         let by = [
-            &mut slopes.by_gap,
+            &mut derivatives.by_gap,
             slip1,
             slip2,
-            &mut slopes.by_rate,
+            &mut derivatives.by_rate,
             deflection1,
             deflection2,
         ];
@@ -379,7 +382,7 @@ impl ContactFace<Plane> {
     }
 }
 
-impl Slopes {
+impl PointDerivatives {
     /// No derivatives.
     const NONE: Self = {
         let none = Lanes::ZERO;
@@ -396,19 +399,19 @@ impl Slopes {
 }
 
 impl Points {
-    /// For every point with internal states: how their rates (row-major), the forces at the point (mount axes, with its place in body
+    /// For every point with internal states: how their rates (row-major), the forces at the point (marker axes, with its position in body
     /// axes) and the friction loss change with them.
-    pub fn internal_slopes(&self, mut each: impl FnMut(usize, &InternalSlopes)) {
-        for (number, (block, slopes)) in self.blocks.iter().zip(&self.slopes).enumerate() {
-            let by = slopes.by_deflection.map(|row| row.map(Lanes::to_array));
-            let place = block.position.0.map(Lanes::to_array);
+    pub fn internal_derivatives(&self, mut each: impl FnMut(usize, &InternalDerivatives)) {
+        for (number, (block, derivatives)) in self.blocks.iter().zip(&self.derivatives).enumerate() {
+            let by = derivatives.by_deflection.map(|row| row.map(Lanes::to_array));
+            let position = block.position.0.map(Lanes::to_array);
             for i in 0..block.count {
                 each(
                     LANES * number + i,
-                    &InternalSlopes {
+                    &InternalDerivatives {
                         rate: [by[0][5][i], by[1][5][i], by[0][6][i], by[1][6][i]],
                         force: [0, 1].map(|e| Vector([0, 1, 2].map(|c| by[e][c][i]))),
-                        place: Vector(place.map(|lanes| lanes[i])),
+                        position: Vector(position.map(|lanes| lanes[i])),
                         loss: [by[0][3][i], by[1][3][i]],
                     },
                 );
@@ -418,13 +421,13 @@ impl Points {
 }
 
 /// The derivatives of a point's law by its two internal states.
-pub(crate) struct InternalSlopes {
+pub(crate) struct InternalDerivatives {
     /// Of their rates, row-major.
     pub rate: [f64; 4],
     /// Of the force, by each of them.
     pub force: [Vector<f64>; 2],
     /// From the body's origin to the point, body axes.
-    pub place: Vector<f64>,
+    pub position: Vector<f64>,
     /// Of the friction loss.
     pub loss: [f64; 2],
 }

@@ -12,15 +12,15 @@
 use integrate::lanes::Lanes;
 use integrate::scalar::Number;
 
-use super::blocks::{OUTPUTS, Points, Slopes};
-use crate::link::Relative;
-use crate::tangent::{Column, Columns, Tangent, sum};
+use super::blocks::{OUTPUTS, PointDerivatives, Points};
+use crate::link::RelativeMotion;
+use crate::tangent::{Tangent, TangentColumn, TangentColumns, sum};
 use crate::vector::Vector;
 
 /// What the law's outputs change by with the velocity of a point.
 #[inline(always)]
 fn by_velocity(
-    slopes: &Slopes,
+    derivatives: &PointDerivatives,
     [normal, first, second]: [Lanes; 3],
     damped: bool,
     out: &mut [Lanes; OUTPUTS],
@@ -28,10 +28,10 @@ fn by_velocity(
     for (o, out) in out.iter_mut().enumerate() {
         // Neither the normal force nor the loss in contact damping depend on slip.
         if o != 0 && o != 4 {
-            *out += slopes.by_slip[0][o] * first + slopes.by_slip[1][o] * second;
+            *out += derivatives.by_slip[0][o] * first + derivatives.by_slip[1][o] * second;
         }
         if damped {
-            *out += slopes.by_rate[o] * normal;
+            *out += derivatives.by_rate[o] * normal;
         }
     }
 }
@@ -40,23 +40,23 @@ impl Points {
     /// The tangent of a face where its law was differentiated. `rates` receives the derivatives of the rates of internal states, of four
     /// points at a time: those of the first state of each, and of the second; it is empty where there are none.
     #[inline(always)]
-    pub fn tangent(&self, relative: &Relative<f64>, rates: &mut [Columns]) -> Tangent {
+    pub fn tangent(&self, relative: &RelativeMotion<f64>, rates: &mut [TangentColumns]) -> Tangent {
         let mut tangent = Tangent::NONE;
         let spin = relative.angular_velocity;
         let mut sums = [Lanes::ZERO; 8];
-        for (number, (block, slopes)) in self.blocks.iter().zip(&self.slopes).enumerate() {
-            if !slopes.active {
+        for (number, (block, derivatives)) in self.blocks.iter().zip(&self.derivatives).enumerate() {
+            if !derivatives.active {
                 continue;
             }
             let damped = block.properties.damped;
             let arm: Vector<Lanes> = relative.rotation.apply(block.position);
             let [x, y, z] = arm.0;
-            let own = Vector(slopes.force);
+            let own = Vector(derivatives.force);
             let ([f0, f1, f2], [m0, m1, m2]) = (own.0, arm.cross::<Lanes, Lanes>(own).0);
             for (sum, term) in sums.iter_mut().zip([f0, f1, f2, m0, m1, m2]) {
                 *sum += term;
             }
-            let summed = |out: &[Lanes; OUTPUTS], carried: Vector<Lanes>| -> Column {
+            let summed = |out: &[Lanes; OUTPUTS], carried: Vector<Lanes>| -> TangentColumn {
                 let force = Vector([out[0], out[1], out[2]]);
                 let moment: Vector<Lanes> = arm.cross::<Lanes, Lanes>(force) + carried;
                 let ([f0, f1, f2], [m0, m1, m2]) = (force.0, moment.0);
@@ -66,32 +66,42 @@ impl Points {
                 ]
             };
             // Where internal states have none, what is written for them goes nowhere.
-            let mut nowhere = Columns::NONE;
+            let mut nowhere = TangentColumns::NONE;
             let rate = rates.get_mut(number).unwrap_or(&mut nowhere);
-            let add = |to: &mut Column, rate: &mut Column, out: &[Lanes; OUTPUTS], carried| {
+            let add = |to: &mut TangentColumn, rate: &mut TangentColumn, out: &[Lanes; OUTPUTS], carried| {
                 let column = summed(out, carried);
                 *to = sum(*to, column);
                 *rate = [out[5], out[6]];
             };
             let (zero, none) = (Lanes::ZERO, Vector([Lanes::ZERO; 3]));
             let by = &mut tangent.by;
-            add(&mut by.position[0], &mut rate.position[0], &slopes.by_gap, none);
+            add(
+                &mut by.position[0],
+                &mut rate.position[0],
+                &derivatives.by_gap,
+                none,
+            );
             if damped {
-                add(&mut by.velocity[0], &mut rate.velocity[0], &slopes.by_rate, none);
+                add(
+                    &mut by.velocity[0],
+                    &mut rate.velocity[0],
+                    &derivatives.by_rate,
+                    none,
+                );
             }
-            for (k, by_slip) in slopes.by_slip.iter().enumerate() {
+            for (k, by_slip) in derivatives.by_slip.iter().enumerate() {
                 add(&mut by.velocity[1 + k], &mut rate.velocity[1 + k], by_slip, none);
             }
             // e_k × r
             let turned = [[zero, -z, y], [z, zero, -x], [-y, x, zero]];
             for (k, moved) in turned.into_iter().enumerate() {
                 let moved = Vector(moved);
-                let mut out = slopes.by_gap.map(|by| by * moved.0[0]);
+                let mut out = derivatives.by_gap.map(|by| by * moved.0[0]);
                 let carried: Vector<Lanes> = spin.cross(moved);
-                by_velocity(slopes, carried.0, damped, &mut out);
+                by_velocity(derivatives, carried.0, damped, &mut out);
                 add(&mut by.rotation[k], &mut rate.rotation[k], &out, moved.cross(own));
                 let mut out = [zero; OUTPUTS];
-                by_velocity(slopes, moved.0, damped, &mut out);
+                by_velocity(derivatives, moved.0, damped, &mut out);
                 let (by, rate) = (&mut by.angular_velocity[k], &mut rate.angular_velocity[k]);
                 add(by, rate, &out, none);
             }

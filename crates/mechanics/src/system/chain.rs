@@ -23,8 +23,8 @@ use integrate::lanes::Lanes;
 
 use super::{FreeBody, Mounted};
 use crate::body::Kinematics;
-use crate::link::{Relative, Turning};
-use crate::tangent::{Change, Column, Columns, Tangent, combined, force_of, moment_of, sum};
+use crate::link::{RelativeMotion, RotationAxes};
+use crate::tangent::{Change, Tangent, TangentColumn, TangentColumns, combined, force_of, moment_of, sum};
 use crate::vector::{Matrix, Vector};
 
 /// The rows of a generalized force at a body: of its translations (axes of its reference frame), and of its free angles.
@@ -108,7 +108,7 @@ struct End {
 
 impl End {
     #[inline(always)]
-    fn by_position(&self, free: &FreeBody, index: usize, columns: &Columns) -> Column {
+    fn by_position(&self, free: &FreeBody, index: usize, columns: &TangentColumns) -> TangentColumn {
         match free.row(index) {
             (0, k) => {
                 let own = combined(&columns.position, self.ways[k]);
@@ -122,7 +122,7 @@ impl End {
     }
 
     #[inline(always)]
-    fn by_rate(&self, free: &FreeBody, index: usize, columns: &Columns) -> Column {
+    fn by_rate(&self, free: &FreeBody, index: usize, columns: &TangentColumns) -> TangentColumn {
         match free.row(index) {
             (0, k) => combined(&columns.velocity, self.ways[k]),
             (_, l) => {
@@ -150,7 +150,7 @@ pub(super) struct Chain<'c> {
     /// Marker A from the origins of the two bodies.
     arm: Vector<f64>,
     reach: Vector<f64>,
-    /// Angular velocity of a mount that turns, and marker A from it.
+    /// Angular velocity of a marker that turns, and marker A from it.
     spin: Option<(Vector<f64>, Vector<f64>)>,
     a: End,
     b: Option<End>,
@@ -161,60 +161,60 @@ fn cross(a: Vector<f64>, b: Vector<f64>) -> Vector<f64> {
 }
 
 impl<'c> Chain<'c> {
-    /// The chain of an element; `arm` leads from the origin of body a to marker A in the axes of the mount, `relative` is the motion of
+    /// The chain of an element; `arm` leads from the origin of body a to marker A in the axes of the marker, `relative` is the motion of
     /// marker A.
     #[inline(always)]
     pub fn new<E>(
         mounted: &'c Mounted<E>,
-        relative: &Relative<f64>,
+        relative: &RelativeMotion<f64>,
         arm: Vector<f64>,
-        [a, b]: [&Turning; 2],
+        [a, b]: [&RotationAxes; 2],
         on: &Kinematics<f64>,
     ) -> Self {
-        let sight = &mounted.sight;
-        let to_mount = |v: Vector<f64>| -> Vector<f64> { relative.rotation.apply(v) };
-        let ways = [0, 1, 2].map(|k| sight.rotation.column(k));
-        let spins = sight.angular_velocity != Vector::zero();
+        let relative_frame = &mounted.relative_frame;
+        let to_marker = |v: Vector<f64>| -> Vector<f64> { relative.rotation.apply(v) };
+        let ways = [0, 1, 2].map(|k| relative_frame.rotation.column(k));
+        let spins = relative_frame.angular_velocity != Vector::zero();
         let swing = arm != Vector::zero();
-        let axes = a.axes.map(to_mount);
+        let axes = a.axes.map(to_marker);
         let mut angles = [Change::NONE; 3];
         for (l, axis) in axes.iter().enumerate() {
-            let drift = to_mount(cross(a.axes[l], a.spin) + a.drifts[l]);
+            let axis_rate = to_marker(cross(a.axes[l], a.spin) + a.axis_rates[l]);
             let mut change = Change {
                 rotation: *axis,
-                angular_velocity: drift,
+                angular_velocity: axis_rate,
                 ..Change::NONE
             };
             if swing {
                 change.position = cross(*axis, arm);
-                change.velocity = cross(drift, arm) + cross(relative.angular_velocity, change.position);
+                change.velocity = cross(axis_rate, arm) + cross(relative.angular_velocity, change.position);
             }
             angles[l] = change;
         }
         let end_a = End {
-            carried: spins.then(|| ways.map(|way| cross(sight.angular_velocity, way))),
-            along: Projection::new([ways[0], ways[1], ways[2], sight.mount_velocity]),
+            carried: spins.then(|| ways.map(|way| cross(relative_frame.angular_velocity, way))),
+            along: Projection::new([ways[0], ways[1], ways[2], relative_frame.marker_velocity]),
             about: Projection::new([axes[0], axes[1], axes[2], Vector::zero()]),
             ways,
             angles,
             swing,
         };
-        let seat: Vector<f64> = mounted.mount.rotation.apply_transposed(mounted.mount.origin);
+        let seat: Vector<f64> = mounted.marker.rotation.apply_transposed(mounted.marker.origin);
         let reach = relative.position + seat;
         let end_b = mounted.on_free.then(|| {
-            let to_frame: Matrix<f64> = on.turn.rotation.times(mounted.mount.rotation);
-            let to_mount = |v: Vector<f64>| -> Vector<f64> { mounted.mount.rotation.apply_transposed(v) };
-            let spin = to_mount(b.spin);
+            let to_frame: Matrix<f64> = on.orientation.rotation.times(mounted.marker.rotation);
+            let to_marker = |v: Vector<f64>| -> Vector<f64> { mounted.marker.rotation.apply_transposed(v) };
+            let spin = to_marker(b.spin);
             let directions = to_frame.0.map(Vector);
-            let axes = b.axes.map(to_mount);
+            let axes = b.axes.map(to_marker);
             let mut angles = [Change::NONE; 3];
             for (l, axis) in axes.iter().enumerate() {
-                let drift = to_mount(cross(b.axes[l], b.spin) + b.drifts[l]);
+                let axis_rate = to_marker(cross(b.axes[l], b.spin) + b.axis_rates[l]);
                 angles[l] = Change {
                     position: -cross(*axis, reach),
                     rotation: -*axis,
-                    velocity: -cross(*axis, relative.velocity) - cross(drift, reach),
-                    angular_velocity: -cross(*axis, relative.angular_velocity) - drift,
+                    velocity: -cross(*axis, relative.velocity) - cross(axis_rate, reach),
+                    angular_velocity: -cross(*axis, relative.angular_velocity) - axis_rate,
                 };
             }
             let [x, y, z] = directions;
@@ -231,8 +231,8 @@ impl<'c> Chain<'c> {
             tangent: &mounted.tangent,
             arm,
             reach,
-            spin: (mounted.driven && mounted.translation.is_none())
-                .then_some((sight.mount_angular_velocity, relative.position)),
+            spin: (mounted.prescribed && mounted.translation.is_none())
+                .then_some((relative_frame.marker_angular_velocity, relative.position)),
             a: end_a,
             b: end_b,
         }
@@ -265,7 +265,7 @@ impl<'c> Chain<'c> {
     }
 
     /// The derivatives by the coordinates of body a: of the load on it, added to `own`; of that on body b, added to `other`; and of the
-    /// powers of the element and of a mount that translates.
+    /// powers of the element and of a marker that translates.
     #[inline(always)]
     pub fn by_a(&self, free: &FreeBody, own: &mut Block, other: &mut Block, powers: &mut Powers) {
         let (force, moment) = (self.tangent.force, self.moment_on_a());
@@ -287,13 +287,13 @@ impl<'c> Chain<'c> {
             let rate = self.a.by_rate(free, j, &self.tangent.by);
             let (rf, rm) = (force_of(&rate), moment_of(&rate));
             let rows = [self.a.rows(df, about), self.a.rows(rf, self.about_a(rf, rm))];
-            let mut driven = [rows[0][0].at(3), rows[1][0].at(3)];
-            if let Some((spin, place)) = self.spin {
-                let by_position = dm + cross(moved, force) + cross(place, df);
-                driven[0] += spin.dot::<f64, f64>(by_position);
-                driven[1] += spin.dot::<f64, f64>(rm + cross(place, rf));
+            let mut prescribed = [rows[0][0].at(3), rows[1][0].at(3)];
+            if let Some((spin, position)) = self.spin {
+                let by_position = dm + cross(moved, force) + cross(position, df);
+                prescribed[0] += spin.dot::<f64, f64>(by_position);
+                prescribed[1] += spin.dot::<f64, f64>(rm + cross(position, rf));
             }
-            powers.keep(j, [&column, &rate], driven);
+            powers.keep(j, [&column, &rate], prescribed);
             for (block, rows) in own.iter_mut().zip(rows) {
                 add(&mut block[j], rows);
             }
@@ -340,7 +340,13 @@ impl<'c> Chain<'c> {
 
     /// The derivatives of other quantities by position and rate of coordinate `index` of the body at an end.
     #[inline(always)]
-    pub fn others(&self, side: usize, free: &FreeBody, index: usize, columns: &Columns) -> [Column; 2] {
+    pub fn others(
+        &self,
+        side: usize,
+        free: &FreeBody,
+        index: usize,
+        columns: &TangentColumns,
+    ) -> [TangentColumn; 2] {
         let end = match &self.b {
             Some(b) if side == 1 => b,
             _ => &self.a,
@@ -361,7 +367,7 @@ impl<'c> Chain<'c> {
     }
 }
 
-/// Derivatives of the powers of an element and of the motion that drives its mount, by coordinates (first) and rates.
+/// Derivatives of the powers of an element and of the motion that drives its marker, by coordinates (first) and rates.
 pub(super) struct Powers([[[f64; 6]; 3]; 2]);
 
 impl Powers {
@@ -369,11 +375,11 @@ impl Powers {
     pub const NONE: Self = Self([[[0.0; 6]; 3]; 2]);
 
     #[inline(always)]
-    fn keep(&mut self, j: usize, columns: [&Column; 2], driven: [f64; 2]) {
-        for ((own, column), driven) in self.0.iter_mut().zip(columns).zip(driven) {
+    fn keep(&mut self, j: usize, columns: [&TangentColumn; 2], prescribed: [f64; 2]) {
+        for ((own, column), prescribed) in self.0.iter_mut().zip(columns).zip(prescribed) {
             own[0][j] = column[0].at(3);
             own[1][j] = column[1].at(3);
-            own[2][j] = driven;
+            own[2][j] = prescribed;
         }
     }
 

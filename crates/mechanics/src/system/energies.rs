@@ -1,31 +1,32 @@
 //! The stored energies of a state, where they are all that is wanted of many states.
 
 use super::{Energies, Linear, System};
-use crate::link::Relative;
+use crate::link::RelativeMotion;
 
 impl System {
     /// Returns the stored energies at `time` (s) and state `x`, J: the same bits as in [`System::observe`], without all the rest, and
     /// without allocation if there are no connections.
     #[must_use]
     pub fn energies(&mut self, time: f64, x: &[f64]) -> Energies {
-        self.place(time, x);
+        self.update_kinematics(time, x);
         let mut energies = Energies::default();
         for free in &self.free {
             if let Some(linear) = &free.linear {
-                let (place, rate) = (&self.positions[free.body], &self.rates[free.body]);
-                linear.add_energies(&free.free, place, rate, &mut energies);
+                let (coordinates, rate) = (&self.positions[free.body], &self.rates[free.body]);
+                linear.add_energies(&free.free, coordinates, rate, &mut energies);
                 continue;
             }
             let (body, frame) = (&self.bodies[free.body], &self.frames[free.body].motion);
             let kinematics = &self.kinematics[free.body];
-            let center = kinematics.place(frame, crate::vector::Vector(body.center_of_gravity));
+            let center = kinematics.point_position(frame, crate::vector::Vector(body.center_of_gravity));
             energies.kinetic += kinematics.kinetic_energy(body, frame);
             energies.gravity -= body.mass * self.gravity.dot::<f64, f64>(center);
         }
         let [_, _, internal, _] = self.layout.split(x);
         for mounted in &self.faces {
             let face = &mounted.element;
-            let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
+            let relative: RelativeMotion<f64> =
+                mounted.relative_frame.relative(&self.kinematics[mounted.body]);
             let deflections = &internal[mounted.first_internal..][..mounted.internal_count];
             // By face first, in the order of the sums of `observe`.
             let (mut contact, mut bristle) = (0.0, 0.0);
@@ -39,7 +40,8 @@ impl System {
             energies.bristle += bristle;
         }
         for mounted in &self.coils {
-            let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
+            let relative: RelativeMotion<f64> =
+                mounted.relative_frame.relative(&self.kinematics[mounted.body]);
             let coil = mounted.element.on_body(&relative);
             energies.coil += mounted.element.stored_energy(coil.length);
         }
@@ -47,9 +49,9 @@ impl System {
             energies.element += self.element_energy(mounted);
         }
         if !self.connections.is_empty() {
-            let places = (&self.positions[..], &self.rates[..]);
+            let coordinates = (&self.positions[..], &self.rates[..]);
             self.connections
-                .states(&self.bodies, places, internal, &mut energies);
+                .states(&self.bodies, coordinates, internal, &mut energies);
         }
         energies
     }
@@ -60,13 +62,13 @@ impl Linear {
     pub(super) fn add_energies(
         &self,
         free: &[usize],
-        place: &[f64; 6],
+        coordinates: &[f64; 6],
         rate: &[f64; 6],
         energies: &mut Energies,
     ) {
         for (j, &k) in free.iter().enumerate() {
             energies.kinetic += 0.5 * self.inertia[j] * rate[k] * rate[k];
-            energies.gravity -= self.weight[j] * place[k];
+            energies.gravity -= self.weight[j] * coordinates[k];
         }
     }
 }

@@ -70,7 +70,7 @@ impl System {
                 *motion = Motion::Constant(value);
             }
         }
-        self.forget_places();
+        self.invalidate_kinematics();
         if friction == StaticFriction::Without {
             self.connections.grips = Grips {
                 surfaces: Grip::Free,
@@ -83,7 +83,7 @@ impl System {
             moved.motions = motions;
         }
         self.reference = reference;
-        self.forget_places();
+        self.invalidate_kinematics();
         found
     }
 

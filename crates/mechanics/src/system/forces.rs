@@ -10,30 +10,30 @@ use super::jacobian::differentiate_internal;
 use super::{FreeBody, Mounted, System};
 use crate::body::{Kinematics, Rigid};
 use crate::coil::{Coil, CoilForce};
-use crate::contact::{ContactFace, FaceResultant, Points, View};
-use crate::element::{Action, Element, Marked};
+use crate::contact::{ContactFace, FaceResultant, PlaneMotion, Points};
+use crate::element::{Element, Marked, Wrench};
 use crate::frame::FrameMotion;
-use crate::link::{BodyWrench, Mount, Relative, Sight};
+use crate::link::{BodyWrench, Marker, RelativeFrame, RelativeMotion};
 use crate::surface::Plane;
-use crate::tangent::{Columns, Tangent};
+use crate::tangent::{Tangent, TangentColumns};
 use crate::vector::Vector;
 
 /// An element in its place between two bodies.
 pub(super) trait Mountable: Sized {
     /// What it does to the body that it carries; `rates` receives the rates of the internal states.
-    fn act(
+    fn body_wrench(
         &self,
         points: &mut Points,
-        relative: &Relative<f64>,
+        relative: &RelativeMotion<f64>,
         internal: &[f64],
         rates: &mut [f64],
     ) -> BodyWrench;
 
     /// The same seen from a mount that does not turn; none if it is nothing.
-    fn act_from(
+    fn body_wrench_of_frame(
         &self,
         points: &mut Points,
-        seen: (&Sight<f64>, &Kinematics<f64>),
+        ends: (&RelativeFrame<f64>, &Kinematics<f64>),
         internal: &[f64],
         rates: &mut [f64],
     ) -> Option<BodyWrench>;
@@ -44,13 +44,18 @@ pub(super) trait Mountable: Sized {
     }
 
     /// The tangent by the motion of marker A; `rates` receives the derivatives of the rates of internal states, four pairs at a time.
-    fn tangent(&self, points: &Points, relative: &Relative<f64>, rates: &mut [Columns]) -> Tangent;
+    fn tangent(
+        &self,
+        points: &Points,
+        relative: &RelativeMotion<f64>,
+        rates: &mut [TangentColumns],
+    ) -> Tangent;
 
     /// The derivatives by the internal states.
     fn differentiate_internal(
         _: &Mounted<Self>,
         _: &Chain<'_>,
-        _: &Relative<f64>,
+        _: &RelativeMotion<f64>,
         _: &[Option<&FreeBody>; 2],
         _: &mut Partitioned,
     ) {
@@ -62,39 +67,44 @@ pub(super) const WORK: usize = 0;
 
 impl Mountable for ContactFace<Plane> {
     #[inline(always)]
-    fn act(
+    fn body_wrench(
         &self,
         points: &mut Points,
-        relative: &Relative<f64>,
+        relative: &RelativeMotion<f64>,
         internal: &[f64],
         rates: &mut [f64],
     ) -> BodyWrench {
-        self.effect(points, &View::new(relative), internal, rates)
+        self.wrench_on_body(points, &PlaneMotion::new(relative), internal, rates)
     }
 
     #[inline(always)]
-    fn act_from(
+    fn body_wrench_of_frame(
         &self,
         points: &mut Points,
-        (sight, body): (&Sight<f64>, &Kinematics<f64>),
+        (relative_frame, body): (&RelativeFrame<f64>, &Kinematics<f64>),
         internal: &[f64],
         rates: &mut [f64],
     ) -> Option<BodyWrench> {
-        if points.update_if_open(sight, body) {
+        if points.update_if_open(relative_frame, body) {
             return None;
         }
-        Some(self.effect(points, &View::of(sight, body), internal, rates))
+        Some(self.wrench_on_body(points, &PlaneMotion::of(relative_frame, body), internal, rates))
     }
 
     #[inline(always)]
-    fn tangent(&self, points: &Points, relative: &Relative<f64>, rates: &mut [Columns]) -> Tangent {
+    fn tangent(
+        &self,
+        points: &Points,
+        relative: &RelativeMotion<f64>,
+        rates: &mut [TangentColumns],
+    ) -> Tangent {
         points.tangent(relative, rates)
     }
 
     fn differentiate_internal(
         mounted: &Mounted<Self>,
         chain: &Chain<'_>,
-        relative: &Relative<f64>,
+        relative: &RelativeMotion<f64>,
         ends: &[Option<&FreeBody>; 2],
         jacobian: &mut Partitioned,
     ) {
@@ -104,7 +114,13 @@ impl Mountable for ContactFace<Plane> {
 
 impl Mountable for Coil {
     #[inline(always)]
-    fn act(&self, _: &mut Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> BodyWrench {
+    fn body_wrench(
+        &self,
+        _: &mut Points,
+        relative: &RelativeMotion<f64>,
+        _: &[f64],
+        _: &mut [f64],
+    ) -> BodyWrench {
         let coil = self.on_body(relative);
         BodyWrench {
             force: coil.force,
@@ -114,14 +130,14 @@ impl Mountable for Coil {
     }
 
     #[inline(always)]
-    fn act_from(
+    fn body_wrench_of_frame(
         &self,
         _: &mut Points,
-        (sight, body): (&Sight<f64>, &Kinematics<f64>),
+        (relative_frame, body): (&RelativeFrame<f64>, &Kinematics<f64>),
         _: &[f64],
         _: &mut [f64],
     ) -> Option<BodyWrench> {
-        Some(self.effect(sight, body))
+        Some(self.wrench_on_body(relative_frame, body))
     }
 
     fn marker(&self) -> Vector<f64> {
@@ -129,31 +145,37 @@ impl Mountable for Coil {
     }
 
     #[inline(always)]
-    fn tangent(&self, _: &Points, relative: &Relative<f64>, _: &mut [Columns]) -> Tangent {
+    fn tangent(&self, _: &Points, relative: &RelativeMotion<f64>, _: &mut [TangentColumns]) -> Tangent {
         Tangent::of(self.inputs(), relative, self)
     }
 }
 
 impl Mountable for Marked {
     #[inline(always)]
-    fn act(&self, _: &mut Points, relative: &Relative<f64>, _: &[f64], _: &mut [f64]) -> BodyWrench {
-        let action = self.on_body(relative);
+    fn body_wrench(
+        &self,
+        _: &mut Points,
+        relative: &RelativeMotion<f64>,
+        _: &[f64],
+        _: &mut [f64],
+    ) -> BodyWrench {
+        let wrench = self.on_body(relative);
         BodyWrench {
-            force: action.force,
-            moment: relative.rotation.apply_transposed(action.moment),
-            powers: action.powers,
+            force: wrench.force,
+            moment: relative.rotation.apply_transposed(wrench.moment),
+            powers: wrench.powers,
         }
     }
 
     #[inline(always)]
-    fn act_from(
+    fn body_wrench_of_frame(
         &self,
         points: &mut Points,
-        (sight, body): (&Sight<f64>, &Kinematics<f64>),
+        (relative_frame, body): (&RelativeFrame<f64>, &Kinematics<f64>),
         internal: &[f64],
         rates: &mut [f64],
     ) -> Option<BodyWrench> {
-        Some(self.act(points, &sight.relative(body), internal, rates))
+        Some(self.body_wrench(points, &relative_frame.relative(body), internal, rates))
     }
 
     fn marker(&self) -> Vector<f64> {
@@ -161,12 +183,12 @@ impl Mountable for Marked {
     }
 
     #[inline(always)]
-    fn tangent(&self, _: &Points, relative: &Relative<f64>, _: &mut [Columns]) -> Tangent {
+    fn tangent(&self, _: &Points, relative: &RelativeMotion<f64>, _: &mut [TangentColumns]) -> Tangent {
         self.element.tangent(&self.turned(relative))
     }
 }
 
-impl<S: Real> Action<S> {
+impl<S: Real> Wrench<S> {
     /// That of a face.
     #[inline(always)]
     pub fn of_face(face: &FaceResultant<S>) -> Self {
@@ -189,21 +211,25 @@ impl<S: Real> Action<S> {
 
     /// Force on the carried body (axes of its reference frame) and moment about its origin (body axes).
     #[inline(always)]
-    pub fn on_body<T, K>(&self, sight: &Sight<T>, body: &Kinematics<K>) -> (Vector<S>, Vector<S>)
+    pub fn on_body<T, K>(
+        &self,
+        relative_frame: &RelativeFrame<T>,
+        body: &Kinematics<K>,
+    ) -> (Vector<S>, Vector<S>)
     where
         T: Real + Mul<S, Output = S>,
         K: Real + Mul<S, Output = S>,
     {
-        let moment: Vector<S> = sight.rotation.apply_transposed(self.moment);
+        let moment: Vector<S> = relative_frame.rotation.apply_transposed(self.moment);
         (
-            sight.rotation.apply_transposed(self.force),
-            body.turn.rotation.apply_transposed(moment),
+            relative_frame.rotation.apply_transposed(self.force),
+            body.orientation.rotation.apply_transposed(moment),
         )
     }
 
     /// The moment about the mount's origin, mount axes.
     #[inline(always)]
-    pub fn moment_at_mount(&self, relative: &Relative<S>) -> Vector<S> {
+    pub fn moment_at_marker(&self, relative: &RelativeMotion<S>) -> Vector<S> {
         self.moment + relative.position.cross::<S, S>(self.force)
     }
 
@@ -211,32 +237,38 @@ impl<S: Real> Action<S> {
     #[inline(always)]
     pub fn reaction<T: Real + Mul<S, Output = S>>(
         &self,
-        relative: &Relative<S>,
+        relative: &RelativeMotion<S>,
         on: &Kinematics<T>,
-        mount: &Mount,
+        marker: &Marker,
     ) -> (Vector<S>, Vector<S>)
     where
         f64: Mul<S, Output = S>,
     {
-        let force: Vector<S> = -mount.rotation.apply::<S, S>(self.force);
-        let moment: Vector<S> = -mount.rotation.apply::<S, S>(self.moment_at_mount(relative));
+        let force: Vector<S> = -marker.rotation.apply::<S, S>(self.force);
+        let moment: Vector<S> = -marker.rotation.apply::<S, S>(self.moment_at_marker(relative));
         (
-            on.turn.rotation.apply(force),
-            moment + mount.origin.cross::<S, S>(force),
+            on.orientation.rotation.apply(force),
+            moment + marker.origin.cross::<S, S>(force),
         )
     }
 
     /// The power that the prescribed motion of the body under the element delivers, W.
     #[inline(always)]
-    pub fn drive_power<T: Real + Mul<S, Output = S>>(&self, relative: &Relative<S>, sight: &Sight<T>) -> S {
-        let force: S = sight.mount_velocity.dot(self.force);
-        let moment: S = sight.mount_angular_velocity.dot(self.moment_at_mount(relative));
+    pub fn prescribed_power<T: Real + Mul<S, Output = S>>(
+        &self,
+        relative: &RelativeMotion<S>,
+        relative_frame: &RelativeFrame<T>,
+    ) -> S {
+        let force: S = relative_frame.marker_velocity.dot(self.force);
+        let moment: S = relative_frame
+            .marker_angular_velocity
+            .dot(self.moment_at_marker(relative));
         force + moment
     }
 }
 
 impl System {
-    /// Accelerations, rates and powers at the state that [`System::place`] was called with.
+    /// Accelerations, rates and powers at the state that [`System::update_kinematics`] was called with.
     #[inline]
     pub(super) fn forces(&mut self, x: &[f64], dx: &mut [f64]) {
         let layout = self.layout;
@@ -297,9 +329,9 @@ impl System {
             for free in &self.free {
                 self.loads[free.body] = self.given[free.body];
             }
-            let (places, loads) = ((&self.positions[..], &self.rates[..]), &mut self.loads[..]);
+            let (coordinates, loads) = ((&self.positions[..], &self.rates[..]), &mut self.loads[..]);
             self.connections
-                .forces(places, internal, d_internal, loads, d_quadratures);
+                .forces(coordinates, internal, d_internal, loads, d_quadratures);
         }
         for free in &self.free {
             if let Some(linear) = &free.linear {
@@ -340,31 +372,31 @@ fn push<E: Mountable>(
     (force, moment): (&mut Vector<f64>, &mut Vector<f64>),
     (powers, work): (&mut [f64], &mut f64),
 ) {
-    let sight = &mounted.sight;
-    let seen = (sight, kinematics);
-    let channels = &mounted.channels;
+    let relative_frame = &mounted.relative_frame;
+    let ends = (relative_frame, kinematics);
+    let energy_terms = &mounted.energy_terms;
     match mounted
         .element
-        .act_from(&mut mounted.points, seen, internal, rates)
+        .body_wrench_of_frame(&mut mounted.points, ends, internal, rates)
     {
-        Some(effect) => {
-            *force += sight.rotation.apply_transposed::<f64, f64>(effect.force);
-            *moment += effect.moment;
-            write_powers(channels, effect.powers, powers);
-            if mounted.driven {
-                *work += sight.mount_velocity.dot::<f64, f64>(effect.force);
+        Some(wrench) => {
+            *force += relative_frame.rotation.apply_transposed::<f64, f64>(wrench.force);
+            *moment += wrench.moment;
+            write_powers(energy_terms, wrench.powers, powers);
+            if mounted.prescribed {
+                *work += relative_frame.marker_velocity.dot::<f64, f64>(wrench.force);
             }
         }
-        None => write_powers(channels, [0.0; 2], powers),
+        None => write_powers(energy_terms, [0.0; 2], powers),
     }
 }
 
 /// The powers of the channels of one element, which are its own.
 #[inline(always)]
-fn write_powers(channels: &[Option<usize>; 2], own: [f64; 2], powers: &mut [f64]) {
-    for (channel, power) in channels.iter().zip(own) {
-        if let Some(channel) = channel {
-            powers[*channel] = power;
+fn write_powers(energy_terms: &[Option<usize>; 2], own: [f64; 2], powers: &mut [f64]) {
+    for (energy_term, power) in energy_terms.iter().zip(own) {
+        if let Some(energy_term) = energy_term {
+            powers[*energy_term] = power;
         }
     }
 }
@@ -383,8 +415,8 @@ fn accelerate(
         let field: Vector<f64> = frame.rotation.apply_transposed(field);
         return kinematics.accelerations_without_roll(body, &field, &force, &moment);
     }
-    let (inertia, turning) = kinematics.inertia(body, frame, frame_moves, gravity, &[0.0; 6]);
-    let (force, moment) = (force - inertia, moment - turning);
+    let (inertia, gyroscopic) = kinematics.inertia(body, frame, frame_moves, gravity, &[0.0; 6]);
+    let (force, moment) = (force - inertia, moment - gyroscopic);
     kinematics.accelerations(body, &force, kinematics.about_axes(&moment))
 }
 
@@ -398,25 +430,25 @@ fn apply<E: Mountable>(
     (forces, moments): (&mut [Vector<f64>], &mut [Vector<f64>]),
     (powers, work): (&mut [f64], &mut f64),
 ) {
-    let relative: Relative<f64> = mounted.sight.relative(&kinematics[mounted.body]);
-    let effect = mounted
+    let relative: RelativeMotion<f64> = mounted.relative_frame.relative(&kinematics[mounted.body]);
+    let wrench = mounted
         .element
-        .act(&mut mounted.points, &relative, internal, internal_rates);
-    let sight = &mounted.sight;
-    forces[mounted.body] += sight.rotation.apply_transposed(effect.force);
-    moments[mounted.body] += effect.moment;
-    write_powers(&mounted.channels, effect.powers, powers);
-    let action = Action {
-        force: effect.force,
-        moment: relative.rotation.apply(effect.moment),
-        powers: effect.powers,
+        .body_wrench(&mut mounted.points, &relative, internal, internal_rates);
+    let relative_frame = &mounted.relative_frame;
+    forces[mounted.body] += relative_frame.rotation.apply_transposed(wrench.force);
+    moments[mounted.body] += wrench.moment;
+    write_powers(&mounted.energy_terms, wrench.powers, powers);
+    let wrench = Wrench {
+        force: wrench.force,
+        moment: relative.rotation.apply(wrench.moment),
+        powers: wrench.powers,
     };
     if mounted.on_free {
-        let (force, moment) = action.reaction(&relative, &kinematics[mounted.on], &mounted.mount);
+        let (force, moment) = wrench.reaction(&relative, &kinematics[mounted.on], &mounted.marker);
         forces[mounted.on] += force;
         moments[mounted.on] += moment;
     }
-    if mounted.driven {
-        *work += action.drive_power(&relative, sight);
+    if mounted.prescribed {
+        *work += wrench.prescribed_power(&relative, relative_frame);
     }
 }

@@ -15,15 +15,15 @@ use super::{FreeBody, Mounted, System};
 use crate::body::Kinematics;
 use crate::connection;
 use crate::contact::ContactFace;
-use crate::link::{Relative, Turning};
+use crate::link::{RelativeMotion, RotationAxes};
 use crate::surface::Plane;
-use crate::tangent::{Change, Columns};
+use crate::tangent::{Change, TangentColumns};
 use crate::vector::Vector;
 
 /// What is gathered for a free body while the elements are differentiated.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gathered {
-    turning: Turning,
+    rotation_axes: RotationAxes,
     block: Block,
     /// The moment of all elements, body axes.
     moment: Vector<f64>,
@@ -31,14 +31,14 @@ pub(super) struct Gathered {
 
 impl Gathered {
     pub const NONE: Self = Self {
-        turning: Turning::NONE,
+        rotation_axes: RotationAxes::NONE,
         block: NO_BLOCK,
         moment: Vector([0.0; 3]),
     };
 }
 
 /// What all elements see.
-struct Scene<'s> {
+struct Bodies<'s> {
     kinematics: &'s [Kinematics<f64>],
     free: &'s [FreeBody],
     free_number: &'s [Option<usize>],
@@ -46,7 +46,7 @@ struct Scene<'s> {
 
 impl System {
     /// The Jacobian (if `whole`; else without what inertia adds by the angles, some thousandth of what contacts add) at the state that
-    /// [`System::place`] was called with, where the rates are `dx`.
+    /// [`System::update_kinematics`] was called with, where the rates are `dx`.
     pub(super) fn differentiate(&mut self, x: &[f64], dx: &[f64], whole: bool) {
         let layout = self.layout;
         let [_, _, internal, _] = layout.split(x);
@@ -55,11 +55,11 @@ impl System {
         for (free, gathered) in self.free.iter().zip(&mut self.gathered) {
             let kinematics = &self.kinematics[free.body];
             *gathered = Gathered {
-                turning: kinematics.turning(&free.free),
+                rotation_axes: kinematics.rotation_axes(&free.free),
                 ..Gathered::NONE
             };
         }
-        let scene = Scene {
+        let bodies = Bodies {
             kinematics: &self.kinematics,
             free: &self.free,
             free_number: &self.free_number,
@@ -68,14 +68,14 @@ impl System {
             let deflections = &internal[face.first_internal..][..face.internal_count];
             face.element.linearize(&mut face.points, deflections);
             if face.points.are_active() {
-                differentiate_element(face, &scene, &mut self.gathered, &mut self.jacobian);
+                differentiate_element(face, &bodies, &mut self.gathered, &mut self.jacobian);
             }
         }
         for coil in &mut self.coils {
-            differentiate_element(coil, &scene, &mut self.gathered, &mut self.jacobian);
+            differentiate_element(coil, &bodies, &mut self.gathered, &mut self.jacobian);
         }
         for element in &mut self.elements {
-            differentiate_element(element, &scene, &mut self.gathered, &mut self.jacobian);
+            differentiate_element(element, &bodies, &mut self.gathered, &mut self.jacobian);
         }
         for number in 0..self.free.len() {
             let free = &self.free[number];
@@ -115,7 +115,7 @@ impl System {
         for free in &self.free {
             self.loads[free.body] = [0.0; 6];
         }
-        let mut scene = connection::Scene {
+        let mut bodies = connection::JacobianInputs {
             positions: &self.positions,
             rates: &self.rates,
             accelerations: &self.accelerations,
@@ -125,7 +125,7 @@ impl System {
             d_internal,
             d_quadratures,
         };
-        self.connections.differentiate(&mut scene);
+        self.connections.differentiate(&mut bodies);
         if self.moved.is_empty() {
             return;
         }
@@ -183,11 +183,11 @@ impl System {
 #[inline(always)]
 fn differentiate_element<E: Mountable>(
     mounted: &mut Mounted<E>,
-    scene: &Scene<'_>,
+    bodies: &Bodies<'_>,
     gathered: &mut [Gathered],
     jacobian: &mut Partitioned,
 ) {
-    let body: Relative<f64> = mounted.sight.relative(&scene.kinematics[mounted.body]);
+    let body: RelativeMotion<f64> = mounted.relative_frame.relative(&bodies.kinematics[mounted.body]);
     let point = mounted.element.marker();
     let (arm, relative) = if point == Vector::zero() {
         (point, body)
@@ -197,23 +197,23 @@ fn differentiate_element<E: Mountable>(
     mounted.tangent = mounted
         .element
         .tangent(&mounted.points, &relative, &mut mounted.rate_tangents);
-    let ends = [mounted.body, mounted.on].map(|body| scene.free_number[body]);
+    let ends = [mounted.body, mounted.on].map(|body| bodies.free_number[body]);
     let [Some(a), b] = ends else {
         return;
     };
-    let turning_b = b.map_or(Turning::NONE, |b| gathered[b].turning);
-    let turning_a = gathered[a].turning;
-    let on = &scene.kinematics[mounted.on];
-    let chain = Chain::new(mounted, &relative, arm, [&turning_a, &turning_b], on);
-    let (free_a, n_a) = (&scene.free[a], scene.free[a].free.len());
+    let rotation_axes_b = b.map_or(RotationAxes::NONE, |b| gathered[b].rotation_axes);
+    let rotation_axes_a = gathered[a].rotation_axes;
+    let on = &bodies.kinematics[mounted.on];
+    let chain = Chain::new(mounted, &relative, arm, [&rotation_axes_a, &rotation_axes_b], on);
+    let (free_a, n_a) = (&bodies.free[a], bodies.free[a].free.len());
     gathered[a].moment += body.rotation.apply_transposed::<f64, f64>(chain.moment_on_a());
 
     let (mut powers, mut other) = (Powers::NONE, NO_BLOCK);
     chain.by_a(free_a, &mut gathered[a].block, &mut other, &mut powers);
     keep_powers(&mounted.rows[0], &powers, n_a, jacobian);
     if let Some(b) = b {
-        let (free_b, n_b) = (&scene.free[b], scene.free[b].free.len());
-        let moment = mounted.mount.rotation.apply(chain.moment_on_b());
+        let (free_b, n_b) = (&bodies.free[b], bodies.free[b].free.len());
+        let moment = mounted.marker.rotation.apply(chain.moment_on_b());
         gathered[b].moment += moment;
         add_block(&other, free_b, n_a, jacobian.blocks_mut(mounted.pairs[1]));
         let (mut powers, mut other) = (Powers::NONE, NO_BLOCK);
@@ -223,9 +223,9 @@ fn differentiate_element<E: Mountable>(
     }
     if mounted.internal_count > 0 {
         for (side, end) in ends.into_iter().flatten().enumerate() {
-            keep_rates(mounted, &chain, side, &scene.free[end], jacobian);
+            keep_rates(mounted, &chain, side, &bodies.free[end], jacobian);
         }
-        let free = ends.map(|end| end.map(|end| &scene.free[end]));
+        let free = ends.map(|end| end.map(|end| &bodies.free[end]));
         E::differentiate_internal(mounted, &chain, &relative, &free, jacobian);
     }
 }
@@ -275,16 +275,16 @@ fn keep_rates<E>(
 pub(super) fn differentiate_internal(
     face: &Mounted<ContactFace<Plane>>,
     chain: &Chain<'_>,
-    relative: &Relative<f64>,
+    relative: &RelativeMotion<f64>,
     ends: &[Option<&FreeBody>; 2],
     jacobian: &mut Partitioned,
 ) {
-    face.points.internal_slopes(|point, slopes| {
+    face.points.internal_derivatives(|point, slopes| {
         let group = face.first_internal / 2 + point;
         *jacobian.internal_mut(group) = slopes.rate;
         let row = face.first_internal_row + 2 * point;
         *jacobian.internal_row_mut(row) = slopes.loss;
-        let arm: Vector<f64> = relative.rotation.apply(slopes.place);
+        let arm: Vector<f64> = relative.rotation.apply(slopes.position);
         for e in 0..2 {
             let (force, moment) = (slopes.force[e], arm.cross::<f64, f64>(slopes.force[e]));
             for (side, free) in ends.iter().flatten().enumerate() {
@@ -296,8 +296,8 @@ pub(super) fn differentiate_internal(
                     *target = rows[part].at(component);
                 }
             }
-            if face.driven {
-                jacobian.internal_row_mut(row + 1)[e] = face.drive_power(relative, force, moment);
+            if face.prescribed {
+                jacobian.internal_row_mut(row + 1)[e] = face.prescribed_power(relative, force, moment);
             }
         }
     });
@@ -306,20 +306,21 @@ pub(super) fn differentiate_internal(
 impl<E> Mounted<E> {
     /// The power that the prescribed motion of the body under the element delivers against a force and a moment about marker A, W.
     #[inline(always)]
-    pub(super) fn drive_power(
+    pub(super) fn prescribed_power(
         &self,
-        relative: &Relative<f64>,
+        relative: &RelativeMotion<f64>,
         force: Vector<f64>,
         moment: Vector<f64>,
     ) -> f64 {
         let about: Vector<f64> = moment + relative.position.cross::<f64, f64>(force);
-        let sight = &self.sight;
-        sight.mount_velocity.dot::<f64, f64>(force) + sight.mount_angular_velocity.dot::<f64, f64>(about)
+        let relative_frame = &self.relative_frame;
+        relative_frame.marker_velocity.dot::<f64, f64>(force)
+            + relative_frame.marker_angular_velocity.dot::<f64, f64>(about)
     }
 }
 
 /// The derivatives of the rates of internal states along a change of the relative motion, by point.
-pub(super) fn rates_along(rates: &[Columns], change: &Change, d_internal: &mut [f64]) {
+pub(super) fn rates_along(rates: &[TangentColumns], change: &Change, d_internal: &mut [f64]) {
     for (columns, target) in rates.iter().zip(d_internal.chunks_mut(2 * LANES)) {
         let [first, second] = columns.along(change).map(|lanes| lanes.to_array());
         for (i, pair) in target.chunks_exact_mut(2).enumerate() {

@@ -5,9 +5,9 @@
 //! [`Loads`].
 
 use super::forces::Mountable;
-use super::observe::{BodyPlace, CoilState, FaceState};
+use super::observe::{BodyState, CoilState, FaceState};
 use super::{Mounted, System};
-use crate::link::{BodyWrench, Relative};
+use crate::link::{BodyWrench, RelativeMotion};
 use crate::vector::Vector;
 
 /// What a face does to the body that it carries (SI, fixed axes).
@@ -38,7 +38,7 @@ pub struct CoilLoad {
 #[derive(Clone, Debug, Default)]
 pub struct Loads {
     /// All bodies.
-    pub bodies: Vec<BodyPlace>,
+    pub bodies: Vec<BodyState>,
     /// All faces.
     pub faces: Vec<FaceLoad>,
     /// All coils.
@@ -58,8 +58,8 @@ impl FaceState {
             origin: self.origin,
         };
         let forces = self.normal_forces.iter().zip(&self.friction_forces);
-        for (place, (normal, friction)) in self.places.iter().zip(forces) {
-            let (force, arm): (Vector<f64>, Vector<f64>) = (*normal + *friction, *place - center);
+        for (position, (normal, friction)) in self.point_positions.iter().zip(forces) {
+            let (force, arm): (Vector<f64>, Vector<f64>) = (*normal + *friction, *position - center);
             load.normal += *normal;
             load.friction += *friction;
             load.moment += arm.cross(force);
@@ -83,8 +83,8 @@ impl CoilState {
 impl System {
     /// What all elements do to the bodies that they carry at `time` and state `x`.
     pub fn loads(&mut self, time: f64, x: &[f64], out: &mut Loads) {
-        self.place(time, x);
-        self.body_places(x, &mut out.bodies);
+        self.update_kinematics(time, x);
+        self.body_states(x, &mut out.bodies);
         let [_, _, internal, _] = self.layout.split(x);
         out.faces.clear();
         for number in 0..self.faces.len() {
@@ -93,41 +93,42 @@ impl System {
             let internal = &internal[mounted.first_internal..][..mounted.internal_count];
             out.rates.clear();
             out.rates.resize(mounted.internal_count, 0.0);
-            let effect = if mounted.plain {
-                let seen = (&mounted.sight, kinematics);
+            let wrench = if mounted.plain {
+                let ends = (&mounted.relative_frame, kinematics);
                 mounted
                     .element
-                    .act_from(&mut mounted.points, seen, internal, &mut out.rates)
+                    .body_wrench_of_frame(&mut mounted.points, ends, internal, &mut out.rates)
                     .unwrap_or(BodyWrench {
                         force: Vector::zero(),
                         moment: Vector::zero(),
                         powers: [0.0; 2],
                     })
             } else {
-                let relative: Relative<f64> = mounted.sight.relative(kinematics);
+                let relative: RelativeMotion<f64> = mounted.relative_frame.relative(kinematics);
                 mounted
                     .element
-                    .act(&mut mounted.points, &relative, internal, &mut out.rates)
+                    .body_wrench(&mut mounted.points, &relative, internal, &mut out.rates)
             };
             let mounted = &self.faces[number];
-            let [normal, first, second] = effect.force.0;
+            let [normal, first, second] = wrench.force.0;
             let normal = self.along_fixed_axes(mounted, Vector([normal, 0.0, 0.0]));
             let friction = self.along_fixed_axes(mounted, Vector([0.0, first, second]));
             let body = &out.bodies[mounted.body];
             let lever: Vector<f64> = body.center_of_gravity - body.origin;
-            let moment: Vector<f64> = body.rotation.apply(effect.moment);
+            let moment: Vector<f64> = body.rotation.apply(wrench.moment);
             let (frame, seat) = (&self.frames[mounted.on].motion, &self.kinematics[mounted.on]);
             out.faces.push(FaceLoad {
                 normal,
                 friction,
                 moment: moment - lever.cross::<f64, f64>(normal + friction),
-                origin: seat.place(frame, mounted.mount.origin),
+                origin: seat.point_position(frame, mounted.marker.origin),
             });
         }
         self.points_updated = true;
         out.coils.clear();
         for mounted in &self.coils {
-            let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
+            let relative: RelativeMotion<f64> =
+                mounted.relative_frame.relative(&self.kinematics[mounted.body]);
             let coil = mounted.element.on_body(&relative);
             out.coils.push(CoilLoad {
                 spring: self.along_fixed_axes(mounted, coil.spring_force),
@@ -140,7 +141,7 @@ impl System {
     /// A vector from the axes of an element's mount to fixed axes.
     #[inline(always)]
     fn along_fixed_axes<E>(&self, mounted: &Mounted<E>, vector: Vector<f64>) -> Vector<f64> {
-        let own: Vector<f64> = mounted.sight.rotation.apply_transposed(vector);
+        let own: Vector<f64> = mounted.relative_frame.rotation.apply_transposed(vector);
         self.frames[mounted.body].motion.rotation.apply(own)
     }
 }

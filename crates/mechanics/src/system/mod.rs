@@ -3,22 +3,22 @@
 //! State vector `(q, u, s, w)`: free coordinates of all free bodies, their rates, internal states of the elements
 //! (bristle deflections), and quadratures (work of the prescribed motions, every dissipation). SI units.
 
-mod along;
+mod assembler;
 mod chain;
-mod channel;
-mod drive;
+mod contact_states;
 mod energies;
+mod energy_term;
 mod equilibrium;
 mod error_bounds;
+mod evaluation;
 mod forces;
+mod inputs;
 mod jacobian;
+mod jacobian_vector_product;
+mod kinematics;
 mod loads;
 mod model;
-mod modes;
 mod observe;
-mod place;
-mod placer;
-mod sense;
 mod spectral_radius;
 mod time;
 mod vibration;
@@ -31,26 +31,26 @@ use integrate::{DiscontinuityFunctions, EventGroup, Problem, Singular};
 use self::jacobian::Gathered;
 use crate::body::{Body, Kinematics, Rigid};
 use crate::coil::Coil;
-use crate::connection::{Connection, Connections, SIGNS, Signs};
+use crate::connection::{Connection, Connections, FRICTION_VARIABLES, FrictionVariables};
 use crate::contact::ContactFace;
 use crate::element::Marked;
 use crate::frame::FrameMotion;
 use crate::friction::FrictionLaw;
-use crate::link::Mount;
+use crate::link::Marker;
 use crate::motion::Motion;
 use crate::surface::Plane;
 use crate::vector::Vector;
 
-pub use along::{Along, Direction, DriveChange};
-pub use channel::{Channel, ChannelKind};
-pub use drive::DriveError;
+pub use contact_states::{CLOSING_GAP, ContactState, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
+pub use energy_term::{EnergyTerm, EnergyTermKind};
 pub use equilibrium::{NoEquilibrium, StaticFriction};
+pub use evaluation::{CoilEvaluation, ElementEvaluation, Load, PointEvaluation};
+pub use inputs::InputError;
+pub use jacobian_vector_product::{Direction, JacobianVectorProduct, MotionChange};
 pub use loads::{CoilLoad, FaceLoad, Loads};
 pub(crate) use model::Parts;
 pub use model::{Model, ModelError, Mounted};
-pub use modes::{CLOSING_GAP, Mode, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
-pub use observe::{BodyPlace, CoilState, ElementState, Energies, FaceState, Observation};
-pub use sense::{CoilSense, Load, PointSense, Sense};
+pub use observe::{BodyState, CoilState, ElementState, Energies, FaceState, Observation};
 pub use vibration::{Held, NoVibration, Vibration, Vibrations};
 
 /// Fixed error scales, by kind of state: the error of a step is measured against `relative tolerance × scale`.
@@ -154,7 +154,7 @@ pub struct System {
     elements: Vec<Mounted<Marked>>,
     /// The number of each face's first point among all points.
     first_points: Vec<usize>,
-    channels: Vec<Channel>,
+    energy_terms: Vec<EnergyTerm>,
     layout: Layout,
     scales: Vec<f64>,
     error_bounds: Vec<f64>,
@@ -198,9 +198,9 @@ pub struct System {
     /// Whether all points have a law that tells where it bends.
     discontinuities_complete: bool,
     /// Positions and speeds for which all this was evaluated.
-    placed: Vec<f64>,
+    current_state: Vec<f64>,
     /// The face that alone was brought to them, and to this time, where `frames_at` is not a number.
-    face_placed: (usize, f64),
+    current_face: (usize, f64),
     /// Whether the faces have seen their points there.
     points_updated: bool,
 }
@@ -232,8 +232,8 @@ impl System {
     }
     /// The quadratures: what each of them integrates.
     #[must_use]
-    pub fn channels(&self) -> &[Channel] {
-        &self.channels
+    pub fn energy_terms(&self) -> &[EnergyTerm] {
+        &self.energy_terms
     }
     /// The parts of the state vector.
     #[must_use]
@@ -248,14 +248,14 @@ impl System {
     /// The connection of each contact state beyond those of the points: connections with friction, in their order.
     #[must_use]
     pub fn frictional_connections(&self) -> &[usize] {
-        &self.connections.switches
+        &self.connections.discrete_states
     }
     /// The first of the two accumulator deflections of a connection in the state vector, if it has any.
     #[must_use]
     pub fn deflection_of(&self, connection: usize) -> Option<usize> {
         Some(2 * self.layout.speeds + self.connections.deflection_of(connection)?)
     }
-    /// Number of contact points, each a switch with the modes of [`Mode`].
+    /// Number of contact points, each a switch with the modes of [`ContactState`].
     #[must_use]
     pub fn point_count(&self) -> usize {
         self.faces.iter().map(|face| face.element.points.len()).sum()
@@ -277,7 +277,7 @@ impl System {
     pub fn segment_like(&mut self, other: &Self) {
         if self.reference != other.reference {
             self.reference = other.reference;
-            self.forget_places();
+            self.invalidate_kinematics();
         }
     }
 
@@ -351,17 +351,17 @@ impl Problem for System {
         } else {
             start + 1.0
         };
-        self.forget_places();
+        self.invalidate_kinematics();
         end
     }
 
     fn derivative(&mut self, time: f64, x: &[f64], dx: &mut [f64]) {
-        self.place(time, x);
+        self.update_kinematics(time, x);
         self.forces(x, dx);
     }
 
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
-        self.place(time, x);
+        self.update_kinematics(time, x);
         self.differentiate(x, dx, true);
         self.differentiate_connections(x, df_dt);
         if self.moves {
@@ -370,7 +370,7 @@ impl Problem for System {
     }
 
     fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], unused: &mut [f64]) {
-        self.place(time, x);
+        self.update_kinematics(time, x);
         self.differentiate(x, dx, false);
         self.differentiate_connections(x, unused);
     }
@@ -379,7 +379,7 @@ impl Problem for System {
         if !self.bounded {
             return f64::INFINITY;
         }
-        self.place(time, x);
+        self.update_kinematics(time, x);
         self.spectral_radius()
     }
 
@@ -405,35 +405,35 @@ impl Problem for System {
     }
 
     fn discrete_state_count(&self) -> usize {
-        self.point_count() + self.connections.switches.len()
+        self.point_count() + self.connections.discrete_states.len()
     }
 
     fn initial_discrete_states(&mut self, time: f64, x: &[f64], states: &mut [u8]) {
-        self.place(time, x);
+        self.update_kinematics(time, x);
         let (points, others) = states.split_at_mut(self.point_count());
-        self.find_modes(x, points);
+        self.find_contact_states(x, points);
         self.connections
-            .find_modes((&self.positions, &self.rates), self.internal(x), others);
+            .find_contact_states((&self.positions, &self.rates), self.internal(x), others);
     }
 
     /// Gap (m) and load of each point: the gaps of a face's points, their loads, and so on face by face; then of each connection with friction
     /// what presses it (N) and the load of its accumulator.
     fn event_variable_count(&self) -> usize {
-        2 * self.point_count() + SIGNS * self.connections.switches.len()
+        2 * self.point_count() + FRICTION_VARIABLES * self.connections.discrete_states.len()
     }
 
     fn event_variables(&mut self, time: f64, x: &[f64], variables: &mut [f64]) {
-        self.place(time, x);
+        self.update_kinematics(time, x);
         let (points, others) = variables.split_at_mut(2 * self.point_count());
-        self.mode_signs(x, points);
+        self.point_event_variables(x, points);
         self.connections
-            .signs((&self.positions, &self.rates), self.internal(x), others);
+            .event_variables((&self.positions, &self.rates), self.internal(x), others);
     }
 
     /// The points of each face, and all connections together.
     fn event_groups(&self) -> Vec<EventGroup> {
         let mut groups = self.point_groups();
-        if !self.connections.switches.is_empty() {
+        if !self.connections.discrete_states.is_empty() {
             groups.push(EventGroup {
                 discrete_states: self.point_count()..self.discrete_state_count(),
                 variables: 2 * self.point_count()..self.event_variable_count(),
@@ -445,11 +445,12 @@ impl Problem for System {
 
     fn group_event_variables(&mut self, group: usize, time: f64, x: &[f64], variables: &mut [f64]) {
         if group < self.faces.len() {
-            self.face_signs(group, time, x, variables);
+            self.face_event_variables(group, time, x, variables);
         } else {
-            self.place(time, x);
-            let places = (&self.positions[..], &self.rates[..]);
-            self.connections.signs(places, self.internal(x), variables);
+            self.update_kinematics(time, x);
+            let coordinates = (&self.positions[..], &self.rates[..]);
+            self.connections
+                .event_variables(coordinates, self.internal(x), variables);
         }
     }
 
@@ -464,16 +465,16 @@ impl Problem for System {
             self.face_margins(group, variables, states, functions);
         } else {
             for (i, (function, state)) in functions.iter_mut().zip(states).enumerate() {
-                *function = Signs::of(variables, i).margin(Mode::from_number(*state));
+                *function = FrictionVariables::of(variables, i).margin(ContactState::from_number(*state));
             }
         }
     }
 
     fn next_discrete_state(&mut self, group: usize, variables: &[f64], index: usize, state: u8) -> u8 {
         if group < self.faces.len() {
-            self.follow_mode(group, variables, index, state)
+            self.next_contact_state(group, variables, index, state)
         } else {
-            Signs::of(variables, index).next(Mode::from_number(state)) as u8
+            FrictionVariables::of(variables, index).next(ContactState::from_number(state)) as u8
         }
     }
 }
@@ -484,7 +485,7 @@ fn structure(free: &[FreeBody], couplings: Vec<(usize, usize)>, model: &model::P
         bodies: free.iter().map(|free| free.free.len()).collect(),
         couplings,
         internal_pairs: model.internal_pairs.clone(),
-        quadratures: model.channels.len(),
+        quadratures: model.energy_terms.len(),
         quadrature_bodies: model.quadrature_bodies.clone(),
         quadrature_pairs: model.quadrature_pairs.clone(),
     }
@@ -506,6 +507,6 @@ fn is_bristle(law: &FrictionLaw) -> bool {
 
 /// The identity mount, for tests and simple models.
 #[must_use]
-pub fn mount_at(origin: [f64; 3]) -> Mount {
-    Mount::new(origin, [0.0; 3])
+pub fn marker_at(origin: [f64; 3]) -> Marker {
+    Marker::new(origin, [0.0; 3])
 }

@@ -3,10 +3,10 @@
 use integrate::partitioned::Partitioned;
 use thiserror::Error;
 
-use super::channel::{Channel, ChannelKind};
+use super::assembler::ElementAssembler;
+use super::energy_term::{EnergyTerm, EnergyTermKind};
 use super::error_bounds::{error_bounds, presses};
 use super::jacobian::Gathered;
-use super::placer::Placer;
 use super::spectral_radius::mobility;
 use super::{FrameState, FreeBody, Linear, Move, MovedBody, System, is_bristle, scale_of, scales, structure};
 use crate::body::{Body, COORDINATES, Kinematics};
@@ -15,10 +15,10 @@ use crate::connection::{self, Connection, ConnectionError, Options};
 use crate::contact::{ContactFace, Points};
 use crate::element::{Element, Marked, Placement};
 use crate::frame::Frame;
-use crate::link::{Mount, Sight, Translation};
+use crate::link::{Marker, RelativeFrame, Translation};
 use crate::motion::Motion;
 use crate::surface::Plane;
-use crate::tangent::{Columns, Tangent};
+use crate::tangent::{Tangent, TangentColumns};
 use crate::vector::Vector;
 
 /// Bodies and the elements between them.
@@ -30,9 +30,9 @@ pub struct Model {
     pub gravity: [f64; 3],
     /// Contact faces: number of the body that carries the points (free), number of the body that carries the
     /// surface, mount of the surface.
-    pub faces: Vec<(usize, usize, Mount, ContactFace<Plane>)>,
+    pub faces: Vec<(usize, usize, Marker, ContactFace<Plane>)>,
     /// Coils: number of the carried body (free), number of the body with the seat, mount of the seat.
-    pub coils: Vec<(usize, usize, Mount, Coil)>,
+    pub coils: Vec<(usize, usize, Marker, Coil)>,
     /// Other force elements.
     pub elements: Vec<Placement>,
     /// Connections of bodies with linearized kinematics.
@@ -53,7 +53,7 @@ impl Model {
     }
 
     /// Adds a force element between marker A on one body (its number), which must have free coordinates, and marker B on another.
-    pub fn add(&mut self, element: impl Element, a: (usize, Mount), b: (usize, Mount)) {
+    pub fn add(&mut self, element: impl Element, a: (usize, Marker), b: (usize, Marker)) {
         self.elements.push(Placement::new(element, a, b));
     }
 }
@@ -134,20 +134,20 @@ pub struct Mounted<E> {
     /// The body that it stands on.
     pub on: usize,
     /// Where it is mounted there.
-    pub mount: Mount,
+    pub marker: Marker,
     /// Its first internal state (relative to the internal states), and its first pair of them.
     pub first_internal: usize,
     /// Number of its internal states.
     pub internal_count: usize,
     /// Its losses' quadratures.
-    pub channels: [Option<usize>; 2],
+    pub energy_terms: [Option<usize>; 2],
     /// Whether the body that it stands on has free coordinates.
     pub(super) on_free: bool,
     /// Whether its sight changes with time alone.
     pub(super) moves: bool,
     /// Whether the body that it stands on is prescribed and moves.
-    pub(super) driven: bool,
-    pub(super) sight: Sight<f64>,
+    pub(super) prescribed: bool,
+    pub(super) relative_frame: RelativeFrame<f64>,
     /// The points of a face, for evaluation; none for other elements.
     pub(super) points: Points,
     /// What is constant of the sight where the body under the element only translates.
@@ -156,7 +156,7 @@ pub struct Mounted<E> {
     pub(super) plain: bool,
     /// Its tangent where it was differentiated last, and that of the rates of its internal states, by four pairs.
     pub(super) tangent: Tangent,
-    pub(super) rate_tangents: Vec<Columns>,
+    pub(super) rate_tangents: Vec<TangentColumns>,
     /// Bounds of how much a force at each of its points accelerates the point, 1/kg.
     pub(super) mobilities: Vec<f64>,
     /// Coupling blocks (body, on) and (on, body).
@@ -169,7 +169,7 @@ pub struct Mounted<E> {
 
 /// What is gathered while elements are put in place.
 pub(crate) struct Parts {
-    pub channels: Vec<Channel>,
+    pub energy_terms: Vec<EnergyTerm>,
     pub internal_pairs: Vec<Vec<usize>>,
     pub quadrature_bodies: Vec<(usize, usize)>,
     pub quadrature_pairs: Vec<(usize, usize)>,
@@ -238,15 +238,15 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         .collect();
 
     let mut parts = Parts {
-        channels: vec![Channel {
-            kind: ChannelKind::MotionWork,
+        energy_terms: vec![EnergyTerm {
+            kind: EnergyTermKind::MotionWork,
             element: String::new(),
         }],
         internal_pairs: Vec::new(),
         quadrature_bodies: Vec::new(),
         quadrature_pairs: Vec::new(),
     };
-    let mut placer = Placer {
+    let mut assembler = ElementAssembler {
         bodies: &bodies,
         frames: &frames,
         kinematics: &kinematics,
@@ -254,11 +254,11 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         parts: &mut parts,
     };
     let mut mounted_faces = Vec::new();
-    for (body, on, mount, face) in faces {
+    for (body, on, marker, face) in faces {
         let damped = face.points.iter().any(|point| point.damping > 0.0);
         let kinds = [
-            Some(ChannelKind::FrictionLoss),
-            damped.then_some(ChannelKind::ContactDampingLoss),
+            Some(EnergyTermKind::FrictionLoss),
+            damped.then_some(EnergyTermKind::ContactDampingLoss),
         ];
         let pairs = if is_bristle(&face.law) {
             face.points.len()
@@ -267,43 +267,46 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         };
         let name = face.name.clone();
         let points = Points::new(&face.points);
-        let mounted = placer.place(face, &name, body, on, mount, kinds, pairs)?;
+        let mounted = assembler.attach(face, &name, body, on, marker, kinds, pairs)?;
         mounted_faces.push(Mounted { points, ..mounted });
     }
     let mut mounted_coils = Vec::new();
-    for (body, on, mount, coil) in coils {
+    for (body, on, marker, coil) in coils {
         let damped = coil.damping > 0.0 || coil.rotational_damping > 0.0;
         let kinds = [
-            damped.then_some(ChannelKind::CoilDampingLoss),
-            (coil.acts_at != coil.end).then_some(ChannelKind::CoilGuideWork),
+            damped.then_some(EnergyTermKind::CoilDampingLoss),
+            (coil.acts_at != coil.end).then_some(EnergyTermKind::CoilGuideWork),
         ];
         let name = if mounted_coils.is_empty() {
             "coil".to_owned()
         } else {
             format!("coil_{}", mounted_coils.len() + 1)
         };
-        mounted_coils.push(placer.place(coil, &name, body, on, mount, kinds, 0)?);
+        mounted_coils.push(assembler.attach(coil, &name, body, on, marker, kinds, 0)?);
     }
 
     let mut mounted_elements = Vec::new();
     for Placement {
         ends: [body, on],
-        markers: [marker, mount],
+        markers: [marker_a, marker_b],
         element,
     } in elements
     {
         let name = element.name().to_owned();
-        let kinds = [Some(ChannelKind::ElementLoss), None];
-        let marked = Marked { element, marker };
-        mounted_elements.push(placer.place(marked, &name, body, on, mount, kinds, 0)?);
+        let kinds = [Some(EnergyTermKind::ElementLoss), None];
+        let marked = Marked {
+            element,
+            marker: marker_a,
+        };
+        mounted_elements.push(assembler.attach(marked, &name, body, on, marker_b, kinds, 0)?);
     }
 
     for (index, connection) in connections.iter().enumerate() {
         connection.check(index, &bodies, &options)?;
     }
-    let owned = parts.channels.len();
-    let placer = connection::Placer::new(&bodies, &free_number, &slots, &mut parts);
-    let (mut connections, coupled) = placer.place(connections, &options);
+    let owned = parts.energy_terms.len();
+    let assembler = connection::ConnectionAssembler::new(&bodies, &free_number, &slots, &mut parts);
+    let (mut connections, coupled) = assembler.attach(connections, &options);
 
     let ends = |body: usize, on: usize| Some((free_number[body]?, free_number[on]?));
     let faces_at = mounted_faces.iter().map(|m| (m.body, m.on));
@@ -352,9 +355,9 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             }
         }
         s.fill(scales::DEFLECTION);
-        for (scale, channel) in w.iter_mut().zip(&parts.channels) {
-            *scale = match channel.kind {
-                ChannelKind::ContactDampingLoss => scales::CONTACT_DAMPING_LOSS,
+        for (scale, energy_term) in w.iter_mut().zip(&parts.energy_terms) {
+            *scale = match energy_term.kind {
+                EnergyTermKind::ContactDampingLoss => scales::CONTACT_DAMPING_LOSS,
                 _ => scales::ENERGY,
             };
         }
@@ -367,7 +370,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     let moved: Vec<MovedBody> = bodies
         .iter()
         .enumerate()
-        .filter(|(_, body)| body.linearized && body.is_driven())
+        .filter(|(_, body)| body.linearized && body.is_moving_prescribed())
         .map(|(body, own)| MovedBody {
             body,
             motions: Box::new(own.frame.motions.clone()),
@@ -408,7 +411,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         connections,
         moved,
         internal_ends: parts.internal_pairs,
-        added: owned..parts.channels.len(),
+        added: owned..parts.energy_terms.len(),
         force: vec![Vector::zero(); bodies.len()],
         moment: vec![Vector::zero(); bodies.len()],
         gathered: vec![Gathered::NONE; free.len()],
@@ -419,7 +422,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         coils: mounted_coils,
         elements: mounted_elements,
         first_points,
-        channels: parts.channels,
+        energy_terms: parts.energy_terms,
         layout,
         scales: error_scales,
         error_bounds,
@@ -435,8 +438,8 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         plain,
         bounded,
         discontinuities_complete,
-        placed: vec![f64::NAN; 2 * layout.speeds],
-        face_placed: (0, f64::NAN),
+        current_state: vec![f64::NAN; 2 * layout.speeds],
+        current_face: (0, f64::NAN),
         points_updated: false,
     })
 }
@@ -472,7 +475,7 @@ fn linear(body: &Body, free: &[usize], gravity: [f64; 3]) -> Result<Linear, Mode
 
 /// A frame at time zero, and what of it moves.
 fn frame_state(frame: &Frame) -> FrameState {
-    let base = crate::turn::fixed(frame.orientation);
+    let base = crate::orientation::fixed(frame.orientation);
     let (mut moves, mut rest) = (Vec::new(), Vector(frame.origin));
     for coordinate in 0..3 {
         let axis = base.column(coordinate);
@@ -508,13 +511,13 @@ mod tests {
     /// its cost grows in proportion to the elements.
     #[test]
     fn limits_each_body_lists_the_elements_that_touch_it_once() {
-        let place = || Frame::fixed([0.0; 3], [0.0; 3]);
+        let frame = || Frame::fixed([0.0; 3], [0.0; 3]);
         let body = |free: bool| Body {
             name: String::new(),
             mass: 1.0,
             inertia: [1.0; 3],
             center_of_gravity: [0.0; 3],
-            frame: place(),
+            frame: frame(),
             free: [free; 6],
             initial: [0.0; 6],
             linearized: false,
@@ -535,17 +538,17 @@ mod tests {
             coefficient: 0.0,
             law: FrictionLaw::Tanh { reference_speed: 1.0 },
         };
-        let mount = || Mount::new([0.0, 0.0, -1.0], [0.0; 3]);
+        let marker = || Marker::new([0.0, 0.0, -1.0], [0.0; 3]);
         // Bodies 1, 3, 4 are free, with the numbers 0, 1, 2.
         let frees = [false, true, false, true, true];
         let ends = [(1, 0), (1, 3), (4, 3), (4, 2), (3, 1)];
         let system = build(Model {
             bodies: frees.map(body).to_vec(),
             gravity: [0.0; 3],
-            faces: ends.map(|(a, b)| (a, b, mount(), face.clone())).to_vec(),
+            faces: ends.map(|(a, b)| (a, b, marker(), face.clone())).to_vec(),
             coils: ends[1..]
                 .iter()
-                .map(|&(a, b)| (a, b, mount(), coil.clone()))
+                .map(|&(a, b)| (a, b, marker(), coil.clone()))
                 .collect(),
             ..Model::default()
         })

@@ -2,17 +2,17 @@
 
 use integrate::Problem;
 
-use super::{ChannelKind, Mounted, System};
+use super::{EnergyTermKind, Mounted, System};
 use crate::coil::CoilForce;
 use crate::connection::ConnectionState;
 use crate::contact::PointContact;
 use crate::element::Marked;
-use crate::link::Relative;
+use crate::link::RelativeMotion;
 use crate::vector::{Matrix, Vector};
 
 /// Where a body is and how it moves, in the fixed frame (SI).
 #[derive(Clone, Copy, Debug)]
-pub struct BodyPlace {
+pub struct BodyState {
     /// All six coordinates, relative to the body's reference frame.
     pub coordinates: [f64; 6],
     /// Their rates.
@@ -33,7 +33,7 @@ pub struct BodyPlace {
     pub center_of_gravity: Vector<f64>,
 }
 
-impl BodyPlace {
+impl BodyState {
     /// Of a body with linearized kinematics: its centre of gravity in the drawn layout, coordinates and rates.
     fn linearized(layout: Vector<f64>, coordinates: [f64; 6], speeds: [f64; 6]) -> Self {
         let [x, y, z, roll, pitch, yaw] = coordinates;
@@ -44,7 +44,7 @@ impl BodyPlace {
             accelerations: [0.0; 6],
             origin: layout + travel,
             travel,
-            rotation: crate::turn::fixed([roll, pitch, yaw]),
+            rotation: crate::orientation::fixed([roll, pitch, yaw]),
             velocity: Vector([speeds[0], speeds[1], speeds[2]]),
             angular_velocity: Vector([speeds[3], speeds[4], speeds[5]]),
             center_of_gravity: layout + travel,
@@ -62,7 +62,7 @@ pub struct FaceState {
     /// Position of the mount's origin.
     pub origin: Vector<f64>,
     /// Position of each point.
-    pub places: Vec<Vector<f64>>,
+    pub point_positions: Vec<Vector<f64>>,
     /// Normal force on the carried body at each point.
     pub normal_forces: Vec<Vector<f64>>,
     /// Friction force on the carried body at each point.
@@ -136,7 +136,7 @@ pub struct Observation {
     /// Time, s.
     pub time: f64,
     /// All bodies.
-    pub bodies: Vec<BodyPlace>,
+    pub bodies: Vec<BodyState>,
     /// All faces.
     pub faces: Vec<FaceState>,
     /// All coils.
@@ -147,7 +147,7 @@ pub struct Observation {
     pub connections: Vec<ConnectionState>,
     /// Energies.
     pub energies: Energies,
-    /// Values of the quadratures, J, in the order of [`System::channels`].
+    /// Values of the quadratures, J, in the order of [`System::energy_terms`].
     pub quadratures: Vec<f64>,
     /// What of them is work put in, J: that of prescribed motions, and of the coils' guiding couples.
     pub work: f64,
@@ -168,16 +168,16 @@ impl System {
     /// Everything that the state `x` at `time` says.
     #[must_use]
     pub fn observe(&mut self, time: f64, x: &[f64]) -> Observation {
-        self.place(time, x);
+        self.update_kinematics(time, x);
         let mut bodies = Vec::with_capacity(self.bodies.len());
-        self.body_places(x, &mut bodies);
+        self.body_states(x, &mut bodies);
         let mut energies = Energies::default();
         self.observe_linearized(time, x, &mut bodies, &mut energies);
-        for (number, (body, place)) in self.bodies.iter().zip(&bodies).enumerate() {
+        for (number, (body, body_state)) in self.bodies.iter().zip(&bodies).enumerate() {
             if self.free_number[number].is_some() && !body.linearized {
                 let (frame, kinematics) = (&self.frames[number].motion, &self.kinematics[number]);
                 energies.kinetic += kinematics.kinetic_energy(body, frame);
-                energies.gravity -= body.mass * self.gravity.dot::<f64, f64>(place.center_of_gravity);
+                energies.gravity -= body.mass * self.gravity.dot::<f64, f64>(body_state.center_of_gravity);
             }
         }
         let [_, _, internal, quadratures] = self.layout.split(x);
@@ -190,9 +190,10 @@ impl System {
         }
         let mut coils = Vec::with_capacity(self.coils.len());
         for mounted in &self.coils {
-            let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
+            let relative: RelativeMotion<f64> =
+                mounted.relative_frame.relative(&self.kinematics[mounted.body]);
             let coil = mounted.element.on_body(&relative);
-            let (axes, _) = self.mount_pose(mounted.on, &mounted.mount);
+            let (axes, _) = self.marker_pose(mounted.on, &mounted.marker);
             let energy = mounted.element.stored_energy(coil.length);
             energies.coil += energy;
             coils.push(CoilState {
@@ -207,14 +208,14 @@ impl System {
         for element in &elements {
             energies.element += element.energy;
         }
-        let places = (&self.positions[..], &self.rates[..]);
+        let coordinates = (&self.positions[..], &self.rates[..]);
         let connections = self
             .connections
-            .states(&self.bodies, places, internal, &mut energies);
+            .states(&self.bodies, coordinates, internal, &mut energies);
         let (mut work, mut losses) = (0.0, 0.0);
-        for (channel, value) in self.channels.iter().zip(quadratures) {
-            match channel.kind {
-                ChannelKind::MotionWork | ChannelKind::CoilGuideWork => work += value,
+        for (energy_term, value) in self.energy_terms.iter().zip(quadratures) {
+            match energy_term.kind {
+                EnergyTermKind::MotionWork | EnergyTermKind::CoilGuideWork => work += value,
                 _ => losses += value,
             }
         }
@@ -238,7 +239,7 @@ impl System {
         &mut self,
         time: f64,
         x: &[f64],
-        bodies: &mut [BodyPlace],
+        bodies: &mut [BodyState],
         energies: &mut Energies,
     ) {
         if self.free.iter().all(|free| free.linear.is_none()) {
@@ -247,15 +248,15 @@ impl System {
         let mut dx = vec![0.0; x.len()];
         self.derivative(time, x, &mut dx);
         let [_, accelerations, ..] = self.layout.split(&dx);
-        for (body, place) in bodies.iter_mut().enumerate() {
+        for (body, body_state) in bodies.iter_mut().enumerate() {
             if self.bodies[body].linearized {
-                place.accelerations = self.accelerations[body];
+                body_state.accelerations = self.accelerations[body];
             }
         }
         for free in &self.free {
             let Some(linear) = &free.linear else { continue };
-            let (place, rate) = (&self.positions[free.body], &self.rates[free.body]);
-            linear.add_energies(&free.free, place, rate, energies);
+            let (coordinates, rate) = (&self.positions[free.body], &self.rates[free.body]);
+            linear.add_energies(&free.free, coordinates, rate, energies);
             for (j, &k) in free.free.iter().enumerate() {
                 bodies[free.body].accelerations[k] = accelerations[free.offset + j];
             }
@@ -265,18 +266,19 @@ impl System {
     /// The power of each massless wedge's friction on its column at `time` and state `x`, W, with the number of its connection: what
     /// [`System::observe`] says of it, without all the rest.
     pub fn column_powers(&mut self, time: f64, x: &[f64], each: impl FnMut(usize, f64)) {
-        self.place(time, x);
-        let places = (&self.positions[..], &self.rates[..]);
-        self.connections.column_powers(places, self.internal(x), each);
+        self.update_kinematics(time, x);
+        let coordinates = (&self.positions[..], &self.rates[..]);
+        self.connections
+            .column_powers(coordinates, self.internal(x), each);
     }
 
     /// Where all bodies are, once they are placed at state `x`.
-    pub(super) fn body_places(&self, x: &[f64], out: &mut Vec<BodyPlace>) {
+    pub(super) fn body_states(&self, x: &[f64], out: &mut Vec<BodyState>) {
         out.clear();
         for (number, body) in self.bodies.iter().enumerate() {
             let (frame, kinematics) = (&self.frames[number].motion, &self.kinematics[number]);
             if body.linearized {
-                out.push(BodyPlace::linearized(
+                out.push(BodyState::linearized(
                     Vector(body.frame.origin),
                     self.positions[number],
                     self.rates[number],
@@ -287,9 +289,9 @@ impl System {
                 Some(free) => self.coordinates(&self.free[free], x),
                 None => (body.initial, [0.0; 6]),
             };
-            let origin = kinematics.place(frame, Vector::zero());
+            let origin = kinematics.point_position(frame, Vector::zero());
             let (velocity, omega) = kinematics.absolute(frame, Vector::zero());
-            out.push(BodyPlace {
+            out.push(BodyState {
                 coordinates,
                 speeds,
                 accelerations: [0.0; 6],
@@ -298,25 +300,25 @@ impl System {
                 rotation: kinematics.orientation(frame),
                 velocity: frame.rotation.apply(velocity),
                 angular_velocity: frame.rotation.apply(omega),
-                center_of_gravity: kinematics.place(frame, Vector(body.center_of_gravity)),
+                center_of_gravity: kinematics.point_position(frame, Vector(body.center_of_gravity)),
             });
         }
     }
 
     fn element_state(&self, mounted: &Mounted<Marked>) -> ElementState {
-        let body: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
-        let action = mounted.element.on_body(&body);
-        let (axes, _) = self.mount_pose(mounted.on, &mounted.mount);
+        let body: RelativeMotion<f64> = mounted.relative_frame.relative(&self.kinematics[mounted.body]);
+        let wrench = mounted.element.on_body(&body);
+        let (axes, _) = self.marker_pose(mounted.on, &mounted.marker);
         ElementState {
-            force: axes.apply(action.force),
-            moment: axes.apply(action.moment),
+            force: axes.apply(wrench.force),
+            moment: axes.apply(wrench.moment),
             energy: self.element_energy(mounted),
         }
     }
 
     /// The energy stored in an element of another kind, J.
     pub(super) fn element_energy(&self, mounted: &Mounted<Marked>) -> f64 {
-        let body: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
+        let body: RelativeMotion<f64> = mounted.relative_frame.relative(&self.kinematics[mounted.body]);
         let marked = &mounted.element;
         marked
             .element
@@ -326,7 +328,7 @@ impl System {
     fn face_state(&self, index: usize, internal: &[f64]) -> FaceState {
         let mounted = &self.faces[index];
         let face = &mounted.element;
-        let relative: Relative<f64> = mounted.sight.relative(&self.kinematics[mounted.body]);
+        let relative: RelativeMotion<f64> = mounted.relative_frame.relative(&self.kinematics[mounted.body]);
         let deflections = &internal[mounted.first_internal..][..mounted.internal_count];
         let mut points: Vec<PointContact<f64>> = face
             .points
@@ -334,13 +336,13 @@ impl System {
             .map(|point| face.geometry(point, &relative))
             .collect();
         let sum = face.evaluate(&relative, deflections, |i, contact| points[i] = *contact);
-        let (axes, origin) = self.mount_pose(mounted.on, &mounted.mount);
+        let (axes, origin) = self.marker_pose(mounted.on, &mounted.marker);
         let mut state = FaceState {
             axes,
             origin,
-            places: points
+            point_positions: points
                 .iter()
-                .map(|point| origin + axes.apply::<f64, f64>(point.place))
+                .map(|point| origin + axes.apply::<f64, f64>(point.position))
                 .collect(),
             normal_forces: Vec::new(),
             friction_forces: Vec::new(),
@@ -366,10 +368,13 @@ impl System {
     }
 
     /// Axes and origin of a mount in the fixed frame.
-    fn mount_pose(&self, on: usize, mount: &crate::link::Mount) -> (Matrix<f64>, Vector<f64>) {
+    fn marker_pose(&self, on: usize, marker: &crate::link::Marker) -> (Matrix<f64>, Vector<f64>) {
         let (frame, kinematics) = (&self.frames[on].motion, &self.kinematics[on]);
-        let turn: Matrix<f64> = kinematics.orientation(frame);
-        (turn.times(mount.rotation), kinematics.place(frame, mount.origin))
+        let orientation: Matrix<f64> = kinematics.orientation(frame);
+        (
+            orientation.times(marker.rotation),
+            kinematics.point_position(frame, marker.origin),
+        )
     }
 
     /// The reaction of an element on the body that it stands on: force and moment about `point` (fixed frame).
@@ -390,5 +395,5 @@ fn compose<F: crate::surface::Surface>(
     contact: &PointContact<f64>,
     components: [f64; 3],
 ) -> Vector<f64> {
-    face.surface.compose(contact.place, components)
+    face.surface.compose(contact.position, components)
 }

@@ -9,7 +9,7 @@ use integrate::scalar::Dual;
 use super::System;
 use crate::body::Body;
 use crate::friction::FrictionLaw;
-use crate::link::Relative;
+use crate::link::RelativeMotion;
 use crate::vector::Vector;
 
 /// From here on (1/s) no step that is worth making is explicit; explicit steps of no length would only hide that a run cannot go on.
@@ -26,7 +26,7 @@ pub(super) fn mobility(body: &Body, point: Vector<f64>) -> f64 {
 }
 
 impl System {
-    /// Returns the bound at the state that [`System::place`] was called with, 1/s; infinite if it is not known.
+    /// Returns the bound at the state that [`System::update_kinematics`] was called with, 1/s; infinite if it is not known.
     pub(super) fn spectral_radius(&mut self) -> f64 {
         self.update_points();
         let (mut springs, mut dampers) = (0.0, 0.0);
@@ -48,7 +48,7 @@ impl System {
             });
         }
         for coil in &self.coils {
-            let relative: Relative<f64> = coil.sight.relative(&self.kinematics[coil.body]);
+            let relative: RelativeMotion<f64> = coil.relative_frame.relative(&self.kinematics[coil.body]);
             let (element, mobility) = (&coil.element, coil.mobilities[0]);
             let length = element.on_body(&relative).length;
             let [slope] = element.spring(Dual::<1>::variable(length, 0)).derivative;

@@ -6,9 +6,9 @@ use super::forces::Mountable;
 use super::jacobian::rates_along;
 use super::{FrameState, Mounted, System};
 use crate::body::Kinematics;
-use crate::element::Action;
+use crate::element::Wrench;
 use crate::frame::FrameMotion;
-use crate::link::{Relative, Sight};
+use crate::link::{RelativeFrame, RelativeMotion};
 use crate::tangent::{Change, combined, force_of, moment_of, sum};
 use crate::vector::{Matrix, Vector};
 
@@ -47,7 +47,7 @@ impl System {
                 self.kinematics[body].about_axes(&-rate_of(&moment)),
             );
         }
-        let scene = (&self.frames[..], &self.kinematics[..]);
+        let bodies = (&self.frames[..], &self.kinematics[..]);
         for face in self
             .faces
             .iter()
@@ -55,14 +55,14 @@ impl System {
         {
             let rates = &mut d_internal[face.first_internal..][..face.internal_count];
             let load_rate = &mut self.load_rate;
-            element_in_time(face, scene, rates, load_rate, d_quadratures);
+            element_in_time(face, bodies, rates, load_rate, d_quadratures);
         }
         for coil in self.coils.iter().filter(|coil| coil.moves) {
-            element_in_time(coil, scene, &mut [], &mut self.load_rate, d_quadratures);
+            element_in_time(coil, bodies, &mut [], &mut self.load_rate, d_quadratures);
         }
         for element in self.elements.iter().filter(|element| element.moves) {
             let load_rate = &mut self.load_rate;
-            element_in_time(element, scene, &mut [], load_rate, d_quadratures);
+            element_in_time(element, bodies, &mut [], load_rate, d_quadratures);
         }
         for free in self.free.iter().filter(|free| free.linear.is_none()) {
             let (force, moments) = &self.load_rate[free.body];
@@ -93,19 +93,19 @@ fn element_in_time<E: Mountable>(
         moving(&frames[mounted.body].motion),
         moving(&frames[mounted.on].motion),
     );
-    let sight = Sight::new(&a, &b, &on, &mounted.mount);
-    let body: Relative<Dual<1>> = sight.relative(&kinematics[mounted.body]);
+    let relative_frame = RelativeFrame::new(&a, &b, &on, &mounted.marker);
+    let body: RelativeMotion<Dual<1>> = relative_frame.relative(&kinematics[mounted.body]);
     let relative = body.at(mounted.element.marker());
     let change = Change::of(&relative);
     rates_along(&mounted.rate_tangents, &change, d_internal);
     let tangent = &mounted.tangent;
     let column = tangent.by.along(&change);
-    let action = Action::with_change(tangent, &column);
+    let wrench = Wrench::with_change(tangent, &column);
     // about the body's origin
     let arm: Vector<Dual<1>> = body.rotation.apply(mounted.element.marker());
-    let action = Action {
-        moment: action.moment + arm.cross::<Dual<1>, Dual<1>>(action.force),
-        ..action
+    let wrench = Wrench {
+        moment: wrench.moment + arm.cross::<Dual<1>, Dual<1>>(wrench.force),
+        ..wrench
     };
     let mut add = |number: usize, (force, moment): (Vector<Dual<1>>, Vector<Dual<1>>)| {
         let (sum, moments) = &mut load_rate[number];
@@ -115,17 +115,20 @@ fn element_in_time<E: Mountable>(
             *sum += moment;
         }
     };
-    add(mounted.body, action.on_body(&sight, &kinematics[mounted.body]));
+    add(
+        mounted.body,
+        wrench.on_body(&relative_frame, &kinematics[mounted.body]),
+    );
     if mounted.on_free {
-        add(mounted.on, action.reaction(&body, &on, &mounted.mount));
+        add(mounted.on, wrench.reaction(&body, &on, &mounted.marker));
     }
-    for (channel, power) in mounted.channels.iter().zip(action.powers) {
-        if let Some(channel) = channel {
-            d_quadratures[*channel] += power.derivative[0];
+    for (energy_term, power) in mounted.energy_terms.iter().zip(wrench.powers) {
+        if let Some(energy_term) = energy_term {
+            d_quadratures[*energy_term] += power.derivative[0];
         }
     }
-    if mounted.driven {
-        d_quadratures[0] += action.drive_power(&body, &sight).derivative[0];
+    if mounted.prescribed {
+        d_quadratures[0] += wrench.prescribed_power(&body, &relative_frame).derivative[0];
     }
 }
 
@@ -138,9 +141,9 @@ fn translating_in_time<E: Mountable>(
     (body, (load, moments)): (&Kinematics<f64>, &mut (Vector<f64>, [f64; 3])),
     d_quadratures: &mut [f64],
 ) {
-    let (sight, tangent) = (&mounted.sight, &mounted.tangent);
+    let (relative_frame, tangent) = (&mounted.relative_frame, &mounted.tangent);
     let change = Change {
-        position: sight.velocity,
+        position: relative_frame.velocity,
         velocity: acceleration,
         ..Change::NONE
     };
@@ -150,21 +153,21 @@ fn translating_in_time<E: Mountable>(
         combined(&tangent.by.velocity, change.velocity),
     );
     let (force, moment) = (force_of(&column), moment_of(&column));
-    let to_frame = |v: Vector<f64>| -> Vector<f64> { sight.rotation.apply_transposed(v) };
+    let to_frame = |v: Vector<f64>| -> Vector<f64> { relative_frame.rotation.apply_transposed(v) };
     *load += to_frame(force);
-    let own: Vector<f64> = body.turn.rotation.apply_transposed(to_frame(moment));
-    let force_on_body: Vector<f64> = body.turn.rotation.apply_transposed(to_frame(force));
+    let own: Vector<f64> = body.orientation.rotation.apply_transposed(to_frame(moment));
+    let force_on_body: Vector<f64> = body.orientation.rotation.apply_transposed(to_frame(force));
     let about = own + mounted.element.marker().cross::<f64, f64>(force_on_body);
     for (sum, moment) in moments.iter_mut().zip(body.about_axes(&about)) {
         *sum += moment;
     }
-    for (channel, part) in mounted.channels.iter().zip(&column) {
-        if let Some(channel) = channel {
-            d_quadratures[*channel] += part.at(3);
+    for (energy_term, part) in mounted.energy_terms.iter().zip(&column) {
+        if let Some(energy_term) = energy_term {
+            d_quadratures[*energy_term] += part.at(3);
         }
     }
-    if mounted.driven {
-        let work: f64 = sight.mount_velocity.dot(force);
+    if mounted.prescribed {
+        let work: f64 = relative_frame.marker_velocity.dot(force);
         d_quadratures[0] += work - acceleration.dot::<f64, f64>(tangent.force);
     }
 }
@@ -199,9 +202,9 @@ fn lift_kinematics(kinematics: &Kinematics<f64>) -> Kinematics<Dual<1>> {
     Kinematics {
         position: Vector::lift(kinematics.position),
         velocity: Vector::lift(kinematics.velocity),
-        turn: crate::turn::Turn {
-            rotation: Matrix::lift(kinematics.turn.rotation),
-            axes: kinematics.turn.axes.map(Vector::lift),
+        orientation: crate::orientation::Orientation {
+            rotation: Matrix::lift(kinematics.orientation.rotation),
+            axes: kinematics.orientation.axes.map(Vector::lift),
         },
         rates: kinematics.rates.map(Dual::from),
         spin: Vector::lift(kinematics.spin),

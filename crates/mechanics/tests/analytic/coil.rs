@@ -91,14 +91,14 @@ fn damping_and_line_of_action_of_a_coil() {
     let mut random = Random(9);
     for _ in 0..200 {
         let (end, cg): ([f64; 3], [f64; 3]) = (random.vector(0.3), random.vector(0.3));
-        let place = add(random.vector(0.3), [0.0, 0.0, 2.0]);
+        let position = add(random.vector(0.3), [0.0, 0.0, 2.0]);
         let (velocity, omega): ([f64; 3], [f64; 3]) = (random.vector(1.0), random.vector(1.0));
-        let relative = seen_from_origin(place, velocity, omega);
+        let relative = seen_from_origin(position, velocity, omega);
         let mut at_end = coil(end, end, 4000.0, 1.9);
         (at_end.damping, at_end.rotational_damping) = (70.0, 9.0);
         let mut through_cg = at_end.clone();
         through_cg.acts_at = Vector(cg);
-        let d = add(place, end);
+        let d = add(position, end);
         let rate = add(velocity, cross(omega, end));
         let expected: [f64; 3] =
             std::array::from_fn(|k| 4000.0 * (1.9 - norm(&d)) * d[k] / norm(&d) - 70.0 * rate[k]);

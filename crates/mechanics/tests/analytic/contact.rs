@@ -5,8 +5,8 @@ use crate::motions::sine;
 
 // Contact
 
-pub fn seen_from_origin(position: [f64; 3], velocity: [f64; 3], omega: [f64; 3]) -> Relative<f64> {
-    Relative {
+pub fn seen_from_origin(position: [f64; 3], velocity: [f64; 3], omega: [f64; 3]) -> RelativeMotion<f64> {
+    RelativeMotion {
         position: Vector(position),
         rotation: Matrix::identity(),
         velocity: Vector(velocity),
@@ -130,17 +130,17 @@ fn surface_velocity_of_a_turning_plate() {
         let initial: [f64; 6] = random.vector(0.5);
         let probe = body("probe", 1.0, [1.0; 3], [0.0; 3], ALL, initial);
         let tip: [f64; 3] = random.vector(0.5);
-        let mount: [f64; 3] = random.vector(0.4);
+        let marker: [f64; 3] = random.vector(0.4);
         let mut parts = model(vec![plate, probe], [0.0; 3]);
         let law = FrictionLaw::Tanh {
             reference_speed: 0.01,
         };
         // Half of the cases: the plate's normal is the axis of rotation.
-        let mount_angles = if case % 2 == 0 { UP } else { random.vector(1.0) };
+        let marker_angles = if case % 2 == 0 { UP } else { random.vector(1.0) };
         parts.faces.push((
             1,
             0,
-            Mount::new(mount, mount_angles),
+            Marker::new(marker, marker_angles),
             face("f", &[tip], 1e3, 0.0, 0.5, law),
         ));
         let mut system = System::new(parts).unwrap();
@@ -151,29 +151,29 @@ fn surface_velocity_of_a_turning_plate() {
         let glide: [f64; 3] = random.vector(1.0);
         x[6..9].copy_from_slice(&glide);
         x[11] = yaw_rate;
-        let seen = system.observe(time, &x);
+        let observation = system.observe(time, &x);
         // In closed form. The probe turns about Ry(pitch) z.
         let own = rodrigues([1.0, 0.0, 0.0], initial[3], tip);
         let own = rodrigues([0.0, 0.0, 1.0], initial[5], own);
         let arm = rodrigues([0.0, 1.0, 0.0], initial[4], own);
-        let place = add([initial[0], initial[1], initial[2]], arm);
+        let position = add([initial[0], initial[1], initial[2]], arm);
         let yaw_axis = rodrigues([0.0, 1.0, 0.0], initial[4], [0.0, 0.0, 1.0]);
         let velocity = add(glide, cross(times(yaw_axis, yaw_rate), arm));
         let moved = add(origin, times(turned([1.0, 0.0, 0.0]), drift * time));
-        let from_axis = add(place, times(moved, -1.0));
+        let from_axis = add(position, times(moved, -1.0));
         let surface = add(
             times(turned([1.0, 0.0, 0.0]), drift),
             cross(times(axis, spin), from_axis),
         );
         let expected = add(velocity, times(surface, -1.0));
-        let state = &seen.faces[0];
+        let state = &observation.faces[0];
         let point = &state.points[0];
         let got = state
             .axes
             .apply::<f64, f64>(Vector([point.gap_rate, point.slip[0], point.slip[1]]));
         for k in 0..3 {
             close(got.0[k], expected[k], 1e-13);
-            close(state.places[0].0[k], place[k], 1e-13);
+            close(state.point_positions[0].0[k], position[k], 1e-13);
         }
         if case % 2 == 0 {
             let along: f64 = (0..3).map(|k| expected[k] * axis[k]).sum();
@@ -217,18 +217,18 @@ fn slip_speed_on_a_disc() {
     parts.faces.push((
         0,
         1,
-        Mount::new([0.0; 3], UP),
+        Marker::new([0.0; 3], UP),
         face("f", &[[0.0; 3]], 1e3, 0.0, 0.5, law),
     ));
     let mut system = System::new(parts).unwrap();
     system.next_time_discontinuity(0.0);
     let x = system.initial_state();
     for time in [0.0, 0.4, 1.3] {
-        let seen = system.observe(time, &x);
-        close(norm(&seen.faces[0].points[0].slip), 3.0 * 0.5, 1e-13);
-        close(seen.faces[0].points[0].gap, -0.01, 1e-15);
+        let observation = system.observe(time, &x);
+        close(norm(&observation.faces[0].points[0].slip), 3.0 * 0.5, 1e-13);
+        close(observation.faces[0].points[0].gap, -0.01, 1e-15);
         // Friction takes the point along with the disc: ω × r = 3 (-0.4, 0.3).
-        let force = seen.faces[0].friction_forces[0].0;
+        let force = observation.faces[0].friction_forces[0].0;
         close(force[0], -0.8 * 0.5 * 10.0, 1e-12);
         close(force[1], 0.6 * 0.5 * 10.0, 1e-12);
         // The disc's motor delivers what friction loses: μN v.
@@ -254,13 +254,13 @@ fn places_and_masses_of_prescribed_bodies() {
         let mut system = System::new(model(vec![probe.clone(), base, ground()], [0.0, 0.0, -9.8])).unwrap();
         system.next_time_discontinuity(0.0);
         let x = system.initial_state();
-        let seen = system.observe(0.4, &x);
+        let observation = system.observe(0.4, &x);
         close(
-            seen.bodies[1].travel.0[0],
+            observation.bodies[1].travel.0[0],
             0.7 * (2.3f64 * 0.4 + 0.4).sin(),
             1e-15,
         );
-        seen.energies
+        observation.energies
     });
     assert_eq!(without, with);
 }

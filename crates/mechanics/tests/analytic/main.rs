@@ -20,7 +20,7 @@ use mechanics::characteristic::Characteristic;
 use mechanics::coil::{Coil, CoilLaw};
 use mechanics::frame::Frame;
 use mechanics::friction::{FrictionLaw, bristle, tanh};
-use mechanics::link::{Mount, Relative};
+use mechanics::link::{Marker, RelativeMotion};
 use mechanics::motion::{Motion, RampProfile};
 use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
 use mechanics::spline::{Spline, SplineError};

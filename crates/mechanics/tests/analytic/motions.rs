@@ -256,11 +256,11 @@ fn segments_end_at_breaks_and_keep_their_side() {
     let x = system.initial_state();
     let rate = 0.7 * 2.3 * 2.0 / PI;
     close(system.next_time_discontinuity(0.0), corner, 1e-15);
-    let seen = system.observe(corner, &x);
-    close(seen.bodies[1].velocity.0[2], rate, 1e-14);
+    let observation = system.observe(corner, &x);
+    close(observation.bodies[1].velocity.0[2], rate, 1e-14);
     close(system.next_time_discontinuity(corner), 3.0 * corner, 1e-14);
-    let seen = system.observe(corner, &x);
-    close(seen.bodies[1].velocity.0[2], -rate, 1e-14);
+    let observation = system.observe(corner, &x);
+    close(observation.bodies[1].velocity.0[2], -rate, 1e-14);
     // A copy takes the side from the other.
     let mut copy = System::new(model(system.bodies().to_vec(), [0.0; 3])).unwrap();
     copy.next_time_discontinuity(0.0);

@@ -4,7 +4,7 @@
 
 use mechanics::body::Body;
 use mechanics::connection::{
-    Accumulator, Column, Connection, GapDamper, Law, SpringDamper, SurfaceFriction, Wedge,
+    Accumulator, ColumnFace, Connection, GapDamper, Law, SpringDamper, SurfaceFriction, Wedge,
 };
 use mechanics::curve::Curve;
 use mechanics::motion::Motion;
@@ -24,8 +24,8 @@ pub fn curve(points: &[[f64; 2]]) -> Curve {
 
 /// A wedge with the published numbers: 32 degrees and 3000 lbf/in on the side frame, or 37.5 degrees and 3702.2 lbf in the
 /// bolster.
-pub fn wedge(constant: bool, column: Column) -> Wedge {
-    let plain = matches!(column, Column::Plain { .. });
+pub fn wedge(constant: bool, column: ColumnFace) -> Wedge {
+    let plain = matches!(column, ColumnFace::Plain { .. });
     let (angle, coil, preload) = match (constant, plain) {
         (false, _) => (32.0, curve(&[[-1.0, -3000.0], [0.0, 0.0]]), 0.0),
         (true, true) => (37.5, Curve::constant(0.0), 3702.2 * LBF),
@@ -48,8 +48,8 @@ pub fn wedge(constant: bool, column: Column) -> Wedge {
 }
 
 /// A straight column with this toe (degrees, positive out).
-pub fn straight(toe: f64, direction: f64) -> Column {
-    Column::Profile {
+pub fn straight(toe: f64, direction: f64) -> ColumnFace {
+    ColumnFace::Profile {
         depth: Curve::linear(-f64::to_radians(toe).tan()),
         direction,
     }
@@ -156,7 +156,7 @@ pub fn model(constant: bool, spatial: bool) -> Model {
         for (x, direction) in [(-26.5, 1.0), (-43.5, -1.0)] {
             let column = match spatial {
                 true => straight(0.2, direction),
-                false => Column::Plain { toe_out: true },
+                false => ColumnFace::Plain { toe_out: true },
             };
             connect(
                 "wedge",
@@ -173,7 +173,7 @@ pub fn model(constant: bool, spatial: bool) -> Model {
                     spring: curve(&[[0.0, -15691.0], [0.031382, 0.0], [1.0, 0.0]]),
                     damper: None,
                     coefficient: 0.5,
-                    accumulator: wedge(false, Column::Plain { toe_out: true }).accumulator,
+                    accumulator: wedge(false, ColumnFace::Plain { toe_out: true }).accumulator,
                 };
                 connect("bearing", frame, GROUND, at(x, side * y, 22.5), Law::Surface(law));
                 let law = GapDamper {

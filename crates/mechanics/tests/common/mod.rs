@@ -8,7 +8,7 @@ use mechanics::contact::{ContactFace, ContactPoint};
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
 use mechanics::surface::Plane;
-use mechanics::system::{ChannelKind, Model, System};
+use mechanics::system::{EnergyTermKind, Model, System};
 use mechanics::vector::Vector;
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
@@ -147,29 +147,29 @@ pub struct Ledger {
     pub stored: f64,
     pub work: f64,
     pub guide: f64,
-    pub losses: Vec<(ChannelKind, f64)>,
+    pub losses: Vec<(EnergyTermKind, f64)>,
 }
 
 impl Ledger {
     pub fn at(system: &mut System, time: f64, x: &[f64]) -> Self {
-        let seen = system.observe(time, x);
+        let observation = system.observe(time, x);
         let mut ledger = Self {
-            stored: seen.energies.total(),
+            stored: observation.energies.total(),
             work: 0.0,
             guide: 0.0,
             losses: Vec::new(),
         };
-        for (channel, value) in system.channels().iter().zip(&seen.quadratures) {
-            match channel.kind {
-                ChannelKind::MotionWork => ledger.work += value,
-                ChannelKind::CoilGuideWork => ledger.guide += value,
+        for (energy_term, value) in system.energy_terms().iter().zip(&observation.quadratures) {
+            match energy_term.kind {
+                EnergyTermKind::MotionWork => ledger.work += value,
+                EnergyTermKind::CoilGuideWork => ledger.guide += value,
                 kind => ledger.losses.push((kind, *value)),
             }
         }
         ledger
     }
     /// Energy that came from nowhere since `start`, with the losses counted that `counts` accepts.
-    pub fn residual(&self, start: &Self, counts: impl Fn(ChannelKind) -> bool) -> f64 {
+    pub fn residual(&self, start: &Self, counts: impl Fn(EnergyTermKind) -> bool) -> f64 {
         let lost = |ledger: &Self| -> f64 {
             let counted = ledger.losses.iter().filter(|(kind, _)| counts(*kind));
             counted.map(|(_, value)| value).sum()
@@ -220,17 +220,17 @@ pub fn rodrigues(axis: [f64; 3], angle: f64, v: [f64; 3]) -> [f64; 3] {
 
 /// Total linear momentum and angular momentum about the fixed origin.
 pub fn momenta(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
-    let seen = system.observe(time, x);
+    let observation = system.observe(time, x);
     let (mut p, mut l) = ([0.0; 3], [0.0; 3]);
-    for (body, place) in system.bodies().iter().zip(&seen.bodies) {
-        let r = place.rotation.0;
+    for (body, state) in system.bodies().iter().zip(&observation.bodies) {
+        let r = state.rotation.0;
         let arm: [f64; 3] =
             std::array::from_fn(|i| (0..3).map(|j| r[i][j] * body.center_of_gravity[j]).sum());
-        let w = place.angular_velocity.0;
-        let v = add(place.velocity.0, cross(w, arm));
+        let w = state.angular_velocity.0;
+        let v = add(state.velocity.0, cross(w, arm));
         let momentum = times(v, body.mass);
         p = add(p, momentum);
-        l = add(l, cross(add(place.origin.0, arm), momentum));
+        l = add(l, cross(add(state.origin.0, arm), momentum));
         for k in 0..3 {
             let own: f64 = (0..3).map(|i| r[i][k] * w[i]).sum::<f64>() * body.inertia[k];
             for i in 0..3 {

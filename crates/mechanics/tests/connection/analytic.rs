@@ -1,8 +1,10 @@
 //! Laws against their closed forms.
 
-use mechanics::connection::{Accumulator, Column, GapDamper, Law, Options, SpringDamper, SurfaceFriction};
+use mechanics::connection::{
+    Accumulator, ColumnFace, GapDamper, Law, Options, SpringDamper, SurfaceFriction,
+};
 use mechanics::curve::Curve;
-use mechanics::system::Mode;
+use mechanics::system::ContactState;
 use mechanics::system::System;
 
 use crate::common::Random;
@@ -16,8 +18,8 @@ pub fn close(value: f64, expected: f64, tolerance: f64) {
 }
 
 /// A column without profile.
-pub fn plain(toe_out: bool) -> Column {
-    Column::Plain { toe_out }
+pub fn plain(toe_out: bool) -> ColumnFace {
+    ColumnFace::Plain { toe_out }
 }
 
 #[test]
@@ -79,11 +81,11 @@ fn a_spring_and_damper_in_parallel_are_clamped_together() {
     ] {
         let state = at(&mut system, [0.0, s, 0.0], [0.0, v, 0.0]).connections[0].clone();
         close(state.forces[0], force, 1e-12);
-        assert_eq!((state.strokes[0], state.velocities[0]), (s, v));
+        assert_eq!((state.extensions[0], state.velocities[0]), (s, v));
     }
     // -f acts on body A
-    let seen = at(&mut system, [0.0, 0.1, 0.0], [0.0; 3]);
-    close(seen.bodies[0].accelerations[1], -10.0, 1e-12);
+    let observation = at(&mut system, [0.0, 0.1, 0.0], [0.0; 3]);
+    close(observation.bodies[0].accelerations[1], -10.0, 1e-12);
 }
 
 #[test]
@@ -130,8 +132,8 @@ fn strokes_follow_the_levers() {
     let [x, y, z, phi, theta, psi] = [0.1, 0.2, 0.3, 0.01, 0.02, 0.03];
     let mut state = system.initial_state();
     state[..6].copy_from_slice(&[x, y, z, phi, theta, psi]);
-    let seen = system.observe(0.0, &state);
-    let strokes = [
+    let observation = system.observe(0.0, &state);
+    let extensions = [
         x + theta * lz - psi * ly,
         y - phi * lz + psi * lx,
         z + phi * ly - theta * lx,
@@ -139,20 +141,20 @@ fn strokes_follow_the_levers() {
         theta,
         psi,
     ];
-    for (value, expected) in seen.connections[0].strokes.iter().zip(strokes) {
+    for (value, expected) in observation.connections[0].extensions.iter().zip(extensions) {
         close(*value, expected, 1e-15);
     }
     // the moment of a force about the centre of gravity is l × F
-    let f = strokes.map(|s| -s);
+    let f = extensions.map(|s| -s);
     let moment = [
         f[3] + ly * f[2] - lz * f[1],
         f[4] + lz * f[0] - lx * f[2],
         f[5] + lx * f[1] - ly * f[0],
     ];
     for k in 0..3 {
-        close(seen.bodies[0].accelerations[3 + k], moment[k], 1e-14);
+        close(observation.bodies[0].accelerations[3 + k], moment[k], 1e-14);
         close(
-            seen.bodies[0].accelerations[k],
+            observation.bodies[0].accelerations[k],
             f[k] - if k == 2 { 9.0 } else { 0.0 },
             1e-14,
         );
@@ -175,17 +177,17 @@ fn surface_friction_holds_and_slips_on_one_circle() {
     // N = 150 N, limit 75 N
     let held = at_deflection(&mut system, [0.0, 0.0, -0.25], [0.0; 3], [0.03, -0.04]);
     let state = &held.connections[0];
-    assert_eq!(state.mode, Some(Mode::Stick));
+    assert_eq!(state.contact_state, Some(ContactState::Stick));
     for (value, expected) in state.forces.iter().zip([-150.0, 30.0, -40.0]) {
         close(*value, expected, 1e-12);
     }
     let slips = at_deflection(&mut system, [0.0, 0.0, -0.25], [30.0, -40.0, 0.0], [0.075, -0.1]);
     let state = &slips.connections[0];
-    assert_eq!(state.mode, Some(Mode::Slip));
+    assert_eq!(state.contact_state, Some(ContactState::Slip));
     for (value, expected) in state.forces.iter().zip([-150.0, 45.0, -60.0]) {
         close(*value, expected, 1e-12);
     }
     let lifted = at(&mut system, [0.0, 0.0, 0.6], [3.0, 0.0, 0.0]);
     assert_eq!(lifted.connections[0].forces, [0.0; 3]);
-    assert_eq!(lifted.connections[0].mode, Some(Mode::Open));
+    assert_eq!(lifted.connections[0].contact_state, Some(ContactState::Open));
 }

@@ -4,7 +4,7 @@ use integrate::Method;
 use mechanics::system::System;
 
 use crate::half_truck;
-use crate::models::{run, seen};
+use crate::models::{observation, run};
 
 #[test]
 fn the_half_truck_converges_with_the_tolerance() {
@@ -12,12 +12,12 @@ fn the_half_truck_converges_with_the_tolerance() {
     let x = system.initial_state();
     let at = |tolerance: f64| {
         let done = run(&system, Method::Rodas5P, tolerance, &x, 0.4);
-        let seen = seen(&done);
-        let wedge = seen.connections.iter().find_map(|c| c.wedge).unwrap();
+        let observation = observation(&done);
+        let wedge = observation.connections.iter().find_map(|c| c.wedge).unwrap();
         [
-            seen.bodies[0].coordinates[2],
+            observation.bodies[0].coordinates[2],
             wedge.column_friction,
-            seen.quadratures[0],
+            observation.quadratures[0],
         ]
     };
     let reference = at(1e-10);
@@ -41,7 +41,7 @@ fn methods_agree() {
     let x = system.initial_state();
     let [a, b] = [Method::Rodas5P, Method::Rodas4].map(|method| {
         let done = run(&system, method, 1e-8, &x, 0.3);
-        seen(&done).bodies[0].coordinates[2]
+        observation(&done).bodies[0].coordinates[2]
     });
     assert!((a - b).abs() < 1e-7 * a.abs(), "{a} {b}");
 }

@@ -2,22 +2,24 @@
 
 use integrate::Method;
 use mechanics::body::Body;
-use mechanics::connection::{Accumulator, Column, GapDamper, Law, Options, SpringDamper, SurfaceFriction};
+use mechanics::connection::{
+    Accumulator, ColumnFace, GapDamper, Law, Options, SpringDamper, SurfaceFriction,
+};
 use mechanics::curve::Curve;
 use mechanics::motion::Motion;
-use mechanics::system::{ChannelKind, Model, System};
+use mechanics::system::{EnergyTermKind, Model, System};
 
 use crate::half_truck::{self, ALL, INCH, LBF_PER_INCH, curve, straight, vertical, wedge};
-use crate::models::{connection, model, run, seen};
+use crate::models::{connection, model, observation, run};
 
 /// The ledger's residual over the work done by the inputs (in and out), and the run's end.
 fn residual(system: &System, tolerance: f64, end: f64) -> (f64, mechanics::system::Observation) {
     let x = system.initial_state();
     let start = system.clone().observe(0.0, &x).energies.total();
     let done = run(system, Method::Rodas5P, tolerance, &x, end);
-    let seen = seen(&done);
-    let size: f64 = seen.quadratures.iter().map(|w| w.abs()).sum();
-    (seen.residual(start) / size, seen)
+    let observation = observation(&done);
+    let size: f64 = observation.quadratures.iter().map(|w| w.abs()).sum();
+    (observation.residual(start) / size, observation)
 }
 
 /// A body on springs and two wedges with a toe, driven through a spring; bearings with friction below.
@@ -135,9 +137,9 @@ fn the_ledger_closes_for_other_options() {
 fn the_half_trucks_ledger_closes() {
     for (constant, spatial) in [(false, false), (true, true)] {
         let system = System::new(half_truck::model(constant, spatial)).unwrap();
-        let (residual, seen) = residual(&system, 1e-7, 1.0);
+        let (residual, observation) = residual(&system, 1e-7, 1.0);
         assert!(residual.abs() < 1e-5, "{constant}: {residual:e}");
-        assert!(seen.quadratures[0].abs() > 100.0);
+        assert!(observation.quadratures[0].abs() > 100.0);
     }
 }
 
@@ -154,9 +156,9 @@ fn slope_friction_by_its_own_slip_only_loses() {
     for options in [own, Options::default()] {
         let system = System::new(body_on_wedges(true, -0.2, options)).unwrap();
         let slope = system
-            .channels()
+            .energy_terms()
             .iter()
-            .position(|own| own.kind == ChannelKind::SlopeFriction)
+            .position(|own| own.kind == EnergyTermKind::SlopeFriction)
             .unwrap();
         let x = system.initial_state();
         let start = system.clone().observe(0.0, &x).energies.total();
@@ -165,15 +167,15 @@ fn slope_friction_by_its_own_slip_only_loses() {
             ..integrate::Options::default()
         };
         let mut integrator = integrate::Integrator::new(system.clone(), settings, 0.0, &x).unwrap();
-        let at = integrator.x().len() - system.channels().len() + slope;
+        let at = integrator.x().len() - system.energy_terms().len() + slope;
         let mut smallest = f64::INFINITY;
         while integrator.time() < 1.2 {
             integrator.step_to(1.2).unwrap();
             smallest = (integrator.x()[at] - integrator.previous_x()[at]).min(smallest);
         }
-        let seen = seen(&integrator);
-        let size: f64 = seen.quadratures.iter().map(|w| w.abs()).sum();
-        assert!(seen.residual(start).abs() < 1e-6 * size);
+        let observation = observation(&integrator);
+        let size: f64 = observation.quadratures.iter().map(|w| w.abs()).sum();
+        assert!(observation.residual(start).abs() < 1e-6 * size);
         least.push(smallest);
     }
     // one step, J
@@ -193,9 +195,9 @@ fn the_ledger_closes_across_breaks() {
         }),
     );
     let system = System::new(model).unwrap();
-    let (residual, seen) = residual(&system, 1e-8, 1.2);
+    let (residual, observation) = residual(&system, 1e-8, 1.2);
     assert!(residual.abs() < 1e-6, "{residual:e}");
-    assert!(seen.quadratures[1] > 0.0);
+    assert!(observation.quadratures[1] > 0.0);
 }
 
 /// A ledger from which any one entry is left out does not close: so the ones above say something.
@@ -205,25 +207,25 @@ fn a_ledger_without_one_entry_fails() {
     let x = system.initial_state();
     let start = system.clone().observe(0.0, &x).energies.total();
     let done = run(&system, Method::Rodas5P, 1e-8, &x, 1.2);
-    let seen = seen(&done);
-    let size: f64 = seen.quadratures.iter().map(|w| w.abs()).sum();
-    assert!(seen.residual(start).abs() < 1e-6 * size);
-    let kinds = system.channels();
+    let observation = observation(&done);
+    let size: f64 = observation.quadratures.iter().map(|w| w.abs()).sum();
+    assert!(observation.residual(start).abs() < 1e-6 * size);
+    let kinds = system.energy_terms();
     assert_eq!(kinds.len(), 8);
     for (i, kind) in kinds.iter().map(|own| own.kind).enumerate() {
-        let mut without = seen.clone();
+        let mut without = observation.clone();
         match kind {
-            ChannelKind::MotionWork => without.work -= seen.quadratures[i],
-            _ => without.losses -= seen.quadratures[i],
+            EnergyTermKind::MotionWork => without.work -= observation.quadratures[i],
+            _ => without.losses -= observation.quadratures[i],
         }
         let residual = without.residual(start).abs() / size;
         assert!(residual > 1e-5, "without {kind:?}: {residual:e}");
         let never_gives_back = !matches!(
             kind,
-            ChannelKind::MotionWork | ChannelKind::SlopeFriction | ChannelKind::WedgeKinematics
+            EnergyTermKind::MotionWork | EnergyTermKind::SlopeFriction | EnergyTermKind::WedgeKinematics
         );
         if never_gives_back {
-            assert!(seen.quadratures[i] > 0.0, "{kind:?}");
+            assert!(observation.quadratures[i] > 0.0, "{kind:?}");
         }
     }
 }
@@ -252,10 +254,10 @@ fn a_clamped_damper_never_gives_energy_back() {
     let mut lost = 0.0;
     for step in 1..40 {
         let done = run(&system, Method::Rodas5P, 1e-9, &x, 0.02 * f64::from(step));
-        let seen = seen(&done);
-        assert!(seen.quadratures[1] >= lost - 1e-7);
-        lost = seen.quadratures[1];
-        assert!(seen.residual(start).abs() < 1e-6 * start);
+        let observation = observation(&done);
+        assert!(observation.quadratures[1] >= lost - 1e-7);
+        lost = observation.quadratures[1];
+        assert!(observation.residual(start).abs() < 1e-6 * start);
     }
     assert!(lost > 0.3 * start);
 }
@@ -266,10 +268,10 @@ fn a_plain_wedge_has_no_slope_entry() {
     let system = System::new(half_truck::model(true, false)).unwrap();
     assert!(
         system
-            .channels()
+            .energy_terms()
             .iter()
-            .all(|own| own.kind != ChannelKind::SlopeFriction)
+            .all(|own| own.kind != EnergyTermKind::SlopeFriction)
     );
-    let law = Law::Wedge(wedge(true, Column::Plain { toe_out: true }));
+    let law = Law::Wedge(wedge(true, ColumnFace::Plain { toe_out: true }));
     assert_eq!(law.coordinates(), [2, 1]);
 }

@@ -2,7 +2,7 @@
 
 use mechanics::body::Body;
 use mechanics::connection::{
-    Accumulator, Column, ConnectionError, GapDamper, Law, Options, SpringDamper, SurfaceFriction,
+    Accumulator, ColumnFace, ConnectionError, GapDamper, Law, Options, SpringDamper, SurfaceFriction,
 };
 use mechanics::curve::{Curve, CurveError};
 use mechanics::system::{Model, ModelError, System};
@@ -24,7 +24,7 @@ fn refused(change: impl FnOnce(&mut Model)) -> ModelError {
 }
 
 fn of_wedge(change: impl FnOnce(&mut mechanics::connection::Wedge)) -> ModelError {
-    let mut law = wedge(false, Column::Plain { toe_out: true });
+    let mut law = wedge(false, ColumnFace::Plain { toe_out: true });
     change(&mut law);
     refused(|model| model.connections[0].law = Law::Wedge(law))
 }
@@ -108,7 +108,7 @@ fn wrong_wedges_are_refused() {
         ),
         (
             of_wedge(|law| {
-                law.column = Column::Profile {
+                law.column = ColumnFace::Profile {
                     depth: Curve::linear(2.0),
                     direction: 1.0,
                 }
@@ -117,7 +117,7 @@ fn wrong_wedges_are_refused() {
         ),
         (
             of_wedge(|law| {
-                law.column = Column::Profile {
+                law.column = ColumnFace::Profile {
                     depth: Curve::linear(0.0),
                     direction: 0.5,
                 }

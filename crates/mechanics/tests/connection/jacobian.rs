@@ -3,11 +3,12 @@
 use integrate::Problem;
 use mechanics::body::Body;
 use mechanics::connection::{
-    Accumulator, Branch, Column, GapDamper, Law, NegativeRise, Options, SpringDamper, SurfaceFriction, Wedge,
+    Accumulator, Branch, ColumnFace, GapDamper, Law, NegativeRise, Options, SpringDamper, SurfaceFriction,
+    Wedge,
 };
 use mechanics::curve::Curve;
 use mechanics::motion::Motion;
-use mechanics::system::Mode;
+use mechanics::system::ContactState;
 use mechanics::system::{Model, System};
 
 use crate::common::Random;
@@ -57,7 +58,7 @@ fn everything(options: Options, accumulator: Accumulator) -> Model {
         coefficient: 0.5,
         accumulator,
     };
-    let wedge = |coil_in_bolster: bool, column: Column| Wedge {
+    let wedge = |coil_in_bolster: bool, column: ColumnFace| Wedge {
         angle: 0.6,
         coil: curve(&[[-1.0, -160.0], [0.0, -80.0], [1.0, -10.0], [2.0, 0.0]]),
         preload: 5.0,
@@ -68,7 +69,7 @@ fn everything(options: Options, accumulator: Accumulator) -> Model {
         accumulator,
         normal_limit: 300.0,
     };
-    let profile = |slope: f64, direction: f64| Column::Profile {
+    let profile = |slope: f64, direction: f64| ColumnFace::Profile {
         depth: curve(&[[-1.0, -slope], [0.0, 0.0], [1.0, 1.5 * slope]]),
         direction,
     };
@@ -81,7 +82,7 @@ fn everything(options: Options, accumulator: Accumulator) -> Model {
         connections.push(connection(a, b, at(0.1), Law::Gap(2, gap.clone())));
         connections.push(connection(a, b, at(0.2), Law::Surface(surface.clone())));
         let columns = [
-            Column::Plain { toe_out: i % 2 == 0 },
+            ColumnFace::Plain { toe_out: i % 2 == 0 },
             profile(-0.2, 1.0),
             profile(0.15, -1.0),
         ];
@@ -122,7 +123,7 @@ fn difference(h: f64, mut f: impl FnMut(f64) -> Vec<f64>) -> Option<Vec<f64>> {
 }
 
 #[derive(Default)]
-struct Seen {
+struct Counts {
     columns: usize,
     open: usize,
     stick: usize,
@@ -131,12 +132,12 @@ struct Seen {
 }
 
 /// Compares at random states, column by column, leaving out columns with a kink within the difference.
-fn compare(model: &Model, seed: u64) -> Seen {
+fn compare(model: &Model, seed: u64) -> Counts {
     let mut system = System::new(model.clone()).unwrap();
     let layout = system.layout();
     let n = layout.len();
     let mut random = Random(seed);
-    let mut seen = Seen::default();
+    let mut counts = Counts::default();
     for _ in 0..60 {
         let time = random.between(0.3, 1.9);
         system.next_time_discontinuity(time);
@@ -152,13 +153,13 @@ fn compare(model: &Model, seed: u64) -> Seen {
             *value = random.between(-size, size);
         }
         for state in system.observe(time, &x).connections {
-            match state.mode {
-                Some(Mode::Open) => seen.open += 1,
-                Some(Mode::Stick) => seen.stick += 1,
-                Some(Mode::Slip) => seen.slip += 1,
+            match state.contact_state {
+                Some(ContactState::Open) => counts.open += 1,
+                Some(ContactState::Stick) => counts.stick += 1,
+                Some(ContactState::Slip) => counts.slip += 1,
                 None => {}
             }
-            seen.jammed += usize::from(state.wedge.is_some_and(|wedge| wedge.jammed));
+            counts.jammed += usize::from(state.wedge.is_some_and(|wedge| wedge.jammed));
         }
         let dx = rates(&mut system, time, &x);
         let mut df_dt = vec![0.0; n];
@@ -186,7 +187,7 @@ fn compare(model: &Model, seed: u64) -> Seen {
                 rates(&mut system, time, &y)
             });
             let Some(column) = moved else { continue };
-            seen.columns += 1;
+            counts.columns += 1;
             system.linearize(time, &x, &dx, &mut df_dt);
             system.factor(shift).unwrap();
             let mut b: Vec<f64> = column.iter().map(|entry| -entry).collect();
@@ -202,7 +203,7 @@ fn compare(model: &Model, seed: u64) -> Seen {
             }
         }
     }
-    seen
+    counts
 }
 
 const BRISTLE: Accumulator = Accumulator::Bristle {
@@ -212,9 +213,9 @@ const BRISTLE: Accumulator = Accumulator::Bristle {
 
 #[test]
 fn agrees_with_differences() {
-    let seen = compare(&everything(Options::default(), BRISTLE), 1);
-    assert!(seen.columns > 1000, "{}", seen.columns);
-    let counts = [seen.open, seen.stick, seen.slip, seen.jammed];
+    let counts = compare(&everything(Options::default(), BRISTLE), 1);
+    assert!(counts.columns > 1000, "{}", counts.columns);
+    let counts = [counts.open, counts.stick, counts.slip, counts.jammed];
     assert!(counts.iter().all(|count| *count > 20), "{counts:?}");
 }
 

@@ -1,7 +1,7 @@
 //! Static equilibrium, and limits that have closed forms.
 
 use mechanics::body::Body;
-use mechanics::connection::{Column, Law, SpringDamper};
+use mechanics::connection::{ColumnFace, Law, SpringDamper};
 use mechanics::curve::Curve;
 use mechanics::motion::Motion;
 use mechanics::system::{StaticFriction, System};
@@ -20,7 +20,7 @@ fn four_wedges_carry_a_body() {
     let mut connections = Vec::new();
     for x in [1.0, -1.0] {
         for y in [0.8, -0.8] {
-            let law = wedge(false, Column::Plain { toe_out: true });
+            let law = wedge(false, ColumnFace::Plain { toe_out: true });
             connections.push(connection(0, 1, [x, y, 0.0], Law::Wedge(law)));
         }
     }
@@ -38,8 +38,8 @@ fn four_wedges_carry_a_body() {
         "{} instead of {expected}",
         rest[2]
     );
-    let seen = system.observe(0.0, &rest);
-    for state in &seen.connections[..4] {
+    let observation = system.observe(0.0, &rest);
+    for state in &observation.connections[..4] {
         let coil = state.wedge.unwrap();
         assert!((coil.coil_force - 0.25 * weight).abs() < 1e-3);
         assert_eq!(coil.column_friction, 0.0);
@@ -49,8 +49,8 @@ fn four_wedges_carry_a_body() {
     }
     // with friction that follows, coil and accumulator carry together while they stick
     let rest = system.equilibrium(0.0, &x, StaticFriction::Following).unwrap();
-    let seen = system.observe(0.0, &rest);
-    let wedge = seen.connections[0].wedge.unwrap();
+    let observation = system.observe(0.0, &rest);
+    let wedge = observation.connections[0].wedge.unwrap();
     assert!((wedge.coil_force + wedge.column_friction - 0.25 * weight).abs() < 1e-3);
     assert!(rest[2] > expected && rest[2] < 0.0);
     assert!(wedge.column_friction > 0.1 * wedge.coil_force);
@@ -79,13 +79,13 @@ fn a_toe_lifts_or_drags_the_bolster() {
         });
         let mut system = System::new(model(bodies, connections.to_vec())).unwrap();
         let x = system.initial_state();
-        let seen = system.observe(0.0, &x);
-        let w = seen.connections[0].wedge.unwrap();
+        let observation = system.observe(0.0, &x);
+        let w = observation.connections[0].wedge.unwrap();
         let (t, p) = (f64::to_radians(37.5), f64::to_radians(toe));
         let normal = 3702.2 * LBF * t.cos() / (t + p).sin();
         assert!((w.column_normal - normal).abs() < 1e-9 * normal);
         // toe out: the columns' normal forces point down on the wedges
-        let lift = seen.bodies[0].accelerations;
+        let lift = observation.bodies[0].accelerations;
         assert!(
             (lift[2] + 2.0 * normal * p.sin()).abs() < 1e-9 * normal,
             "{lift:?}"
@@ -133,8 +133,8 @@ fn the_half_truck_settles() {
     // the inputs were held where they are, not stopped for good
     let mut dx = vec![0.0; x.len()];
     integrate::Problem::derivative(&mut system, 0.0, &x, &mut dx);
-    let seen = system.observe(0.0, &x);
-    assert!((seen.bodies[4].speeds[2] - 2.0 * INCH).abs() < 1e-12);
+    let observation = system.observe(0.0, &x);
+    assert!((observation.bodies[4].speeds[2] - 2.0 * INCH).abs() < 1e-12);
 }
 
 /// With constant damping the preloads balance the drawn layout, but for the columns' normal forces where a toe inclines them:
@@ -144,8 +144,8 @@ fn the_half_truck_with_constant_damping_is_balanced_as_drawn() {
     for (spatial, expected) in [(false, 0.0), (true, -67.07)] {
         let mut system = System::new(half_truck::model(true, spatial)).unwrap();
         let x = system.initial_state();
-        let seen = system.observe(0.0, &x);
-        let force = seen.bodies[BOLSTER].accelerations[2] * 319.175 / INCH;
+        let observation = system.observe(0.0, &x);
+        let force = observation.bodies[BOLSTER].accelerations[2] * 319.175 / INCH;
         assert!((force - expected).abs() < 0.3, "{force} lbf");
     }
 }

@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 
 use integrate::Method;
-use mechanics::connection::{Accumulator, Column, Law, Options, Wedge};
+use mechanics::connection::{Accumulator, ColumnFace, Law, Options, Wedge};
 use mechanics::motion::Motion;
-use mechanics::system::ChannelKind;
+use mechanics::system::EnergyTermKind;
 
 use crate::analytic::{close, plain};
 use crate::half_truck::{INCH, LBF_INCH, LBF_PER_INCH, straight, wedge};
-use crate::models::{driven, run, seen, wedge_at};
+use crate::models::{observation, prescribed, run, wedge_at};
 
 /// One cycle of an inch up and down, the element alone: work of the motion, and the column's share, lbf·in.
 fn loop_energy(law: Wedge, tolerance: f64) -> [f64; 2] {
@@ -19,27 +19,30 @@ fn loop_energy(law: Wedge, tolerance: f64) -> [f64; 2] {
         angular_frequency: omega,
         phase: 0.0,
     };
-    let system = driven(Law::Wedge(law), motion);
+    let system = prescribed(Law::Wedge(law), motion);
     let x = system.initial_state();
     let period = 2.0 * PI / omega;
     let at = |time: f64| {
         let done = run(&system, Method::Rodas5P, tolerance, &x, time);
         let column = done
             .problem()
-            .channels()
+            .energy_terms()
             .iter()
-            .position(|own| own.kind == ChannelKind::ColumnFriction)
+            .position(|own| own.kind == EnergyTermKind::ColumnFriction)
             .unwrap();
-        let seen = seen(&done);
-        let stored = seen.energies.total();
-        [seen.quadratures[0] - stored, seen.quadratures[column]]
+        let observation = observation(&done);
+        let stored = observation.energies.total();
+        [
+            observation.quadratures[0] - stored,
+            observation.quadratures[column],
+        ]
     };
     let (a, b) = (at(0.5 * period), at(1.5 * period));
     [0, 1].map(|k| (b[k] - a[k]) / LBF_INCH)
 }
 
 /// A wedge whose accumulator hardly deflects and hardly damps.
-fn rigid(constant: bool, column: Column) -> Wedge {
+fn rigid(constant: bool, column: ColumnFace) -> Wedge {
     let mut law = wedge(constant, column);
     law.accumulator = Accumulator::Bristle {
         stiffness: 1e9 * LBF_PER_INCH,

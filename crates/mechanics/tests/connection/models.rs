@@ -40,18 +40,18 @@ pub fn against_ground(law: Law, options: Options) -> System {
 }
 
 /// What a law does at displacements and velocities of its body A (x, y, z).
-pub fn at(system: &mut System, place: [f64; 3], velocity: [f64; 3]) -> Observation {
-    at_deflection(system, place, velocity, [0.0; 2])
+pub fn at(system: &mut System, position: [f64; 3], velocity: [f64; 3]) -> Observation {
+    at_deflection(system, position, velocity, [0.0; 2])
 }
 
 pub fn at_deflection(
     system: &mut System,
-    place: [f64; 3],
+    position: [f64; 3],
     velocity: [f64; 3],
     deflection: [f64; 2],
 ) -> Observation {
     let mut x = system.initial_state();
-    x[..3].copy_from_slice(&place);
+    x[..3].copy_from_slice(&position);
     x[6..9].copy_from_slice(&velocity);
     if let Some(at) = system.deflection_of(0) {
         x[at..at + 2].copy_from_slice(&deflection);
@@ -68,7 +68,7 @@ pub fn wedge_at(wedge: &Wedge, options: &Options, z: f64, velocity: f64) -> Wedg
 }
 
 /// A law between a body that is moved up and down (A) and one so heavy that it stays (B).
-pub fn driven(law: Law, motion: Motion) -> System {
+pub fn prescribed(law: Law, motion: Motion) -> System {
     let mover = Body::linearized_prescribed("mover", [0.0; 3], vertical(motion));
     let heavy = Body::linearized(
         "heavy",
@@ -95,7 +95,7 @@ pub fn run(system: &System, method: Method, tolerance: f64, x: &[f64], end: f64)
 }
 
 /// What is seen at the end of a run.
-pub fn seen(integrator: &Integrator<System>) -> Observation {
+pub fn observation(integrator: &Integrator<System>) -> Observation {
     let mut twin = integrator.problem().clone();
     twin.observe(integrator.time(), integrator.x())
 }

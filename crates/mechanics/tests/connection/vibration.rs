@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use mechanics::body::Body;
-use mechanics::connection::{Accumulator, Column, Law, SpringDamper, SurfaceFriction};
+use mechanics::connection::{Accumulator, ColumnFace, Law, SpringDamper, SurfaceFriction};
 use mechanics::curve::Curve;
 use mechanics::system::{Held, StaticFriction, System};
 
@@ -98,7 +98,7 @@ fn a_body_on_four_springs() {
 #[test]
 fn a_body_on_wedges() {
     let (mass, inertia) = (2000.0, [300.0, 400.0, 500.0]);
-    let build = |column: &dyn Fn(f64) -> Column| {
+    let build = |column: &dyn Fn(f64) -> ColumnFace| {
         let bodies = vec![
             Body::linearized("b", [0.0; 3], ALL, mass, inertia),
             Body::ground(),
@@ -109,7 +109,7 @@ fn a_body_on_wedges() {
         });
         System::new(model(bodies, wedges.to_vec())).unwrap()
     };
-    let mut system = build(&|_| Column::Plain { toe_out: true });
+    let mut system = build(&|_| ColumnFace::Plain { toe_out: true });
     let mut x = system.initial_state();
     x[2] = -0.01;
     let found = system.vibrations(0.0, &x, Held::All).unwrap();

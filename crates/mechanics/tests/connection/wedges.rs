@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use mechanics::connection::{Accumulator, Branch, Column, Law, Options, SlopeDirection};
+use mechanics::connection::{Accumulator, Branch, ColumnFace, Law, Options, SlopeDirection};
 use mechanics::curve::Curve;
 use mechanics::quasi_static::{Direction, QuasiStaticWedge};
-use mechanics::system::Mode;
+use mechanics::system::ContactState;
 use mechanics::system::System;
 
 use crate::analytic::{close, plain};
@@ -79,7 +79,7 @@ fn wedge_slides_as_the_massless_wedge() {
     let (mut slid, mut jams) = (0, 0);
     for _ in 0..400 {
         let toe = random.between(-0.1, 0.1);
-        let column = Column::Profile {
+        let column = ColumnFace::Profile {
             depth: Curve::linear(-toe.tan()),
             direction: 1.0,
         };
@@ -129,7 +129,7 @@ fn a_sticking_wedge_is_balanced() {
     let mut stuck = 0;
     for _ in 0..300 {
         let toe = random.between(-0.05, 0.05);
-        let column = Column::Profile {
+        let column = ColumnFace::Profile {
             depth: Curve::linear(-toe.tan()),
             direction: if random.between(-1.0, 1.0) > 0.0 {
                 1.0
@@ -146,10 +146,10 @@ fn a_sticking_wedge_is_balanced() {
             random.between(-0.003, 0.003) * INCH,
             random.between(-0.001, 0.001) * INCH,
         ];
-        let place = [0.0, 0.0, random.between(-1.0, -0.2) * INCH];
-        let seen = at_deflection(&mut system, place, [0.0; 3], deflection);
-        let connection = &seen.connections[0];
-        if connection.mode != Some(Mode::Stick) {
+        let position = [0.0, 0.0, random.between(-1.0, -0.2) * INCH];
+        let observation = at_deflection(&mut system, position, [0.0; 3], deflection);
+        let connection = &observation.connections[0];
+        if connection.contact_state != Some(ContactState::Stick) {
             continue;
         }
         stuck += 1;
@@ -179,7 +179,7 @@ fn a_sticking_wedge_is_balanced() {
         close(up, w.slope_normal * (s - slope * c), 1e-8 * size);
         assert!(w.mobilised.abs() < 1.0);
         // the connection's forces: vertical, longitudinal, lateral
-        let Column::Profile { direction, .. } = law.column else {
+        let ColumnFace::Profile { direction, .. } = law.column else {
             unreachable!()
         };
         let coil = if law.coil_in_bolster { 0.0 } else { w.coil_force };
@@ -215,7 +215,10 @@ fn sticking_and_slipping_meet_at_the_limit() {
         jams += usize::from(limit.jammed);
         let size = limit.friction_limit / (1e6 * LBF_PER_INCH);
         let (below, above) = (at(size * (1.0 - 1e-10)), at(size * (1.0 + 1e-10)));
-        assert_eq!((below.mode, above.mode), (Some(Mode::Stick), Some(Mode::Slip)));
+        assert_eq!(
+            (below.contact_state, above.contact_state),
+            (Some(ContactState::Stick), Some(ContactState::Slip))
+        );
         for k in 0..3 {
             close(below.forces[k], above.forces[k], 1e-6 * limit.friction_limit);
         }
@@ -249,8 +252,8 @@ fn slope_friction_by_its_own_slip() {
         }
         let mut system = against_ground(Law::Wedge(law.clone()), options.clone());
         let hold = [0.0003 * INCH, 0.0];
-        let seen = at_deflection(&mut system, [0.0, 0.0, -INCH], [0.0, 0.0, -1e-5], hold);
-        let w = seen.connections[0].wedge.unwrap();
+        let observation = at_deflection(&mut system, [0.0, 0.0, -INCH], [0.0, 0.0, -1e-5], hold);
+        let w = observation.connections[0].wedge.unwrap();
         let ((s, c), (p_s, p_c)) = (law.angle.sin_cos(), f64::to_radians(toe).sin_cos());
         // going down: toe out rises in its pocket and is held down, toe in is held up
         let slope = if toe > 0.0 { -0.4 } else { 0.4 };
@@ -273,8 +276,8 @@ fn rise_follows_the_gap() {
         let law = wedge(true, straight(0.0, direction));
         let mut system = against_ground(Law::Wedge(law.clone()), Options::default());
         // the bolster goes away from its column by 0.1 in
-        let seen = at(&mut system, [-direction * 0.1 * INCH, 0.0, 0.0], [0.0; 3]);
-        let state = seen.connections[0].wedge.unwrap();
+        let observation = at(&mut system, [-direction * 0.1 * INCH, 0.0, 0.0], [0.0; 3]);
+        let state = observation.connections[0].wedge.unwrap();
         close(state.rise, 0.1 * INCH / law.angle.tan(), 1e-15);
         close(
             state.coil_force,
@@ -282,7 +285,7 @@ fn rise_follows_the_gap() {
             1e-8,
         );
         // the column pushes it back
-        assert!(seen.bodies[0].accelerations[0] * direction < 0.0);
+        assert!(observation.bodies[0].accelerations[0] * direction < 0.0);
     }
 }
 
@@ -326,8 +329,8 @@ fn the_branch_by_velocity() {
     let mut system = against_ground(Law::Wedge(law), options);
     let hold = [-0.001 * INCH, 0.0];
     for (v, expected) in [(-1e-4, 2882.7), (1e-4, 5435.9)] {
-        let seen = at_deflection(&mut system, [0.0; 3], [0.0, 0.0, v], hold);
-        let state = seen.connections[0].wedge.unwrap();
+        let observation = at_deflection(&mut system, [0.0; 3], [0.0, 0.0, v], hold);
+        let state = observation.connections[0].wedge.unwrap();
         close(state.column_normal / LBF, expected, 0.05);
         close(state.column_friction / LBF, 1000.0 - 1e3 * v / INCH, 1e-6);
     }
@@ -351,11 +354,15 @@ fn column_powers_are_those_observed() {
                 *value = random.between(-1e-3, 1e-3);
             }
             let time = random.between(0.0, 2.0);
-            let seen = system.clone().observe(time, &x);
-            let expected = seen.connections.iter().enumerate().filter_map(|(number, own)| {
-                let wedge = own.wedge?;
-                Some((number, -wedge.column_friction * own.velocities[0]))
-            });
+            let observation = system.clone().observe(time, &x);
+            let expected = observation
+                .connections
+                .iter()
+                .enumerate()
+                .filter_map(|(number, own)| {
+                    let wedge = own.wedge?;
+                    Some((number, -wedge.column_friction * own.velocities[0]))
+                });
             let mut found = Vec::new();
             system.column_powers(time, &x, |connection, power| found.push((connection, power)));
             found.sort_by_key(|(connection, _)| *connection);

@@ -3,7 +3,7 @@
 use super::repeated;
 use crate::finding::{Finding, Findings, Severity};
 use crate::read::Read;
-use crate::source::{Source, Span};
+use crate::source::{SourceText, Span};
 use crate::tree::{History, InputFile, Segment, Shape};
 
 /// Checks an input file alone.
@@ -117,7 +117,13 @@ fn shape(segment: &Segment, what: &str, findings: &mut Findings) {
 }
 
 /// A comment before the segment that names another shape.
-fn comments(source: &Source, before: Span, history: &History, segment: &Segment, findings: &mut Findings) {
+fn comments(
+    source: &SourceText,
+    before: Span,
+    history: &History,
+    segment: &Segment,
+    findings: &mut Findings,
+) {
     let text = source.slice(before);
     let own = *segment.shape;
     let moves = own != Shape::Null && *segment.amplitude != 0.0;

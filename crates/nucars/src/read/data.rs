@@ -8,7 +8,7 @@ use super::{FileKind, Read};
 use crate::finding::{Finding, Findings, Severity};
 use crate::lexer::TokenKind;
 use crate::number;
-use crate::source::{At, Source, Span, Spanned};
+use crate::source::{At, SourceText, Span, Spanned};
 use crate::tree::{
     BodyDofs, Component, DataFile, DataRequest, DataSection, DofQuantity, ElementQuantity, Sum, Terms,
 };
@@ -29,7 +29,7 @@ pub const KEYWORDS: &[&str] = &[
 
 /// Reads a data file. Sections that are switched off are read as far as they can be; what is wrong with them is noted
 /// only.
-pub fn read_data(source: &Arc<Source>) -> Read<DataFile> {
+pub fn read_data(source: &Arc<SourceText>) -> Read<DataFile> {
     let mut findings = Findings::new(source);
     let all = sections::split(source);
     sections::look_for_hidden(source, &all, FileKind::Data, &mut findings);
@@ -89,7 +89,7 @@ pub fn read_data(source: &Arc<Source>) -> Read<DataFile> {
     }
 }
 
-fn request(section: &Section, source: &Source, findings: &mut Findings) -> DataRequest {
+fn request(section: &Section, source: &SourceText, findings: &mut Findings) -> DataRequest {
     let mut fields = Fields::new(section.cursor(source), source.text(), Wrap::Counted, findings);
     let dofs = |fields: Fields<'_, '_>, quantity| {
         let (count, bodies) = dof_section(fields);

@@ -6,13 +6,13 @@ use super::fields::{Fields, Stop, Wrap, begins_numbered};
 use super::{FileKind, Read, sections};
 use crate::finding::{Finding, Findings, Severity};
 use crate::number;
-use crate::source::{At, Source, Spanned};
+use crate::source::{At, SourceText, Spanned};
 use crate::tree::{Argument, History, InputFile, Segment, Shape};
 
 pub const KEYWORDS: &[&str] = &["INPUT TITLE", "INPUT HISTORY DATA"];
 
 /// Reads an input file.
-pub fn read_input(source: &Arc<Source>) -> Read<InputFile> {
+pub fn read_input(source: &Arc<SourceText>) -> Read<InputFile> {
     let mut findings = Findings::new(source);
     let sections = sections::split(source);
     sections::look_for_hidden(source, &sections, FileKind::Input, &mut findings);

@@ -15,7 +15,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::finding::{FileErrors, Findings};
-use crate::source::Source;
+use crate::source::SourceText;
 use crate::tree::{DataFile, InputFile, RunFile, SystemFile};
 
 pub use data::read_data;
@@ -29,7 +29,7 @@ pub struct Read<T> {
     /// What could be read.
     pub tree: T,
     /// The text.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
     /// Mistakes and remarks, in the order of the text.
     pub findings: Findings,
 }
@@ -85,7 +85,7 @@ impl FileKind {
     }
 
     /// The kind by the ending of the name, or else by the first section that belongs to one kind.
-    pub fn of(source: &Source) -> Option<Self> {
+    pub fn of(source: &SourceText) -> Option<Self> {
         let ending = source.name().rsplit_once('.').map_or("", |(_, ending)| ending);
         let by_name = FileKind::ALL
             .into_iter()
@@ -126,7 +126,7 @@ pub enum AnyFile {
 }
 
 /// Reads a file of the given kind.
-pub fn read(source: &Arc<Source>, kind: FileKind) -> AnyFile {
+pub fn read(source: &Arc<SourceText>, kind: FileKind) -> AnyFile {
     match kind {
         FileKind::System => AnyFile::System(Box::new(read_system(source))),
         FileKind::Input => AnyFile::Input(Box::new(read_input(source))),

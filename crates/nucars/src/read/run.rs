@@ -6,7 +6,7 @@ use super::fields::{Fields, Stop, Wrap};
 use super::sections::{self, Section};
 use super::{FileKind, Read};
 use crate::finding::{Findings, Severity};
-use crate::source::{Source, Spanned};
+use crate::source::{SourceText, Spanned};
 use crate::tree::{Control, RunFile, Stepping};
 
 pub const KEYWORDS: &[&str] = &[
@@ -20,7 +20,7 @@ pub const KEYWORDS: &[&str] = &[
 ];
 
 /// Reads a run file.
-pub fn read_run(source: &Arc<Source>) -> Read<RunFile> {
+pub fn read_run(source: &Arc<SourceText>) -> Read<RunFile> {
     let mut findings = Findings::new(source);
     let sections = sections::split(source);
     sections::look_for_hidden(source, &sections, FileKind::Run, &mut findings);
@@ -72,7 +72,7 @@ pub fn read_run(source: &Arc<Source>) -> Read<RunFile> {
 
 fn values<T>(
     section: &Section,
-    source: &Source,
+    source: &SourceText,
     keyword: &'static str,
     findings: &mut Findings,
     read: impl Fn(&mut Fields<'_, '_>) -> Result<T, Stop>,

@@ -5,7 +5,7 @@ use quantity::nearest;
 use super::FileKind;
 use crate::finding::{Findings, Severity};
 use crate::lexer::Cursor;
-use crate::source::{Source, Span, Spanned};
+use crate::source::{SourceText, Span, Spanned};
 use crate::tree::{RawSection, Title};
 
 /// A section: from after its keyword to the next one.
@@ -23,7 +23,7 @@ impl Section {
         self.keyword.value == keyword
     }
 
-    pub fn cursor<'a>(&self, source: &'a Source) -> Cursor<'a> {
+    pub fn cursor<'a>(&self, source: &'a SourceText) -> Cursor<'a> {
         Cursor::new(source.text(), self.body.start as usize, self.body.end as usize)
     }
 }
@@ -32,7 +32,7 @@ impl Section {
 const MOST: usize = 10_000;
 
 /// Cuts a file at lines that begin with `\` in the first column, or with `$\` (switched off) in any.
-pub fn split(source: &Source) -> Vec<Section> {
+pub fn split(source: &SourceText) -> Vec<Section> {
     let text = source.text();
     let bytes = text.as_bytes();
     let mut sections: Vec<Section> = Vec::new();
@@ -136,7 +136,7 @@ pub fn required<'a>(
 pub fn others(
     sections: &[Section],
     known: &[&str],
-    source: &Source,
+    source: &SourceText,
     kind: FileKind,
     findings: &mut Findings,
 ) -> Vec<RawSection> {
@@ -184,7 +184,7 @@ pub fn others(
 }
 
 /// Warns of lines that look like keywords but have blanks before the `\`, and of files without any keyword.
-pub fn look_for_hidden(source: &Source, sections: &[Section], kind: FileKind, findings: &mut Findings) {
+pub fn look_for_hidden(source: &SourceText, sections: &[Section], kind: FileKind, findings: &mut Findings) {
     if source.is_latin1() {
         findings.note(
             "encoding",
@@ -228,7 +228,7 @@ pub fn look_for_hidden(source: &Source, sections: &[Section], kind: FileKind, fi
 }
 
 /// The lines of a piece without comments and blank ones.
-pub fn lines(source: &Source, span: Span) -> Vec<Spanned<String>> {
+pub fn lines(source: &SourceText, span: Span) -> Vec<Spanned<String>> {
     let mut at = span.start as usize;
     let mut found = Vec::new();
     for line in source.slice(span).split_inclusive('\n') {
@@ -243,7 +243,7 @@ pub fn lines(source: &Source, span: Span) -> Vec<Spanned<String>> {
 }
 
 /// The title section: its first line is the title, the others are notes.
-pub fn title(sections: &[Section], keyword: &str, source: &Source, findings: &mut Findings) -> Title {
+pub fn title(sections: &[Section], keyword: &str, source: &SourceText, findings: &mut Findings) -> Title {
     let Some(section) = only(sections, keyword, findings) else {
         if sections.is_empty() {
             return Title::default();

@@ -11,7 +11,7 @@ use super::{FileKind, Read};
 use crate::finding::{Finding, Findings, Severity};
 use crate::lexer::TokenKind;
 use crate::number;
-use crate::source::{At, Source, Spanned};
+use crate::source::{At, SourceText, Spanned};
 use crate::tree::{Body, Connection, Dof, Element, Group, InputBody, Pair, Single, SystemFile, Triple};
 
 pub const KEYWORDS: &[&str] = &[
@@ -27,7 +27,7 @@ pub const KEYWORDS: &[&str] = &[
 const TYPES: [&str; 9] = ["1", "1.1", "1.2", "1.3", "6.3", "6.5", "6.7", "6.8", "6.9"];
 
 /// Reads a system file.
-pub fn read_system(source: &Arc<Source>) -> Read<SystemFile> {
+pub fn read_system(source: &Arc<SourceText>) -> Read<SystemFile> {
     let mut findings = Findings::new(source);
     let sections = sections::split(source);
     sections::look_for_hidden(source, &sections, FileKind::System, &mut findings);

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use mechanics::body::Body;
 use mechanics::connection::{
-    Accumulator, Column, Connection, GapDamper, Law, SpringDamper, SurfaceFriction, Wedge,
+    Accumulator, ColumnFace, Connection, GapDamper, Law, SpringDamper, SurfaceFriction, Wedge,
 };
 use mechanics::curve::{Curve, CurveError};
 use mechanics::motion::Motion;
@@ -372,7 +372,7 @@ impl Laws<'_> {
             coil: self.coil(coil)?,
             preload: force * POUND,
             coil_in_bolster: coil == 0,
-            column: Column::Plain {
+            column: ColumnFace::Plain {
                 toe_out: toe == Toe::Out,
             },
             slope_friction,
@@ -460,7 +460,7 @@ impl Laws<'_> {
                 coil: self.coil(**coil)?,
                 preload: 0.0,
                 coil_in_bolster: !**variable,
-                column: Column::Profile {
+                column: ColumnFace::Profile {
                     depth: self.profile(**face)?,
                     direction: **direction,
                 },

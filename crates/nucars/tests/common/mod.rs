@@ -3,7 +3,7 @@
 #![allow(dead_code, clippy::unwrap_used)]
 
 use nucars::read::{Read, read_data, read_input, read_run, read_system};
-use nucars::source::Source;
+use nucars::source::SourceText;
 use nucars::tree::SystemFile;
 use nucars::{Finding, Findings, Severity, builtin, check};
 
@@ -20,26 +20,26 @@ pub fn text(name: &str) -> &'static str {
 
 /// All findings of a system file's text.
 pub fn system(text: &str) -> Read<SystemFile> {
-    let read = read_system(&Source::from_text("a.sys", text).unwrap());
+    let read = read_system(&SourceText::from_text("a.sys", text).unwrap());
     let more = check::system(&read);
     read.with(more)
 }
 
 pub fn input(text: &str) -> Findings {
-    let read = read_input(&Source::from_text("a.inp", text).unwrap());
+    let read = read_input(&SourceText::from_text("a.inp", text).unwrap());
     let more = check::input(&read);
     read.with(more).findings
 }
 
 pub fn data(text: &str, system_name: &str) -> Findings {
-    let read = read_data(&Source::from_text("a.dat", text).unwrap());
+    let read = read_data(&SourceText::from_text("a.dat", text).unwrap());
     let alone = check::data(&read);
     let more = check::data_of_system(&read, &system(self::text(system_name)).tree);
     read.with(alone).with(more).findings
 }
 
 pub fn run(text: &str) -> Findings {
-    let read = read_run(&Source::from_text("a.run", text).unwrap());
+    let read = read_run(&SourceText::from_text("a.run", text).unwrap());
     let more = check::run(&read);
     read.with(more).findings
 }

@@ -5,7 +5,7 @@ use quantity::{Kind, System as Units};
 use study::truck::catalog::WedgeType;
 use wedge::parameters::Damping;
 
-use super::{Group, Model, Stroke};
+use super::{ComparedModel, Group, Stroke};
 use crate::figures::digits;
 
 /// The sentences.
@@ -121,7 +121,7 @@ fn yaw(group: &Group) -> Vec<String> {
     if group
         .models
         .iter()
-        .any(|numbers| numbers.model == Model::Type(WedgeType::Spatial))
+        .any(|numbers| numbers.model == ComparedModel::Type(WedgeType::Spatial))
     {
         texts.push(
             "Type 6.9 feels the swing more than type 6.8: its pocket goes to and fro along the track, which lifts the wedge against \

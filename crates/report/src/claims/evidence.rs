@@ -76,12 +76,12 @@ impl RunId {
 
 /// A run that a predicate names: of the stand-alone wedge, or of the half-truck with wedges of a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Source {
+pub(super) struct EvidenceSource {
     run: RunId,
     wedges: Option<WedgeType>,
 }
 
-impl fmt::Display for Source {
+impl fmt::Display for EvidenceSource {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(wedges) = self.wedges {
             write!(f, "type {}, ", wedges.code())?;
@@ -108,43 +108,43 @@ impl fmt::Display for RunId {
 pub(super) mod runs {
     use study::truck::catalog::WedgeType;
 
-    use super::{RunId, Source, Toe};
+    use super::{EvidenceSource, RunId, Toe};
 
-    const fn id(constant: bool, toe: Toe, yawed: bool) -> Source {
-        Source {
+    const fn id(constant: bool, toe: Toe, yawed: bool) -> EvidenceSource {
+        EvidenceSource {
             run: RunId { constant, toe, yawed },
             wedges: None,
         }
     }
 
-    const fn truck(wedges: WedgeType, alone: Source) -> Source {
-        Source {
+    const fn truck(wedges: WedgeType, alone: EvidenceSource) -> EvidenceSource {
+        EvidenceSource {
             run: alone.run,
             wedges: Some(wedges),
         }
     }
 
-    pub(in crate::claims) const vd_out: Source = id(false, Toe::Out, false);
-    pub(in crate::claims) const vd_none: Source = id(false, Toe::None, false);
-    pub(in crate::claims) const vd_in: Source = id(false, Toe::In, false);
-    pub(in crate::claims) const vd_out_yaw: Source = id(false, Toe::Out, true);
-    pub(in crate::claims) const vd_none_yaw: Source = id(false, Toe::None, true);
-    pub(in crate::claims) const vd_in_yaw: Source = id(false, Toe::In, true);
-    pub(in crate::claims) const cd_out: Source = id(true, Toe::Out, false);
-    pub(in crate::claims) const cd_none: Source = id(true, Toe::None, false);
-    pub(in crate::claims) const cd_in: Source = id(true, Toe::In, false);
-    pub(in crate::claims) const cd_out_yaw: Source = id(true, Toe::Out, true);
-    pub(in crate::claims) const cd_none_yaw: Source = id(true, Toe::None, true);
-    pub(in crate::claims) const cd_in_yaw: Source = id(true, Toe::In, true);
+    pub(in crate::claims) const vd_out: EvidenceSource = id(false, Toe::Out, false);
+    pub(in crate::claims) const vd_none: EvidenceSource = id(false, Toe::None, false);
+    pub(in crate::claims) const vd_in: EvidenceSource = id(false, Toe::In, false);
+    pub(in crate::claims) const vd_out_yaw: EvidenceSource = id(false, Toe::Out, true);
+    pub(in crate::claims) const vd_none_yaw: EvidenceSource = id(false, Toe::None, true);
+    pub(in crate::claims) const vd_in_yaw: EvidenceSource = id(false, Toe::In, true);
+    pub(in crate::claims) const cd_out: EvidenceSource = id(true, Toe::Out, false);
+    pub(in crate::claims) const cd_none: EvidenceSource = id(true, Toe::None, false);
+    pub(in crate::claims) const cd_in: EvidenceSource = id(true, Toe::In, false);
+    pub(in crate::claims) const cd_out_yaw: EvidenceSource = id(true, Toe::Out, true);
+    pub(in crate::claims) const cd_none_yaw: EvidenceSource = id(true, Toe::None, true);
+    pub(in crate::claims) const cd_in_yaw: EvidenceSource = id(true, Toe::In, true);
 
-    pub(in crate::claims) const vd_out_68: Source = truck(WedgeType::Plain, vd_out);
-    pub(in crate::claims) const vd_out_69: Source = truck(WedgeType::Spatial, vd_out);
-    pub(in crate::claims) const vd_out_yaw_68: Source = truck(WedgeType::Plain, vd_out_yaw);
-    pub(in crate::claims) const vd_out_yaw_69: Source = truck(WedgeType::Spatial, vd_out_yaw);
-    pub(in crate::claims) const cd_out_68: Source = truck(WedgeType::Plain, cd_out);
-    pub(in crate::claims) const cd_out_69: Source = truck(WedgeType::Spatial, cd_out);
-    pub(in crate::claims) const cd_out_yaw_68: Source = truck(WedgeType::Plain, cd_out_yaw);
-    pub(in crate::claims) const cd_out_yaw_69: Source = truck(WedgeType::Spatial, cd_out_yaw);
+    pub(in crate::claims) const vd_out_68: EvidenceSource = truck(WedgeType::Plain, vd_out);
+    pub(in crate::claims) const vd_out_69: EvidenceSource = truck(WedgeType::Spatial, vd_out);
+    pub(in crate::claims) const vd_out_yaw_68: EvidenceSource = truck(WedgeType::Plain, vd_out_yaw);
+    pub(in crate::claims) const vd_out_yaw_69: EvidenceSource = truck(WedgeType::Spatial, vd_out_yaw);
+    pub(in crate::claims) const cd_out_68: EvidenceSource = truck(WedgeType::Plain, cd_out);
+    pub(in crate::claims) const cd_out_69: EvidenceSource = truck(WedgeType::Spatial, cd_out);
+    pub(in crate::claims) const cd_out_yaw_68: EvidenceSource = truck(WedgeType::Plain, cd_out_yaw);
+    pub(in crate::claims) const cd_out_yaw_69: EvidenceSource = truck(WedgeType::Spatial, cd_out_yaw);
 }
 
 /// The runs that there are.
@@ -196,7 +196,7 @@ impl<'a> Evidence<'a> {
     }
 
     /// A run that is there, complete, and moves in cycles.
-    fn find(&self, source: Source) -> Result<Seen<'a>, String> {
+    fn find(&self, source: EvidenceSource) -> Result<Seen<'a>, String> {
         let Some((case, result)) = self.runs.get(&source.run) else {
             return Err(format!("the run \"{}\" was not made", source.run));
         };
@@ -268,7 +268,7 @@ impl<'a> TableOf<'a> {
 /// A run found.
 #[derive(Clone, Copy)]
 struct Seen<'a> {
-    source: Source,
+    source: EvidenceSource,
     case: &'a Case,
     table: TableOf<'a>,
     cycle: Cycle,
@@ -425,7 +425,7 @@ impl Finding {
 /// Evaluates a predicate on the runs that it names.
 pub(super) fn decide<const N: usize>(
     evidence: &Evidence<'_>,
-    runs: [Source; N],
+    runs: [EvidenceSource; N],
     holds: impl Fn([View<'_>; N]) -> bool,
 ) -> Finding {
     let found = runs.map(|id| evidence.find(id));

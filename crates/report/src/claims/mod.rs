@@ -41,7 +41,7 @@ pub use evidence::{Evidence, Finding, RunId, Toe, Value, Verdict};
 use std::io::{self, Write};
 
 use serde::Serialize;
-use study::summary::Measure;
+use study::summary::SummaryValue;
 
 /// Version of the structure of [`Row`], for files.
 pub const SCHEMA: &str = "wedgelab.claims/1";
@@ -140,7 +140,7 @@ pub struct Shown {
     pub label: String,
     /// The value and its unit.
     #[serde(flatten)]
-    pub measure: Measure,
+    pub measure: SummaryValue,
 }
 
 /// All verdicts, as they are written into a file.
@@ -225,7 +225,7 @@ pub fn evaluate(evidence: &Evidence<'_>) -> Vec<Row> {
                     .filter(|found| !found.value.is_nan())
                     .map(|found| Shown {
                         label: found.label,
-                        measure: Measure::new(found.value, found.kind, units),
+                        measure: SummaryValue::new(found.value, found.kind, units),
                     })
                     .collect(),
                 note: match finding.verdict {

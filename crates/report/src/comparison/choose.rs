@@ -3,7 +3,7 @@
 use quantity::nearest;
 
 use super::{ComparisonError, Entry, MAIN};
-use crate::table::Column;
+use crate::table::TableColumn;
 
 /// The columns to compare, without units.
 pub(super) fn choose(
@@ -12,7 +12,7 @@ pub(super) fn choose(
     wanted: &[String],
     notes: &mut Vec<String>,
 ) -> Result<Vec<String>, ComparisonError> {
-    let clash = |own: &Column, other: &Entry| {
+    let clash = |own: &TableColumn, other: &Entry| {
         let theirs = other.table.find(&own.name)?;
         (theirs.kind.dimension() != own.kind.dimension()).then(|| ComparisonError::Kinds {
             column: own.name.clone(),
@@ -41,7 +41,7 @@ pub(super) fn choose(
         }
         return Ok(chosen);
     }
-    let mut common: Vec<&Column> = first
+    let mut common: Vec<&TableColumn> = first
         .table
         .columns()
         .iter()
@@ -73,7 +73,7 @@ pub(super) fn choose(
 }
 
 /// The error, with names that may be meant to be the same.
-fn nothing_in_common(first: &Entry, other: &Entry, own: &[&Column]) -> ComparisonError {
+fn nothing_in_common(first: &Entry, other: &Entry, own: &[&TableColumn]) -> ComparisonError {
     const MOST: usize = 3;
     let theirs = || {
         let names = other.table.columns().iter().map(|column| column.name.as_str());

@@ -7,7 +7,7 @@ use input::file::{Expected, Reason, read};
 use input::{FileType, limits, shortened};
 use quantity::{Kind, System as Units};
 use serde::Deserialize;
-use study::summary::Measure;
+use study::summary::SummaryValue;
 
 use super::{Energy, Entry};
 use crate::{csv, summary};
@@ -27,7 +27,7 @@ struct SummaryPart {
 
 #[derive(Deserialize)]
 struct AveragesPart {
-    energy_per_cycle: BTreeMap<String, Measure>,
+    energy_per_cycle: BTreeMap<String, SummaryValue>,
 }
 
 /// Energies per cycle of the results whose summaries have them, as the first one's has.
@@ -81,7 +81,7 @@ fn summary_beside(file: &Path) -> Result<Option<SummaryPart>, String> {
 }
 
 /// An energy in these units.
-fn energy(measure: &Measure, units: Units) -> Option<f64> {
+fn energy(measure: &SummaryValue, units: Units) -> Option<f64> {
     let own = [Units::Us, Units::Si]
         .into_iter()
         .find(|own| Kind::Energy.label(*own) == measure.unit)?;

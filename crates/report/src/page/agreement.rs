@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 use quantity::{Kind, System as Units};
 use study::energy;
-use study::summary::Measure;
+use study::summary::SummaryValue;
 
 use crate::agreement::{COMPONENT, Group, TruckOutcome, mean_yaw, percent};
 use crate::figures::{capital, digits};
@@ -87,11 +87,12 @@ fn agreement(group: &Group, units: Units) -> Markup {
 }
 
 fn trucks(trucks: &[TruckOutcome]) -> Markup {
-    let unit = |of: fn(&TruckOutcome) -> Option<&Measure>| {
+    let unit = |of: fn(&TruckOutcome) -> Option<&SummaryValue>| {
         let found = trucks.iter().find_map(of);
         found.map_or(String::new(), |measure| measure.unit.clone())
     };
-    let cell = |measure: Option<&Measure>| measure.map_or("–".to_owned(), |m| format!("{:.1}", m.value));
+    let cell =
+        |measure: Option<&SummaryValue>| measure.map_or("–".to_owned(), |m| format!("{:.1}", m.value));
     html! {
         h3 { "All runs of the half-truck" }
         p {
@@ -148,19 +149,19 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
     }
 }
 
-fn up((_, result): &TruckOutcome) -> Option<&Measure> {
+fn up((_, result): &TruckOutcome) -> Option<&SummaryValue> {
     result.summary.wedges.get(COMPONENT)?.up.as_ref()
 }
 
-fn down((_, result): &TruckOutcome) -> Option<&Measure> {
+fn down((_, result): &TruckOutcome) -> Option<&SummaryValue> {
     result.summary.wedges.get(COMPONENT)?.down.as_ref()
 }
 
-fn energy((_, result): &TruckOutcome) -> Option<&Measure> {
+fn energy((_, result): &TruckOutcome) -> Option<&SummaryValue> {
     result.summary.wedges.get(COMPONENT)?.energy_per_cycle.as_ref()
 }
 
-fn normal((_, result): &TruckOutcome) -> Option<&Measure> {
+fn normal((_, result): &TruckOutcome) -> Option<&SummaryValue> {
     result
         .summary
         .wedges

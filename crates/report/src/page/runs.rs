@@ -1,7 +1,7 @@
 //! The table of runs, their assumptions, and their files.
 
 use maud::{Markup, html};
-use study::summary::{Measure, Summary};
+use study::summary::{Summary, SummaryValue};
 
 use super::{Contents, FIGURES};
 use crate::figures::{Outcome, toe_style, yaw};
@@ -9,11 +9,11 @@ use crate::run_files;
 
 /// The table of runs.
 pub(super) fn table(outcomes: &[Outcome]) -> Markup {
-    let unit = |of: fn(&Summary) -> Option<&Measure>| {
+    let unit = |of: fn(&Summary) -> Option<&SummaryValue>| {
         let found = outcomes.iter().find_map(|(_, result)| of(&result.summary));
         found.map_or(String::new(), |measure| measure.unit.clone())
     };
-    let cell = |measure: Option<&Measure>| {
+    let cell = |measure: Option<&SummaryValue>| {
         measure.map_or("–".to_owned(), |measure| format!("{:.1}", measure.value))
     };
     if outcomes.is_empty() {
@@ -78,19 +78,19 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
 /// What is said of a run that has failed, behind its name.
 pub(super) const FAILED: &str = " has failed: do not use its numbers";
 
-fn up(summary: &Summary) -> Option<&Measure> {
+fn up(summary: &Summary) -> Option<&SummaryValue> {
     summary.averages.up.get("vertical_wedge_force")
 }
 
-fn down(summary: &Summary) -> Option<&Measure> {
+fn down(summary: &Summary) -> Option<&SummaryValue> {
     summary.averages.down.get("vertical_wedge_force")
 }
 
-fn energy(summary: &Summary) -> Option<&Measure> {
+fn energy(summary: &Summary) -> Option<&SummaryValue> {
     summary.averages.energy_per_cycle.get("side_frame")
 }
 
-fn equivalent(summary: &Summary) -> Option<&Measure> {
+fn equivalent(summary: &Summary) -> Option<&SummaryValue> {
     summary.averages.equivalent_damping.as_ref()
 }
 

@@ -31,12 +31,12 @@ pub(super) struct Header {
 }
 
 /// Where the line of names stands.
-pub(super) struct Place<'p> {
+pub(super) struct HeaderLocation<'p> {
     pub file: &'p Path,
     pub line: u64,
 }
 
-impl Place<'_> {
+impl HeaderLocation<'_> {
     fn error(&self, problem: impl Into<String>, advice: impl Into<String>) -> TableError {
         TableError::Header {
             file: self.file.to_owned(),
@@ -48,7 +48,7 @@ impl Place<'_> {
 }
 
 /// Understands the line of names.
-pub(super) fn read(place: &Place<'_>, cells: &[&str]) -> Result<Header, TableError> {
+pub(super) fn read(place: &HeaderLocation<'_>, cells: &[&str]) -> Result<Header, TableError> {
     if cells.iter().all(|cell| cell.parse::<f64>().is_ok()) {
         return Err(place.error(
             "numbers stand where the names of the columns are expected",
@@ -103,7 +103,7 @@ pub(super) fn read(place: &Place<'_>, cells: &[&str]) -> Result<Header, TableErr
 
 /// The system of units of all names; an error if there are two.
 fn mixture<'n>(
-    place: &Place<'_>,
+    place: &HeaderLocation<'_>,
     names: impl Iterator<Item = &'n Name> + Clone,
 ) -> Result<Option<Units>, TableError> {
     let first = |units| names.clone().find(|name| name.units == Some(units));
@@ -129,7 +129,7 @@ fn known() -> BTreeMap<String, Kind> {
 }
 
 fn understand(
-    place: &Place<'_>,
+    place: &HeaderLocation<'_>,
     index: usize,
     cell: &str,
     known: &BTreeMap<String, Kind>,

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use mechanics::connection::{Column as Face, Law, Wedge};
+use mechanics::connection::{ColumnFace as Face, Law, Wedge};
 use mechanics::output::Column;
 use nucars::truck::Truck;
 use quantity::Kind;
@@ -16,7 +16,7 @@ use wedge::parameters::Damping;
 
 use super::run::Plot;
 use super::scene::{
-    End, FACTOR, Look, Place, Role, Scene, SceneBody, SceneCoil, SceneContact, Solid, extruded,
+    End, FACTOR, Look, Role, Scene, SceneBody, SceneCoil, SceneContact, Solid, SolidPose, extruded,
 };
 
 const INCH: f64 = 0.0254;
@@ -324,7 +324,7 @@ fn side_frame_solids(
         let (from, to) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
         let (above, below) = (0.95 * height, wedge.point[2] - seat);
         solids.push(Solid {
-            mount: Place {
+            mount: SolidPose {
                 position: less(wedge.point, center),
                 angles: [0.0, wedge.toe(), 0.0],
             },
@@ -342,7 +342,7 @@ fn side_frame_solids(
     }
     let y = own[0].point[1] - center[1];
     let block = |what: &str, [from, to]: [f64; 2], [below, above]: [f64; 2]| Solid {
-        mount: Place {
+        mount: SolidPose {
             position: [0.0, y, 0.0],
             angles: [0.0; 3],
         },
@@ -435,7 +435,7 @@ fn add_wedge(scene: &mut Scene, truck: &Truck, wedge: &Seen<'_>, (height, width,
         let foot = wedge.point[2] - half - 0.6 * (wedge.point[2] - half - seat);
         let radius = 0.5 * length;
         scene.solids.push(Solid {
-            mount: Place {
+            mount: SolidPose {
                 position: less([at, wedge.point[1], foot], center(wedge.bolster)),
                 angles: [0.0; 3],
             },

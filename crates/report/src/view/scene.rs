@@ -79,7 +79,7 @@ pub struct SceneBody {
 
 /// Where something sits on its body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Place {
+pub struct SolidPose {
     /// From the body's origin, body axes.
     pub position: [f64; 3],
     /// Roll, pitch, yaw relative to the body.
@@ -114,7 +114,7 @@ pub struct Solid {
     /// Its body.
     pub body: String,
     /// Where it sits.
-    pub mount: Place,
+    pub mount: SolidPose,
     /// Its corners in the mount's axes.
     pub vertices: Vec<[f64; 3]>,
     /// Its faces, anticlockwise seen from outside: places in `vertices`.
@@ -254,7 +254,7 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
 
     let face_x = parameters.column_face();
     let wedge_solid = Solid {
-        mount: Place::default(),
+        mount: SolidPose::default(),
         ..extruded(
             ("wedge", "wedge", Role::Wedge, "wedge"),
             &[[face_x, 0.0], [face_x + bottom, 0.0], [face_x, height]],
@@ -263,8 +263,8 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
     };
     let half = 0.5 * height + travel + 0.1 * height;
     let column = Solid {
-        mount: Place {
-            position: system.faces()[COLUMN].mount.origin.0,
+        mount: SolidPose {
+            position: system.faces()[COLUMN].marker.origin.0,
             angles: [0.0, parameters.toe, 0.0],
         },
         ..extruded(
@@ -278,7 +278,7 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
             1.1 * width,
         )
     };
-    let slope = &system.faces()[SLOPE].mount;
+    let slope = &system.faces()[SLOPE].marker;
     let normal: Vector<f64> = slope.rotation.apply(Vector([1.0, 0.0, 0.0]));
     // Down along the slope, in the plane of x and z; the surface goes on a little beyond the wedge.
     let down = [-normal.0[2], normal.0[0]];
@@ -289,7 +289,7 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
     );
     let back = low[0] + 0.3 * height;
     let pocket = Solid {
-        mount: Place {
+        mount: SolidPose {
             position: slope.origin.0,
             angles: [0.0; 3],
         },
@@ -306,8 +306,8 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
     let control = &system.coils()[0];
     let radius = 0.4 * bottom;
     let seat = Solid {
-        mount: Place {
-            position: control.mount.origin.0,
+        mount: SolidPose {
+            position: control.marker.origin.0,
             angles: [0.0; 3],
         },
         ..extruded(
@@ -325,7 +325,7 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
         name: "control coil".to_owned(),
         from: End {
             body: seat_body.to_owned(),
-            point: control.mount.origin.0,
+            point: control.marker.origin.0,
         },
         to: End {
             body: "wedge".to_owned(),
@@ -405,7 +405,7 @@ pub(super) fn extruded(
         name: name.to_owned(),
         role,
         body: body.to_owned(),
-        mount: Place::default(),
+        mount: SolidPose::default(),
         vertices: side(-0.5 * width).chain(side(0.5 * width)).collect(),
         triangles,
     }

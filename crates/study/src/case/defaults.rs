@@ -1,7 +1,7 @@
 //! The thesis's values, which complete what a case leaves out: they are case files themselves.
 
 use super::document::{Damping, METHODS};
-use super::problem::{Problems, Source};
+use super::problem::{Problems, TomlSource};
 use super::section::name_of;
 use super::tree::{self, Table};
 use integrate::Method;
@@ -93,7 +93,7 @@ pub(super) fn tree(damping: Damping) -> Result<Table, Problems> {
     );
     let mut table = Table::default();
     for text in [own, COMMON, &method] {
-        table.complete_from(&tree::parse(&Source::new(SOURCE, text))?);
+        table.complete_from(&tree::parse(&TomlSource::new(SOURCE, text))?);
     }
     Ok(table)
 }

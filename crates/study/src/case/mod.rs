@@ -40,7 +40,7 @@ pub use tables::Tables;
 use input::file::{Expected, Reason, read_text};
 use input::{FileType, limits};
 use integrate::Method;
-use problem::{Problems, Source};
+use problem::{Problems, TomlSource};
 use quantity::System;
 use std::path::Path;
 use wedge::parameters::Parameters;
@@ -100,7 +100,7 @@ impl Case {
         overrides: &[String],
     ) -> Result<Self, CaseError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut tree = tree::parse(&Source::new(source, text)).map_err(CaseError::new)?;
+        let mut tree = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
         if let Some(study) = STUDY_KEYS.iter().find_map(|key| tree.entry(key)) {
             let problem = Problem::new(format!("{source} is a study file; a case file is expected"));
             let problem = problem.at(&study.key_place).label("only a study has this");

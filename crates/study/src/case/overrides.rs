@@ -1,6 +1,6 @@
 //! `--set path.key=value`: single values laid over a case.
 
-use super::problem::{Place, Problem, Problems, Source};
+use super::problem::{Problem, Problems, TomlLocation, TomlSource};
 use super::tree::{self, Entry, Table, Value};
 use std::sync::Arc;
 
@@ -21,8 +21,8 @@ pub(super) fn apply(tree: &mut Table, overrides: &[String]) -> Problems {
 
 /// The tables on the way, and the last key with its value.
 fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Problems> {
-    let source = Source::new(SOURCE, text);
-    let whole = Place {
+    let source = TomlSource::new(SOURCE, text);
+    let whole = TomlLocation {
         source: Arc::clone(&source),
         span: 0..text.len(),
     };
@@ -48,7 +48,7 @@ fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Problems> {
         Ok(table) => (table, equals),
         // Shells take quotes away: `wedge.angle=30 deg` is meant as text.
         Err(_) if !value.starts_with(['"', '\'', '[', '{']) => {
-            let quoted = Source::new(SOURCE, format!("{key}={}", toml::Value::from(value)));
+            let quoted = TomlSource::new(SOURCE, format!("{key}={}", toml::Value::from(value)));
             (tree::parse(&quoted)?, key.len())
         }
         Err(problems) => return Err(problems),

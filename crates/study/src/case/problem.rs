@@ -8,13 +8,13 @@ use std::sync::Arc;
 
 /// A text that was read: a case file, a table, or what was given to `--set`.
 #[derive(Debug)]
-pub(crate) struct Source {
+pub(crate) struct TomlSource {
     named: Text,
     /// Whether a bare number where a quantity is expected is one in SI units.
     pub bare_numbers_are_si: bool,
 }
 
-impl Source {
+impl TomlSource {
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
         Arc::new(Self::of(name.into(), text.into(), false))
     }
@@ -25,7 +25,7 @@ impl Source {
     }
 
     fn of(name: String, text: String, bare_numbers_are_si: bool) -> Self {
-        Source {
+        TomlSource {
             named: Text::new(name, text),
             bare_numbers_are_si,
         }
@@ -43,13 +43,13 @@ impl Source {
 
 /// A piece of a source.
 #[derive(Clone, Debug)]
-pub(crate) struct Place {
-    pub source: Arc<Source>,
+pub(crate) struct TomlLocation {
+    pub source: Arc<TomlSource>,
     /// In bytes.
     pub span: Range<usize>,
 }
 
-impl Place {
+impl TomlLocation {
     pub fn text(&self) -> &str {
         self.source.named.slice(self.span.clone())
     }
@@ -61,7 +61,7 @@ pub struct Problem {
     message: String,
     label: String,
     help: Option<String>,
-    place: Option<Place>,
+    place: Option<TomlLocation>,
 }
 
 impl Problem {
@@ -75,7 +75,7 @@ impl Problem {
         }
     }
 
-    pub(crate) fn at(mut self, place: &Place) -> Self {
+    pub(crate) fn at(mut self, place: &TomlLocation) -> Self {
         self.place = Some(place.clone());
         self
     }
@@ -91,7 +91,7 @@ impl Problem {
     }
 
     /// The same mistake, shown where the text that led to it was written.
-    pub(crate) fn moved_to(mut self, place: &Place) -> Self {
+    pub(crate) fn moved_to(mut self, place: &TomlLocation) -> Self {
         if self.label.is_empty() {
             self.label = "this value".into();
         }
@@ -101,7 +101,7 @@ impl Problem {
 
     /// The same mistake in a file that must not be quoted: its place there and its kind, shown where the file was
     /// named. Labels, which tell the kind, never quote a text.
-    pub(crate) fn without_quoting(self, file: &str, path: &str, named: &Place) -> Self {
+    pub(crate) fn without_quoting(self, file: &str, path: &str, named: &TomlLocation) -> Self {
         let inside = (self.place.as_ref()).is_some_and(|place| !Arc::ptr_eq(&place.source, &named.source));
         if !inside {
             return self;
@@ -129,7 +129,7 @@ impl Problem {
     }
 
     /// Whether it is shown at this place.
-    pub(crate) fn is_at(&self, other: &Place) -> bool {
+    pub(crate) fn is_at(&self, other: &TomlLocation) -> bool {
         self.place
             .as_ref()
             .is_some_and(|place| place.span == other.span && place.source.name() == other.source.name())
@@ -160,7 +160,7 @@ impl Problem {
 
     /// The text the mistake is marked at.
     pub fn marked_text(&self) -> Option<&str> {
-        self.place.as_ref().map(Place::text)
+        self.place.as_ref().map(TomlLocation::text)
     }
 
     /// Line and column of the mistake, from 1; columns count characters.

@@ -3,7 +3,7 @@
 use super::bounds;
 use super::document::*;
 use super::motion;
-use super::problem::{Place, Problem, Problems};
+use super::problem::{Problem, Problems, TomlLocation};
 use super::section::{self, Range, Section, inner_place, unit_problem};
 use super::table::{self, Form};
 use super::tables::Tables;
@@ -238,7 +238,7 @@ fn read_free_coordinates(s: &Section<'_>, problems: &mut Problems) -> Option<Vec
                 free_coordinates = [\"x\", \"z\", \"pitch\", \"yaw\"]";
     let node = s.require("free_coordinates", help, problems)?;
     let path = s.path_of("free_coordinates");
-    let mut bad = |message: String, place: &Place, label: &str| {
+    let mut bad = |message: String, place: &TomlLocation, label: &str| {
         problems.push(Problem::new(message).at(place).label(label).help(help));
         None
     };
@@ -392,7 +392,7 @@ fn read_toe(s: &Section<'_>, problems: &mut Problems) -> Option<Toe> {
         Some((angle, "in")) => (angle, Some(ToeDirection::In)),
         _ => (trimmed, None),
     };
-    let mut bad = |problem: Problem, place: &Place, label: &str| {
+    let mut bad = |problem: Problem, place: &TomlLocation, label: &str| {
         problems.push(problem.at(place).label(label).help(HELP));
         None
     };

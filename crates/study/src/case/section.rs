@@ -1,7 +1,7 @@
 //! Reading one table of a case: typed values, ranges, unknown keys.
 
 use super::bounds;
-use super::problem::{Place, Problem, Problems};
+use super::problem::{Problem, Problems, TomlLocation};
 use super::tree::{Node, Table, Value};
 use input::shortened;
 use quantity::{Kind, Quantity, System, UnitError, nearest};
@@ -59,7 +59,7 @@ pub(crate) struct Section<'a> {
     pub path: String,
     pub table: &'a Table,
     /// Where the table is named.
-    pub place: Option<Place>,
+    pub place: Option<TomlLocation>,
 }
 
 impl<'a> Section<'a> {
@@ -373,7 +373,7 @@ pub(crate) fn quantity(
 }
 
 /// The mistake of a quantity, at its place.
-pub(crate) fn unit_problem(error: &UnitError, path: &str, kind: Kind, place: &Place) -> Problem {
+pub(crate) fn unit_problem(error: &UnitError, path: &str, kind: Kind, place: &TomlLocation) -> Problem {
     let label = match error {
         UnitError::UnknownUnit { .. } => "unknown unit".to_string(),
         UnitError::MissingUnit { .. } => "a unit is missing".to_string(),
@@ -388,7 +388,7 @@ pub(crate) fn unit_problem(error: &UnitError, path: &str, kind: Kind, place: &Pl
 }
 
 /// The part of a text in quotes that an error speaks of.
-pub(crate) fn inner_place(node: &Node, error: &UnitError) -> Place {
+pub(crate) fn inner_place(node: &Node, error: &UnitError) -> TomlLocation {
     let raw = node.place.text();
     let mut place = node.place.clone();
     if let Value::Text(text) = &node.value

@@ -4,7 +4,7 @@
 //! point. Empty lines and lines that begin with `#` do not count.
 
 use super::bounds;
-use super::problem::{CaseError, Place, Problem, Problems, Source};
+use super::problem::{CaseError, Problem, Problems, TomlLocation, TomlSource};
 use super::section::{self, Range, Section};
 use super::tables::Tables;
 use super::tree::{Node, Value};
@@ -41,8 +41,8 @@ impl QuantityTable {
     }
 
     fn parse(name: &str, text: &str, form: &Form) -> Result<Self, CaseError> {
-        let source = Source::new(name, text.strip_prefix('\u{feff}').unwrap_or(text));
-        let begin = Place {
+        let source = TomlSource::new(name, text.strip_prefix('\u{feff}').unwrap_or(text));
+        let begin = TomlLocation {
             source: Arc::clone(&source),
             span: 0..0,
         };
@@ -127,7 +127,7 @@ impl Form {
 
 struct Row {
     values: [Quantity; 2],
-    place: Place,
+    place: TomlLocation,
 }
 
 /// Reads the table under one of two keys: the name of a file, or the points.
@@ -287,7 +287,7 @@ fn read_file(
             return None;
         }
     };
-    read_csv(&Source::new(shown, text), form, problems)
+    read_csv(&TomlSource::new(shown, text), form, problems)
 }
 
 /// What the file of a table must be.
@@ -297,9 +297,9 @@ const TABLE_FILE: Expected = Expected {
     most: limits::TEXT_FILE,
 };
 
-fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Problems) -> Option<Vec<Row>> {
+fn read_csv(source: &Arc<TomlSource>, form: &Form, problems: &mut Problems) -> Option<Vec<Row>> {
     if let Err(excess) = structure::lines(source.text()) {
-        let place = Place {
+        let place = TomlLocation {
             source: Arc::clone(source),
             span: excess.span(),
         };
@@ -319,7 +319,7 @@ fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Problems) -> Optio
         form.example_header()
     );
     let Some((at, header)) = lines.next() else {
-        let place = Place {
+        let place = TomlLocation {
             source: Arc::clone(source),
             span: 0..0,
         };
@@ -329,7 +329,7 @@ fn read_csv(source: &Arc<Source>, form: &Form, problems: &mut Problems) -> Optio
     };
     let place = |at: usize, cell: &str| {
         let lead = cell.len() - cell.trim_start().len();
-        Place {
+        TomlLocation {
             source: Arc::clone(source),
             span: at + lead..at + lead + cell.trim().len(),
         }
@@ -412,7 +412,7 @@ fn cells(line: &str, at: usize) -> impl Iterator<Item = (usize, &str)> {
 }
 
 /// Checks that there are enough rows and that they are in order.
-fn check(rows: &[Row], place: &Place, path: &str, form: &Form, problems: &mut Problems) -> Option<()> {
+fn check(rows: &[Row], place: &TomlLocation, path: &str, form: &Form, problems: &mut Problems) -> Option<()> {
     let [first, second] = form.names;
     if let Some(row) = rows.get(limits::TABLE_ROWS) {
         let message = format!(

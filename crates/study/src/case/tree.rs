@@ -3,7 +3,7 @@
 //! Three trees are laid over each other: the thesis's values, the file, and what `--set` gives.
 //! Whatever turns out to be wrong can still be shown where it was written.
 
-use super::problem::{Place, Problem, Problems, Source};
+use super::problem::{Problem, Problems, TomlLocation, TomlSource};
 use input::structure;
 use std::sync::Arc;
 use toml::Spanned;
@@ -12,7 +12,7 @@ use toml::de::{DeTable, DeValue};
 /// A value and its place.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
-    pub place: Place,
+    pub place: TomlLocation,
     pub value: Value,
 }
 
@@ -37,14 +37,14 @@ pub(crate) struct Table {
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
     pub key: String,
-    pub key_place: Place,
+    pub key_place: TomlLocation,
     pub node: Node,
 }
 
 /// Reads TOML; every mistake of syntax becomes a problem. What is too long or nested too deeply is not parsed.
-pub(crate) fn parse(source: &Arc<Source>) -> Result<Table, Problems> {
+pub(crate) fn parse(source: &Arc<TomlSource>) -> Result<Table, Problems> {
     structure::toml(source.text()).map_err(|excess| {
-        let place = Place {
+        let place = TomlLocation {
             source: Arc::clone(source),
             span: excess.span(),
         };
@@ -65,22 +65,22 @@ pub(crate) fn parse(source: &Arc<Source>) -> Result<Table, Problems> {
 }
 
 /// A mistake of syntax.
-fn syntax(error: &toml::de::Error, source: &Arc<Source>) -> Problem {
+fn syntax(error: &toml::de::Error, source: &Arc<TomlSource>) -> Problem {
     let message = error.message().lines().collect::<Vec<_>>().join(", ");
     Problem::new(format!("this is not TOML: {message}"))
-        .at(&Place {
+        .at(&TomlLocation {
             source: Arc::clone(source),
             span: error.span().unwrap_or(0..0),
         })
         .help("a line is `key = value`; text and quantities stand in quotes: angle = \"32 deg\"")
 }
 
-fn table_of(table: &DeTable<'_>, source: &Arc<Source>) -> Table {
+fn table_of(table: &DeTable<'_>, source: &Arc<TomlSource>) -> Table {
     let mut entries: Vec<Entry> = table
         .iter()
         .map(|(key, value)| Entry {
             key: key.get_ref().to_string(),
-            key_place: Place {
+            key_place: TomlLocation {
                 source: Arc::clone(source),
                 span: key.span(),
             },
@@ -91,8 +91,8 @@ fn table_of(table: &DeTable<'_>, source: &Arc<Source>) -> Table {
     Table { entries }
 }
 
-fn node_of(value: &Spanned<DeValue<'_>>, source: &Arc<Source>) -> Node {
-    let place = Place {
+fn node_of(value: &Spanned<DeValue<'_>>, source: &Arc<TomlSource>) -> Node {
+    let place = TomlLocation {
         source: Arc::clone(source),
         span: value.span(),
     };
@@ -151,7 +151,7 @@ impl Table {
     }
 
     /// The place of the value at a dotted path, or of the nearest table around it.
-    pub fn place_of(&self, path: &str) -> Option<&Place> {
+    pub fn place_of(&self, path: &str) -> Option<&TomlLocation> {
         let (key, rest) = path
             .split_once('.')
             .map_or((path, None), |(key, rest)| (key, Some(rest)));

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::problem::{Problems, Source};
+use super::problem::{Problems, TomlSource};
 use super::tree::{Table, Value};
 use super::{Case, CaseError, tree};
 
@@ -25,11 +25,11 @@ impl Case {
         values: &str,
         folder: &Path,
     ) -> Result<Self, CaseError> {
-        let mut tree = tree::parse(&Source::in_si(values_name, values)).map_err(CaseError::new)?;
+        let mut tree = tree::parse(&TomlSource::in_si(values_name, values)).map_err(CaseError::new)?;
         let mut source = "case";
         if let Some((name, text)) = base {
             let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-            let mut below = tree::parse(&Source::new(name, text)).map_err(CaseError::new)?;
+            let mut below = tree::parse(&TomlSource::new(name, text)).map_err(CaseError::new)?;
             for (section, one, other) in EITHER {
                 drop_other(&mut below, &tree, section, one, other);
                 drop_other(&mut below, &tree, section, other, one);

@@ -11,7 +11,7 @@ use super::factor::{Factor, Value};
 use super::{Accuracy, CaseSource, DIMENSIONS, Sampling, Study, StudySource, accuracy_overrides};
 use crate::case::builtin;
 use crate::case::name;
-use crate::case::problem::{Place, Problem, Problems, Source};
+use crate::case::problem::{Problem, Problems, TomlLocation, TomlSource};
 use crate::case::section::{Names, Section};
 use crate::case::tree::{self, Node, Table, Value as Toml};
 use crate::case::{CASE_FILE, Case, CaseDocument, CaseError};
@@ -38,12 +38,12 @@ const SAMPLINGS: Names<Kind> = &[
 const ACCURACIES: Names<Accuracy> = &[("case", Accuracy::Case), ("engineering", Accuracy::Engineering)];
 
 /// A value and where it stands.
-type Written = (Value, Place);
+type Written = (Value, TomlLocation);
 
 /// A factor being read.
 struct Draft {
     factor: Factor,
-    key: Place,
+    key: TomlLocation,
     /// What is tried out.
     written: Vec<Written>,
 }
@@ -76,7 +76,7 @@ pub(super) fn text(
 ) -> Result<Study, CaseError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let failed = |problems| CaseError::new(problems).of("study");
-    let tree = tree::parse(&Source::new(file, text)).map_err(failed)?;
+    let tree = tree::parse(&TomlSource::new(file, text)).map_err(failed)?;
     let sections = CaseDocument::SECTIONS.iter();
     if let Some(case) = sections
         .filter(|_| tree.entry("case").is_none())
@@ -282,7 +282,7 @@ pub(super) fn text(
 fn moved<'w>(
     error: CaseError,
     written: impl Iterator<Item = (&'w str, &'w Written)>,
-    key: Option<&Place>,
+    key: Option<&TomlLocation>,
 ) -> Problems {
     let written: Vec<(&str, &Written)> = written.collect();
     let place = |problem: &Problem| {

@@ -234,9 +234,9 @@ pub fn course(case: &Case, column: &str, times: &[f64]) -> Result<Vec<f64>, Stri
 }
 
 /// The model of this number, of several.
-pub type Model<'m> = &'m (dyn Fn(usize) -> Result<Vec<f64>, String> + Sync);
+pub type FitModel<'m> = &'m (dyn Fn(usize) -> Result<Vec<f64>, String> + Sync);
 /// Computes so many models, side by side if it can, and gives them in order.
-pub type Each<'e> = &'e dyn Fn(usize, Model<'_>) -> Vec<Result<Vec<f64>, String>>;
+pub type Each<'e> = &'e dyn Fn(usize, FitModel<'_>) -> Vec<Result<Vec<f64>, String>>;
 
 /// Finds the free parameters of a case; `case` gives it with values set, `each` computes several models at a time.
 ///

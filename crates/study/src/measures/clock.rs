@@ -1,13 +1,13 @@
 //! How long contacts are open, stuck and slipping, from the contact events.
 
 use integrate::Event;
-use mechanics::system::Mode;
+use mechanics::system::ContactState;
 use wedge::outputs::{CORNERS, FACES};
 
 /// Times counted along a run.
 #[derive(Clone, Debug)]
 pub(super) struct ContactClock {
-    modes: Vec<u8>,
+    contact_states: Vec<u8>,
     time: f64,
     /// Shares count from here to there, s.
     window: (f64, f64),
@@ -21,9 +21,9 @@ pub(super) struct ContactClock {
 
 impl ContactClock {
     /// At the start of a run.
-    pub fn new(modes: &[u8], window: (f64, f64)) -> Self {
+    pub fn new(contact_states: &[u8], window: (f64, f64)) -> Self {
         Self {
-            modes: modes.to_vec(),
+            contact_states: contact_states.to_vec(),
             time: 0.0,
             window,
             lift_off: [0.0; 2],
@@ -36,8 +36,8 @@ impl ContactClock {
     pub fn step(&mut self, events: &[Event], end: f64) {
         for event in events {
             self.count(event.time);
-            if let Some(mode) = self.modes.get_mut(event.index) {
-                *mode = event.to;
+            if let Some(contact_state) = self.contact_states.get_mut(event.index) {
+                *contact_state = event.to;
             }
         }
         self.count(end);
@@ -50,11 +50,16 @@ impl ContactClock {
         }
         self.time = to;
         let counted = (to.min(self.window.1) - from.max(self.window.0)).max(0.0);
-        for (face, corners) in self.modes.chunks(CORNERS.len()).enumerate().take(FACES.len()) {
+        for (face, corners) in self
+            .contact_states
+            .chunks(CORNERS.len())
+            .enumerate()
+            .take(FACES.len())
+        {
             let (mut touching, mut sticking) = (0_u8, 0_u8);
-            for mode in corners {
-                touching += u8::from(*mode != Mode::Open as u8);
-                sticking += u8::from(*mode == Mode::Stick as u8);
+            for contact_state in corners {
+                touching += u8::from(*contact_state != ContactState::Open as u8);
+                sticking += u8::from(*contact_state == ContactState::Stick as u8);
             }
             if touching == 0 {
                 self.lift_off[face] += to - from;

@@ -1,7 +1,7 @@
 //! Whether a saved state can be one of a case's run: all that could lead a run astray is looked at before it goes on.
 
 use integrate::MAXIMUM_COUNT;
-use mechanics::system::Mode;
+use mechanics::system::ContactState;
 use wedge::outputs::{CORNERS, FACES};
 
 use super::{Counts, EVENT_CAP, RunError, RunState, probe_times};
@@ -61,15 +61,15 @@ impl RunState {
                 "zero or positive",
             );
         }
-        if let Some(mode) = self
+        if let Some(contact_state) = self
             .integrator
             .discrete_states
             .iter()
-            .find(|mode| **mode > Mode::Slip as u8)
+            .find(|contact_state| **contact_state > ContactState::Slip as u8)
         {
             return damaged(
                 "integrator.modes",
-                mode,
+                contact_state,
                 "0 (open), 1 (stick) or 2 (slip) at every corner",
             );
         }
@@ -149,13 +149,14 @@ impl Counts {
 
 fn check_event(event: &ContactEvent) -> Result<(), RunError> {
     check_finite("counts.listed.time", event.time)?;
-    let modes = [Mode::Open, Mode::Stick, Mode::Slip].map(Mode::name);
+    let contact_states =
+        [ContactState::Open, ContactState::Stick, ContactState::Slip].map(ContactState::name);
     let (face, corner, from, to) = (&*event.face, &*event.corner, &*event.from, &*event.to);
     for (member, found, known) in [
         ("counts.listed.face", face, &FACES[..]),
         ("counts.listed.corner", corner, &CORNERS[..]),
-        ("counts.listed.from", from, &modes[..]),
-        ("counts.listed.to", to, &modes[..]),
+        ("counts.listed.from", from, &contact_states[..]),
+        ("counts.listed.to", to, &contact_states[..]),
     ] {
         if !known.contains(&found) {
             return damaged(

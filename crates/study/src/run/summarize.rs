@@ -13,7 +13,7 @@ use crate::assumptions;
 use crate::energy;
 use crate::metrics::{Cycle, Extremes, first_harmonic, mean};
 use crate::summary::{
-    Averages, Events, FrictionSummary, LedgerSummary, Measure, SCHEMA, Solver, Stopped, Summary,
+    Averages, Events, FrictionSummary, LedgerSummary, SCHEMA, Solver, Stopped, Summary, SummaryValue,
 };
 
 /// How many columns at the beginning of the table have fixed names; their extremes are reported.
@@ -105,12 +105,13 @@ fn averages(run: &Run) -> Averages {
             averages.cycles = cycles;
             for (side, neighbour) in ["side_frame", "bolster"].into_iter().enumerate() {
                 let energy = (end[side] - start[side]) / f64::from(cycles);
-                averages
-                    .energy_per_cycle
-                    .insert(neighbour.to_owned(), Measure::new(energy, Kind::Energy, units));
+                averages.energy_per_cycle.insert(
+                    neighbour.to_owned(),
+                    SummaryValue::new(energy, Kind::Energy, units),
+                );
                 if side == 0 {
                     let damping = cycle.equivalent_damping(energy);
-                    averages.equivalent_damping = Some(Measure::new(damping, Kind::Damping, units));
+                    averages.equivalent_damping = Some(SummaryValue::new(damping, Kind::Damping, units));
                 }
             }
         }
@@ -134,8 +135,9 @@ fn averages(run: &Run) -> Averages {
         )
     });
     if let Some(on_bolster) = on_bolster {
-        averages.equivalent_stiffness = Some(Measure::new(on_bolster.stiffness, Kind::Stiffness, units));
-        averages.equivalent_damping_on_bolster = Some(Measure::new(on_bolster.damping, Kind::Damping, units));
+        averages.equivalent_stiffness = Some(SummaryValue::new(on_bolster.stiffness, Kind::Stiffness, units));
+        averages.equivalent_damping_on_bolster =
+            Some(SummaryValue::new(on_bolster.damping, Kind::Damping, units));
     }
     let (times, positions, speeds) = (
         &run.values[0],
@@ -156,7 +158,7 @@ fn averages(run: &Run) -> Averages {
                 Kind::Force
             };
             if let Some(mean) = mean(column(name), rows) {
-                target.insert(name.to_owned(), Measure::new(mean, kind, units));
+                target.insert(name.to_owned(), SummaryValue::new(mean, kind, units));
             }
         }
     }
@@ -213,8 +215,8 @@ fn friction(run: &Run) -> BTreeMap<String, FrictionSummary> {
             let summary = FrictionSummary {
                 law: law.to_owned(),
                 coefficient: face.coefficient,
-                creep_speed_at_half_load: Measure::new(face.law.creep_speed(0.5), Kind::Speed, units),
-                crept_while_stuck: Measure::new(crept, Kind::Length, units),
+                creep_speed_at_half_load: SummaryValue::new(face.law.creep_speed(0.5), Kind::Speed, units),
+                crept_while_stuck: SummaryValue::new(crept, Kind::Length, units),
             };
             ((*name).to_owned(), summary)
         })
@@ -229,7 +231,7 @@ fn ledger(run: &mut Run) -> LedgerSummary {
         .system
         .observe(run.integrator.time(), run.integrator.x());
     let ledger = Outputs::ledger(&run.wedge.system, &seen, run.counts.start_energy);
-    let measure = |value: f64| Measure::new(value, Kind::Energy, units);
+    let measure = |value: f64| SummaryValue::new(value, Kind::Energy, units);
     let entries = [
         ("motion_work", ledger.motion_work),
         ("coil_guide_work", ledger.coil_guide_work),

@@ -19,7 +19,7 @@ use nucars::truck::Truck;
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
-use crate::summary::{Measure, Stopped};
+use crate::summary::{Stopped, SummaryValue};
 use requests::Request;
 pub use yaw::YawSummary;
 
@@ -113,13 +113,13 @@ pub struct TruckSummary {
     /// Each wedge, by its number in the file.
     pub wedges: BTreeMap<String, WedgeSummary>,
     /// Largest displacements (without sign) of the free bodies, by `body_NUMBER_COORDINATE`.
-    pub largest_displacements: BTreeMap<String, Measure>,
+    pub largest_displacements: BTreeMap<String, SummaryValue>,
     /// Entries of the energy ledger at the end.
-    pub ledger: BTreeMap<String, Measure>,
+    pub ledger: BTreeMap<String, SummaryValue>,
     /// Largest absolute change of the stored energy at any output time.
-    pub largest_stored_change: Measure,
+    pub largest_stored_change: SummaryValue,
     /// Largest absolute residual at any output time.
-    pub largest_residual: Measure,
+    pub largest_residual: SummaryValue,
     /// The first output time with this residual, s.
     pub largest_residual_time: f64,
     /// The measure of how well the ledger closes: [`mechanics::energy_balance::relative_residual`] of the largest residual.
@@ -136,13 +136,13 @@ pub struct TruckSummary {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct WedgeSummary {
     /// Friction energy at the column per cycle of the vertical input, over whole cycles after the first half period.
-    pub energy_per_cycle: Option<Measure>,
+    pub energy_per_cycle: Option<SummaryValue>,
     /// Mean of the column's friction on the side frame (positive up) while the bolster goes up.
-    pub up: Option<Measure>,
+    pub up: Option<SummaryValue>,
     /// The same while it goes down.
-    pub down: Option<Measure>,
+    pub down: Option<SummaryValue>,
     /// Largest normal force of the column.
-    pub largest_normal_force: Option<Measure>,
+    pub largest_normal_force: Option<SummaryValue>,
     /// Share of the output times at which it is jammed.
     pub jammed: f64,
 }

@@ -8,7 +8,7 @@ use mechanics::body::COORDINATES;
 use mechanics::energy_balance::{EnergyBalance, Entries};
 use mechanics::motion::Motion;
 use mechanics::system::NoEquilibrium;
-use mechanics::system::{ChannelKind, ModelError, Observation, StaticFriction, System};
+use mechanics::system::{EnergyTermKind, ModelError, Observation, StaticFriction, System};
 use quantity::Kind;
 use thiserror::Error;
 
@@ -18,7 +18,7 @@ use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::metrics::{Cycle, mean};
 use crate::progress::{self, INTERVALS, Pace};
-use crate::summary::{Measure, Stopped};
+use crate::summary::{Stopped, SummaryValue};
 
 /// Why a run cannot begin.
 #[derive(Debug, Error)]
@@ -146,7 +146,7 @@ pub fn run_while(
             break;
         }
     }
-    let joules = |value| Measure::new(value, Kind::Energy, case.units);
+    let joules = |value| SummaryValue::new(value, Kind::Energy, case.units);
     let mut result = TruckResult {
         columns: table.columns,
         values,
@@ -194,11 +194,11 @@ fn entries(system: &System, seen: &Observation, start: f64) -> Entries {
         stored_change: seen.energies.total() - start,
         residual: -seen.residual(start),
     };
-    for (channel, value) in system.channels().iter().zip(&seen.quadratures) {
-        match channel.kind {
-            ChannelKind::MotionWork => entries.work += value,
+    for (energy_term, value) in system.energy_terms().iter().zip(&seen.quadratures) {
+        match energy_term.kind {
+            EnergyTermKind::MotionWork => entries.work += value,
             // An entry of either sign, which is neither.
-            ChannelKind::WedgeKinematics => {}
+            EnergyTermKind::WedgeKinematics => {}
             _ => entries.losses += value,
         }
     }
@@ -324,7 +324,7 @@ fn summarize(case: &TruckCase, system: &System, works: &Works, result: &mut Truc
             };
             let most = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
             let kind = if coordinate < 3 { Kind::Length } else { Kind::Angle };
-            largest.insert(column, Measure::new(most, kind, units));
+            largest.insert(column, SummaryValue::new(most, kind, units));
         }
     }
     let mut ledger = BTreeMap::new();
@@ -336,10 +336,13 @@ fn summarize(case: &TruckCase, system: &System, works: &Works, result: &mut Truc
         "accumulator_energy",
         "ledger_residual",
     ];
-    let channels = system.channels().iter().map(|channel| channel.kind.name());
-    for name in names.into_iter().chain(channels) {
+    let energy_terms = system
+        .energy_terms()
+        .iter()
+        .map(|energy_term| energy_term.kind.name());
+    for name in names.into_iter().chain(energy_terms) {
         if let Some(last) = result.column(name).and_then(<[f64]>::last) {
-            ledger.insert(name.to_owned(), Measure::new(*last, Kind::Energy, units));
+            ledger.insert(name.to_owned(), SummaryValue::new(*last, Kind::Energy, units));
         }
     }
     let yaw = super::yaw::summary(&case.truck, result, units);
@@ -383,7 +386,7 @@ fn wedge(case: &TruckCase, result: &TruckResult, works: &Works, place: usize) ->
             .iter()
             .copied()
             .max_by(f64::total_cmp)
-            .map(|most| Measure::new(most, Kind::Force, units)),
+            .map(|most| SummaryValue::new(most, Kind::Force, units)),
         ..WedgeSummary::default()
     };
     let (Some(cycle), Law::Wedge(law)) = (cycle(case), &case.truck.model.connections[place].law) else {
@@ -398,7 +401,7 @@ fn wedge(case: &TruckCase, result: &TruckResult, works: &Works, place: usize) ->
     summary.energy_per_cycle = works
         .per_cycle(place)
         .filter(|_| result.summary.complete)
-        .map(|energy| Measure::new(energy, Kind::Energy, units));
+        .map(|energy| SummaryValue::new(energy, Kind::Energy, units));
     let (input, rate) = (
         result.column("input_vertical").unwrap_or_default(),
         result.column("input_vertical_rate").unwrap_or_default(),
@@ -409,7 +412,8 @@ fn wedge(case: &TruckCase, result: &TruckResult, works: &Works, place: usize) ->
             branches[usize::from(up)].push(row);
         }
     }
-    let average = |rows: &[usize]| mean(friction, rows).map(|value| Measure::new(value, Kind::Force, units));
+    let average =
+        |rows: &[usize]| mean(friction, rows).map(|value| SummaryValue::new(value, Kind::Force, units));
     summary.down = average(&branches[0]);
     summary.up = average(&branches[1]);
     summary

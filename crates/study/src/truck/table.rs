@@ -6,7 +6,7 @@
 use mechanics::body::COORDINATES;
 use mechanics::motion::Motion;
 use mechanics::output::Column;
-use mechanics::system::Mode;
+use mechanics::system::ContactState;
 use mechanics::system::{Model, Observation, System};
 use nucars::tree::{DofQuantity, ElementQuantity};
 use nucars::truck::Truck;
@@ -156,7 +156,7 @@ impl Table {
             format!("{wedge}_stroke"),
             Kind::Length,
             "vertical displacement of the bolster against the side frame",
-            move |seen| seen.connections[place].strokes[0],
+            move |seen| seen.connections[place].extensions[0],
         );
         self.add(
             format!("{wedge}_stroke_rate"),
@@ -174,7 +174,7 @@ impl Table {
                 format!("{wedge}_{name}_stroke"),
                 Kind::Length,
                 format!("{name} displacement of the bolster against the side frame"),
-                move |seen| seen.connections[place].strokes[component],
+                move |seen| seen.connections[place].extensions[component],
             );
             self.add(
                 format!("{wedge}_{name}_stroke_rate"),
@@ -205,7 +205,13 @@ impl Table {
             format!("{wedge}_state"),
             Kind::Count,
             "state of its friction: 0 open, 1 stick, 2 slip",
-            move |seen| f64::from(seen.connections[place].mode.unwrap_or(Mode::Open) as u8),
+            move |seen| {
+                f64::from(
+                    seen.connections[place]
+                        .contact_state
+                        .unwrap_or(ContactState::Open) as u8,
+                )
+            },
         );
     }
 
@@ -275,7 +281,7 @@ impl Table {
                         format!("stroke_{place}"),
                         kinds(Kind::Length, Kind::Angle),
                         "stroke of a connection, extension positive",
-                        move |seen| seen.connections[connection].strokes[component],
+                        move |seen| seen.connections[connection].extensions[component],
                     ),
                     ElementQuantity::Velocity => self.add(
                         format!("velocity_{place}"),
@@ -332,9 +338,9 @@ impl Table {
         for (name, value, text) in stored {
             self.add(name, Kind::Energy, text, value);
         }
-        for (number, channel) in system.channels().iter().enumerate() {
+        for (number, energy_term) in system.energy_terms().iter().enumerate() {
             self.add(
-                channel.kind.name(),
+                energy_term.kind.name(),
                 Kind::Energy,
                 "work or loss since the start",
                 move |seen| seen.quadratures[number],

@@ -7,7 +7,7 @@ use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
 use super::TruckResult;
-use crate::summary::Measure;
+use crate::summary::SummaryValue;
 
 /// The share of the commanded yaw below which it counts as not reached.
 const REACHED: f64 = 0.5;
@@ -18,9 +18,9 @@ pub struct YawSummary {
     /// Number of the driven body in the file.
     pub body: u32,
     /// Mean of the yaw that its input body commands, over the second half of the run.
-    pub commanded: Measure,
+    pub commanded: SummaryValue,
     /// Mean of the yaw that it reaches, over the same time.
-    pub reached: Measure,
+    pub reached: SummaryValue,
 }
 
 /// An input body that yaws, and the free body that a yaw spring ties to it, by their places in the model.
@@ -62,8 +62,8 @@ pub(super) fn summary(truck: &Truck, result: &TruckResult, units: Units) -> Opti
     let reached: f64 = yaws[late].iter().sum();
     Some(YawSummary {
         body: number,
-        commanded: Measure::new(commanded / count, Kind::Angle, units),
-        reached: Measure::new(reached / count, Kind::Angle, units),
+        commanded: SummaryValue::new(commanded / count, Kind::Angle, units),
+        reached: SummaryValue::new(reached / count, Kind::Angle, units),
     })
 }
 

@@ -67,7 +67,7 @@ pub fn column(result: &RunResult, name: &str, unit: f64) -> Vec<f64> {
 /// as the summary has them.
 pub fn averages(result: &RunResult) -> [f64; 3] {
     let averages = &result.summary.averages;
-    let force = |means: &BTreeMap<String, study::summary::Measure>| {
+    let force = |means: &BTreeMap<String, study::summary::SummaryValue>| {
         let mean = &means["vertical_wedge_force"];
         assert_eq!(mean.unit, "lbf");
         mean.value

@@ -6,7 +6,7 @@ use study::case::builtin;
 use study::measures::measure;
 use study::metrics::Cycle;
 use study::run::Run;
-use study::summary::Measure;
+use study::summary::SummaryValue;
 
 /// Every measure that the summary has too, in SI: the same to rounding, whatever moves.
 #[test]
@@ -45,7 +45,8 @@ fn limits_measures_are_those_of_the_summary() {
                 _ => panic!("{name} {measure}: {own:?} {other:?}"),
             }
         };
-        let of = |means: &BTreeMap<String, Measure>, key: &str| means.get(key).map(|measure| measure.value);
+        let of =
+            |means: &BTreeMap<String, SummaryValue>, key: &str| means.get(key).map(|measure| measure.value);
         for (side, means) in [("up", &averages.up), ("down", &averages.down)] {
             for column in [
                 "vertical_wedge_force",
@@ -61,7 +62,7 @@ fn limits_measures_are_those_of_the_summary() {
                 of(&averages.energy_per_cycle, side),
             );
         }
-        let value = |measure: &Option<Measure>| measure.as_ref().map(|measure| measure.value);
+        let value = |measure: &Option<SummaryValue>| measure.as_ref().map(|measure| measure.value);
         same("equivalent_damping", value(&averages.equivalent_damping));
         same("equivalent_stiffness", value(&averages.equivalent_stiffness));
         same(

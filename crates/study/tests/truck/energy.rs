@@ -1,6 +1,6 @@
 //! The energy ledger of all runs closes.
 
-use mechanics::system::ChannelKind;
+use mechanics::system::EnergyTermKind;
 use study::truck::catalog::{Entry, ToeCase, YawCase};
 
 use crate::common::run_all;
@@ -31,20 +31,20 @@ fn all_runs_close_their_ledgers() {
         let work = result.column("input_work").unwrap_or_default();
         let work = work.iter().fold(0.0, |most: f64, own| most.max(own.abs()));
         // What can only be lost never comes back.
-        for channel in [
-            ChannelKind::SpringDamping,
-            ChannelKind::GapDamping,
-            ChannelKind::SurfaceFriction,
-            ChannelKind::ColumnFriction,
+        for energy_term in [
+            EnergyTermKind::SpringDamping,
+            EnergyTermKind::GapDamping,
+            EnergyTermKind::SurfaceFriction,
+            EnergyTermKind::ColumnFriction,
         ] {
-            let lost = result.column(channel.name()).unwrap_or_default();
+            let lost = result.column(energy_term.name()).unwrap_or_default();
             let drop = lost
                 .windows(2)
                 .fold(0.0, |drop: f64, pair| drop.max(pair[0] - pair[1]));
             assert!(
                 drop <= 1e-7 * work,
                 "{name}: {} falls by {drop} J",
-                channel.name()
+                energy_term.name()
             );
         }
         let jammed = summary.wedges.values().any(|wedge| wedge.jammed > 0.0);

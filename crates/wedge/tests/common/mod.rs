@@ -66,12 +66,12 @@ pub fn run_system(
             row += 1;
         }
     }
-    let seen = observer.observe(run.time(), run.x());
+    let observation = observer.observe(run.time(), run.x());
     End {
         time: run.time(),
         x: run.x().to_vec(),
         start_energy,
-        ledger: Outputs::ledger(&observer, &seen, start_energy),
+        ledger: Outputs::ledger(&observer, &observation, start_energy),
         events,
         steps: run.statistics().steps,
     }
@@ -83,8 +83,8 @@ pub fn run(wedge: &Wedge, tolerance: f64, rows: (f64, f64), each: impl FnMut(&Ob
 }
 
 /// Longitudinal (normal) and vertical (friction on the side frame) force at the column, N.
-pub fn column_forces(seen: &Observation) -> (f64, f64) {
-    let face = &seen.faces[wedge::COLUMN];
+pub fn column_forces(observation: &Observation) -> (f64, f64) {
+    let face = &observation.faces[wedge::COLUMN];
     (
         face.normal_forces.iter().map(|f| f.0[0]).sum(),
         -face.friction_forces.iter().map(|f| f.0[2]).sum::<f64>(),

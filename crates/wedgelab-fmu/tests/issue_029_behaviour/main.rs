@@ -14,7 +14,7 @@ use std::path::Path;
 use std::ptr::null_mut;
 use std::sync::Mutex;
 
-use fmi::description::{Description, Model, Version};
+use fmi::description::{Description, FmuModel, Version};
 use fmi::resources;
 use study::case::builtin;
 
@@ -116,7 +116,7 @@ struct Names {
 impl Fmu {
     fn new(version: Version) -> Self {
         let case = builtin::case("cdrun_toe_-0.2_psi_0.012").unwrap();
-        let description = Description::new(Model::Wedge, &case).unwrap();
+        let description = Description::new(FmuModel::Wedge, &case).unwrap();
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join(resources::CASE), &description.toml).unwrap();
         std::fs::write(folder.path().join(resources::MODEL), "FrictionWedge\n").unwrap();

@@ -9,7 +9,7 @@ use clap::Args;
 use rayon::prelude::*;
 use report::fit_files::{self, Shown};
 use report::run_files;
-use report::table::{Column, Table as Measurements};
+use report::table::{Table as Measurements, TableColumn};
 use study::case::{Case, CaseError, builtin};
 use study::fit::{Fit, FitError, Free, FreeError, Measured, fit};
 use study::metrics::Cycle;
@@ -133,7 +133,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     let table = Measurements::read(&arguments.measured)?;
     let force = force(&table, arguments.column.as_deref())?;
-    let displacement = table.find(DISPLACEMENT).map(Column::si);
+    let displacement = table.find(DISPLACEMENT).map(TableColumn::si);
     let times = table.times();
     let mut set = arguments.set.clone();
     if arguments.follow {
@@ -239,7 +239,7 @@ fn case_with(arguments: &Arguments, set: &[String]) -> Result<Case, CaseError> {
 }
 
 /// The column with the measured force.
-fn force<'t>(table: &'t Measurements, name: Option<&str>) -> Result<&'t Column, Failure> {
+fn force<'t>(table: &'t Measurements, name: Option<&str>) -> Result<&'t TableColumn, Failure> {
     if let Some(name) = name {
         return Ok(table.column(name)?);
     }

@@ -64,7 +64,7 @@ pub struct Arguments {
 }
 
 /// A run whose files are written.
-struct Kept {
+struct ReproducedRun {
     outcome: Outcome,
     /// What the page shows of it, if it is interactive.
     recording: Option<Recording>,
@@ -99,14 +99,16 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .num_threads(arguments.jobs.map_or(0, usize::from))
         .build()
         .map_err(|error| Failure::Failed(Message::new(error.to_string(), "try --jobs 1").into()))?;
-    let (kept, half_trucks): (Vec<Result<Option<Kept>, Failure>>, _) = pool.install(|| {
+    let (kept, half_trucks): (Vec<Result<Option<ReproducedRun>, Failure>>, _) = pool.install(|| {
         let work = cases.into_par_iter().zip(&places.runs).with_max_len(1);
         let work = work.map(|(case, folder)| keep(case, folder, &progress));
         rayon::join(|| work.collect(), || trucks::trucks(half_trucks, &progress))
     });
     progress.finish();
-    let half_trucks: Vec<Option<trucks::Kept>> = half_trucks?;
-    let kept = kept.into_iter().collect::<Result<Vec<Option<Kept>>, Failure>>()?;
+    let half_trucks: Vec<Option<trucks::ReproducedTruck>> = half_trucks?;
+    let kept = kept
+        .into_iter()
+        .collect::<Result<Vec<Option<ReproducedRun>>, Failure>>()?;
     interrupt::ends(&planned.without_report());
     if interrupt::wanted() {
         let wedges = kept.iter().map(Option::is_some);
@@ -114,7 +116,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Err(planned.interrupted(wedges, trucks));
     }
     let (half_trucks, of_trucks): (Vec<TruckOutcome>, Vec<_>) = half_trucks.into_iter().flatten().unzip();
-    let kept: Vec<Kept> = kept.into_iter().flatten().collect();
+    let kept: Vec<ReproducedRun> = kept.into_iter().flatten().collect();
     let walls: Vec<Duration> = kept.iter().map(|kept| kept.wall).collect();
     let (outcomes, recordings): (Vec<Outcome>, Vec<_>) = kept
         .into_iter()
@@ -156,7 +158,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 /// Runs a case and writes its files; `None` if it was interrupted.
-fn keep(case: Case, folder: &Folder, progress: &Progress) -> Result<Option<Kept>, Failure> {
+fn keep(case: Case, folder: &Folder, progress: &Progress) -> Result<Option<ReproducedRun>, Failure> {
     let Some(done) = execute_whole(&case, folder, progress)? else {
         return Ok(None);
     };
@@ -167,7 +169,7 @@ fn keep(case: Case, folder: &Folder, progress: &Progress) -> Result<Option<Kept>
     if !of_thesis {
         outcome.1.keep_columns(beyond::needs);
     }
-    Ok(Some(Kept {
+    Ok(Some(ReproducedRun {
         outcome,
         recording,
         wall: done.wall,

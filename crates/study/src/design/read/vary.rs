@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use input::limits;
 
 use super::{Draft, Kind, Written};
-use crate::case::problem::{Place, Problem, Problems};
+use crate::case::problem::{Problem, Problems, TomlLocation};
 use crate::case::section::{Names, Section};
 use crate::case::tree::{Node, Table, Value as Toml};
 use crate::design::factor::{Factor, Levels, Value};
@@ -135,7 +135,7 @@ fn listed(
 fn range(
     path: &str,
     table: &Table,
-    key: &Place,
+    key: &TomlLocation,
     kind: Kind,
     problems: &mut Problems,
 ) -> Option<(Vec<String>, Levels, Vec<Written>)> {
@@ -187,7 +187,7 @@ fn range(
         Some(_) => section.choice("scale", SCALES, problems)?,
         None => false,
     };
-    let mut wrong = |place: &Place, message: String, label: &str, help: &str| {
+    let mut wrong = |place: &TomlLocation, message: String, label: &str, help: &str| {
         problems.push(Problem::new(message).at(place).label(label).help(help));
         None
     };

@@ -152,7 +152,7 @@ pub struct Export {
 pub struct Explorer {
     base: Base,
     latest: AtomicU64,
-    kept: Mutex<Option<Kept>>,
+    kept: Mutex<Option<StoredRun>>,
 }
 
 /// Whoever waits for an answer. When it is dropped, what was begun for it ends at its next step.
@@ -177,7 +177,7 @@ pub struct Turn {
     client: Watch,
 }
 
-struct Kept {
+struct StoredRun {
     wanted: Wanted,
     outcome: Arc<(Case, RunResult)>,
 }
@@ -329,7 +329,7 @@ impl Explorer {
         let result = self.compute(&case, turn)?;
         finite(&result)?;
         let outcome = Arc::new((case, result));
-        *self.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(Kept {
+        *self.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(StoredRun {
             wanted: wanted.clone(),
             outcome: Arc::clone(&outcome),
         });

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use fmi::description::{Model, Version};
+use fmi::description::{FmuModel, Version};
 use fmi::package::{self, Platform};
 
 use super::write;
@@ -62,11 +62,11 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     may_write(&arguments.out, arguments.force)?;
     let (platform, library) = parts(arguments.library.as_deref())?;
     let model = if arguments.quasi_static {
-        Model::QuasiStatic
+        FmuModel::QuasiStatic
     } else if arguments.truck {
-        Model::Truck
+        FmuModel::Truck
     } else {
-        Model::Wedge
+        FmuModel::Wedge
     };
     let (bytes, description) = package::fmu(model, arguments.fmi, &case, &library, platform)
         .map_err(|error| Failure::from(Message::new(error.to_string(), "nothing was written")))?;

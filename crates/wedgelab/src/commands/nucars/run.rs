@@ -326,7 +326,7 @@ fn table(summary: &TruckSummary) -> Table {
         ],
     );
     for (number, wedge) in &summary.wedges {
-        let cell = |measure: &Option<study::summary::Measure>| {
+        let cell = |measure: &Option<study::summary::SummaryValue>| {
             let value = measure.as_ref().map(|measure| format!("{:.1}", measure.value));
             value.unwrap_or_else(|| "-".to_owned())
         };

@@ -59,11 +59,11 @@ pub fn plan(out: &Path, force: bool) -> Result<Vec<Planned>, Failure> {
 }
 
 /// A run with what the page shows of it, if it is interactive.
-pub type Kept = (TruckOutcome, Option<Recording>);
+pub type ReproducedTruck = (TruckOutcome, Option<Recording>);
 
 /// Runs them and writes their files, as many at a time as the pool has threads; `None` for those that were
 /// interrupted.
-pub fn trucks(planned: Vec<Planned>, progress: &Progress) -> Result<Vec<Option<Kept>>, Failure> {
+pub fn trucks(planned: Vec<Planned>, progress: &Progress) -> Result<Vec<Option<ReproducedTruck>>, Failure> {
     planned
         .into_par_iter()
         .with_max_len(1)
@@ -71,7 +71,7 @@ pub fn trucks(planned: Vec<Planned>, progress: &Progress) -> Result<Vec<Option<K
         .collect()
 }
 
-fn one(planned: Planned, progress: &Progress) -> Result<Option<Kept>, Failure> {
+fn one(planned: Planned, progress: &Progress) -> Result<Option<ReproducedTruck>, Failure> {
     if interrupt::wanted() {
         return Ok(None);
     }

@@ -1,6 +1,6 @@
 //! What elements do and feel at a state, generic over the scalar: values, and with dual numbers their derivatives.
 //!
-//! Nothing is allocated after the first use of a [`Sense`].
+//! Nothing is allocated after the first use of a [`ElementEvaluation`].
 
 use std::ops::Mul;
 
@@ -8,9 +8,9 @@ use integrate::scalar::Real;
 
 use super::{Mounted, System};
 use crate::body::Kinematics;
-use crate::element::{Action, Scalar};
+use crate::element::{Scalar, Wrench};
 use crate::frame::FrameMotion;
-use crate::link::{Relative, Sight};
+use crate::link::{RelativeFrame, RelativeMotion};
 use crate::vector::Vector;
 
 /// Force (N) and moment (N·m) of all elements on a body, along fixed axes, about the body's origin.
@@ -24,7 +24,7 @@ pub struct Load<S> {
 
 /// A contact point.
 #[derive(Clone, Copy, Debug)]
-pub struct PointSense<S> {
+pub struct PointEvaluation<S> {
     /// Signed distance, m; negative inside.
     pub gap: S,
     /// Normal force, N.
@@ -37,7 +37,7 @@ pub struct PointSense<S> {
 
 /// A coil.
 #[derive(Clone, Copy, Debug)]
-pub struct CoilSense<S> {
+pub struct CoilEvaluation<S> {
     /// Length, m.
     pub length: S,
     /// Spring force along the coil, N: positive when it pushes.
@@ -46,20 +46,20 @@ pub struct CoilSense<S> {
 
 /// What elements do and feel.
 #[derive(Clone, Debug)]
-pub struct Sense<S> {
+pub struct ElementEvaluation<S> {
     /// By body.
     pub loads: Vec<Load<S>>,
     /// By face and point, in the order of the switches.
-    pub points: Vec<PointSense<S>>,
+    pub points: Vec<PointEvaluation<S>>,
     /// By coil.
-    pub coils: Vec<CoilSense<S>>,
+    pub coils: Vec<CoilEvaluation<S>>,
     /// Rates of the internal states.
     pub internal_rates: Vec<S>,
     /// Powers of the channels, W.
     pub powers: Vec<S>,
 }
 
-impl<S> Default for Sense<S> {
+impl<S> Default for ElementEvaluation<S> {
     fn default() -> Self {
         Self {
             loads: Vec::new(),
@@ -72,7 +72,7 @@ impl<S> Default for Sense<S> {
 }
 
 /// Where everything is that elements see.
-pub(super) struct Stage<'s, S, D> {
+pub(super) struct EvaluationInputs<'s, S, D> {
     pub frames: &'s dyn Fn(usize) -> FrameMotion<S>,
     pub kinematics: &'s [Kinematics<S>],
     pub internal: &'s [D],
@@ -82,21 +82,24 @@ pub(super) struct Stage<'s, S, D> {
 
 impl System {
     /// What all elements do and feel at `time` and state `x`.
-    pub fn sense(&mut self, time: f64, x: &[f64], out: &mut Sense<f64>) {
-        self.place(time, x);
+    pub fn evaluate_elements(&mut self, time: f64, x: &[f64], out: &mut ElementEvaluation<f64>) {
+        self.update_kinematics(time, x);
         let [_, _, internal, _] = self.layout.split(x);
-        let stage = Stage {
+        let inputs = EvaluationInputs {
             frames: &|body| self.frames[body].motion,
             kinematics: &self.kinematics,
             internal,
             coil_change: &|_| 0.0,
         };
-        self.feel(&stage, out);
+        self.evaluate_elements_at(&inputs, out);
     }
 
     /// The same for any scalar.
-    pub(super) fn feel<S: Scalar + From<D>, D: Copy>(&self, stage: &Stage<'_, S, D>, out: &mut Sense<S>)
-    where
+    pub(super) fn evaluate_elements_at<S: Scalar + From<D>, D: Copy>(
+        &self,
+        inputs: &EvaluationInputs<'_, S, D>,
+        out: &mut ElementEvaluation<S>,
+    ) where
         f64: Mul<S, Output = S>,
     {
         let zero = Load {
@@ -115,102 +118,113 @@ impl System {
         out.points.clear();
         out.coils.clear();
         for mounted in &self.faces {
-            let seen = stage.seen(mounted);
+            let motion = inputs.element_kinematics(mounted);
             let face = &mounted.element;
             let first = out.points.len();
             for point in &face.points {
-                let contact = face.geometry(point, &seen.relative);
-                out.points.push(PointSense {
+                let contact = face.geometry(point, &motion.relative);
+                out.points.push(PointEvaluation {
                     gap: contact.gap,
                     normal: S::zero(),
                     slip: contact.slip,
                     friction: [S::zero(); 2],
                 });
             }
-            let internal = &stage.internal[mounted.first_internal..][..mounted.internal_count];
+            let internal = &inputs.internal[mounted.first_internal..][..mounted.internal_count];
             let rates = &mut out.internal_rates[mounted.first_internal..][..mounted.internal_count];
             let points = &mut out.points[first..];
-            let sum = face.evaluate(&seen.relative, internal, |point, contact| {
+            let sum = face.evaluate(&motion.relative, internal, |point, contact| {
                 points[point].normal = contact.normal;
                 points[point].friction = contact.friction.force;
                 if !rates.is_empty() {
                     rates[2 * point..2 * point + 2].copy_from_slice(&contact.friction.rate);
                 }
             });
-            let action = Action::of_face(&sum);
-            stage.add(mounted, &seen, &action, out);
+            let wrench = Wrench::of_face(&sum);
+            inputs.add(mounted, &motion, &wrench, out);
         }
         for (number, mounted) in self.coils.iter().enumerate() {
-            let seen = stage.seen(mounted);
-            let change = (stage.coil_change)(number);
+            let motion = inputs.element_kinematics(mounted);
+            let change = (inputs.coil_change)(number);
             let coil = mounted
                 .element
-                .on_body_with(&seen.relative, |length| mounted.element.spring(length) + change);
-            out.coils.push(CoilSense {
+                .on_body_with(&motion.relative, |length| mounted.element.spring(length) + change);
+            out.coils.push(CoilEvaluation {
                 length: coil.length,
                 spring: coil.spring,
             });
-            let action = Action::of_coil(&coil);
-            stage.add(mounted, &seen, &action, out);
+            let wrench = Wrench::of_coil(&coil);
+            inputs.add(mounted, &motion, &wrench, out);
         }
         for mounted in &self.elements {
-            let seen = stage.seen(mounted);
-            let action = mounted.element.on_body(&seen.relative);
-            stage.add(mounted, &seen, &action, out);
+            let motion = inputs.element_kinematics(mounted);
+            let wrench = mounted.element.on_body(&motion.relative);
+            inputs.add(mounted, &motion, &wrench, out);
         }
     }
 }
 
 /// An element seen on a stage: the frames of the bodies at its ends, and the motion of body a as its mount sees it.
-struct Seen<S> {
+struct ElementKinematics<S> {
     frames: [FrameMotion<S>; 2],
-    sight: Sight<S>,
-    relative: Relative<S>,
+    relative_frame: RelativeFrame<S>,
+    relative: RelativeMotion<S>,
 }
 
-impl<S: Real, D> Stage<'_, S, D>
+impl<S: Real, D> EvaluationInputs<'_, S, D>
 where
     f64: Mul<S, Output = S>,
 {
-    fn seen<E>(&self, mounted: &Mounted<E>) -> Seen<S> {
+    fn element_kinematics<E>(&self, mounted: &Mounted<E>) -> ElementKinematics<S> {
         let frames = [mounted.body, mounted.on].map(self.frames);
-        let sight = Sight::new(
+        let relative_frame = RelativeFrame::new(
             &frames[0],
             &frames[1],
             &self.kinematics[mounted.on],
-            &mounted.mount,
+            &mounted.marker,
         );
-        let relative = sight.relative(&self.kinematics[mounted.body]);
-        Seen {
+        let relative = relative_frame.relative(&self.kinematics[mounted.body]);
+        ElementKinematics {
             frames,
-            sight,
+            relative_frame,
             relative,
         }
     }
 
     /// Adds what one element does to the bodies at its ends, and its powers.
-    fn add<E>(&self, mounted: &Mounted<E>, seen: &Seen<S>, action: &Action<S>, out: &mut Sense<S>) {
-        let [a, b] = &seen.frames;
+    fn add<E>(
+        &self,
+        mounted: &Mounted<E>,
+        motion: &ElementKinematics<S>,
+        wrench: &Wrench<S>,
+        out: &mut ElementEvaluation<S>,
+    ) {
+        let [a, b] = &motion.frames;
         let (body, on) = (&self.kinematics[mounted.body], &self.kinematics[mounted.on]);
         let mut load = |number: usize,
                         body: &Kinematics<S>,
                         frame: &FrameMotion<S>,
                         (force, moment): (Vector<S>, Vector<S>)| {
             let load = &mut out.loads[number];
-            let moment: Vector<S> = body.turn.rotation.apply(moment);
+            let moment: Vector<S> = body.orientation.rotation.apply(moment);
             load.force += frame.rotation.apply::<S, S>(force);
             load.moment += frame.rotation.apply::<S, S>(moment);
         };
-        load(mounted.body, body, a, action.on_body(&seen.sight, body));
-        let reaction = action.reaction(&seen.relative, on, &mounted.mount);
+        load(
+            mounted.body,
+            body,
+            a,
+            wrench.on_body(&motion.relative_frame, body),
+        );
+        let reaction = wrench.reaction(&motion.relative, on, &mounted.marker);
         load(mounted.on, on, b, reaction);
-        for (channel, power) in mounted.channels.iter().zip(action.powers) {
-            if let Some(channel) = channel {
-                out.powers[*channel] += power;
+        for (energy_term, power) in mounted.energy_terms.iter().zip(wrench.powers) {
+            if let Some(energy_term) = energy_term {
+                out.powers[*energy_term] += power;
             }
         }
-        if mounted.driven {
-            out.powers[0] += action.drive_power(&seen.relative, &seen.sight);
+        if mounted.prescribed {
+            out.powers[0] += wrench.prescribed_power(&motion.relative, &motion.relative_frame);
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::motion::Motion;
 
 /// Why a system cannot be driven so.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum DriveError {
+pub enum InputError {
     /// There is no such body, coil or face.
     #[error("there is no {what} {number}; there are {count} (counted from 0)")]
     NoSuch {
@@ -31,7 +31,7 @@ pub enum DriveError {
     #[error(
         "{body} cannot be driven: it must be prescribed, and all its motions must be able to move from the start on"
     )]
-    NotDriven {
+    NotPrescribed {
         /// Its name.
         body: String,
     },
@@ -43,10 +43,10 @@ impl System {
     ///
     /// # Errors
     /// There is no such body, or it was not built to be driven.
-    pub fn drive(&mut self, body: usize, motions: [Motion; 6]) -> Result<(), DriveError> {
+    pub fn set_motions(&mut self, body: usize, motions: [Motion; 6]) -> Result<(), InputError> {
         let count = self.bodies.len();
         let Some(moved) = self.bodies.get_mut(body) else {
-            return Err(DriveError::NoSuch {
+            return Err(InputError::NoSuch {
                 what: "body",
                 number: body,
                 count,
@@ -54,12 +54,12 @@ impl System {
         };
         let frame = &self.frames[body];
         if frame.fixed || frame.keeps_orientation || self.free_number[body].is_some() {
-            return Err(DriveError::NotDriven {
+            return Err(InputError::NotPrescribed {
                 body: moved.name.clone(),
             });
         }
         moved.frame.motions = motions;
-        self.forget_places();
+        self.invalidate_kinematics();
         Ok(())
     }
 
@@ -68,16 +68,16 @@ impl System {
     ///
     /// # Errors
     /// There is no such body, or its kinematics are not linearized.
-    pub fn set_load(&mut self, body: usize, load: [f64; 6]) -> Result<(), DriveError> {
+    pub fn set_load(&mut self, body: usize, load: [f64; 6]) -> Result<(), InputError> {
         let count = self.bodies.len();
         match self.bodies.get(body) {
             Some(own) if own.linearized => self.given[body] = load,
             Some(own) => {
                 let body = own.name.clone();
-                return Err(DriveError::NotLinearized { body });
+                return Err(InputError::NotLinearized { body });
             }
             None => {
-                return Err(DriveError::NoSuch {
+                return Err(InputError::NoSuch {
                     what: "body",
                     number: body,
                     count,
@@ -91,14 +91,14 @@ impl System {
     ///
     /// # Errors
     /// There is no such coil.
-    pub fn set_coil_law(&mut self, coil: usize, law: CoilLaw) -> Result<(), DriveError> {
+    pub fn set_coil_law(&mut self, coil: usize, law: CoilLaw) -> Result<(), InputError> {
         let count = self.coils.len();
         match self.coils.get_mut(coil) {
             Some(mounted) => {
                 mounted.element.law = law;
                 Ok(())
             }
-            None => Err(DriveError::NoSuch {
+            None => Err(InputError::NoSuch {
                 what: "coil",
                 number: coil,
                 count,
@@ -110,14 +110,14 @@ impl System {
     ///
     /// # Errors
     /// There is no such face.
-    pub fn set_friction(&mut self, face: usize, coefficient: f64) -> Result<(), DriveError> {
+    pub fn set_friction(&mut self, face: usize, coefficient: f64) -> Result<(), InputError> {
         let count = self.faces.len();
         match self.faces.get_mut(face) {
             Some(mounted) => {
                 mounted.element.coefficient = coefficient;
                 Ok(())
             }
-            None => Err(DriveError::NoSuch {
+            None => Err(InputError::NoSuch {
                 what: "face",
                 number: face,
                 count,

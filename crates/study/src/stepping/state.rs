@@ -4,33 +4,33 @@ use input::bounded;
 use integrate::{Options, State};
 use serde::{Deserialize, Serialize};
 use wedge::Parameters;
-use wedge::driven::{CoilDrive, Neighbours};
+use wedge::inputs::{CoilInput, Neighbours};
 use wedge::parameters::NeighbourMotion;
 
-use super::DrivenError;
-use super::equations::{check_coil, check_friction, check_modes, check_neighbours};
+use super::SteppingError;
+use super::equations::{check_coil, check_contact_states, check_friction, check_neighbours};
 
-/// Version of [`DrivenState`].
-pub const DRIVEN_STATE_VERSION: u32 = 1;
+/// Version of [`SteppedState`].
+pub const STEPPED_STATE_VERSION: u32 = 1;
 /// More bytes than these are no saved state, and are not read: states take some kilobytes.
 pub const MOST_STATE_BYTES: usize = input::limits::RECORD_FILE as usize;
 
 /// All that is needed to continue a driven wedge with the same bits, also in another process and on another machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct DrivenState {
-    /// [`DRIVEN_STATE_VERSION`].
+pub struct SteppedState {
+    /// [`STEPPED_STATE_VERSION`].
     pub version: u32,
     /// Tells wedges of other parameters or tolerances apart.
     pub(super) fingerprint: u64,
     /// Where the neighbours were at time zero.
     pub(super) start: Neighbours,
     /// Where the coil's force came from at time zero.
-    pub(super) start_coil: CoilDrive,
+    pub(super) start_coil: CoilInput,
     /// Where the neighbours are.
     pub neighbours: Neighbours,
     /// Where the coil's force comes from.
-    pub coil: CoilDrive,
+    pub coil: CoilInput,
     /// Coefficients of friction of column and slope.
     pub friction: [f64; 2],
     /// Whether a step has failed.
@@ -39,37 +39,37 @@ pub struct DrivenState {
     pub integrator: State,
 }
 
-impl DrivenState {
+impl SteppedState {
     /// The state as bytes: JSON, whose numbers read back to the last bit.
     ///
     /// # Errors
     /// Never, with a state that a wedge has given.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, DrivenError> {
-        serde_json::to_vec(self).map_err(|error| DrivenError::State(error.to_string()))
+    pub fn to_bytes(&self) -> Result<Vec<u8>, SteppingError> {
+        serde_json::to_vec(self).map_err(|error| SteppingError::State(error.to_string()))
     }
 
-    /// Reads what [`DrivenState::to_bytes`] wrote.
+    /// Reads what [`SteppedState::to_bytes`] wrote.
     ///
     /// # Errors
     /// These are no bytes of such a state, or of another version, or more than [`MOST_STATE_BYTES`].
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, DrivenError> {
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, SteppingError> {
         /// All that is looked at first.
         #[derive(Deserialize)]
         struct Head {
             version: u32,
         }
         if bytes.len() > MOST_STATE_BYTES {
-            return Err(DrivenError::State(format!(
+            return Err(SteppingError::State(format!(
                 "it has {} bytes, more than the {MOST_STATE_BYTES} that are read",
                 bytes.len()
             )));
         }
-        let damaged = |error: serde_json::Error| DrivenError::State(bounded(error.to_string()));
+        let damaged = |error: serde_json::Error| SteppingError::State(bounded(error.to_string()));
         let head: Head = serde_json::from_slice(bytes).map_err(damaged)?;
-        if head.version != DRIVEN_STATE_VERSION {
-            return Err(DrivenError::Version {
+        if head.version != STEPPED_STATE_VERSION {
+            return Err(SteppingError::Version {
                 found: head.version,
-                expected: DRIVEN_STATE_VERSION,
+                expected: STEPPED_STATE_VERSION,
             });
         }
         serde_json::from_slice(bytes).map_err(damaged)
@@ -77,13 +77,13 @@ impl DrivenState {
 
     /// Whether places, coil, friction, time and contact states can be those of a wedge; what else the integrator has is looked at by
     /// the integrator.
-    pub(super) fn check(&self) -> Result<(), DrivenError> {
+    pub(super) fn check(&self) -> Result<(), SteppingError> {
         check_neighbours(&self.neighbours)?;
         check_coil(&self.coil)?;
         check_friction(self.friction)?;
-        check_modes(&self.integrator.discrete_states)?;
+        check_contact_states(&self.integrator.discrete_states)?;
         if self.integrator.time < 0.0 {
-            return Err(DrivenError::Value {
+            return Err(SteppingError::Value {
                 what: "the time of the saved state".to_owned(),
                 value: self.integrator.time,
                 expected: "zero or positive: driven wedges begin at time zero",

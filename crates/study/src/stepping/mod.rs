@@ -1,15 +1,15 @@
 //! The wedge as an element of somebody else's simulation: the caller moves bolster and side frame, step by step or instant by
 //! instant, and reads the forces on them.
 //!
-//! [`DrivenWedge`] integrates itself from one call to the next; [`Equations`] gives rates, margins and derivatives for
-//! a solver of the caller's. Coordinates, axes and reference points are those of [`wedge::driven`]. SI units.
+//! [`SteppedWedge`] integrates itself from one call to the next; [`Equations`] gives rates, margins and derivatives for
+//! a solver of the caller's. Coordinates, axes and reference points are those of [`wedge::inputs`]. SI units.
 //!
 //! ```
 //! use study::case::Case;
-//! use study::driven::{DrivenWedge, Neighbours};
+//! use study::stepping::{SteppedWedge, Neighbours};
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let case = Case::parse("case.toml", "[wedge]\ndamping = \"constant\"\n", std::path::Path::new(""), &[])?;
-//! let mut wedge = DrivenWedge::new(&case)?;
+//! let mut wedge = SteppedWedge::new(&case)?;
 //! let mut place = *wedge.neighbours();
 //! for _ in 0..20 {
 //!     place.bolster.position[2] += 50e-6; // the bolster rises by 0.05 m/s
@@ -24,18 +24,18 @@
 mod equations;
 mod state;
 
-pub use equations::{DrivenError, Equations};
-pub use state::{DRIVEN_STATE_VERSION, DrivenState, MOST_STATE_BYTES};
-pub use wedge::driven::{CoilDrive, Neighbours, Place, Reading};
+pub use equations::{Equations, SteppingError};
+pub use state::{MOST_STATE_BYTES, STEPPED_STATE_VERSION, SteppedState};
+pub use wedge::inputs::{CoilInput, NeighbourState, Neighbours, Reading};
 
 use integrate::{Integrator, Options, Statistics};
 use mechanics::output::Column;
-use mechanics::system::{Along, Energies, Sense, System};
+use mechanics::system::{ElementEvaluation, Energies, JacobianVectorProduct, System};
 
 use crate::case::{Case, Simulation};
 use crate::progress::{self, Pace};
 use wedge::Parameters;
-use wedge::driven::COIL;
+use wedge::inputs::COIL;
 use wedge::outputs::Ledger;
 
 /// A step must be longer, s: below, times are rounding.
@@ -46,19 +46,19 @@ const SHORTEST_STEP: f64 = 1e-15;
 /// During a step each coordinate of a neighbour is the cubic through its values and rates at both ends. Steps may have any
 /// lengths; a smooth motion does not restart the integrator.
 #[derive(Debug)]
-pub struct DrivenWedge {
+pub struct SteppedWedge {
     equations: Equations,
     integrator: Integrator<System>,
     options: Options,
     failed: bool,
 }
 
-impl DrivenWedge {
+impl SteppedWedge {
     /// The wedge of a case at time zero, its neighbours where the case's motions begin.
     ///
     /// # Errors
     /// The parameters make no wedge, or the integrator refuses the start.
-    pub fn new(case: &Case) -> Result<Self, DrivenError> {
+    pub fn new(case: &Case) -> Result<Self, SteppingError> {
         let start = Neighbours::of(&case.parameters, 0.0);
         Self::starting(case, &start)
     }
@@ -66,13 +66,13 @@ impl DrivenWedge {
     /// The same with the neighbours elsewhere at the start.
     ///
     /// # Errors
-    /// As [`DrivenWedge::new`], and values that are not finite.
-    pub fn starting(case: &Case, start: &Neighbours) -> Result<Self, DrivenError> {
+    /// As [`SteppedWedge::new`], and values that are not finite.
+    pub fn starting(case: &Case, start: &Neighbours) -> Result<Self, SteppingError> {
         Self::with(
             &case.parameters,
             options(&case.simulation),
             start,
-            CoilDrive::Internal,
+            CoilInput::Internal,
         )
     }
 
@@ -80,13 +80,13 @@ impl DrivenWedge {
     /// of the neighbours) and a coil that may be outside.
     ///
     /// # Errors
-    /// As [`DrivenWedge::starting`].
+    /// As [`SteppedWedge::starting`].
     pub fn with(
         parameters: &Parameters,
         options: Options,
         start: &Neighbours,
-        coil: CoilDrive,
-    ) -> Result<Self, DrivenError> {
+        coil: CoilInput,
+    ) -> Result<Self, SteppingError> {
         let equations = Equations::new(parameters, start, coil)?;
         let options = Options {
             maximum_steps: u64::MAX,
@@ -128,20 +128,20 @@ impl DrivenWedge {
     ///
     /// # Errors
     /// Never, with a wedge that was built here.
-    pub fn reading(&mut self) -> Result<Reading<f64>, DrivenError> {
+    pub fn reading(&mut self) -> Result<Reading<f64>, SteppingError> {
         self.equations.reading()
     }
 
     /// What all corners and the coil feel.
-    pub fn sense(&mut self) -> &Sense<f64> {
-        self.equations.sense()
+    pub fn evaluation(&mut self) -> &ElementEvaluation<f64> {
+        self.equations.evaluation()
     }
 
     /// The rates of the states, see [`Equations::rates`].
     ///
     /// # Errors
     /// `out` does not have the length of the states.
-    pub fn rates(&mut self, out: &mut [f64]) -> Result<(), DrivenError> {
+    pub fn rates(&mut self, out: &mut [f64]) -> Result<(), SteppingError> {
         self.equations.rates(out)
     }
 
@@ -150,7 +150,7 @@ impl DrivenWedge {
         self.equations.margins()
     }
 
-    /// The columns of [`DrivenWedge::row`].
+    /// The columns of [`SteppedWedge::row`].
     #[must_use]
     pub fn columns(&self) -> &[Column] {
         self.equations.columns()
@@ -172,13 +172,14 @@ impl DrivenWedge {
     ///
     /// # Errors
     /// A wrong number of states.
-    pub fn along(
+    pub fn jacobian_vector_product(
         &mut self,
         states: &[f64],
         neighbours: &Neighbours,
         coil_force: f64,
-    ) -> Result<Along, DrivenError> {
-        self.equations.along(states, neighbours, coil_force)
+    ) -> Result<JacobianVectorProduct, SteppingError> {
+        self.equations
+            .jacobian_vector_product(states, neighbours, coil_force)
     }
 
     /// What the integrator has done so far.
@@ -192,22 +193,22 @@ impl DrivenWedge {
     /// # Errors
     /// A duration that is not positive, values that are not finite; or the integrator cannot go on: the wedge then takes no
     /// further step until a state is restored.
-    pub fn step(&mut self, end: &Neighbours, duration: f64) -> Result<(), DrivenError> {
+    pub fn step(&mut self, end: &Neighbours, duration: f64) -> Result<(), SteppingError> {
         self.step_to(end, self.time() + duration)
     }
 
     /// The same with the time (s) at the step's end.
     ///
     /// # Errors
-    /// As [`DrivenWedge::step`].
-    pub fn step_to(&mut self, end: &Neighbours, time: f64) -> Result<(), DrivenError> {
+    /// As [`SteppedWedge::step`].
+    pub fn step_to(&mut self, end: &Neighbours, time: f64) -> Result<(), SteppingError> {
         if self.failed {
-            return Err(DrivenError::Failed);
+            return Err(SteppingError::Failed);
         }
         let start = self.time();
         let duration = time - start;
         if !(duration > SHORTEST_STEP && duration.is_finite()) {
-            return Err(DrivenError::NoStep {
+            return Err(SteppingError::NoStep {
                 step: duration,
                 time: start,
             });
@@ -218,18 +219,24 @@ impl DrivenWedge {
         result
     }
 
-    fn advance(&mut self, end: &Neighbours, start: f64, duration: f64, time: f64) -> Result<(), DrivenError> {
+    fn advance(
+        &mut self,
+        end: &Neighbours,
+        start: f64,
+        duration: f64,
+        time: f64,
+    ) -> Result<(), SteppingError> {
         let from = *self.equations.neighbours();
-        from.lead(self.integrator.problem_mut(), start, duration, end)?;
+        from.set_between(self.integrator.problem_mut(), start, duration, end)?;
         self.integrator.reevaluate();
         let mut pace = Pace::of(&self.integrator);
         while self.integrator.time() < time {
             let name = |state| progress::state_name(self.equations.system(), state);
             if let Err(error) = self.integrator.step_to(time) {
-                return Err(DrivenError::Step(progress::describe(&error, name)));
+                return Err(SteppingError::Step(progress::describe(&error, name)));
             }
             pace.check(&self.integrator, duration)
-                .map_err(|stalled| DrivenError::TooLong {
+                .map_err(|stalled| SteppingError::TooLong {
                     step: duration,
                     time: start,
                     why: stalled.describe(name),
@@ -243,7 +250,7 @@ impl DrivenWedge {
     ///
     /// # Errors
     /// Values that are not finite, or a negative stiffness.
-    pub fn set_coil(&mut self, coil: CoilDrive) -> Result<(), DrivenError> {
+    pub fn set_coil(&mut self, coil: CoilInput) -> Result<(), SteppingError> {
         if coil == *self.equations.coil() {
             return Ok(());
         }
@@ -257,7 +264,7 @@ impl DrivenWedge {
     ///
     /// # Errors
     /// Values that are not finite, or negative.
-    pub fn set_friction(&mut self, friction: [f64; 2]) -> Result<(), DrivenError> {
+    pub fn set_friction(&mut self, friction: [f64; 2]) -> Result<(), SteppingError> {
         if friction == self.equations.friction() {
             return Ok(());
         }
@@ -270,9 +277,9 @@ impl DrivenWedge {
 
     /// All that is needed to go on with the same bits, also in another process.
     #[must_use]
-    pub fn state(&self) -> DrivenState {
-        DrivenState {
-            version: DRIVEN_STATE_VERSION,
+    pub fn state(&self) -> SteppedState {
+        SteppedState {
+            version: STEPPED_STATE_VERSION,
             fingerprint: state::fingerprint(self.equations.parameters(), &self.options),
             start: *self.equations.start(),
             start_coil: self.equations.start_coil(),
@@ -288,15 +295,15 @@ impl DrivenWedge {
     ///
     /// # Errors
     /// The state is of another version or another case, or damaged; nothing has changed then.
-    pub fn restore(&mut self, state: &DrivenState) -> Result<(), DrivenError> {
-        if state.version != DRIVEN_STATE_VERSION {
-            return Err(DrivenError::Version {
+    pub fn restore(&mut self, state: &SteppedState) -> Result<(), SteppingError> {
+        if state.version != STEPPED_STATE_VERSION {
+            return Err(SteppingError::Version {
                 found: state.version,
-                expected: DRIVEN_STATE_VERSION,
+                expected: STEPPED_STATE_VERSION,
             });
         }
         if state.fingerprint != state::fingerprint(self.equations.parameters(), &self.options) {
-            return Err(DrivenError::OtherCase);
+            return Err(SteppingError::OtherCase);
         }
         state.check()?;
         // Refused before anything changes.
@@ -317,7 +324,7 @@ impl DrivenWedge {
         self.set_coil(state.coil)?;
         self.set_friction(state.friction)?;
         let time = state.integrator.time;
-        state.neighbours.put(self.integrator.problem_mut(), time)?;
+        state.neighbours.set_at(self.integrator.problem_mut(), time)?;
         self.integrator.restore(&state.integrator)?;
         self.failed = state.failed;
         self.equations.follow(

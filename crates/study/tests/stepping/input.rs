@@ -1,11 +1,11 @@
 //! Bad input to driven wedges.
 
-use study::driven::{CoilDrive, DrivenError, DrivenState, DrivenWedge, Neighbours};
+use study::stepping::{CoilInput, Neighbours, SteppedState, SteppedWedge, SteppingError};
 
 use crate::common::{YAWED, case};
 
-fn wedge() -> DrivenWedge {
-    DrivenWedge::new(&case(YAWED, &[])).unwrap()
+fn wedge() -> SteppedWedge {
+    SteppedWedge::new(&case(YAWED, &[])).unwrap()
 }
 
 #[test]
@@ -14,13 +14,13 @@ fn steps_must_be_positive_and_finite() {
     let at = *wedge.neighbours();
     for step in [0.0, -1e-3, f64::NAN, f64::INFINITY, 1e-320] {
         let error = wedge.step(&at, step).unwrap_err();
-        assert!(matches!(error, DrivenError::NoStep { .. }), "{step}: {error}");
+        assert!(matches!(error, SteppingError::NoStep { .. }), "{step}: {error}");
         assert!(error.to_string().contains("must be positive"), "{error}");
     }
     wedge.step(&at, 1.0).unwrap();
     assert!(matches!(
         wedge.step(&at, 1e-300).unwrap_err(),
-        DrivenError::NoStep { .. }
+        SteppingError::NoStep { .. }
     ));
     wedge.step(&at, 1e-3).unwrap();
 }
@@ -37,12 +37,12 @@ fn values_that_are_not_finite_are_named() {
     let error = wedge.step(&at, 1e-3).unwrap_err().to_string();
     assert!(error.contains("rate of z of the side frame is inf"), "{error}");
     let error = wedge
-        .set_coil(CoilDrive::Stiffness(-1.0))
+        .set_coil(CoilInput::Stiffness(-1.0))
         .unwrap_err()
         .to_string();
     assert!(error.contains("stiffness is -1"), "{error}");
     let error = wedge
-        .set_coil(CoilDrive::Force(f64::NAN))
+        .set_coil(CoilInput::Force(f64::NAN))
         .unwrap_err()
         .to_string();
     assert!(error.contains("force is NaN"), "{error}");
@@ -64,7 +64,10 @@ fn a_wedge_that_cannot_go_on_says_so_until_it_is_restored() {
     let error = wedge.step(&far, 1e-3).unwrap_err().to_string();
     assert!(error.contains("go back to a saved state"), "{error}");
     let at = *wedge.neighbours();
-    assert!(matches!(wedge.step(&at, 1e-3).unwrap_err(), DrivenError::Failed));
+    assert!(matches!(
+        wedge.step(&at, 1e-3).unwrap_err(),
+        SteppingError::Failed
+    ));
     wedge.restore(&state).unwrap();
     wedge.step(&at, 1e-3).unwrap();
 }
@@ -81,17 +84,17 @@ fn saved_states_of_others_are_refused() {
         (text.replacen("\"version\":1", "\"version\":7", 1), "version 7"),
         (text.replacen("\"x\":[", "\"x\":[0.0,", 1), ""),
     ] {
-        let error = match DrivenState::from_bytes(bad.as_bytes()) {
+        let error = match SteppedState::from_bytes(bad.as_bytes()) {
             Ok(state) => wedge.restore(&state).unwrap_err(),
             Err(error) => error,
         };
         assert!(error.to_string().contains(what), "{error}");
     }
-    let state = DrivenState::from_bytes(&bytes).unwrap();
-    let mut other = DrivenWedge::new(&case(YAWED, &["contact.stiffness=\"3e5 lbf/in\""])).unwrap();
+    let state = SteppedState::from_bytes(&bytes).unwrap();
+    let mut other = SteppedWedge::new(&case(YAWED, &["contact.stiffness=\"3e5 lbf/in\""])).unwrap();
     assert!(matches!(
         other.restore(&state).unwrap_err(),
-        DrivenError::OtherCase
+        SteppingError::OtherCase
     ));
     wedge.restore(&state).unwrap();
 }

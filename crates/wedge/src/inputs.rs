@@ -1,14 +1,14 @@
 //! The wedge between neighbours that a caller moves: where they are, and what the wedge does to them.
 //!
 //! Coordinates of a neighbour are those of [`NeighbourMotion`]: x, y, z of its turning centre from the nominal position along
-//! fixed axes (m), roll, pitch, yaw (rad; see [`mechanics::turn`]), and their rates. Force and moment on a neighbour are given along
+//! fixed axes (m), roll, pitch, yaw (rad; see [`mechanics::orientation`]), and their rates. Force and moment on a neighbour are given along
 //! fixed axes, the moment about the neighbour's turning centre where that is at the time: so, with small angles, force and
 //! moment times the rates are the power that the neighbour takes up.
 
 use integrate::scalar::Real;
 use mechanics::coil::CoilLaw;
 use mechanics::motion::Motion;
-use mechanics::system::{DriveError, Load, Sense, System};
+use mechanics::system::{ElementEvaluation, InputError, Load, System};
 use serde::{Deserialize, Serialize};
 
 use crate::assemble::{BOLSTER, COLUMN, SIDE_FRAME};
@@ -19,7 +19,7 @@ pub const COIL: usize = 0;
 
 /// Where a neighbour is, and how it moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Place {
+pub struct NeighbourState {
     /// x, y, z (m), roll, pitch, yaw (rad).
     pub position: [f64; 6],
     /// Their rates (m/s, rad/s).
@@ -30,15 +30,15 @@ pub struct Place {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Neighbours {
     /// The side frame.
-    pub side_frame: Place,
+    pub side_frame: NeighbourState,
     /// The bolster.
-    pub bolster: Place,
+    pub bolster: NeighbourState,
 }
 
 /// Where the coil's spring force comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum CoilDrive {
+pub enum CoilInput {
     /// From the parameters.
     #[default]
     Internal,
@@ -48,7 +48,7 @@ pub enum CoilDrive {
     Force(f64),
 }
 
-impl Place {
+impl NeighbourState {
     /// Where a prescribed motion is at a time (s).
     #[must_use]
     pub fn of(motion: &NeighbourMotion, time: f64) -> Self {
@@ -104,8 +104,8 @@ impl Neighbours {
     #[must_use]
     pub fn of(parameters: &Parameters, time: f64) -> Self {
         Self {
-            side_frame: Place::of(&parameters.side_frame, time),
-            bolster: Place::of(&parameters.bolster, time),
+            side_frame: NeighbourState::of(&parameters.side_frame, time),
+            bolster: NeighbourState::of(&parameters.bolster, time),
         }
     }
 
@@ -115,7 +115,7 @@ impl Neighbours {
         self.side_frame.is_finite() && self.bolster.is_finite()
     }
 
-    /// The places reached after `duration` (s) where only positions are known, see [`Place::reached`].
+    /// The places reached after `duration` (s) where only positions are known, see [`NeighbourState::reached`].
     #[must_use]
     pub fn reached(&self, side_frame: [f64; 6], bolster: [f64; 6], duration: f64) -> Self {
         Self {
@@ -128,25 +128,31 @@ impl Neighbours {
     ///
     /// # Errors
     /// The system is no driven wedge.
-    pub fn put(&self, system: &mut System, time: f64) -> Result<(), DriveError> {
-        system.drive(SIDE_FRAME, self.side_frame.lines(time))?;
-        system.drive(BOLSTER, self.bolster.lines(time))
+    pub fn set_at(&self, system: &mut System, time: f64) -> Result<(), InputError> {
+        system.set_motions(SIDE_FRAME, self.side_frame.lines(time))?;
+        system.set_motions(BOLSTER, self.bolster.lines(time))
     }
 
     /// Lets both neighbours of a driven wedge go from here to another place within `duration` (s).
     ///
     /// # Errors
     /// The system is no driven wedge.
-    pub fn lead(&self, system: &mut System, start: f64, duration: f64, end: &Self) -> Result<(), DriveError> {
-        system.drive(
+    pub fn set_between(
+        &self,
+        system: &mut System,
+        start: f64,
+        duration: f64,
+        end: &Self,
+    ) -> Result<(), InputError> {
+        system.set_motions(
             SIDE_FRAME,
             self.side_frame.cubics(start, duration, &end.side_frame),
         )?;
-        system.drive(BOLSTER, self.bolster.cubics(start, duration, &end.bolster))
+        system.set_motions(BOLSTER, self.bolster.cubics(start, duration, &end.bolster))
     }
 }
 
-impl CoilDrive {
+impl CoilInput {
     /// Whether its value is usable.
     #[must_use]
     pub fn is_valid(&self) -> bool {
@@ -173,11 +179,11 @@ impl CoilDrive {
 impl Parameters {
     /// The same wedge with neighbours that a caller moves, starting from these places.
     #[must_use]
-    pub fn driven(&self, start: &Neighbours) -> Self {
-        let mut driven = self.clone();
-        driven.side_frame.coordinates = start.side_frame.lines(0.0);
-        driven.bolster.coordinates = start.bolster.lines(0.0);
-        driven
+    pub fn with_inputs(&self, start: &Neighbours) -> Self {
+        let mut wedge = self.clone();
+        wedge.side_frame.coordinates = start.side_frame.lines(0.0);
+        wedge.bolster.coordinates = start.bolster.lines(0.0);
+        wedge
     }
 }
 
@@ -201,25 +207,25 @@ pub struct Reading<S> {
 impl<S: Real> Reading<S> {
     /// Reads what elements feel; `None` if they are not those of a wedge.
     #[must_use]
-    pub fn of(sense: &Sense<S>, system: &System, parameters: &Parameters) -> Option<Self> {
-        let coil = sense.coils.get(COIL)?;
+    pub fn of(evaluation: &ElementEvaluation<S>, system: &System, parameters: &Parameters) -> Option<Self> {
+        let coil = evaluation.coils.get(COIL)?;
         let mut normal_forces = [S::zero(); 2];
         let mut friction_losses = [S::zero(); 2];
         let mut first = 0;
         for (index, face) in system.faces().iter().take(2).enumerate() {
             let count = face.element.points.len();
-            for point in sense.points.get(first..first + count)? {
+            for point in evaluation.points.get(first..first + count)? {
                 normal_forces[index] += point.normal;
             }
-            if let Some(loss) = face.channels[0] {
-                friction_losses[index] = *sense.powers.get(loss)?;
+            if let Some(loss) = face.energy_terms[0] {
+                friction_losses[index] = *evaluation.powers.get(loss)?;
             }
             first += count;
         }
         debug_assert_eq!(COLUMN, 0);
         Some(Self {
-            on_side_frame: *sense.loads.get(SIDE_FRAME)?,
-            on_bolster: *sense.loads.get(BOLSTER)?,
+            on_side_frame: *evaluation.loads.get(SIDE_FRAME)?,
+            on_bolster: *evaluation.loads.get(BOLSTER)?,
             coil_compression: -coil.length + parameters.coil.free_length,
             coil_force: coil.spring,
             normal_forces,

@@ -13,9 +13,9 @@ use integrate::scalar::{Blend, Number};
 use integrate::{DiscontinuityFunctions, EventGroup};
 
 use super::System;
-use crate::contact::View;
+use crate::contact::PlaneMotion;
 use crate::friction::FrictionLaw;
-use crate::link::Relative;
+use crate::link::RelativeMotion;
 
 /// A point closes at this gap, m.
 pub const CLOSING_GAP: f64 = 0.0;
@@ -29,7 +29,7 @@ pub const STICK_LOAD: [f64; 2] = [1.0, 0.999];
 /// What a contact point does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
-pub enum Mode {
+pub enum ContactState {
     /// No contact.
     Open = 0,
     /// In contact, not slipping.
@@ -38,7 +38,7 @@ pub enum Mode {
     Slip = 2,
 }
 
-impl Mode {
+impl ContactState {
     /// The mode with this number; other numbers mean slip.
     #[must_use]
     pub fn from_number(number: u8) -> Self {
@@ -62,29 +62,29 @@ impl Mode {
 
 /// Gap and friction load of a point.
 #[derive(Clone, Copy, Debug)]
-struct Signs {
+struct PointVariables {
     gap: f64,
     load: f64,
     law: usize,
 }
 
-impl Signs {
+impl PointVariables {
     /// The mode that follows one that must be left.
-    fn next(self, mode: Mode) -> Mode {
-        match mode {
-            Mode::Open => self.closed(),
-            _ if self.gap >= OPENING_GAP => Mode::Open,
-            Mode::Stick if self.load >= SLIP_LOAD[self.law] => Mode::Slip,
-            Mode::Slip if self.load <= STICK_LOAD[self.law] => Mode::Stick,
+    fn next(self, contact_state: ContactState) -> ContactState {
+        match contact_state {
+            ContactState::Open => self.closed(),
+            _ if self.gap >= OPENING_GAP => ContactState::Open,
+            ContactState::Stick if self.load >= SLIP_LOAD[self.law] => ContactState::Slip,
+            ContactState::Slip if self.load <= STICK_LOAD[self.law] => ContactState::Stick,
             same => same,
         }
     }
 
-    fn closed(self) -> Mode {
+    fn closed(self) -> ContactState {
         if self.load < SLIP_LOAD[self.law] {
-            Mode::Stick
+            ContactState::Stick
         } else {
-            Mode::Slip
+            ContactState::Slip
         }
     }
 }
@@ -114,30 +114,34 @@ fn put(target: &mut [f64], numbers: Lanes) {
     }
 }
 
-/// Positive where the mode of a point lasts, for up to four points: see [`Signs::next`].
+/// Positive where the mode of a point lasts, for up to four points: see [`PointVariables::next`].
 #[inline(always)]
-fn margins_of(modes: &[u8], gap: Lanes, load: Lanes, law: usize) -> Lanes {
+fn margins_of(contact_states: &[u8], gap: Lanes, load: Lanes, law: usize) -> Lanes {
     let stays_open = gap - CLOSING_GAP;
-    let all = |mode: Mode| modes.iter().all(|own| *own == mode as u8);
-    if all(Mode::Open) {
+    let all = |contact_state: ContactState| contact_states.iter().all(|own| *own == contact_state as u8);
+    if all(ContactState::Open) {
         return stays_open;
     }
-    let which = |mode: Mode| LaneMask::new(std::array::from_fn(|i| modes.get(i) == Some(&(mode as u8))));
+    let which = |contact_state: ContactState| {
+        LaneMask::new(std::array::from_fn(|i| {
+            contact_states.get(i) == Some(&(contact_state as u8))
+        }))
+    };
     let stays_closed = (OPENING_GAP - gap) / OPENING_GAP;
     let (stays_stuck, keeps_slipping) = (SLIP_LOAD[law] - load, load - STICK_LOAD[law]);
-    let friction = if all(Mode::Slip) {
+    let friction = if all(ContactState::Slip) {
         keeps_slipping
     } else {
-        Lanes::blend(which(Mode::Stick), stays_stuck, keeps_slipping)
+        Lanes::blend(which(ContactState::Stick), stays_stuck, keeps_slipping)
     };
     // A closed point in the band of hysteresis carries no force: its friction says nothing. Nor does what is not a number.
     let bears = gap.below(Lanes::zero()).and(friction.below(stays_closed));
     let stays = Lanes::blend(bears, friction, stays_closed);
-    Lanes::blend(which(Mode::Open), stays_open, stays)
+    Lanes::blend(which(ContactState::Open), stays_open, stays)
 }
 
 impl System {
-    /// Sees where all points are and how they move at the state that [`System::place`] was called with: before what follows.
+    /// Sees where all points are and how they move at the state that [`System::update_kinematics`] was called with: before what follows.
     #[inline(always)]
     pub(super) fn update_points(&mut self) {
         if self.points_updated {
@@ -154,15 +158,15 @@ impl System {
     fn update_face_points(&mut self, number: usize) {
         let face = &mut self.faces[number];
         let kinematics = &self.kinematics[face.body];
-        if face.plain && face.points.update_if_open(&face.sight, kinematics) {
+        if face.plain && face.points.update_if_open(&face.relative_frame, kinematics) {
             return;
         }
-        let view = if face.plain {
-            View::of(&face.sight, kinematics)
+        let plane = if face.plain {
+            PlaneMotion::of(&face.relative_frame, kinematics)
         } else {
-            View::new(&face.sight.relative(kinematics))
+            PlaneMotion::new(&face.relative_frame.relative(kinematics))
         };
-        face.points.update(&view);
+        face.points.update(&plane);
     }
 
     /// Gap and load of the points of a face, up to four at a time by their numbers among all points, and the law's place in
@@ -174,16 +178,17 @@ impl System {
         let deflections = &internal[face.first_internal..][..face.internal_count];
         let law = threshold(&face.element.law);
         let first = self.first_points[number];
-        face.element.signs(&face.points, deflections, |own, gap, load| {
-            each(first + own.start..first + own.end, gap, load, law);
-        });
+        face.element
+            .event_variables(&face.points, deflections, |own, gap, load| {
+                each(first + own.start..first + own.end, gap, load, law);
+            });
     }
 
     /// Writes gaps and loads of the points of a face, once it has seen them.
     #[inline(always)]
-    fn signs_of_face(&self, number: usize, x: &[f64], signs: &mut [f64]) {
+    fn write_face_event_variables(&self, number: usize, x: &[f64], variables: &mut [f64]) {
         let first = self.first_points[number];
-        let (gaps, loads) = signs.split_at_mut(signs.len() / 2);
+        let (gaps, loads) = variables.split_at_mut(variables.len() / 2);
         self.face_blocks(number, x, |points, gap, load, _| {
             let own = points.start - first..points.end - first;
             put(&mut gaps[own.clone()], gap);
@@ -205,7 +210,7 @@ impl System {
         x: &[f64],
         functions: &mut DiscontinuityFunctions,
     ) {
-        self.place(time, x);
+        self.update_kinematics(time, x);
         self.update_points();
         for (number, face) in self.faces.iter().enumerate() {
             let own = self.points_of(number);
@@ -221,16 +226,16 @@ impl System {
         }
     }
 
-    pub(super) fn find_modes(&mut self, x: &[f64], modes: &mut [u8]) {
+    pub(super) fn find_contact_states(&mut self, x: &[f64], contact_states: &mut [u8]) {
         self.update_points();
         for number in 0..self.faces.len() {
             self.face_blocks(number, x, |points, gap, load, law| {
-                for (i, mode) in modes[points].iter_mut().enumerate() {
+                for (i, contact_state) in contact_states[points].iter_mut().enumerate() {
                     let (gap, load) = (gap.at(i), load.at(i));
-                    *mode = if gap < CLOSING_GAP {
-                        Signs { gap, load, law }.closed()
+                    *contact_state = if gap < CLOSING_GAP {
+                        PointVariables { gap, load, law }.closed()
                     } else {
-                        Mode::Open
+                        ContactState::Open
                     } as u8;
                 }
             });
@@ -238,47 +243,65 @@ impl System {
     }
 
     /// Gaps of the points of the first face, their loads, and so on.
-    pub(super) fn mode_signs(&mut self, x: &[f64], signs: &mut [f64]) {
+    pub(super) fn point_event_variables(&mut self, x: &[f64], variables: &mut [f64]) {
         self.update_points();
         for number in 0..self.faces.len() {
-            self.signs_of_face(number, x, &mut signs[self.signs_range(number)]);
+            self.write_face_event_variables(number, x, &mut variables[self.event_variable_range(number)]);
         }
     }
 
     /// Where the signs of a face stand among all signs.
-    fn signs_range(&self, face: usize) -> Range<usize> {
+    fn event_variable_range(&self, face: usize) -> Range<usize> {
         let points = self.points_of(face);
         2 * points.start..2 * points.end
     }
 
     /// The signs of one face, which depend on nothing but the bodies it touches.
-    pub(super) fn face_signs(&mut self, number: usize, time: f64, x: &[f64], signs: &mut [f64]) {
-        if self.place_face(number, time, x) {
+    pub(super) fn face_event_variables(
+        &mut self,
+        number: usize,
+        time: f64,
+        x: &[f64],
+        variables: &mut [f64],
+    ) {
+        if self.update_face(number, time, x) {
             self.update_face_points(number);
         }
-        self.signs_of_face(number, x, signs);
+        self.write_face_event_variables(number, x, variables);
     }
 
     /// The margins of the points of one face by its signs.
-    pub(super) fn face_margins(&self, number: usize, signs: &[f64], modes: &[u8], margins: &mut [f64]) {
+    pub(super) fn face_margins(
+        &self,
+        number: usize,
+        variables: &[f64],
+        contact_states: &[u8],
+        margins: &mut [f64],
+    ) {
         let law = threshold(&self.faces[number].element.law);
-        let (gaps, loads) = signs.split_at(modes.len());
-        let seen = gaps.chunks(LANES).zip(loads.chunks(LANES));
-        let points = margins.chunks_mut(LANES).zip(modes.chunks(LANES));
-        for ((margins, modes), (gaps, loads)) in points.zip(seen) {
-            put(margins, margins_of(modes, take(gaps), take(loads), law));
+        let (gaps, loads) = variables.split_at(contact_states.len());
+        let variables_of_blocks = gaps.chunks(LANES).zip(loads.chunks(LANES));
+        let points = margins.chunks_mut(LANES).zip(contact_states.chunks(LANES));
+        for ((margins, contact_states), (gaps, loads)) in points.zip(variables_of_blocks) {
+            put(margins, margins_of(contact_states, take(gaps), take(loads), law));
         }
     }
 
     /// The mode that follows at one point of a face, by the face's signs.
-    pub(super) fn follow_mode(&self, number: usize, signs: &[f64], index: usize, mode: u8) -> u8 {
-        let (gaps, loads) = signs.split_at(signs.len() / 2);
-        let signs = Signs {
+    pub(super) fn next_contact_state(
+        &self,
+        number: usize,
+        variables: &[f64],
+        index: usize,
+        contact_state: u8,
+    ) -> u8 {
+        let (gaps, loads) = variables.split_at(variables.len() / 2);
+        let variables = PointVariables {
             gap: gaps[index],
             load: loads[index],
             law: threshold(&self.faces[number].element.law),
         };
-        signs.next(Mode::from_number(mode)) as u8
+        variables.next(ContactState::from_number(contact_state)) as u8
     }
 
     /// The points of each face, with the states that they depend on.
@@ -296,7 +319,7 @@ impl System {
             states.push(first..first + face.internal_count);
             EventGroup {
                 discrete_states: self.points_of(number),
-                variables: self.signs_range(number),
+                variables: self.event_variable_range(number),
                 states,
             }
         };
@@ -309,12 +332,12 @@ impl System {
     ///
     /// With tanh this is the slip speed, with the bristle the slip speed less the rate of the bristle.
     pub fn creep_speeds(&mut self, time: f64, x: &[f64], speeds: &mut [f64]) {
-        self.place(time, x);
+        self.update_kinematics(time, x);
         let [_, _, internal, _] = self.layout.split(x);
         for (number, face) in self.faces.iter().enumerate() {
             let target = &mut speeds[self.points_of(number)];
             target.fill(0.0);
-            let relative: Relative<f64> = face.sight.relative(&self.kinematics[face.body]);
+            let relative: RelativeMotion<f64> = face.relative_frame.relative(&self.kinematics[face.body]);
             let deflections = &internal[face.first_internal..][..face.internal_count];
             face.element.evaluate(&relative, deflections, |point, contact| {
                 let [a, b] = [0, 1].map(|k| contact.slip[k] - contact.friction.rate[k]);
@@ -335,7 +358,13 @@ mod tests {
     /// Each lane by the words of the module: what has changed least before the mode ends.
     #[test]
     fn limits_margins_of_four_points_are_those_of_each() {
-        let modes = [Mode::Open, Mode::Stick, Mode::Slip, Mode::Stick].map(|mode| mode as u8);
+        let contact_states = [
+            ContactState::Open,
+            ContactState::Stick,
+            ContactState::Slip,
+            ContactState::Stick,
+        ]
+        .map(|contact_state| contact_state as u8);
         let half = 0.5 * OPENING_GAP;
         for law in 0..2 {
             for gaps in [
@@ -344,17 +373,18 @@ mod tests {
                 [1e-6, half, half, 0.0],
             ] {
                 for load in [0.0, 0.5, 1.0, 1.5, 3.0, f64::NAN] {
-                    let found = margins_of(&modes, Lanes::new(gaps), Lanes::from(load), law).to_array();
-                    for ((mode, gap), found) in modes.iter().zip(gaps).zip(found) {
+                    let found =
+                        margins_of(&contact_states, Lanes::new(gaps), Lanes::from(load), law).to_array();
+                    for ((contact_state, gap), found) in contact_states.iter().zip(gaps).zip(found) {
                         let opens = (OPENING_GAP - gap) / OPENING_GAP;
                         // In the band of hysteresis nothing is pressed: no friction.
-                        let expected = match Mode::from_number(*mode) {
-                            Mode::Open => gap - CLOSING_GAP,
+                        let expected = match ContactState::from_number(*contact_state) {
+                            ContactState::Open => gap - CLOSING_GAP,
                             _ if gap >= 0.0 || load.is_nan() => opens,
-                            Mode::Stick => opens.min(SLIP_LOAD[law] - load),
-                            Mode::Slip => opens.min(load - STICK_LOAD[law]),
+                            ContactState::Stick => opens.min(SLIP_LOAD[law] - load),
+                            ContactState::Slip => opens.min(load - STICK_LOAD[law]),
                         };
-                        assert_eq!(found, expected, "mode {mode}, gap {gap}, load {load}");
+                        assert_eq!(found, expected, "mode {contact_state}, gap {gap}, load {load}");
                     }
                 }
             }

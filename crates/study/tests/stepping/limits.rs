@@ -1,6 +1,6 @@
 //! Limiting cases of driven wedges.
 
-use study::driven::{DrivenWedge, Neighbours};
+use study::stepping::{Neighbours, SteppedWedge};
 
 use crate::common::{YAWED, at, case, value};
 
@@ -8,7 +8,7 @@ use crate::common::{YAWED, at, case, value};
 fn a_wedge_in_equilibrium_stays_where_it_is() {
     let case = case("cdrun_toe_0_psi_0", &["simulation.start=\"equilibrium\""]);
     let still = Neighbours::default();
-    let mut wedge = DrivenWedge::starting(&case, &still).unwrap();
+    let mut wedge = SteppedWedge::starting(&case, &still).unwrap();
     let start = wedge.equations().states().to_vec();
     for _ in 0..50 {
         wedge.step(&still, 0.02).unwrap();
@@ -47,7 +47,7 @@ fn a_motion_of_both_neighbours_is_a_ride() {
     );
     let mut still = Neighbours::of(&case.parameters, 0.0);
     still.bolster.rate = [0.0; 6];
-    let mut wedge = DrivenWedge::starting(&case, &still).unwrap();
+    let mut wedge = SteppedWedge::starting(&case, &still).unwrap();
     let before = wedge.reading().unwrap().on_bolster.force.0;
     let mut along = still;
     for place in [&mut along.side_frame, &mut along.bolster] {

@@ -1,12 +1,12 @@
 //! The same bits across saving, restoring, other instances.
 
-use study::driven::{CoilDrive, DrivenState, DrivenWedge};
+use study::stepping::{CoilInput, SteppedState, SteppedWedge};
 
 use crate::common::{YAWED, at, case, drive};
 
 const BRISTLE: &str = "friction.law=\"bristle\"";
 
-fn bits(wedge: &mut DrivenWedge) -> Vec<u64> {
+fn bits(wedge: &mut SteppedWedge) -> Vec<u64> {
     let row = wedge.row();
     let states = wedge.equations().states().to_vec();
     row.iter().chain(&states).map(|value| value.to_bits()).collect()
@@ -28,10 +28,10 @@ fn a_wedge_goes_on_from_saved_bytes_with_the_same_bits() {
         assert_ne!(here, there);
 
         // The same wedge goes back, a new one goes on.
-        wedge.restore(&DrivenState::from_bytes(&bytes).unwrap()).unwrap();
+        wedge.restore(&SteppedState::from_bytes(&bytes).unwrap()).unwrap();
         assert_eq!(bits(&mut wedge), here, "{name}");
-        let mut other = DrivenWedge::new(&case).unwrap();
-        other.restore(&DrivenState::from_bytes(&bytes).unwrap()).unwrap();
+        let mut other = SteppedWedge::new(&case).unwrap();
+        other.restore(&SteppedState::from_bytes(&bytes).unwrap()).unwrap();
         assert_eq!(bits(&mut other), here, "{name}");
         for wedge in [&mut wedge, &mut other] {
             drive(&case, wedge, 0.8, 1e-3);
@@ -54,13 +54,13 @@ fn a_restored_wedge_knows_another_start_coil_and_friction() {
     let case = case(YAWED, &["simulation.start=\"touching\""]);
     let mut start = crate::common::place(&case, 0.0);
     start.bolster.position[5] = 0.004;
-    let mut wedge = DrivenWedge::starting(&case, &start).unwrap();
-    wedge.set_coil(CoilDrive::Stiffness(4e5)).unwrap();
+    let mut wedge = SteppedWedge::starting(&case, &start).unwrap();
+    wedge.set_coil(CoilInput::Stiffness(4e5)).unwrap();
     wedge.set_friction([0.3, 0.2]).unwrap();
     start.bolster.position[2] = 1e-4;
     wedge.step(&start, 0.01).unwrap();
     let state = wedge.state();
-    let mut other = DrivenWedge::new(&case).unwrap();
+    let mut other = SteppedWedge::new(&case).unwrap();
     other.restore(&state).unwrap();
     for wedge in [&mut wedge, &mut other] {
         start.bolster.position[2] = 2e-4;
@@ -74,7 +74,7 @@ fn a_restored_wedge_knows_another_start_coil_and_friction() {
 fn wedges_do_not_disturb_each_other() {
     let case = case(YAWED, &[]);
     let mut alone = at(&case, 0.1, 1e-3);
-    let mut four: Vec<DrivenWedge> = (0..4).map(|_| DrivenWedge::new(&case).unwrap()).collect();
+    let mut four: Vec<SteppedWedge> = (0..4).map(|_| SteppedWedge::new(&case).unwrap()).collect();
     for number in 1..=100 {
         for wedge in &mut four {
             drive(&case, wedge, f64::from(number) * 1e-3, 1e-3);

@@ -5,16 +5,17 @@ use std::fmt;
 use integrate::{EventGroup, Problem, SetupError};
 use mechanics::output::Column;
 use mechanics::system::{
-    Along, Direction, DriveChange, DriveError, Energies, Mode, Observation, Sense, System,
+    ContactState, Direction, ElementEvaluation, Energies, InputError, JacobianVectorProduct, MotionChange,
+    Observation, System,
 };
 use thiserror::Error;
-use wedge::driven::{COIL, CoilDrive, Neighbours, Reading};
+use wedge::inputs::{COIL, CoilInput, Neighbours, Reading};
 use wedge::outputs::{Ledger, Outputs};
 use wedge::{BOLSTER, BuildError, COLUMN, Parameters, SIDE_FRAME, SLOPE, Wedge};
 
 /// Why a driven wedge cannot begin, go on or go back.
 #[derive(Debug, Error)]
-pub enum DrivenError {
+pub enum SteppingError {
     /// The parameters make no wedge.
     #[error(transparent)]
     Build(#[from] BuildError),
@@ -26,7 +27,7 @@ pub enum DrivenError {
     Step(String),
     /// The system cannot be driven.
     #[error(transparent)]
-    Drive(#[from] DriveError),
+    Input(#[from] InputError),
     /// A step that is no step.
     #[error(
         "a step of {step} s from time {time} s is none: it must be positive, finite, and not lost against the time"
@@ -93,21 +94,21 @@ pub struct Equations {
     /// The parameters with the motions of the case.
     parameters: Parameters,
     start: Neighbours,
-    start_coil: CoilDrive,
+    start_coil: CoilInput,
     start_energy: f64,
     outputs: Outputs,
     time: f64,
     x: Vec<f64>,
-    modes: Vec<u8>,
+    contact_states: Vec<u8>,
     groups: Vec<EventGroup>,
-    signs: Vec<f64>,
+    variables: Vec<f64>,
     margins: Vec<f64>,
     neighbours: Neighbours,
-    coil: CoilDrive,
+    coil: CoilInput,
     friction: [f64; 2],
     /// What elements feel here, if it is known already.
-    sense: Sense<f64>,
-    sensed: bool,
+    evaluation: ElementEvaluation<f64>,
+    evaluated: bool,
 }
 
 impl fmt::Debug for Equations {
@@ -115,7 +116,7 @@ impl fmt::Debug for Equations {
         f.debug_struct("Equations")
             .field("time", &self.time)
             .field("x", &self.x)
-            .field("modes", &self.modes)
+            .field("modes", &self.contact_states)
             .field("neighbours", &self.neighbours)
             .finish_non_exhaustive()
     }
@@ -126,16 +127,16 @@ impl Equations {
     ///
     /// # Errors
     /// The parameters make no wedge, or places or coil are not finite.
-    pub fn new(parameters: &Parameters, start: &Neighbours, coil: CoilDrive) -> Result<Self, DrivenError> {
+    pub fn new(parameters: &Parameters, start: &Neighbours, coil: CoilInput) -> Result<Self, SteppingError> {
         check_neighbours(start)?;
         check_coil(&coil)?;
-        let mut driven = parameters.driven(start);
-        driven.coil.law = coil.law(parameters);
-        let mut wedge = Wedge::new(driven)?;
+        let mut wedge_parameters = parameters.with_inputs(start);
+        wedge_parameters.coil.law = coil.law(parameters);
+        let mut wedge = Wedge::new(wedge_parameters)?;
         let x = wedge.initial_state.clone();
         let start_energy = wedge.system.observe(0.0, &x).energies.total();
-        let mut modes = vec![0; wedge.system.point_count()];
-        wedge.system.initial_discrete_states(0.0, &x, &mut modes);
+        let mut contact_states = vec![0; wedge.system.point_count()];
+        wedge.system.initial_discrete_states(0.0, &x, &mut contact_states);
         Ok(Self {
             outputs: Outputs::new(&wedge.parameters),
             friction: [
@@ -148,15 +149,15 @@ impl Equations {
             start_energy,
             time: 0.0,
             groups: wedge.system.event_groups(),
-            signs: vec![0.0; wedge.system.event_variable_count()],
-            margins: vec![0.0; modes.len()],
-            modes,
+            variables: vec![0.0; wedge.system.event_variable_count()],
+            margins: vec![0.0; contact_states.len()],
+            contact_states,
             x,
             neighbours: *start,
             coil,
             wedge,
-            sense: Sense::default(),
-            sensed: false,
+            evaluation: ElementEvaluation::default(),
+            evaluated: false,
         })
     }
 
@@ -177,7 +178,7 @@ impl Equations {
     }
     /// Where the coil's force came from at time zero.
     #[must_use]
-    pub fn start_coil(&self) -> CoilDrive {
+    pub fn start_coil(&self) -> CoilInput {
         self.start_coil
     }
     /// Stored energy at the start, J.
@@ -195,11 +196,11 @@ impl Equations {
     pub fn states(&self) -> &[f64] {
         &self.x
     }
-    /// Contact states of the corners (see [`Mode`]), in the order of [`wedge::outputs::FACES`] and
+    /// Contact states of the corners (see [`ContactState`]), in the order of [`wedge::outputs::FACES`] and
     /// [`wedge::outputs::CORNERS`].
     #[must_use]
-    pub fn modes(&self) -> &[u8] {
-        &self.modes
+    pub fn contact_states(&self) -> &[u8] {
+        &self.contact_states
     }
     /// Where the neighbours are.
     #[must_use]
@@ -208,7 +209,7 @@ impl Equations {
     }
     /// Where the coil's force comes from.
     #[must_use]
-    pub fn coil(&self) -> &CoilDrive {
+    pub fn coil(&self) -> &CoilInput {
         &self.coil
     }
     /// The coefficients of friction of column and slope.
@@ -221,9 +222,9 @@ impl Equations {
     ///
     /// # Errors
     /// A wrong number of states, or values that are not finite.
-    pub fn set_states(&mut self, time: f64, x: &[f64]) -> Result<(), DrivenError> {
+    pub fn set_states(&mut self, time: f64, x: &[f64]) -> Result<(), SteppingError> {
         if x.len() != self.x.len() {
-            return Err(DrivenError::Length {
+            return Err(SteppingError::Length {
                 expected: self.x.len(),
                 found: x.len(),
             });
@@ -237,9 +238,9 @@ impl Equations {
         self.x.copy_from_slice(x);
         if time != self.time {
             self.time = time;
-            self.neighbours.put(&mut self.wedge.system, time)?;
+            self.neighbours.set_at(&mut self.wedge.system, time)?;
         }
-        self.sensed = false;
+        self.evaluated = false;
         Ok(())
     }
 
@@ -247,11 +248,11 @@ impl Equations {
     ///
     /// # Errors
     /// Values that are not finite.
-    pub fn set_neighbours(&mut self, neighbours: &Neighbours) -> Result<(), DrivenError> {
+    pub fn set_neighbours(&mut self, neighbours: &Neighbours) -> Result<(), SteppingError> {
         check_neighbours(neighbours)?;
         self.neighbours = *neighbours;
-        self.neighbours.put(&mut self.wedge.system, self.time)?;
-        self.sensed = false;
+        self.neighbours.set_at(&mut self.wedge.system, self.time)?;
+        self.evaluated = false;
         Ok(())
     }
 
@@ -259,11 +260,11 @@ impl Equations {
     ///
     /// # Errors
     /// Values that are not finite, or a negative stiffness.
-    pub fn set_coil(&mut self, coil: CoilDrive) -> Result<(), DrivenError> {
+    pub fn set_coil(&mut self, coil: CoilInput) -> Result<(), SteppingError> {
         check_coil(&coil)?;
         self.wedge.system.set_coil_law(COIL, coil.law(&self.parameters))?;
         self.coil = coil;
-        self.sensed = false;
+        self.evaluated = false;
         Ok(())
     }
 
@@ -271,13 +272,13 @@ impl Equations {
     ///
     /// # Errors
     /// Values that are not finite, or negative.
-    pub fn set_friction(&mut self, friction: [f64; 2]) -> Result<(), DrivenError> {
+    pub fn set_friction(&mut self, friction: [f64; 2]) -> Result<(), SteppingError> {
         check_friction(friction)?;
         for (face, coefficient) in [COLUMN, SLOPE].into_iter().zip(friction) {
             self.wedge.system.set_friction(face, coefficient)?;
         }
         self.friction = friction;
-        self.sensed = false;
+        self.evaluated = false;
         Ok(())
     }
 
@@ -285,15 +286,15 @@ impl Equations {
     ///
     /// # Errors
     /// Not one for each corner, or one that is none.
-    pub fn set_modes(&mut self, modes: &[u8]) -> Result<(), DrivenError> {
-        if modes.len() != self.modes.len() {
-            return Err(DrivenError::Length {
-                expected: self.modes.len(),
-                found: modes.len(),
+    pub fn set_contact_states(&mut self, contact_states: &[u8]) -> Result<(), SteppingError> {
+        if contact_states.len() != self.contact_states.len() {
+            return Err(SteppingError::Length {
+                expected: self.contact_states.len(),
+                found: contact_states.len(),
             });
         }
-        check_modes(modes)?;
-        self.modes.copy_from_slice(modes);
+        check_contact_states(contact_states)?;
+        self.contact_states.copy_from_slice(contact_states);
         Ok(())
     }
 
@@ -302,16 +303,16 @@ impl Equations {
         &mut self,
         time: f64,
         x: &[f64],
-        modes: &[u8],
+        contact_states: &[u8],
         at: &Neighbours,
-    ) -> Result<(), DrivenError> {
+    ) -> Result<(), SteppingError> {
         self.time = time;
         self.x.copy_from_slice(x);
-        self.modes.copy_from_slice(modes);
+        self.contact_states.copy_from_slice(contact_states);
         self.neighbours = *at;
         // Straight through the place that was given: whoever begins here from a saved state sees the same.
-        self.neighbours.put(&mut self.wedge.system, time)?;
-        self.sensed = false;
+        self.neighbours.set_at(&mut self.wedge.system, time)?;
+        self.evaluated = false;
         Ok(())
     }
 
@@ -319,9 +320,9 @@ impl Equations {
     ///
     /// # Errors
     /// `out` does not have the length of the states.
-    pub fn rates(&mut self, out: &mut [f64]) -> Result<(), DrivenError> {
+    pub fn rates(&mut self, out: &mut [f64]) -> Result<(), SteppingError> {
         if out.len() != self.x.len() {
-            return Err(DrivenError::Length {
+            return Err(SteppingError::Length {
                 expected: self.x.len(),
                 found: out.len(),
             });
@@ -333,7 +334,7 @@ impl Equations {
     /// For each corner a margin that is positive while its contact state lasts, and not positive when it must change.
     pub fn margins(&mut self) -> &[f64] {
         let system = &mut self.wedge.system;
-        system.event_variables(self.time, &self.x, &mut self.signs);
+        system.event_variables(self.time, &self.x, &mut self.variables);
         for number in 0..self.groups.len() {
             self.weigh(number);
         }
@@ -343,14 +344,14 @@ impl Equations {
     /// Brings the margins of a group up to date with its signs and contact states.
     fn weigh(&mut self, number: usize) {
         let group = &self.groups[number];
-        let (own, signs) = (
+        let (own, variables) = (
             group.discrete_states.clone(),
-            &self.signs[group.variables.clone()],
+            &self.variables[group.variables.clone()],
         );
-        let (modes, margins) = (&self.modes[own.clone()], &mut self.margins[own]);
+        let (contact_states, margins) = (&self.contact_states[own.clone()], &mut self.margins[own]);
         self.wedge
             .system
-            .group_event_functions(number, signs, modes, margins);
+            .group_event_functions(number, variables, contact_states, margins);
     }
 
     /// Brings the contact states up to date; whether any has changed.
@@ -365,14 +366,17 @@ impl Equations {
                     if self.margins[corner] > 0.0 {
                         break;
                     }
-                    let signs = &self.signs[self.groups[number].variables.clone()];
-                    let mode = self.modes[corner];
+                    let variables = &self.variables[self.groups[number].variables.clone()];
+                    let contact_state = self.contact_states[corner];
                     let index = corner - own.start;
-                    let next = self.wedge.system.next_discrete_state(number, signs, index, mode);
-                    if next == mode {
+                    let next = self
+                        .wedge
+                        .system
+                        .next_discrete_state(number, variables, index, contact_state);
+                    if next == contact_state {
                         break;
                     }
-                    self.modes[corner] = next;
+                    self.contact_states[corner] = next;
                     self.weigh(number);
                     changed = true;
                 }
@@ -382,21 +386,23 @@ impl Equations {
     }
 
     /// What elements feel.
-    pub fn sense(&mut self) -> &Sense<f64> {
-        if !self.sensed {
-            self.wedge.system.sense(self.time, &self.x, &mut self.sense);
-            self.sensed = true;
+    pub fn evaluation(&mut self) -> &ElementEvaluation<f64> {
+        if !self.evaluated {
+            self.wedge
+                .system
+                .evaluate_elements(self.time, &self.x, &mut self.evaluation);
+            self.evaluated = true;
         }
-        &self.sense
+        &self.evaluation
     }
 
     /// What the wedge does to its neighbours, and what coil and faces feel.
     ///
     /// # Errors
     /// Never, with a wedge that [`Equations::new`] has built.
-    pub fn reading(&mut self) -> Result<Reading<f64>, DrivenError> {
-        self.sense();
-        Reading::of(&self.sense, &self.wedge.system, &self.wedge.parameters).ok_or(DrivenError::Failed)
+    pub fn reading(&mut self) -> Result<Reading<f64>, SteppingError> {
+        self.evaluation();
+        Reading::of(&self.evaluation, &self.wedge.system, &self.wedge.parameters).ok_or(SteppingError::Failed)
     }
 
     /// Derivatives along a direction: changes of the states (empty: none), of the neighbours, and of the coil's spring force at its
@@ -404,31 +410,31 @@ impl Equations {
     ///
     /// # Errors
     /// A wrong number of states.
-    pub fn along(
+    pub fn jacobian_vector_product(
         &mut self,
         states: &[f64],
         neighbours: &Neighbours,
         coil_force: f64,
-    ) -> Result<Along, DrivenError> {
-        let change = |body, place: &wedge::driven::Place| DriveChange {
+    ) -> Result<JacobianVectorProduct, SteppingError> {
+        let change = |body, place: &wedge::inputs::NeighbourState| MotionChange {
             body,
             position: place.position,
             rate: place.rate,
         };
-        let drives = [
+        let motions = [
             change(SIDE_FRAME, &neighbours.side_frame),
             change(BOLSTER, &neighbours.bolster),
         ];
         let direction = Direction {
             state: states,
-            drives: &drives,
+            motions: &motions,
             coil_forces: &[coil_force],
         };
         let expected = self.x.len();
         self.wedge
             .system
-            .along(self.time, &self.x, &direction)
-            .ok_or(DrivenError::Length {
+            .jacobian_vector_product(self.time, &self.x, &direction)
+            .ok_or(SteppingError::Length {
                 expected,
                 found: states.len(),
             })
@@ -464,7 +470,7 @@ impl Equations {
         self.outputs.values(
             &self.wedge.system,
             &seen,
-            &self.modes,
+            &self.contact_states,
             self.start_energy,
             &mut row,
         );
@@ -474,15 +480,15 @@ impl Equations {
     /// Contact state of a corner (0 to 7), by name.
     #[must_use]
     pub fn mode_name(&self, corner: usize) -> &'static str {
-        Mode::from_number(self.modes.get(corner).copied().unwrap_or(0)).name()
+        ContactState::from_number(self.contact_states.get(corner).copied().unwrap_or(0)).name()
     }
 }
 
-fn finite(what: &str, value: f64) -> Result<(), DrivenError> {
+fn finite(what: &str, value: f64) -> Result<(), SteppingError> {
     if value.is_finite() {
         return Ok(());
     }
-    Err(DrivenError::Value {
+    Err(SteppingError::Value {
         what: what.to_owned(),
         value,
         expected: "finite",
@@ -490,7 +496,7 @@ fn finite(what: &str, value: f64) -> Result<(), DrivenError> {
 }
 
 /// Whether all coordinates and rates are finite.
-pub(super) fn check_neighbours(neighbours: &Neighbours) -> Result<(), DrivenError> {
+pub(super) fn check_neighbours(neighbours: &Neighbours) -> Result<(), SteppingError> {
     for (name, place) in [
         ("side frame", &neighbours.side_frame),
         ("bolster", &neighbours.bolster),
@@ -507,38 +513,38 @@ pub(super) fn check_neighbours(neighbours: &Neighbours) -> Result<(), DrivenErro
 }
 
 /// Whether a coil's value is usable.
-pub(super) fn check_coil(coil: &CoilDrive) -> Result<(), DrivenError> {
+pub(super) fn check_coil(coil: &CoilInput) -> Result<(), SteppingError> {
     match coil {
-        CoilDrive::Stiffness(value) if !coil.is_valid() => Err(DrivenError::Value {
+        CoilInput::Stiffness(value) if !coil.is_valid() => Err(SteppingError::Value {
             what: "the coil's stiffness".to_owned(),
             value: *value,
             expected: "zero or positive, and finite",
         }),
-        CoilDrive::Force(value) => finite("the coil's force", *value),
+        CoilInput::Force(value) => finite("the coil's force", *value),
         _ => Ok(()),
     }
 }
 
 /// Whether numbers are those of contact states.
-pub(super) fn check_modes(modes: &[u8]) -> Result<(), DrivenError> {
-    let none = modes
+pub(super) fn check_contact_states(contact_states: &[u8]) -> Result<(), SteppingError> {
+    let none = contact_states
         .iter()
         .enumerate()
-        .find(|(_, mode)| **mode > Mode::Slip as u8);
-    none.map_or(Ok(()), |(corner, mode)| {
-        Err(DrivenError::Value {
+        .find(|(_, contact_state)| **contact_state > ContactState::Slip as u8);
+    none.map_or(Ok(()), |(corner, contact_state)| {
+        Err(SteppingError::Value {
             what: format!("the contact state of corner {corner} (counted from 0)"),
-            value: f64::from(*mode),
+            value: f64::from(*contact_state),
             expected: "0 (open), 1 (stick) or 2 (slip)",
         })
     })
 }
 
 /// Whether coefficients of friction of column and slope are usable.
-pub(super) fn check_friction(friction: [f64; 2]) -> Result<(), DrivenError> {
+pub(super) fn check_friction(friction: [f64; 2]) -> Result<(), SteppingError> {
     for (name, value) in ["friction.column", "friction.slope"].into_iter().zip(friction) {
         if !(value >= 0.0 && value.is_finite()) {
-            return Err(DrivenError::Value {
+            return Err(SteppingError::Value {
                 what: name.to_owned(),
                 value,
                 expected: "zero or positive, and finite",

@@ -4,15 +4,15 @@ use integrate::lanes::LANES;
 use integrate::partitioned::Partitioned;
 
 use super::FrameState;
-use super::channel::{Channel, ChannelKind};
+use super::energy_term::{EnergyTerm, EnergyTermKind};
 use super::model::{ModelError, Mounted, Parts};
 use crate::body::{Body, Kinematics};
 use crate::contact::Points;
-use crate::link::{Mount, Sight, Translation};
-use crate::tangent::{Columns, Tangent};
+use crate::link::{Marker, RelativeFrame, Translation};
+use crate::tangent::{Tangent, TangentColumns};
 
 /// Puts elements in their places.
-pub(super) struct Placer<'m> {
+pub(super) struct ElementAssembler<'m> {
     pub bodies: &'m [Body],
     pub frames: &'m [FrameState],
     pub kinematics: &'m [Kinematics<f64>],
@@ -20,15 +20,15 @@ pub(super) struct Placer<'m> {
     pub parts: &'m mut Parts,
 }
 
-impl Placer<'_> {
-    pub fn place<E>(
+impl ElementAssembler<'_> {
+    pub fn attach<E>(
         &mut self,
         element: E,
         name: &str,
         body: usize,
         on: usize,
-        mount: Mount,
-        kinds: [Option<ChannelKind>; 2],
+        marker: Marker,
+        kinds: [Option<EnergyTermKind>; 2],
         pairs: usize,
     ) -> Result<Mounted<E>, ModelError> {
         let count = self.bodies.len();
@@ -54,17 +54,17 @@ impl Placer<'_> {
         };
         let on_number = self.free_number[on];
         let parts = &mut *self.parts;
-        let driven = on_number.is_none() && !self.frames[on].fixed;
-        let channels = kinds.map(|kind| {
+        let prescribed = on_number.is_none() && !self.frames[on].fixed;
+        let energy_terms = kinds.map(|kind| {
             kind.map(|kind| {
-                parts.channels.push(Channel {
+                parts.energy_terms.push(EnergyTerm {
                     kind,
                     element: name.to_owned(),
                 });
-                parts.channels.len() - 1
+                parts.energy_terms.len() - 1
             })
         });
-        let quadratures = [channels[0], channels[1], driven.then_some(0)];
+        let quadratures = [energy_terms[0], energy_terms[1], prescribed.then_some(0)];
         let rows = [Some(number), on_number].map(|end| {
             quadratures.map(|quadrature| {
                 parts.quadrature_bodies.push((quadrature?, end?));
@@ -78,24 +78,24 @@ impl Placer<'_> {
                 .internal_pairs
                 .push([Some(number), on_number].into_iter().flatten().collect());
             // Friction loss and the work of the motion depend on the bristle.
-            for quadrature in [channels[0].unwrap_or(0), 0] {
+            for quadrature in [energy_terms[0].unwrap_or(0), 0] {
                 parts.quadrature_pairs.push((quadrature, pair));
             }
         }
-        let translates = driven && self.frames[on].keeps_orientation && self.frames[body].fixed;
+        let translates = prescribed && self.frames[on].keeps_orientation && self.frames[body].fixed;
         let translation = translates.then(|| {
             let frame = &self.frames[on];
             let ways = frame.moves.iter().map(|way| way.axis);
             let seat = &self.kinematics[on];
             let own = &self.frames[body].motion;
-            Translation::new(own, &frame.motion, (frame.rest, ways), seat, &mount)
+            Translation::new(own, &frame.motion, (frame.rest, ways), seat, &marker)
         });
         let moves = !self.frames[on].fixed || !self.frames[body].fixed;
         Ok(Mounted {
             plain: on_number.is_none() && (!moves || translation.is_some()),
             tangent: Tangent::NONE,
             mobilities: Vec::new(),
-            rate_tangents: vec![Columns::NONE; pairs.div_ceil(LANES)],
+            rate_tangents: vec![TangentColumns::NONE; pairs.div_ceil(LANES)],
             translation,
             element,
             points: Points::default(),
@@ -103,17 +103,17 @@ impl Placer<'_> {
             on,
             first_internal: 2 * first_pair,
             internal_count: 2 * pairs,
-            channels,
+            energy_terms,
             on_free: on_number.is_some(),
             moves,
-            driven,
-            sight: Sight::new(
+            prescribed,
+            relative_frame: RelativeFrame::new(
                 &self.frames[body].motion,
                 &self.frames[on].motion,
                 &self.kinematics[on],
-                &mount,
+                &marker,
             ),
-            mount,
+            marker,
             pairs: [0; 2],
             rows,
             first_internal_row,

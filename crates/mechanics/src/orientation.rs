@@ -11,14 +11,14 @@ use crate::vector::{Matrix, Vector, rotation_x, rotation_y, rotation_z};
 
 /// A rotation, and the axes of its three angles in the axes of the body.
 #[derive(Clone, Copy, Debug)]
-pub struct Turn<S> {
+pub struct Orientation<S> {
     /// From body axes to reference axes.
     pub rotation: Matrix<S>,
     /// The axes about which roll, pitch and yaw turn, body axes: x, `Rxᵀ (sin yaw, cos yaw, 0)`, `Rxᵀ z`.
     pub axes: [Vector<S>; 3],
 }
 
-impl<S: Number> Turn<S> {
+impl<S: Number> Orientation<S> {
     /// The turn by the angles roll, pitch, yaw (rad). `rolls` tells whether roll may differ from zero: without it,
     /// nothing is spent on it.
     #[inline(always)]
@@ -63,7 +63,7 @@ impl<S: Number> Turn<S> {
     }
 
     /// Angular acceleration for rates and accelerations of roll, pitch, yaw, body axes: the rate of the components of
-    /// [`Turn::spin`], `Σ e_k q¨_k + pitch˙ yaw˙ (e_pitch × e_yaw) + roll˙ (pitch˙ e_pitch + yaw˙ e_yaw) × e_roll`.
+    /// [`Orientation::spin`], `Σ e_k q¨_k + pitch˙ yaw˙ (e_pitch × e_yaw) + roll˙ (pitch˙ e_pitch + yaw˙ e_yaw) × e_roll`.
     #[inline(always)]
     #[must_use]
     pub fn spin_rate(&self, rates: [S; 3], accelerations: [S; 3], rolls: bool) -> Vector<S> {
@@ -85,7 +85,7 @@ impl<S: Number> Turn<S> {
     }
 }
 
-/// A fixed rotation by roll, pitch, yaw (rad), in the order of [`Turn`].
+/// A fixed rotation by roll, pitch, yaw (rad), in the order of [`Orientation`].
 #[must_use]
 pub fn fixed(angles: [f64; 3]) -> Matrix<f64> {
     let [roll, pitch, yaw] = angles.map(libm::sincos);

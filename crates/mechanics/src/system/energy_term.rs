@@ -2,16 +2,16 @@
 
 /// What a quadrature integrates.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Channel {
+pub struct EnergyTerm {
     /// Its kind.
-    pub kind: ChannelKind,
+    pub kind: EnergyTermKind,
     /// The element's name; empty for the work of the motions.
     pub element: String,
 }
 
 /// Kinds of quadratures; all in J.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ChannelKind {
+pub enum EnergyTermKind {
     /// Work done by all prescribed motions.
     MotionWork,
     /// Energy lost in friction.
@@ -40,7 +40,7 @@ pub enum ChannelKind {
     WedgeKinematics,
 }
 
-impl ChannelKind {
+impl EnergyTermKind {
     /// Its name, as in results.
     #[must_use]
     pub fn name(self) -> &'static str {

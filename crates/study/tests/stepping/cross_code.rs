@@ -1,8 +1,8 @@
 //! A driven wedge against a run of the same case, whose motions are functions of time.
 
-use study::driven::DrivenWedge;
 use study::metrics::Cycle;
 use study::run::Run;
+use study::stepping::SteppedWedge;
 
 use crate::common::{YAWED, case, place};
 
@@ -45,7 +45,7 @@ fn rows_of_run(case: &study::case::Case) -> Vec<[f64; 5]> {
 }
 
 fn rows_of_steps(case: &study::case::Case, step: f64, rates: bool) -> Vec<[f64; 5]> {
-    let mut wedge = DrivenWedge::new(case).unwrap();
+    let mut wedge = SteppedWedge::new(case).unwrap();
     let mut rows = Vec::new();
     let steps = (case.simulation.duration / step).round() as u64;
     let every = (case.simulation.output_interval / step).round() as u64;
@@ -61,9 +61,9 @@ fn rows_of_steps(case: &study::case::Case, step: f64, rates: bool) -> Vec<[f64; 
         }
         if number % every == 0 {
             let bolster = wedge.neighbours().bolster;
-            let sense = wedge.sense();
+            let evaluation = wedge.evaluation();
             // Column friction as it acts on the side frame: with no toe t2 is vertical; with toe it is the row's column.
-            let _ = sense;
+            let _ = evaluation;
             let row = wedge.row();
             let columns = wedge.columns();
             let value = |name: &str| row[columns.iter().position(|c| c.name == name).unwrap()];

@@ -4,15 +4,15 @@ use super::model::Mounted;
 use super::{FrameState, System};
 use crate::body::Kinematics;
 use crate::frame::Frame;
-use crate::link::Sight;
+use crate::link::RelativeFrame;
 use crate::vector::Vector;
 
 impl System {
     /// Brings frames, sights and the kinematics of all free bodies to `time` and state `x`.
     #[inline]
-    pub(super) fn place(&mut self, time: f64, x: &[f64]) {
+    pub(super) fn update_kinematics(&mut self, time: f64, x: &[f64]) {
         let again = time != self.frames_at;
-        let changed = renew(&mut self.placed, x);
+        let changed = renew(&mut self.current_state, x);
         if !again && !changed {
             return;
         }
@@ -20,7 +20,7 @@ impl System {
         self.frames_at = time;
         if self.moves && again {
             for number in 0..self.frames.len() {
-                self.place_frame(number, time);
+                self.update_frame(number, time);
             }
             for moved in &self.moved {
                 for (k, motion) in moved.motions.iter().enumerate() {
@@ -32,32 +32,32 @@ impl System {
             }
         }
         for number in 0..self.free.len() {
-            self.place_free(number, x);
+            self.update_free_body(number, x);
         }
         for mounted in &mut self.faces {
-            sight(mounted, &self.frames, &self.kinematics, again);
+            relative_frame(mounted, &self.frames, &self.kinematics, again);
         }
         for mounted in &mut self.coils {
-            sight(mounted, &self.frames, &self.kinematics, again);
+            relative_frame(mounted, &self.frames, &self.kinematics, again);
         }
         for mounted in &mut self.elements {
-            sight(mounted, &self.frames, &self.kinematics, again);
+            relative_frame(mounted, &self.frames, &self.kinematics, again);
         }
     }
 
     /// Brings what one face sees to `time` and state `x`, and nothing else; whether it saw something else before.
     #[inline]
-    pub(super) fn place_face(&mut self, number: usize, time: f64, x: &[f64]) -> bool {
+    pub(super) fn update_face(&mut self, number: usize, time: f64, x: &[f64]) -> bool {
         let ends = [self.faces[number].body, self.faces[number].on];
         // the next one to place everything does so anew
-        let all_placed = !self.frames_at.is_nan();
+        let all_current = !self.frames_at.is_nan();
         self.frames_at = f64::NAN;
-        let mut changed = all_placed || self.face_placed != (number, time);
-        self.face_placed = (number, time);
+        let mut changed = all_current || self.current_face != (number, time);
+        self.current_face = (number, time);
         for free in ends.into_iter().filter_map(|body| self.free_number[body]) {
             let (free, speeds) = (&self.free[free], self.layout.speeds);
             for first in [free.offset, speeds + free.offset] {
-                let own = &mut self.placed[first..][..free.free.len()];
+                let own = &mut self.current_state[first..][..free.free.len()];
                 changed |= renew(own, &x[first..]);
             }
         }
@@ -65,23 +65,23 @@ impl System {
             return false;
         }
         for body in ends {
-            self.place_frame(body, time);
+            self.update_frame(body, time);
             if let Some(free) = self.free_number[body] {
-                self.place_free(free, x);
+                self.update_free_body(free, x);
             }
         }
-        sight(&mut self.faces[number], &self.frames, &self.kinematics, true);
+        relative_frame(&mut self.faces[number], &self.frames, &self.kinematics, true);
         true
     }
 
     /// Everything is placed anew when it is asked for next: a motion has changed.
-    pub(super) fn forget_places(&mut self) {
-        (self.frames_at, self.face_placed.1) = (f64::NAN, f64::NAN);
+    pub(super) fn invalidate_kinematics(&mut self) {
+        (self.frames_at, self.current_face.1) = (f64::NAN, f64::NAN);
     }
 
     /// Brings a body's reference frame to `time`.
     #[inline(always)]
-    pub(super) fn place_frame(&mut self, number: usize, time: f64) {
+    pub(super) fn update_frame(&mut self, number: usize, time: f64) {
         let (body, state) = (&self.bodies[number], &mut self.frames[number]);
         if state.fixed {
             return;
@@ -95,7 +95,7 @@ impl System {
 
     /// Brings the kinematics of a free body to state `x`.
     #[inline(always)]
-    pub(super) fn place_free(&mut self, number: usize, x: &[f64]) {
+    pub(super) fn update_free_body(&mut self, number: usize, x: &[f64]) {
         let free = &self.free[number];
         let body = free.body;
         if free.linear.is_some() {
@@ -149,16 +149,21 @@ impl FrameState {
 
 /// Brings an element's sight up to date, where it can have changed.
 #[inline(always)]
-fn sight<E>(mounted: &mut Mounted<E>, frames: &[FrameState], kinematics: &[Kinematics<f64>], again: bool) {
+fn relative_frame<E>(
+    mounted: &mut Mounted<E>,
+    frames: &[FrameState],
+    kinematics: &[Kinematics<f64>],
+    again: bool,
+) {
     if mounted.on_free || (again && mounted.moves) {
         let (a, b) = (&frames[mounted.body], &frames[mounted.on]);
         match &mounted.translation {
             Some(translation) => {
-                translation.update(&mut mounted.sight, b.jets());
+                translation.update(&mut mounted.relative_frame, b.jets());
             }
             None => {
                 let seat = &kinematics[mounted.on];
-                mounted.sight = Sight::new(&a.motion, &b.motion, seat, &mounted.mount);
+                mounted.relative_frame = RelativeFrame::new(&a.motion, &b.motion, seat, &mounted.marker);
             }
         }
     }

@@ -6,7 +6,7 @@ use integrate::scalar::Dual;
 use nalgebra::{DMatrix, DVector};
 
 use super::System;
-use super::sense::{Sense, Stage};
+use super::evaluation::{ElementEvaluation, EvaluationInputs};
 use crate::body::Kinematics;
 use crate::frame::FrameMotion;
 use crate::motion::Jet;
@@ -14,7 +14,7 @@ use crate::vector::Vector;
 
 /// How a driven body changes its place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DriveChange {
+pub struct MotionChange {
     /// The body's number.
     pub body: usize,
     /// Changes of x, y, z (m), roll, pitch, yaw (rad).
@@ -29,18 +29,18 @@ pub struct Direction<'d> {
     /// Changes of the states; empty: none of them changes.
     pub state: &'d [f64],
     /// Changes of driven bodies.
-    pub drives: &'d [DriveChange],
+    pub motions: &'d [MotionChange],
     /// Changes of the spring force of each coil at its present length, N; empty: none.
     pub coil_forces: &'d [f64],
 }
 
 /// Derivatives along a direction.
 #[derive(Clone, Debug, Default)]
-pub struct Along {
+pub struct JacobianVectorProduct {
     /// Of the rates of all states.
     pub rates: Vec<f64>,
     /// Values, and derivatives as the only component, of what elements do and feel.
-    pub sense: Sense<Dual<1>>,
+    pub evaluation: ElementEvaluation<Dual<1>>,
 }
 
 fn dual(value: f64, change: f64) -> Dual<1> {
@@ -55,7 +55,12 @@ impl System {
     /// linearized kinematics, for which they are not made.
     ///
     /// At a kink (a corner that just touches, a bristle at its limit) they are those of the side that the state counts for.
-    pub fn along(&mut self, time: f64, x: &[f64], direction: &Direction<'_>) -> Option<Along> {
+    pub fn jacobian_vector_product(
+        &mut self,
+        time: f64,
+        x: &[f64],
+        direction: &Direction<'_>,
+    ) -> Option<JacobianVectorProduct> {
         let n = x.len();
         let linearized = self.free.iter().any(|free| free.linear.is_some());
         if linearized || n != self.layout.len() || !(direction.state.is_empty() || direction.state.len() == n)
@@ -72,10 +77,10 @@ impl System {
         };
 
         let frames: Vec<FrameMotion<Dual<1>>> = (0..self.bodies.len())
-            .map(|body| self.frame_along(body, time, direction))
+            .map(|body| self.frame_derivative(body, time, direction))
             .collect();
         let kinematics: Vec<Kinematics<Dual<1>>> = (0..self.bodies.len())
-            .map(|body| self.kinematics_along(body, x, change))
+            .map(|body| self.kinematics_derivative(body, x, change))
             .collect();
         let [_, speed_change, internal_change, _] = self.layout.split(change);
         let [_, _, internal, _] = self.layout.split(x);
@@ -84,44 +89,44 @@ impl System {
             .zip(internal_change)
             .map(|(value, change)| dual(*value, *change))
             .collect();
-        let mut sense = Sense::default();
-        let stage = Stage {
+        let mut evaluation = ElementEvaluation::default();
+        let inputs = EvaluationInputs {
             frames: &|body| frames[body],
             kinematics: &kinematics,
             internal: &internal,
             coil_change: &|coil| dual(0.0, direction.coil_forces.get(coil).copied().unwrap_or(0.0)),
         };
-        self.feel(&stage, &mut sense);
+        self.evaluate_elements_at(&inputs, &mut evaluation);
 
         let mut rates = vec![0.0; n];
         let [d_positions, d_speeds, d_internal, d_quadratures] = self.layout.split_mut(&mut rates);
         d_positions.copy_from_slice(speed_change);
-        for (target, rate) in d_internal.iter_mut().zip(&sense.internal_rates) {
+        for (target, rate) in d_internal.iter_mut().zip(&evaluation.internal_rates) {
             *target = rate.derivative[0];
         }
-        for (target, power) in d_quadratures.iter_mut().zip(&sense.powers) {
+        for (target, power) in d_quadratures.iter_mut().zip(&evaluation.powers) {
             *target = power.derivative[0];
         }
         for number in 0..self.free.len() {
-            self.accelerations_along(number, &dx, &frames, &kinematics, &sense, d_speeds);
+            self.acceleration_derivatives(number, &dx, &frames, &kinematics, &evaluation, d_speeds);
         }
-        Some(Along { rates, sense })
+        Some(JacobianVectorProduct { rates, evaluation })
     }
 
-    fn frame_along(&self, body: usize, time: f64, direction: &Direction<'_>) -> FrameMotion<Dual<1>> {
+    fn frame_derivative(&self, body: usize, time: f64, direction: &Direction<'_>) -> FrameMotion<Dual<1>> {
         let frame = &self.bodies[body].frame;
         let mut jets: [Jet<Dual<1>>; 6] =
             std::array::from_fn(|k| frame.motions[k].evaluate(time, self.reference).map(Dual::from));
-        for drive in direction.drives.iter().filter(|drive| drive.body == body) {
+        for motion in direction.motions.iter().filter(|motion| motion.body == body) {
             for (k, jet) in jets.iter_mut().enumerate() {
-                jet[0].derivative[0] += drive.position[k];
-                jet[1].derivative[0] += drive.rate[k];
+                jet[0].derivative[0] += motion.position[k];
+                jet[1].derivative[0] += motion.rate[k];
             }
         }
         frame.moved(&jets)
     }
 
-    fn kinematics_along(&self, body: usize, x: &[f64], change: &[f64]) -> Kinematics<Dual<1>> {
+    fn kinematics_derivative(&self, body: usize, x: &[f64], change: &[f64]) -> Kinematics<Dual<1>> {
         let mut coordinates = self.bodies[body].initial.map(Dual::from);
         let mut speeds = [Dual::from(0.0); 6];
         if let Some(number) = self.free_number[body] {
@@ -136,13 +141,13 @@ impl System {
     }
 
     /// `M δu˙ = δ(Q - b - M u˙)` at fixed u˙.
-    fn accelerations_along(
+    fn acceleration_derivatives(
         &self,
         number: usize,
         dx: &[f64],
         frames: &[FrameMotion<Dual<1>>],
         kinematics: &[Kinematics<Dual<1>>],
-        sense: &Sense<Dual<1>>,
+        evaluation: &ElementEvaluation<Dual<1>>,
         d_speeds: &mut [f64],
     ) {
         let free = &self.free[number];
@@ -159,11 +164,11 @@ impl System {
             self.gravity,
             &accelerations,
         );
-        let load = &sense.loads[free.body];
+        let load = &evaluation.loads[free.body];
         let force = frame.rotation.apply_transposed::<Dual<1>, Dual<1>>(load.force) - force;
         let carried: Vector<Dual<1>> = frame.rotation.apply_transposed(load.moment);
         let moment = kinematics
-            .turn
+            .orientation
             .rotation
             .apply_transposed::<Dual<1>, Dual<1>>(carried)
             - moment;

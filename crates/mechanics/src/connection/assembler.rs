@@ -6,13 +6,13 @@ use super::gap::Gap;
 use super::site::{End, Row, Site};
 use super::spring::Spring;
 use super::surface::Surface;
-use super::wedge::{Column, WedgeLaw};
+use super::wedge::{ColumnFace, WedgeLaw};
 use super::{Axis, Connection, Connections, Law, Options, Spatial};
 use crate::body::Body;
-use crate::system::{Channel, ChannelKind, Parts};
+use crate::system::{EnergyTerm, EnergyTermKind, Parts};
 
 /// Puts connections in their places.
-pub(crate) struct Placer<'m> {
+pub(crate) struct ConnectionAssembler<'m> {
     pub bodies: &'m [Body],
     /// For each body its number among the free ones.
     pub free_number: &'m [Option<usize>],
@@ -26,7 +26,7 @@ pub(crate) struct Placer<'m> {
     found: Connections,
 }
 
-impl<'m> Placer<'m> {
+impl<'m> ConnectionAssembler<'m> {
     /// Begins after the elements that `parts` is of.
     pub fn new(
         bodies: &'m [Body],
@@ -46,14 +46,14 @@ impl<'m> Placer<'m> {
     }
 
     /// The elements of connections that have been checked, and the pairs of free bodies that they couple.
-    pub fn place(
+    pub fn attach(
         mut self,
         connections: Vec<Connection>,
         options: &Options,
     ) -> (Connections, Vec<(usize, usize)>) {
-        for kind in channels(&connections) {
+        for kind in energy_terms(&connections) {
             let element = String::new();
-            self.parts.channels.push(Channel { kind, element });
+            self.parts.energy_terms.push(EnergyTerm { kind, element });
         }
         let placer = &mut self;
         for (index, connection) in connections.iter().enumerate() {
@@ -61,7 +61,7 @@ impl<'m> Placer<'m> {
                 Law::Springs(list) => {
                     for (component, (coordinate, law)) in list.iter().enumerate() {
                         if let Some(law) = Spring::new(law) {
-                            let loss = law.damps().then_some(ChannelKind::SpringDamping);
+                            let loss = law.damps().then_some(EnergyTermKind::SpringDamping);
                             let site = placer.site(connection, index, component, [*coordinate], [loss]);
                             placer.found.springs.push(Axis { law, site });
                         }
@@ -73,7 +73,7 @@ impl<'m> Placer<'m> {
                         index,
                         0,
                         [*coordinate],
-                        [Some(ChannelKind::GapDamping)],
+                        [Some(EnergyTermKind::GapDamping)],
                     );
                     placer.found.gaps.push(Axis {
                         law: Gap::new(law, options),
@@ -83,8 +83,8 @@ impl<'m> Placer<'m> {
                 Law::Surface(law) => {
                     let prepared = Surface::new(law, options.accumulator_damping);
                     let losses = [
-                        Some(ChannelKind::SurfaceFriction),
-                        prepared.damps().then_some(ChannelKind::SurfaceDamping),
+                        Some(EnergyTermKind::SurfaceFriction),
+                        prepared.damps().then_some(EnergyTermKind::SurfaceDamping),
                         None,
                     ];
                     let states = law.accumulator.states();
@@ -96,9 +96,9 @@ impl<'m> Placer<'m> {
                     let prepared = WedgeLaw::new(law, options);
                     let more = prepared.is_spatial();
                     let losses = [
-                        Some(ChannelKind::ColumnFriction),
-                        more.then_some(ChannelKind::SlopeFriction),
-                        more.then_some(ChannelKind::WedgeKinematics),
+                        Some(EnergyTermKind::ColumnFriction),
+                        more.then_some(EnergyTermKind::SlopeFriction),
+                        more.then_some(EnergyTermKind::WedgeKinematics),
                     ];
                     let wedge = placer.spatial(
                         connection,
@@ -118,7 +118,7 @@ impl<'m> Placer<'m> {
 }
 
 /// The quadratures that connections need.
-pub(crate) fn channels(connections: &[Connection]) -> Vec<ChannelKind> {
+pub(crate) fn energy_terms(connections: &[Connection]) -> Vec<EnergyTermKind> {
     let mut kinds = Vec::new();
     for connection in connections {
         match &connection.law {
@@ -127,20 +127,20 @@ pub(crate) fn channels(connections: &[Connection]) -> Vec<ChannelKind> {
                     .iter()
                     .any(|(_, law)| Spring::new(law).is_some_and(|law| law.damps()))
                 {
-                    kinds.push(ChannelKind::SpringDamping);
+                    kinds.push(EnergyTermKind::SpringDamping);
                 }
             }
-            Law::Gap(..) => kinds.push(ChannelKind::GapDamping),
+            Law::Gap(..) => kinds.push(EnergyTermKind::GapDamping),
             Law::Surface(law) => {
-                kinds.push(ChannelKind::SurfaceFriction);
+                kinds.push(EnergyTermKind::SurfaceFriction);
                 if law.damper.as_ref().is_some_and(|curve| !curve.is_zero()) {
-                    kinds.push(ChannelKind::SurfaceDamping);
+                    kinds.push(EnergyTermKind::SurfaceDamping);
                 }
             }
             Law::Wedge(law) => {
-                kinds.push(ChannelKind::ColumnFriction);
-                if matches!(law.column, Column::Profile { .. }) {
-                    kinds.extend([ChannelKind::SlopeFriction, ChannelKind::WedgeKinematics]);
+                kinds.push(EnergyTermKind::ColumnFriction);
+                if matches!(law.column, ColumnFace::Profile { .. }) {
+                    kinds.extend([EnergyTermKind::SlopeFriction, EnergyTermKind::WedgeKinematics]);
                 }
             }
         }
@@ -150,7 +150,7 @@ pub(crate) fn channels(connections: &[Connection]) -> Vec<ChannelKind> {
     kinds
 }
 
-impl Placer<'_> {
+impl ConnectionAssembler<'_> {
     /// The place of an element.
     fn site<const D: usize, const P: usize>(
         &mut self,
@@ -158,7 +158,7 @@ impl Placer<'_> {
         index: usize,
         component: usize,
         coordinates: [usize; D],
-        losses: [Option<ChannelKind>; P],
+        losses: [Option<EnergyTermKind>; P],
     ) -> Site<D, P> {
         let Connection { a, b, point, .. } = connection;
         let numbers = [*a, *b];
@@ -169,7 +169,7 @@ impl Placer<'_> {
                 body,
                 free: self.free_number[body],
                 size: self.slots[body].iter().flatten().count(),
-                driven: self.bodies[body].is_driven(),
+                prescribed: self.bodies[body].is_moving_prescribed(),
                 sign,
             }
         });
@@ -178,11 +178,17 @@ impl Placer<'_> {
             let offset = std::array::from_fn(|k| point[k] - center[k]);
             coordinates.map(|coordinate| Row::new(coordinate, offset, &self.slots[body]))
         });
-        let driven = ends.iter().any(|end| end.driven);
-        let own = |kind| self.parts.channels.iter().position(|own| Some(own.kind) == kind);
-        let channels = losses.map(own);
-        let quadratures = ends.map(|end| channels.map(|channel| self.quadrature(channel?, end.free?)));
-        let works = ends.map(|end| self.quadrature(0, end.free.filter(|_| driven)?));
+        let prescribed = ends.iter().any(|end| end.prescribed);
+        let own = |kind| {
+            self.parts
+                .energy_terms
+                .iter()
+                .position(|own| Some(own.kind) == kind)
+        };
+        let energy_terms = losses.map(own);
+        let quadratures =
+            ends.map(|end| energy_terms.map(|energy_term| self.quadrature(energy_term?, end.free?)));
+        let works = ends.map(|end| self.quadrature(0, end.free.filter(|_| prescribed)?));
         if let [Some(a), Some(b)] = ends.map(|end| end.free) {
             self.couplings.push((a, b));
         }
@@ -192,19 +198,19 @@ impl Placer<'_> {
             ends,
             rows,
             pairs: [[0; 2]; 2],
-            channels,
+            energy_terms,
             quadratures,
             works,
-            driven,
+            prescribed,
         }
     }
 
     /// The row of a quadrature by a body's states.
-    fn quadrature(&mut self, channel: usize, free: usize) -> Option<usize> {
+    fn quadrature(&mut self, energy_term: usize, free: usize) -> Option<usize> {
         let next = self.parts.quadrature_bodies.len();
-        let row = *self.quadratures.entry((channel, free)).or_insert(next);
+        let row = *self.quadratures.entry((energy_term, free)).or_insert(next);
         if row == next {
-            self.parts.quadrature_bodies.push((channel, free));
+            self.parts.quadrature_bodies.push((energy_term, free));
         }
         Some(row)
     }
@@ -215,24 +221,24 @@ impl Placer<'_> {
         connection: &Connection,
         index: usize,
         coordinates: [usize; 3],
-        losses: [Option<ChannelKind>; 3],
+        losses: [Option<EnergyTermKind>; 3],
         law: L,
         states: usize,
     ) -> Spatial<L> {
         let site = self.site(connection, index, 0, coordinates, losses);
-        let switch = self.found.switches.len();
-        self.found.switches.push(index);
+        let discrete_state = self.found.discrete_states.len();
+        self.found.discrete_states.push(index);
         let mut internal_rows = [None; 4];
         let internal = (states == 2).then(|| {
             let group = self.parts.internal_pairs.len();
             let bodies = site.ends.iter().filter_map(|end| end.free).collect();
             self.parts.internal_pairs.push(bodies);
-            let work = site.driven.then_some(0);
-            let channels = site.channels.into_iter().chain([work]);
-            for (row, channel) in internal_rows.iter_mut().zip(channels) {
-                if let Some(channel) = channel {
+            let work = site.prescribed.then_some(0);
+            let energy_terms = site.energy_terms.into_iter().chain([work]);
+            for (row, energy_term) in internal_rows.iter_mut().zip(energy_terms) {
+                if let Some(energy_term) = energy_term {
                     *row = Some(self.parts.quadrature_pairs.len());
-                    self.parts.quadrature_pairs.push((channel, group));
+                    self.parts.quadrature_pairs.push((energy_term, group));
                 }
             }
             2 * group
@@ -242,7 +248,7 @@ impl Placer<'_> {
             site,
             internal,
             internal_rows,
-            switch,
+            discrete_state,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Cases and loops of the tests of driven wedges.
 
 use study::case::{Case, builtin};
-use study::driven::{DrivenWedge, Neighbours};
+use study::stepping::{Neighbours, SteppedWedge};
 
 /// A yawed case of each damping, a straight one, and one with bristles.
 pub const YAWED: &str = "cdrun_toe_-0.2_psi_0.012";
@@ -18,7 +18,7 @@ pub fn place(case: &Case, time: f64) -> Neighbours {
 }
 
 /// Drives a wedge along the case's own motions from where it is to a time, in steps of a length.
-pub fn drive(case: &Case, wedge: &mut DrivenWedge, end: f64, step: f64) {
+pub fn drive(case: &Case, wedge: &mut SteppedWedge, end: f64, step: f64) {
     let first = (wedge.time() / step).round() as u64;
     let last = (end / step).round() as u64;
     for number in first + 1..=last {
@@ -28,14 +28,14 @@ pub fn drive(case: &Case, wedge: &mut DrivenWedge, end: f64, step: f64) {
 }
 
 /// A wedge of a case at a time on its way.
-pub fn at(case: &Case, end: f64, step: f64) -> DrivenWedge {
-    let mut wedge = DrivenWedge::new(case).unwrap();
+pub fn at(case: &Case, end: f64, step: f64) -> SteppedWedge {
+    let mut wedge = SteppedWedge::new(case).unwrap();
     drive(case, &mut wedge, end, step);
     wedge
 }
 
 /// The value of a column.
-pub fn value(wedge: &mut DrivenWedge, name: &str) -> f64 {
+pub fn value(wedge: &mut SteppedWedge, name: &str) -> f64 {
     let row = wedge.row();
     let index = wedge
         .columns()

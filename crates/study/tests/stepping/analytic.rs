@@ -1,7 +1,7 @@
 //! Driven wedges against closed forms, balances and differences.
 
 use integrate::scalar::Dual;
-use study::driven::{CoilDrive, DrivenWedge, Equations, Neighbours, Reading};
+use study::stepping::{CoilInput, Equations, Neighbours, Reading, SteppedWedge};
 
 use crate::common::{YAWED, at, case, value};
 
@@ -10,7 +10,7 @@ use crate::common::{YAWED, at, case, value};
 fn force_and_moment_times_the_rates_are_the_power_of_the_motions() {
     let yaw = "bolster.yaw={ shape = \"ramp\", amplitude = \"0.012 rad\", duration = \"1 s\" }";
     let case = case(YAWED, &[yaw]);
-    let mut wedge = DrivenWedge::new(&case).unwrap();
+    let mut wedge = SteppedWedge::new(&case).unwrap();
     for number in 1..=800 {
         let time = f64::from(number) * 1e-3;
         wedge
@@ -30,7 +30,7 @@ fn force_and_moment_times_the_rates_are_the_power_of_the_motions() {
                 size += f64::abs(power);
             }
         }
-        let expected = wedge.sense().powers[0];
+        let expected = wedge.evaluation().powers[0];
         assert!((sum - expected).abs() < 1e-12 * size, "{time}: {sum} {expected}");
     }
     let (_, ledger) = wedge.energies();
@@ -49,7 +49,7 @@ fn action_and_reaction_balance() {
             let mut equations = Equations::new(
                 &parameters,
                 &Neighbours::of(&parameters, 0.0),
-                CoilDrive::Internal,
+                CoilInput::Internal,
             )
             .unwrap();
             equations
@@ -58,15 +58,15 @@ fn action_and_reaction_balance() {
             equations.set_neighbours(wedge.neighbours()).unwrap();
             equations.observe()
         };
-        let sense = wedge.sense().clone();
-        let largest = sense
+        let evaluation = wedge.evaluation().clone();
+        let largest = evaluation
             .loads
             .iter()
             .fold(0.0, |most: f64, load| most.max(load.force.0[2].abs()));
         assert!(largest > 1000.0);
         for k in 0..3 {
-            let force: f64 = sense.loads.iter().map(|load| load.force.0[k]).sum();
-            let moment: f64 = sense
+            let force: f64 = evaluation.loads.iter().map(|load| load.force.0[k]).sum();
+            let moment: f64 = evaluation
                 .loads
                 .iter()
                 .zip(&seen.bodies)
@@ -76,7 +76,10 @@ fn action_and_reaction_balance() {
             assert!(moment.abs() < 1e-9 * largest, "{name} {k}: {moment}");
         }
         // And it is what a run's table says, about another point.
-        for (load, body) in [(&sense.loads[0], "side_frame"), (&sense.loads[1], "bolster")] {
+        for (load, body) in [
+            (&evaluation.loads[0], "side_frame"),
+            (&evaluation.loads[1], "bolster"),
+        ] {
             for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
                 let column = value(&mut wedge, &format!("net_force_on_{body}_{axis}"));
                 assert!(
@@ -93,18 +96,18 @@ fn action_and_reaction_balance() {
 fn a_coil_from_outside_is_the_coil_inside() {
     let case = case("cdrun_toe_-0.2_psi_0.012", &[]);
     let mut inside = at(&case, 0.2, 1e-3);
-    let mut outside = DrivenWedge::new(&case).unwrap();
+    let mut outside = SteppedWedge::new(&case).unwrap();
     let stiffness = match case.parameters.coil.law {
         mechanics::coil::CoilLaw::Linear { stiffness } => stiffness,
         _ => panic!("a linear coil"),
     };
-    outside.set_coil(CoilDrive::Stiffness(stiffness)).unwrap();
+    outside.set_coil(CoilInput::Stiffness(stiffness)).unwrap();
     crate::common::drive(&case, &mut outside, 0.2, 1e-3);
     assert_eq!(inside.row(), outside.row());
 
     let here = inside.reading().unwrap();
     assert!((here.coil_force - stiffness * here.coil_compression).abs() < 1e-9 * here.coil_force);
-    outside.set_coil(CoilDrive::Force(here.coil_force)).unwrap();
+    outside.set_coil(CoilInput::Force(here.coil_force)).unwrap();
     let given = outside.reading().unwrap();
     assert_eq!(given.coil_force, here.coil_force);
     let error = given.on_bolster.force.0[2] - here.on_bolster.force.0[2];
@@ -151,7 +154,7 @@ fn derivatives_along_directions_are_those_of_the_rates_and_forces() {
         let mut equations = Equations::new(
             &parameters,
             &Neighbours::of(&parameters, 0.0),
-            CoilDrive::Internal,
+            CoilInput::Internal,
         )
         .unwrap();
         let n = states.len();
@@ -185,9 +188,9 @@ fn derivatives_along_directions_are_those_of_the_rates_and_forces() {
                 };
                 list[k % 6] = 1.0;
             }
-            let along = wedge.along(&change, &moved, 0.0).unwrap();
-            let reading = Reading::of(&along.sense, &system, &parameters).unwrap();
-            let mut exact = along.rates;
+            let product = wedge.jacobian_vector_product(&change, &moved, 0.0).unwrap();
+            let reading = Reading::of(&product.evaluation, &system, &parameters).unwrap();
+            let mut exact = product.rates;
             exact.extend(slopes(&reading));
             let shifted = |sign: f64| {
                 let x: Vec<f64> = states
