@@ -8,7 +8,7 @@ use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
 use crate::case::{Case, CaseError, Problem};
-use crate::measures::{self, Definitions, Measures, Unmeasured, half_truck};
+use crate::measures::{self, Definitions, Judged, Unmeasured, half_truck};
 use crate::truck::TruckCase;
 use crate::truck::catalog;
 use crate::truck::files::{FilesError, Settings, case_of_run};
@@ -59,14 +59,14 @@ impl AnyCase {
         }
     }
 
-    /// Runs it and measures it.
+    /// Runs it, measures it, and judges whether the measures mean something.
     ///
     /// # Errors
     /// The run cannot begin or does not come to its end.
-    pub fn measure(&self) -> Result<Measures, Unmeasured> {
+    pub fn judge(&self) -> Result<Judged, Unmeasured> {
         match self {
-            Self::Wedge(case) => measures::measure(case),
-            Self::HalfTruck(case) => half_truck::measure(case),
+            Self::Wedge(case) => measures::judge(case),
+            Self::HalfTruck(case) => half_truck::judge(case),
         }
     }
 }

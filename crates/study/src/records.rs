@@ -19,7 +19,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use mechanics::energy_balance::{FAILED, Verdict};
 
 use crate::design::Study;
-use crate::measures::{Definitions, Measures, Unmeasured};
+use crate::measures::{Definitions, Judged, Measures, Unmeasured};
 
 const MAGIC: [u8; 4] = *b"WLR2";
 const HEAD: usize = 12;
@@ -41,7 +41,7 @@ pub enum Status {
     Refused,
     /// It stopped on its way.
     Stopped,
-    /// It came to its end, but its energy ledger does not close: it has measures, which are not to be used.
+    /// It came to its end, but its energy ledger does not close, or it is nonsense: it has measures, which are not to be used.
     Failed,
 }
 
@@ -105,16 +105,16 @@ fn compute(study: &Study, number: u64) -> Record {
         let reasons: Vec<&str> = error.problems().iter().map(|problem| problem.message()).collect();
         Unmeasured::Refused(reasons.join("; "))
     });
-    record(study.measures(), number, case.and_then(|case| case.measure()))
+    record(study.measures(), number, case.and_then(|case| case.judge()))
 }
 
 /// What became of a variant as its record.
-fn record(definitions: &Definitions, number: u64, outcome: Result<Measures, Unmeasured>) -> Record {
+fn record(definitions: &Definitions, number: u64, outcome: Result<Judged, Unmeasured>) -> Record {
     let (status, reason, measures) = match outcome {
-        Ok(measures) => match definitions.not_finite(&measures) {
-            None => match ledger(definitions, &measures) {
+        Ok(Judged { measures, nonsense }) => match definitions.not_finite(&measures) {
+            None => match ledger(definitions, &measures).or(nonsense) {
                 None => (Status::Complete, String::new(), measures),
-                Some(reason) => (Status::Failed, reason, measures),
+                Some(reason) => (Status::Failed, shortened(reason), measures),
             },
             Some(name) => {
                 let reason = format!("`{name}` is not a finite number");

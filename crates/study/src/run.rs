@@ -9,7 +9,9 @@ use std::ops::ControlFlow;
 
 use integrate::{Integrator, Options, SetupError};
 use mechanics::energy_balance::{EnergyBalance, Entries};
+use mechanics::plausibility::{Finding, Plausibility};
 use mechanics::system::{ModelError, NoEquilibrium, System};
+use quantity::System as Units;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
@@ -103,6 +105,8 @@ pub trait RunCase: Clone {
     fn name(&self) -> &str;
     /// Returns the end of the run and the time between two rows, s.
     fn duration_and_interval(&self) -> [f64; 2];
+    /// Returns the units of the results.
+    fn units(&self) -> Units;
     /// Returns the settings of the integrator.
     fn options(&self) -> Options;
     /// Returns the equations, the state at time zero and the recorder.
@@ -144,6 +148,8 @@ pub trait Recorder {
     /// # Errors
     /// A value is not finite; the row has not been taken.
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, NotFinite>;
+    /// Returns what is implausible in words, with the places as the user knows them.
+    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String;
     /// Returns these contact states in words, by contact.
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String>;
     /// Returns the numbers that the user's files give to bodies and connections, for messages; empty without such files.
@@ -173,6 +179,7 @@ pub struct Run<C: RunCase> {
     pub(crate) integrator: Integrator<System>,
     pub(crate) start_energy: f64,
     pub(crate) energy_balance: EnergyBalance,
+    pub(crate) plausibility: Plausibility,
     rows: Rows,
     next_row: u64,
     pace: Pace,
@@ -187,9 +194,11 @@ impl<C: RunCase> Run<C> {
     /// The case makes no system, the integrator refuses the start, or a value at the start is not finite.
     pub fn new(case: &C) -> Result<Self, RunError> {
         let mut beginning = case.begin()?;
-        let start_energy = beginning.system.energies(0.0, &beginning.x).total();
-        let integrator = Integrator::new(beginning.system.clone(), case.options(), 0.0, &beginning.x)?;
-        let mut run = Self::assemble(case, beginning, integrator, start_energy);
+        let (system, x) = (&mut beginning.system, &beginning.x);
+        let start_energy = system.energies(0.0, x).total();
+        let plausibility = Plausibility::new(system, 0.0, x);
+        let integrator = Integrator::new(system.clone(), case.options(), 0.0, x)?;
+        let mut run = Self::assemble(case, beginning, integrator, plausibility, start_energy);
         run.emit_rows(true)?;
         Ok(run)
     }
@@ -200,10 +209,16 @@ impl<C: RunCase> Run<C> {
     /// The state belongs to another version or another case, or is damaged.
     pub fn resume(case: &C, state: RunState<<C::Recorder as Recorder>::Counts>) -> Result<Self, RunError> {
         state.check(case)?;
-        let beginning = case.begin()?;
+        let mut beginning = case.begin()?;
         let time = state.integrator.time;
+        let plausibility = Plausibility::resume(&mut beginning.system, 0.0, &beginning.x, state.plausibility);
+        let plausibility = plausibility.ok_or_else(|| RunError::Damaged {
+            member: "plausibility",
+            found: "something that no run of this case can have seen".to_owned(),
+            expected: "finite values, zero or positive, as many as the case has places".to_owned(),
+        })?;
         let integrator = Integrator::resume(beginning.system.clone(), case.options(), state.integrator)?;
-        let mut run = Self::assemble(case, beginning, integrator, state.start_energy);
+        let mut run = Self::assemble(case, beginning, integrator, plausibility, state.start_energy);
         run.recorder.restore(state.counts, time)?;
         run.next_row = state.next_row;
         run.energy_balance = state.energy_balance;
@@ -215,6 +230,7 @@ impl<C: RunCase> Run<C> {
         case: &C,
         beginning: Beginning<C::Recorder>,
         integrator: Integrator<System>,
+        plausibility: Plausibility,
         start_energy: f64,
     ) -> Self {
         let [duration, interval] = case.duration_and_interval();
@@ -226,6 +242,7 @@ impl<C: RunCase> Run<C> {
             next_row: 0,
             start_energy,
             energy_balance: EnergyBalance::new(start_energy),
+            plausibility,
             pace: Pace::of(&integrator),
             buffer: beginning.x,
             contact_states: integrator.discrete_states().to_vec(),
@@ -260,6 +277,7 @@ impl<C: RunCase> Run<C> {
             next_row: self.next_row,
             start_energy: self.start_energy,
             energy_balance: self.energy_balance,
+            plausibility: self.plausibility.record().clone(),
             pace: self.pace,
             counts: self.recorder.counts(),
         }
@@ -383,6 +401,9 @@ impl<C: RunCase> Run<C> {
             };
             let entries = self.recorder.row(&mut self.system, &row)?;
             self.energy_balance.note(time, &entries);
+            if !first {
+                self.plausibility.note(&mut self.system, time, &self.buffer);
+            }
             self.next_row += 1;
         }
         Ok(())

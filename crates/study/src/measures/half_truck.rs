@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use mechanics::body::COORDINATES;
 use quantity::{Kind, System as Units};
 
-use super::{Definitions, Measure, Measures, Unmeasured};
+use super::{Definitions, Judged, Measure, Measures, Unmeasured};
+use crate::plausibility;
 use crate::progress;
 use crate::run::Run;
 use crate::summary;
@@ -105,23 +106,34 @@ fn displacements(case: &TruckCase) -> Vec<(String, usize)> {
         .collect()
 }
 
-/// Runs a half-truck and measures it, in the order of [`definitions`].
+/// Runs a half-truck, measures it in the order of [`definitions`], and judges whether the measures mean something.
 ///
 /// # Errors
 /// The run cannot begin or does not come to its end.
-pub fn measure(case: &TruckCase) -> Result<Measures, Unmeasured> {
+pub fn judge(case: &TruckCase) -> Result<Judged, Unmeasured> {
     // The summary's numbers are in the units of the results.
     let case = TruckCase {
         units: Units::Si,
         ..case.clone()
     };
-    let run = Run::new(&case).map_err(|error| Unmeasured::Refused(error.to_string()))?;
-    let summary = run.finish(|_| ()).summary;
-    if let Some(stopped) = &summary.stopped {
-        let (reason, advice) = (&stopped.reason, progress::WHAT_TO_TRY_WITH_FILES);
-        return Err(Unmeasured::Stopped(format!("{reason}; {advice}")));
+    let mut run = Run::new(&case).map_err(|error| Unmeasured::Refused(error.to_string()))?;
+    while !run.is_finished() {
+        run.advance()
+            .map_err(|error| Unmeasured::Stopped(error.to_string()))?;
     }
-    Ok(of_summary(&case, &summary))
+    let nonsense = plausibility::nonsense(&run);
+    let summary = run.result(None).summary;
+    if let Some(early) = &summary.stopped {
+        return Err(stopped(&early.reason));
+    }
+    Ok(Judged {
+        measures: of_summary(&case, &summary),
+        nonsense,
+    })
+}
+
+fn stopped(reason: &str) -> Unmeasured {
+    Unmeasured::Stopped(format!("{reason}; {}", progress::WHAT_TO_TRY_WITH_FILES))
 }
 
 fn of_summary(case: &TruckCase, summary: &TruckSummary) -> Measures {

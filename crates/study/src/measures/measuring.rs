@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 
 use integrate::{Integrator, Options};
 use mechanics::energy_balance::Entries;
+use mechanics::plausibility::Finding;
 use mechanics::quasi_static::Direction;
 use mechanics::system::{Loads, System};
+use quantity::System as Units;
 use wedge::outputs::{FACES, Ledger};
 use wedge::parameters::Parameters;
 use wedge::resultants::Resultants;
@@ -16,6 +18,7 @@ use super::{COUNT, Measures, place};
 use crate::case::Case;
 use crate::closed_form;
 use crate::metrics::{Cycle, first_harmonic};
+use crate::plausibility;
 use crate::progress;
 use crate::run::wedge_run::{contact_states_in_words, friction_losses, options};
 use crate::run::{Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError};
@@ -30,11 +33,28 @@ pub enum Unmeasured {
     Stopped(String),
 }
 
+/// The measures of a run, and why they mean nothing if they do not.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged {
+    /// The measures.
+    pub measures: Measures,
+    /// Why the run is nonsense ([`plausibility::nonsense`]); `None` if it is not.
+    pub nonsense: Option<String>,
+}
+
 /// Runs a case and measures it.
 ///
 /// # Errors
 /// The run cannot begin or does not come to its end.
 pub fn measure(case: &Case) -> Result<Measures, Unmeasured> {
+    judge(case).map(|judged| judged.measures)
+}
+
+/// Runs a case, measures it, and judges whether the measures mean something.
+///
+/// # Errors
+/// The run cannot begin or does not come to its end.
+pub fn judge(case: &Case) -> Result<Judged, Unmeasured> {
     let run = Run::new(&Measured(case)).map_err(|error| Unmeasured::Refused(error.to_string()))?;
     run.finish(|_| ())
 }
@@ -45,7 +65,7 @@ struct Measured<'c>(&'c Case);
 
 impl RunCase for Measured<'_> {
     type Recorder = Measuring;
-    type Output = Result<Measures, Unmeasured>;
+    type Output = Result<Judged, Unmeasured>;
 
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
 
@@ -55,6 +75,10 @@ impl RunCase for Measured<'_> {
 
     fn duration_and_interval(&self) -> [f64; 2] {
         self.0.duration_and_interval()
+    }
+
+    fn units(&self) -> Units {
+        self.0.simulation.output_units
     }
 
     fn options(&self) -> Options {
@@ -79,9 +103,12 @@ impl RunCase for Measured<'_> {
                     progress::WHAT_TO_TRY
                 )))
             }
-            None => Ok(run
-                .recorder
-                .finish(&run.integrator, run.energy_balance.relative_residual())),
+            None => Ok(Judged {
+                nonsense: plausibility::nonsense(&run),
+                measures: run
+                    .recorder
+                    .finish(&run.integrator, run.energy_balance.relative_residual()),
+            }),
         }
     }
 }
@@ -171,6 +198,10 @@ impl Recorder for Measuring {
         let stored = system.energies(row.time, row.x).total() - row.start_energy;
         let [_, _, _, quadratures] = system.layout().split(row.x);
         Ok(Ledger::new(system, stored, quadratures).entries())
+    }
+
+    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
+        plausibility::in_wedge(system, finding, units)
     }
 
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {

@@ -28,7 +28,7 @@ use std::sync::LazyLock;
 
 use quantity::Kind;
 
-pub use measuring::{Unmeasured, measure};
+pub use measuring::{Judged, Unmeasured, judge, measure};
 
 /// What a measure is.
 #[derive(Clone, Debug, PartialEq)]

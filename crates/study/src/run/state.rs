@@ -3,6 +3,7 @@
 
 use integrate::{MAXIMUM_COUNT, State};
 use mechanics::energy_balance::EnergyBalance;
+use mechanics::plausibility::PlausibilityRecord;
 use mechanics::system::ContactState;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +27,8 @@ pub struct RunState<N> {
     pub start_energy: f64,
     /// The energy balance at the output times.
     pub energy_balance: EnergyBalance,
+    /// What has been seen for the plausibility of the run.
+    pub plausibility: PlausibilityRecord,
     /// How far it has come, and with how many steps.
     pub pace: Pace,
     /// What the recorder has counted so far.

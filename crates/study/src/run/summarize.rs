@@ -13,6 +13,7 @@ use crate::assumptions;
 use crate::case::Case;
 use crate::energy;
 use crate::metrics::{Cycle, Extremes, first_harmonic, mean};
+use crate::plausibility;
 use crate::summary::{
     Averages, Events, FrictionSummary, LedgerSummary, SCHEMA, Solver, Stopped, Summary, SummaryValue,
 };
@@ -77,6 +78,10 @@ fn warnings(run: &Run<Case>, damped: bool) -> Vec<String> {
         ));
     }
     warnings.extend(energy::warning(&run.energy_balance, what_to_do(damped)));
+    warnings.extend(plausibility::warnings(run));
+    if run.case.nothing_given {
+        warnings.push(plausibility::NOTHING_GIVEN.to_owned());
+    }
     if run.integrator.statistics().events_unresolved > 0 {
         warnings.push(format!(
             "{} steps held more contact events than could be resolved: contact states are doubtful there",

@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use integrate::{Family, Integrator, Options};
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
+use mechanics::plausibility::Finding;
 use mechanics::system::{ContactState, EnergyTermKind, System};
+use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 use wedge::Wedge;
 use wedge::outputs::{CORNERS, FACES, Outputs};
@@ -14,6 +16,7 @@ use super::{Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError, summari
 use crate::case::Case;
 use crate::finite::is_finite;
 use crate::metrics::Cycle;
+use crate::plausibility;
 use crate::progress;
 use crate::result::{ContactEvent, RunResult};
 use crate::summary::Stopped;
@@ -62,6 +65,10 @@ impl RunCase for Case {
 
     fn duration_and_interval(&self) -> [f64; 2] {
         [self.simulation.duration, self.simulation.output_interval]
+    }
+
+    fn units(&self) -> Units {
+        self.simulation.output_units
     }
 
     fn options(&self) -> Options {
@@ -153,6 +160,10 @@ impl Recorder for WedgeRecorder {
             column.push(*value);
         }
         Ok(ledger.entries())
+    }
+
+    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
+        plausibility::in_wedge(system, finding, units)
     }
 
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {

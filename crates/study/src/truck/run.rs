@@ -7,8 +7,9 @@ use integrate::{Integrator, Options};
 use mechanics::body::COORDINATES;
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
+use mechanics::plausibility::Finding;
 use mechanics::system::{ContactState, EnergyTermKind, NoEquilibrium, Observation, StaticFriction, System};
-use quantity::Kind;
+use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
 use super::table::{Table, input_motion};
@@ -16,6 +17,7 @@ use super::{SCHEMA, TruckCase, TruckResult, TruckStart, TruckSummary, WedgeSumma
 use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::metrics::{Cycle, mean};
+use crate::plausibility;
 use crate::progress;
 use crate::run::{
     Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError, check_finite, check_length, damaged,
@@ -77,6 +79,10 @@ impl RunCase for TruckCase {
 
     fn duration_and_interval(&self) -> [f64; 2] {
         [self.duration, self.interval]
+    }
+
+    fn units(&self) -> Units {
+        self.units
     }
 
     fn options(&self) -> Options {
@@ -152,6 +158,10 @@ impl Recorder for TruckRecorder {
         Ok(entries(system, &seen, row.start_energy))
     }
 
+    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
+        plausibility::in_truck(system, finding, self.numbers(), units)
+    }
+
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
         let pairs = self.frictional.iter().zip(contact_states);
         pairs
@@ -186,6 +196,7 @@ fn output(run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
             failed: energy::failure(&balance, energy::WHAT_TO_DO_WITH_FILES),
             warnings: energy::warning(&balance, energy::WHAT_TO_DO_WITH_FILES)
                 .into_iter()
+                .chain(plausibility::warnings(&run))
                 .collect(),
             rows: 0,
             yaw: None,

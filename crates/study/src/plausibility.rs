@@ -1,0 +1,99 @@
+//! What is implausible in a run, in words: the same for runs of wedges and of half-trucks, studies and fits.
+//!
+//! What is looked at, and the limits, are those of [`mechanics::plausibility`].
+
+use mechanics::plausibility::{Finding, FindingKind, Location};
+use mechanics::system::System;
+use quantity::System as Units;
+use wedge::outputs::{CORNERS, FACES};
+
+use crate::run::{Recorder, Run, RunCase};
+
+/// How warnings about what is implausible begin.
+const BEGINNING: &str = "implausible: ";
+
+/// The warning about a case file that gives no values.
+pub const NOTHING_GIVEN: &str = "the case file gives no values of wedge, coil, contact, friction and motions: all are defaults, the thesis's with \
+     variable damping; write your own (`wedgelab case` shows all keys)";
+
+/// Returns those of a run's warnings that are about something implausible.
+pub fn among(warnings: &[String]) -> impl Iterator<Item = &str> {
+    let own = warnings.iter().map(String::as_str);
+    own.filter(|warning| warning.starts_with(BEGINNING))
+}
+
+/// Returns the warnings about what is implausible in a run.
+#[must_use]
+pub fn warnings<C: RunCase>(run: &Run<C>) -> Vec<String> {
+    let units = run.case.units();
+    let findings = findings(run);
+    let words = |finding: &Finding| run.recorder.describe(&run.system, finding, units);
+    findings.iter().map(words).collect()
+}
+
+/// Returns why a run is nonsense: the first finding after which results mean nothing. Returns `None` if there is none.
+#[must_use]
+pub fn nonsense<C: RunCase>(run: &Run<C>) -> Option<String> {
+    let findings = findings(run);
+    let found = findings.iter().filter(|finding| finding.kind.is_nonsense());
+    let first = found.min_by(|a, b| a.since.unwrap_or(0.0).total_cmp(&b.since.unwrap_or(0.0)))?;
+    Some(run.recorder.describe(&run.system, first, run.case.units()))
+}
+
+fn findings<C: RunCase>(run: &Run<C>) -> Vec<Finding> {
+    let [_, interval] = run.case.duration_and_interval();
+    run.plausibility
+        .findings(&run.system, &run.energy_balance, interval)
+}
+
+/// Returns a finding in a half-truck with the numbers that its files give to bodies and connections.
+pub(crate) fn in_truck(system: &System, finding: &Finding, numbers: [&[u32]; 2], units: Units) -> String {
+    let [bodies, connections] = numbers;
+    let numbered = match finding.location {
+        Location::Body(body) => bodies
+            .get(body)
+            .map(|number| format!("body {number} ({})", system.bodies()[body].name)),
+        Location::Connection(place) => connections
+            .get(place)
+            .map(|number| format!("connection {number} ({})", system.connections()[place].name)),
+        _ => None,
+    };
+    let place = numbered.unwrap_or_else(|| finding.location.describe(system));
+    let (sentence, advice) = (finding.words(&place, units), finding.kind.advice());
+    format!("{BEGINNING}{sentence}; {advice}")
+}
+
+/// Returns a finding in a wedge with the names and keys of its case.
+pub(crate) fn in_wedge(system: &System, finding: &Finding, units: Units) -> String {
+    let face_name = |face: usize| FACES.get(face).copied().unwrap_or("face");
+    let place = match finding.location {
+        Location::Face { face, point: None } => format!("the {}", face_name(face)),
+        Location::Face {
+            face,
+            point: Some(point),
+        } => {
+            let corner = CORNERS.get(point).copied().unwrap_or("nth").replace('_', " ");
+            format!("the {corner} corner of the {}", face_name(face))
+        }
+        Location::Coil(_) => "the control coil".to_owned(),
+        other => other.describe(system),
+    };
+    let advice = match finding.kind {
+        FindingKind::Penetration => {
+            "raise contact.stiffness, or lower the coil's load or the motion that presses the wedge in"
+        }
+        FindingKind::StoredAtStart => "start with simulation.start = \"touching\" or \"equilibrium\"",
+        FindingKind::Lifted { pulls: true } => {
+            "set control_coil.pulls = false, and lower the motion that stretches the coil"
+        }
+        FindingKind::CoarseOutput { .. } => {
+            "shorten simulation.output_interval, or use averages, not single values, extremes or spectra"
+        }
+        FindingKind::Separation | FindingKind::SlidOff | FindingKind::Tilt => {
+            "do not use what follows; look at weight, angle, friction, coil and the motions of bolster and side frame for a value out of \
+             all proportion"
+        }
+        kind => kind.advice(),
+    };
+    format!("{BEGINNING}{}; {advice}", finding.words(&place, units))
+}
