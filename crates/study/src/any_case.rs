@@ -1,17 +1,20 @@
 //! A case of any model, and where it comes from: what a study varies.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use nucars::Severity;
-use nucars::together::{RunFiles, Texts};
+use nucars::together::{Instead, LoadError, RunFiles, Texts, find};
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
 use crate::case::{Case, CaseError, Problem};
 use crate::measures::{self, Definitions, Judged, Unmeasured, half_truck};
-use crate::truck::TruckCase;
-use crate::truck::catalog;
+use crate::metrics::Cycle;
+use crate::result::RunResult;
+use crate::run::{Run, RunError};
+use crate::summary::Stopped;
 use crate::truck::files::{FilesError, Settings, case_of_run};
+use crate::truck::{self, TruckCase, TruckResult, catalog};
 
 /// A case of any model.
 #[derive(Clone, Debug)]
@@ -38,6 +41,26 @@ impl AnyCase {
         match self {
             Self::Wedge(case) => case.simulation.output_units,
             Self::HalfTruck(case) => case.units,
+        }
+    }
+
+    /// Runs it to its end.
+    ///
+    /// # Errors
+    /// The run cannot begin.
+    pub fn run(&self) -> Result<AnyResult, RunError> {
+        Ok(match self {
+            Self::Wedge(case) => AnyResult::Wedge(Box::new(Run::new(&**case)?.finish(|_| ()))),
+            Self::HalfTruck(case) => AnyResult::HalfTruck(Box::new(Run::new(&**case)?.finish(|_| ()))),
+        })
+    }
+
+    /// Returns the cycle of its vertical motion, if that is one sine or triangle.
+    #[must_use]
+    pub fn cycle(&self) -> Option<Cycle> {
+        match self {
+            Self::Wedge(case) => Cycle::of(&case.parameters),
+            Self::HalfTruck(case) => truck::run::cycle(case),
         }
     }
 
@@ -71,6 +94,62 @@ impl AnyCase {
     }
 }
 
+/// What came out of a run of any model.
+#[derive(Clone, Debug)]
+pub enum AnyResult {
+    /// Of a wedge.
+    Wedge(Box<RunResult>),
+    /// Of a half-truck.
+    HalfTruck(Box<TruckResult>),
+}
+
+impl AnyResult {
+    /// Returns the values (SI) of the column with this name (without unit).
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        match self {
+            Self::Wedge(result) => result.column(name),
+            Self::HalfTruck(result) => result.column(name),
+        }
+    }
+
+    /// Returns why and when the run stopped, if it did not come to its end.
+    #[must_use]
+    pub fn stopped(&self) -> Option<&Stopped> {
+        match self {
+            Self::Wedge(result) => result.summary.stopped.as_ref(),
+            Self::HalfTruck(result) => result.summary.stopped.as_ref(),
+        }
+    }
+
+    /// Returns what makes the numbers doubtful.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        match self {
+            Self::Wedge(result) => &result.summary.warnings,
+            Self::HalfTruck(result) => &result.summary.warnings,
+        }
+    }
+
+    /// Returns why the numbers are not to be used, if so.
+    #[must_use]
+    pub fn failed(&self) -> Option<&str> {
+        match self {
+            Self::Wedge(result) => result.summary.failed.as_deref(),
+            Self::HalfTruck(result) => result.summary.failed.as_deref(),
+        }
+    }
+
+    /// Returns the relative residual of the energy ledger.
+    #[must_use]
+    pub fn largest_relative_residual(&self) -> f64 {
+        match self {
+            Self::Wedge(result) => result.summary.ledger.largest_relative_residual,
+            Self::HalfTruck(result) => result.summary.largest_relative_residual,
+        }
+    }
+}
+
 /// Where a case comes from: all that is needed to make it, or a variant of it, again on another machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CaseSource {
@@ -95,6 +174,26 @@ pub enum CaseSource {
 }
 
 impl CaseSource {
+    /// Returns the half-truck that a user names: a built-in one, or a run file (ending `.run`); `None` if neither is meant.
+    ///
+    /// # Errors
+    /// The run file or those that it names cannot be read.
+    pub fn half_truck(path: &Path) -> Result<Option<Self>, LoadError> {
+        let built_in = path.to_str().filter(|name| catalog::entry(name).is_some());
+        if let Some(name) = built_in.filter(|_| !path.is_file()) {
+            return Ok(Some(Self::BuiltInHalfTruck(name.to_owned())));
+        }
+        if !path
+            .extension()
+            .is_some_and(|own| own.eq_ignore_ascii_case("run"))
+        {
+            return Ok(None);
+        }
+        let path = find(path)?;
+        let texts = Box::new(RunFiles::read(&path, &Instead::default())?.texts());
+        Ok(Some(Self::HalfTruck { path, texts }))
+    }
+
     /// Returns the case with these values over it, as `--set` takes them.
     ///
     /// # Errors

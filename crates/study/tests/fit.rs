@@ -4,6 +4,7 @@
 
 use std::path::Path;
 
+use study::any_case::{AnyCase, CaseSource};
 use study::case::{Case, CaseError};
 use study::fit::least_squares::{Settings, minimize};
 use study::fit::{Free, Measured, course, fit, two_sided};
@@ -117,8 +118,9 @@ const CASE: &str = "[wedge]\ndamping = \"constant\"\n[side_frame]\ntoe = \"0.2 d
     vertical = { shape = \"sine\", amplitude = \"1 in\", frequency = \"20 rad/s\" }\n[simulation]\nduration = \"0.4 s\"\n\
     output_interval = \"0.004 s\"\n";
 
-fn case(set: &[String]) -> Result<Case, CaseError> {
-    Case::parse("fit.toml", CASE, Path::new(""), set)
+fn case(set: &[String]) -> Result<AnyCase, CaseError> {
+    let case = Case::parse("fit.toml", CASE, Path::new(""), set)?;
+    Ok(AnyCase::Wedge(Box::new(case)))
 }
 
 /// The wedge itself: column friction and coil stiffness from loops with noise of 2 % of the force. Of 24 intervals each, those at
@@ -261,4 +263,35 @@ fn input_free_parameters() {
         ..measured
     };
     assert!(fit(&case, &short, &few, 0.95, &|_, _| Vec::new()).is_err());
+}
+
+/// A half-truck's friction from a loop of one of its wedges without noise: the true value, for all wedges.
+#[test]
+fn convergence_a_half_trucks_friction_is_found_again() {
+    let source = CaseSource::half_truck(Path::new("nucars_68_constant_toe_out"));
+    let source = source.unwrap().unwrap();
+    let case = |set: &[String]| {
+        let head = [
+            "simulation.duration=1.6 s".to_owned(),
+            "history.3.frequency=1 Hz".to_owned(),
+        ];
+        source.case(&[&head, set].concat())
+    };
+    let free = [Free::parse("wedges.column_friction=0.3..0.5").unwrap()];
+    let truth = 0.37;
+    let times: Vec<f64> = (50..=150).map(|row| 0.01 * f64::from(row)).collect();
+    let column = "wedge_127_column_friction";
+    let exact = course(&case(&[free[0].set(truth)]).unwrap(), column, &times).unwrap();
+    let measured = Measured {
+        values: exact,
+        times,
+        column: column.to_owned(),
+    };
+    let found = fit(&case, &measured, &free, 0.95, &|count, one| {
+        (0..count).map(one).collect()
+    })
+    .unwrap();
+    let value = found.parameters[0].value;
+    assert!((value - truth).abs() < 1e-4 && found.settled, "{value}");
+    assert_eq!(found.failed, None);
 }

@@ -4,8 +4,6 @@ mod vary;
 
 use std::path::Path;
 
-use nucars::together::{Instead, RunFiles, find};
-
 use input::file::{Expected, Reason, read_text};
 use input::{FileType, limits};
 
@@ -356,14 +354,16 @@ fn whole(top: &Section<'_>, key: &str, least: f64, problems: &mut Problems) -> O
 /// The text of the case that is varied.
 fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) -> Option<CaseSource> {
     let path = folder.join(case);
-    if !path.is_file() && catalog::entry(case).is_some() {
-        return Some(CaseSource::BuiltInHalfTruck(case.to_owned()));
-    }
-    if path
-        .extension()
-        .is_some_and(|own| own.eq_ignore_ascii_case("run"))
-    {
-        return half_truck(&path, node, problems);
+    let built_in = catalog::entry(case).is_some() && !path.is_file();
+    match CaseSource::half_truck(if built_in { Path::new(case) } else { &path }) {
+        Ok(None) => {}
+        Ok(Some(source)) => return Some(source),
+        Err(error) => {
+            let help = "files are looked for from the folder of the study; `wedgelab nucars run --list` lists the built-in half-trucks";
+            let problem = Problem::new(error.to_string()).at(&node.place);
+            problems.push(problem.label("this run file").help(help));
+            return None;
+        }
     }
     if !path.is_file()
         && let Ok(text) = builtin::text(case)
@@ -401,24 +401,6 @@ fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) 
                     .label("this case")
                     .help(help),
             );
-            None
-        }
-    }
-}
-
-/// The texts of the half-truck that is varied.
-fn half_truck(path: &Path, node: &Node, problems: &mut Problems) -> Option<CaseSource> {
-    let read = find(path).and_then(|path| Ok((RunFiles::read(&path, &Instead::default())?, path)));
-    match read {
-        Ok((files, path)) => Some(CaseSource::HalfTruck {
-            path,
-            texts: Box::new(files.texts()),
-        }),
-        Err(error) => {
-            let problem = Problem::new(error.to_string()).at(&node.place);
-            problems.push(problem.label("this run file").help(
-                "files are looked for from the folder of the study; `wedgelab nucars run --list` lists the built-in half-trucks",
-            ));
             None
         }
     }

@@ -12,10 +12,10 @@ use input::bounded;
 use quantity::{Number, Quantity};
 use thiserror::Error;
 
-use crate::case::{Case, CaseError};
+use crate::any_case::AnyCase;
+use crate::case::CaseError;
 use crate::design::Value;
 use crate::energy;
-use crate::run::Run;
 use least_squares::{Evaluate, Settings, minimize};
 
 pub use student::two_sided;
@@ -200,9 +200,9 @@ pub struct Fit {
 ///
 /// # Errors
 /// The run cannot begin or stops, ends before the last time, or has no such column.
-pub fn course(case: &Case, column: &str, times: &[f64]) -> Result<Vec<f64>, String> {
-    let result = Run::new(case).map_err(|error| error.to_string())?.finish(|_| ());
-    if let Some(stopped) = &result.summary.stopped {
+pub fn course(case: &AnyCase, column: &str, times: &[f64]) -> Result<Vec<f64>, String> {
+    let result = case.run().map_err(|error| error.to_string())?;
+    if let Some(stopped) = result.stopped() {
         return Err(format!(
             "the run stopped at {} s: {}",
             Number(stopped.time),
@@ -243,7 +243,7 @@ pub type Each<'e> = &'e dyn Fn(usize, FitModel<'_>) -> Vec<Result<Vec<f64>, Stri
 /// # Errors
 /// The case has no such parameters, or no values beside its start.
 pub fn fit(
-    case: &(dyn Fn(&[String]) -> Result<Case, CaseError> + Sync),
+    case: &(dyn Fn(&[String]) -> Result<AnyCase, CaseError> + Sync),
     measured: &Measured,
     free: &[Free],
     confidence: f64,
@@ -279,19 +279,20 @@ pub fn fit(
     let values: Vec<String> = (fit.parameters.iter())
         .map(|found| found.free.set(found.value))
         .collect();
-    let run = Run::new(&case(&values)?).map_err(|error| FitError::Model(error.to_string()))?;
-    let summary = run.finish(|_| ()).summary;
+    let result = case(&values)?
+        .run()
+        .map_err(|error| FitError::Model(error.to_string()))?;
     Ok(Fit {
-        largest_relative_residual: summary.ledger.largest_relative_residual,
-        warnings: energy::among(&summary.warnings).map(str::to_owned).collect(),
-        failed: summary.failed,
+        largest_relative_residual: result.largest_relative_residual(),
+        warnings: energy::among(result.warnings()).map(str::to_owned).collect(),
+        failed: result.failed().map(str::to_owned),
         ..fit
     })
 }
 
 /// Where the case stands, as far as it lies well within the bounds; the middle otherwise.
-fn start(case: &Case, free: &[Free]) -> Vec<f64> {
-    let sections = case.document.fields();
+fn start(case: &AnyCase, free: &[Free]) -> Vec<f64> {
+    let sections = case.wedge().map_or(Vec::new(), |case| case.document.fields());
     free.iter()
         .map(|free| {
             let mut fields = sections.iter().flat_map(|section| &section.fields);

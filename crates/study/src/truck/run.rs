@@ -263,8 +263,8 @@ fn first_not_finite(summary: &TruckSummary) -> Option<String> {
     wedges.or(others.map(|name| format!("`{name}`"))).or(residual)
 }
 
-/// The cycle of the vertical input, if it is one sine.
-fn cycle(case: &TruckCase) -> Option<Cycle> {
+/// Returns the cycle of the vertical input, if it is one sine.
+pub(crate) fn cycle(case: &TruckCase) -> Option<Cycle> {
     match input_motion(&case.truck.model)? {
         Motion::Sine {
             amplitude,

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use report::fit_files::{self, Shown};
 use report::run_files;
 use report::table::{Table as Measurements, TableColumn};
+use study::any_case::{AnyCase, CaseSource};
 use study::case::{Case, CaseError, builtin};
 use study::fit::{Fit, FitError, Free, FreeError, Measured, fit};
 use study::metrics::Cycle;
@@ -20,7 +21,7 @@ use crate::folders;
 use crate::interrupt;
 use crate::table::Table;
 
-/// Columns that may hold the measured force, the first one found being taken.
+/// Columns of a wedge that may hold the measured force, the first one found being taken.
 const FORCES: [&str; 5] = [
     "vertical_wedge_force",
     "vertical_force_on_side_frame",
@@ -28,7 +29,8 @@ const FORCES: [&str; 5] = [
     "net_force_on_side_frame_z",
     "longitudinal_wedge_force",
 ];
-const DISPLACEMENT: &str = "bolster_vertical";
+/// The vertical displacement of a wedge's bolster, and that of the body that drives a half-truck's.
+const DISPLACEMENTS: [&str; 2] = ["bolster_vertical", "input_vertical"];
 /// A measured stroke that differs by more than this part from the case's is told.
 const STROKE: f64 = 0.02;
 /// Below this, differences hang together so much that intervals are too narrow.
@@ -39,24 +41,26 @@ const INDEPENDENT: f64 = 1.0;
 /// Takes a CSV file with the columns time_s, a force such as vertical_wedge_force_lbf, and perhaps bolster_vertical_in, and
 /// finds the values of free parameters between bounds with which the case's run comes nearest to it (least squares).
 /// Prints them with confidence intervals, and writes fit.json, the case with the values found, and a figure of loop and
-/// residuals.
+/// residuals. The case may be a half-truck: then --column names the force (wedge_127_column_friction), and parameters are those of
+/// `wedgelab nucars run --set`.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
   wedgelab fit loop.csv my.toml --free friction.column=0.2..0.6
   wedgelab fit loop.csv rig_constant --free friction.column=0.2..0.6 friction.slope=0.2..0.6 --confidence 0.99
   wedgelab fit loop.csv my.toml --follow --free 'control_coil.stiffness=1500 lbf/in..2500 lbf/in'
+  wedgelab fit loop.csv half_truck.run --column wedge_127_column_friction --free wedges.column_friction=0.2..0.6
 
 Preload is control_coil.free_length or control_coil.nominal_length.")]
 pub struct Arguments {
     /// Measured values: a CSV file as `wedgelab compare` reads
     measured: PathBuf,
-    /// Case file, or, if there is no such file, the name of a built-in case
+    /// Case file or run file of a half-truck, or, if there is no such file, the name of a built-in one
     case: PathBuf,
     /// Parameters to be found, between bounds
     #[arg(long, value_name = "PATH=LOW..HIGH", num_args = 1.., required = true)]
     free: Vec<String>,
-    /// Column with the measured force [default: the first force on side frame or bolster that the file has]
+    /// Column with the measured force [default: the first force on a wedge's side frame or bolster that the file has]
     #[arg(long, value_name = "NAME")]
     column: Option<String>,
     /// Move the bolster as measured (column bolster_vertical), not as the case says
@@ -133,13 +137,24 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     let table = Measurements::read(&arguments.measured)?;
     let force = force(&table, arguments.column.as_deref())?;
-    let displacement = table.find(DISPLACEMENT).map(TableColumn::si);
+    let displacement = DISPLACEMENTS.iter().find_map(|name| table.find(name));
+    let displacement = displacement.map(TableColumn::si);
+    let half_truck = CaseSource::half_truck(&arguments.case)?;
     let times = table.times();
     let mut set = arguments.set.clone();
     if arguments.follow {
+        if half_truck.is_some() {
+            let advice = "history.NUMBER.factor and history.NUMBER.frequency, by --set, change the motion of its files";
+            return Err(Message::new(
+                "--follow moves the bolster of a wedge, and the case is a half-truck",
+                advice,
+            )
+            .into());
+        }
         let Some(displacement) = &displacement else {
             let message = format!(
-                "--follow needs the column {DISPLACEMENT}, which {} has not",
+                "--follow needs the column {}, which {} has not",
+                DISPLACEMENTS[0],
                 table.file.display()
             );
             return Err(Message::new(message, "add it, with its unit: bolster_vertical_in").into());
@@ -148,13 +163,16 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     let last = times.last().copied().unwrap_or(0.0);
     set.push(format!("simulation.duration={last} s"));
-    let base = read(&arguments.case, &set)?;
+    let base = match &half_truck {
+        Some(source) => source.case(&set)?,
+        None => AnyCase::Wedge(Box::new(read(&arguments.case, &set)?)),
+    };
+    let cycle = base.cycle();
     if !arguments.follow
         && let Some(displacement) = &displacement
     {
-        compare_stroke(&base, displacement);
+        compare_stroke(cycle, displacement);
     }
-    let cycle = Cycle::of(&base.parameters);
     let from = arguments
         .from
         .unwrap_or_else(|| cycle.map_or(0.0, |cycle| 0.5 * cycle.period()));
@@ -165,14 +183,18 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         values: pick(&force.si()),
         column: force.name.clone(),
     };
-    let names = [
-        fit_files::FILE_NAME,
-        fit_files::FIGURE,
-        fit_files::PICTURE,
-        run_files::CASE_FILE_NAME,
-    ];
+    let mut names = vec![fit_files::FILE_NAME, fit_files::FIGURE, fit_files::PICTURE];
+    if half_truck.is_none() {
+        names.push(run_files::CASE_FILE_NAME);
+    }
     let folder = folders::check(&arguments.out, &names, arguments.force)?;
-    let case = |more: &[String]| case_with(arguments, &[&set, more].concat());
+    let case = |more: &[String]| {
+        let all = [&set, more].concat();
+        match &half_truck {
+            Some(source) => source.case(&all),
+            None => case_with(arguments, &all).map(|case| AnyCase::Wedge(Box::new(case))),
+        }
+    };
     let found = fit(&case, &measured, &free, arguments.confidence, &|count, one| {
         (0..count).into_par_iter().map(one).collect()
     })?;
@@ -182,7 +204,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .iter()
         .map(|found| found.free.set(found.value))
         .collect();
-    let fitted = case_with(arguments, &[arguments.set.clone(), values].concat())?;
+    let fitted = match &half_truck {
+        Some(_) => None,
+        None => Some(case_with(arguments, &[arguments.set.clone(), values].concat())?),
+    };
     let displacement = displacement.map(|values| pick(&values));
     let shown = Shown {
         measured: &measured,
@@ -197,20 +222,16 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .map_err(|reason| Failure::Failed(Message::new(format!("cannot draw: {reason}"), "").into()))?;
     folder.write(|files| {
         files.add(fit_files::FILE_NAME, |out| fit_files::write(&found, &shown, out))?;
-        files.add(run_files::CASE_FILE_NAME, |out| {
-            out.write_all(
-                fitted
-                    .document
-                    .clone()
-                    .with_tables_embedded()
-                    .to_toml()
-                    .as_bytes(),
-            )
-        })?;
+        if let Some(fitted) = &fitted {
+            let document = fitted.document.clone().with_tables_embedded();
+            files.add(run_files::CASE_FILE_NAME, |out| {
+                out.write_all(document.to_toml().as_bytes())
+            })?;
+        }
         files.add(fit_files::FIGURE, |out| out.write_all(figure.to_svg().as_bytes()))?;
         files.add(fit_files::PICTURE, |out| out.write_all(&png))
     })?;
-    tell(&found, &shown, &arguments.out)?;
+    tell(&found, &shown, &arguments.out, &names)?;
     for warning in &found.warnings {
         say(&format!("warning: the run with these values: {warning}"));
     }
@@ -245,7 +266,10 @@ fn force<'t>(table: &'t Measurements, name: Option<&str>) -> Result<&'t TableCol
     }
     FORCES.iter().find_map(|name| table.find(name)).ok_or_else(|| {
         let message = format!("{} has no force that is known", table.file.display());
-        let advice = format!("name a column with --column; known are {}", FORCES.join(", "));
+        let advice = format!(
+            "name a column with --column; known are {}, and of a half-truck those of its result.csv",
+            FORCES.join(", ")
+        );
         Message::new(message, advice).into()
     })
 }
@@ -261,8 +285,8 @@ fn followed(times: &[f64], displacement: &[f64]) -> String {
 }
 
 /// Tells if the case moves the bolster by another stroke than was measured.
-fn compare_stroke(case: &Case, displacement: &[f64]) {
-    let Some(cycle) = Cycle::of(&case.parameters) else {
+fn compare_stroke(cycle: Option<Cycle>, displacement: &[f64]) {
+    let Some(cycle) = cycle else {
         return;
     };
     let ends = displacement
@@ -279,7 +303,7 @@ fn compare_stroke(case: &Case, displacement: &[f64]) {
     }
 }
 
-fn tell(found: &Fit, shown: &Shown<'_>, folder: &std::path::Path) -> Result<(), Failure> {
+fn tell(found: &Fit, shown: &Shown<'_>, folder: &std::path::Path, names: &[&str]) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     let interval = format!("interval, {} %", 100.0 * shown.confidence);
     let mut table = Table::new(
@@ -354,14 +378,6 @@ fn tell(found: &Fit, shown: &Shown<'_>, folder: &std::path::Path) -> Result<(), 
             "It did not come to rest: look at the residuals, and narrow the bounds."
         )?;
     }
-    writeln!(
-        out,
-        "Written into {}: {}, {}, {}, {}.",
-        folder.display(),
-        fit_files::FILE_NAME,
-        run_files::CASE_FILE_NAME,
-        fit_files::FIGURE,
-        fit_files::PICTURE
-    )?;
+    writeln!(out, "Written into {}: {}.", folder.display(), names.join(", "))?;
     Ok(())
 }
