@@ -49,7 +49,7 @@ pub struct Body {
 }
 
 impl Body {
-    /// A body whose motion is prescribed: its origin rides on the frame.
+    /// Returns a body whose motion is prescribed: its origin rides on the frame.
     #[must_use]
     pub fn prescribed(name: &str, frame: Frame) -> Self {
         Self {
@@ -64,7 +64,7 @@ impl Body {
         }
     }
 
-    /// A body with six free coordinates, measured from the fixed frame, its centre of gravity at its origin: mass (kg), principal moments of
+    /// Returns a body with six free coordinates, measured from the fixed frame, its centre of gravity at its origin: mass (kg), principal moments of
     /// inertia (kg·m²), coordinates at the start (m, rad).
     #[must_use]
     pub fn free(name: &str, mass: f64, inertia: [f64; 3], initial: [f64; 6]) -> Self {
@@ -77,7 +77,7 @@ impl Body {
         }
     }
 
-    /// A body with linearized kinematics: its centre of gravity in the drawn layout (m), which coordinates are free, mass (kg) and principal
+    /// Returns a body with linearized kinematics: its centre of gravity in the drawn layout (m), which coordinates are free, mass (kg) and principal
     /// moments of inertia (kg·m²). The other coordinates stay at zero.
     #[must_use]
     pub fn linearized(
@@ -96,7 +96,7 @@ impl Body {
         }
     }
 
-    /// A body with linearized kinematics and prescribed motions of its centre of gravity (x, y, z, m) and of its rotations (roll, pitch,
+    /// Returns a body with linearized kinematics and prescribed motions of its centre of gravity (x, y, z, m) and of its rotations (roll, pitch,
     /// yaw, rad) from the drawn layout.
     #[must_use]
     pub fn linearized_prescribed(name: &str, center_of_gravity: [f64; 3], motions: [Motion; 6]) -> Self {
@@ -108,36 +108,36 @@ impl Body {
         }
     }
 
-    /// A body with linearized kinematics that does not move, at the origin.
+    /// Returns a body with linearized kinematics that does not move, at the origin.
     #[must_use]
     pub fn ground() -> Self {
         Self::linearized("ground", [0.0; 3], [false; 6], 0.0, [0.0; 3])
     }
 
-    /// Whether no coordinate is free.
+    /// Returns whether no coordinate is free.
     #[must_use]
     pub fn is_prescribed(&self) -> bool {
         !self.free.contains(&true)
     }
 
-    /// Whether it is prescribed and moves.
+    /// Returns whether it is prescribed and moves.
     #[must_use]
     pub fn is_moving_prescribed(&self) -> bool {
         self.is_prescribed() && !self.frame.is_fixed()
     }
 
-    /// How many coordinates are free.
+    /// Returns how many coordinates are free.
     #[must_use]
     pub fn free_count(&self) -> usize {
         self.free.iter().filter(|free| **free).count()
     }
 
-    /// Whether roll can differ from zero.
+    /// Returns whether roll can differ from zero.
     pub(crate) fn rolls(&self) -> bool {
         self.free[3] || self.initial[3] != 0.0
     }
 
-    /// What its motion depends on.
+    /// Returns what its motion depends on.
     #[inline(always)]
     pub(crate) fn rigid(&self) -> Rigid {
         Rigid {
@@ -197,14 +197,14 @@ impl<S: Number> Kinematics<S> {
         }
     }
 
-    /// Angular velocity, axes of the reference frame.
+    /// Returns the angular velocity, axes of the reference frame.
     #[inline(always)]
     #[must_use]
     pub fn angular_velocity(&self) -> Vector<S> {
         self.orientation.rotation.apply(self.spin)
     }
 
-    /// The generalized force of coordinate `k` by a force at the body's origin (frame axes) and a moment about it (body axes).
+    /// Returns the generalized force of coordinate `k` by a force at the body's origin (frame axes) and a moment about it (body axes).
     #[inline(always)]
     #[must_use]
     pub fn generalized(&self, k: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
@@ -215,7 +215,7 @@ impl<S: Number> Kinematics<S> {
         }
     }
 
-    /// The force at the body's origin (frame axes) and the moment about it (body axes) that give the body the accelerations
+    /// Returns the force at the body's origin (frame axes) and the moment about it (body axes) that give the body the accelerations
     /// `accelerations` of its six coordinates: inertia `m a` at the centre of gravity and `I α + ω × I ω`, less gravity.
     ///
     /// `frame` is the motion of the reference frame, `gravity` the field in fixed axes (m/s²).
@@ -282,13 +282,13 @@ impl<S: Number> Kinematics<S> {
 }
 
 impl Kinematics<f64> {
-    /// The parts of a moment (body axes) about the axes of roll, pitch, yaw.
+    /// Returns the parts of a moment (body axes) about the axes of roll, pitch, yaw.
     #[inline(always)]
     pub(crate) fn about_axes(&self, moment: &Vector<f64>) -> [f64; 3] {
         [0, 1, 2].map(|k| self.orientation.axes[k].dot::<f64, f64>(*moment))
     }
 
-    /// Accelerations of the six coordinates (held ones: zero) under a force at the body's origin (frame axes) and moments about
+    /// Returns the accelerations of the six coordinates (held ones: zero) under a force at the body's origin (frame axes) and moments about
     /// the axes of its angles ([`Kinematics::about_axes`]), bias and gravity already taken off.
     ///
     /// Solves `M q¨ = Q` by eliminating the translations, whose block of M is m times the unit matrix: what is
@@ -371,7 +371,7 @@ impl Kinematics<f64> {
 }
 
 impl Kinematics<f64> {
-    /// What the elements on the body need to know of its free angles.
+    /// Returns what the elements on the body need to know of its free angles.
     pub(crate) fn rotation_axes(&self, free: &[usize]) -> RotationAxes {
         let [roll, pitch, yaw] = self.orientation.axes;
         let before_yaw = pitch.scale::<f64, f64>(self.rates[1]);
@@ -390,7 +390,7 @@ impl Kinematics<f64> {
         rotation_axes
     }
 
-    /// The velocity of the centre of gravity by the rate of angle `k` (roll, pitch, yaw), frame axes.
+    /// Returns the velocity of the centre of gravity by the rate of angle `k` (roll, pitch, yaw), frame axes.
     #[inline(always)]
     fn lever(&self, body: &Body, k: usize) -> Vector<f64> {
         let own: Vector<f64> = self.orientation.axes[k].cross(Vector(body.center_of_gravity));
@@ -425,7 +425,7 @@ impl Kinematics<f64> {
         }
     }
 
-    /// Kinetic energy in the fixed frame, J.
+    /// Returns the kinetic energy in the fixed frame, J.
     #[must_use]
     pub fn kinetic_energy(&self, body: &Body, frame: &FrameMotion<f64>) -> f64 {
         let (velocity, omega) = self.absolute(frame, Vector(body.center_of_gravity));
@@ -434,7 +434,7 @@ impl Kinematics<f64> {
         0.5 * (body.mass * velocity.dot::<f64, f64>(velocity) + spin)
     }
 
-    /// Velocity of a point of the body and its angular velocity in the fixed frame, along the reference frame's axes.
+    /// Returns the velocity of a point of the body and its angular velocity in the fixed frame, along the reference frame's axes.
     #[must_use]
     pub fn absolute(&self, frame: &FrameMotion<f64>, point: Vector<f64>) -> (Vector<f64>, Vector<f64>) {
         let arm: Vector<f64> = self.orientation.rotation.apply(point);
@@ -447,14 +447,14 @@ impl Kinematics<f64> {
         (origin + self.velocity + own + carried, angular_velocity + spin)
     }
 
-    /// Position of a point of the body in the fixed frame.
+    /// Returns the position of a point of the body in the fixed frame.
     #[must_use]
     pub fn point_position(&self, frame: &FrameMotion<f64>, point: Vector<f64>) -> Vector<f64> {
         let arm: Vector<f64> = self.orientation.rotation.apply(point);
         frame.position + frame.rotation.apply::<f64, f64>(self.position + arm)
     }
 
-    /// The rotation from body axes to fixed axes.
+    /// Returns the rotation from body axes to fixed axes.
     #[must_use]
     pub fn orientation(&self, frame: &FrameMotion<f64>) -> Matrix<f64> {
         frame.rotation.times(self.orientation.rotation)

@@ -63,7 +63,7 @@ pub enum CharacteristicError {
 }
 
 impl Characteristic {
-    /// The characteristic through points of compression (m) and force (N).
+    /// Returns the characteristic through points of compression (m) and force (N).
     ///
     /// # Errors
     /// Fewer than two points, values not finite, compressions that do not increase or are so close
@@ -113,13 +113,13 @@ impl Characteristic {
         Ok(table)
     }
 
-    /// The points.
+    /// Returns the points.
     #[must_use]
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points
     }
 
-    /// The piece that holds an abscissa, and its slope.
+    /// Returns the piece that holds an abscissa, and its slope.
     #[inline(always)]
     fn piece(&self, x: f64) -> (usize, f64) {
         let i = self
@@ -131,14 +131,14 @@ impl Characteristic {
         (i, (b[1] - a[1]) / (b[0] - a[0]))
     }
 
-    /// The force at a compression.
+    /// Returns the force at a compression.
     #[inline(always)]
     pub fn evaluate<S: Real>(&self, x: S) -> S {
         let (i, slope) = self.piece(x.value());
         (x - self.points[i][0]) * slope + self.points[i][1]
     }
 
-    /// The energy stored at a compression, J; zero at zero compression.
+    /// Returns the energy stored at a compression, J; zero at zero compression.
     #[must_use]
     pub fn energy(&self, x: f64) -> f64 {
         let (i, slope) = self.piece(x);
@@ -146,7 +146,7 @@ impl Characteristic {
         self.energies[i] + d * (self.points[i][1] + 0.5 * slope * d) - self.zero
     }
 
-    /// The energy stored where the force falls to zero, J: the least energy of all.
+    /// Returns the energy stored where the force falls to zero, J: the least energy of all.
     #[must_use]
     pub fn energy_at_zero_force(&self) -> f64 {
         let i = self

@@ -98,7 +98,7 @@ pub struct CoilForce<S> {
 }
 
 impl CoilLaw {
-    /// The force (N) at a compression (m); negative where it pulls.
+    /// Returns the force (N) at a compression (m); negative where it pulls.
     #[inline(always)]
     #[must_use]
     pub fn force<S: Real>(&self, compression: S) -> S {
@@ -111,13 +111,13 @@ impl CoilLaw {
 }
 
 impl Coil {
-    /// The coil's force.
+    /// Returns the coil's force.
     #[inline(always)]
     pub fn on_body<S: Real>(&self, relative: &RelativeMotion<S>) -> CoilForce<S> {
         self.on_body_with(relative, |length| self.spring(length))
     }
 
-    /// The same with a spring force (N) by the length (m) of the caller's own.
+    /// Returns the same with a spring force (N) by the length (m) of the caller's own.
     #[inline(always)]
     pub fn on_body_with<S: Real>(
         &self,
@@ -136,7 +136,7 @@ impl Coil {
         }
     }
 
-    /// The same by the motion of the coil's end, with the moment about it.
+    /// Returns the same by the motion of the coil's end, with the moment about it.
     #[inline(always)]
     fn at_end<S: Real>(&self, relative: &RelativeMotion<S>, spring: impl FnOnce(S) -> S) -> CoilForce<S> {
         let pull = pull(self.damping, relative.position, relative.velocity, spring);
@@ -162,7 +162,7 @@ impl Coil {
         }
     }
 
-    /// What the coil does to its body, seen from a mount that does not turn: [`Coil::on_body`] with as few products as there need be.
+    /// Returns what the coil does to its body, seen from a mount that does not turn: [`Coil::on_body`] with as few products as there need be.
     #[inline(always)]
     pub(crate) fn wrench_on_body(
         &self,
@@ -190,14 +190,14 @@ impl Coil {
         }
     }
 
-    /// Spring force at a length (m), N.
+    /// Returns the spring force at a length (m), N.
     #[inline(always)]
     pub fn spring<S: Real>(&self, length: S) -> S {
         let compression = -length + self.free_length;
         taut(self.law.force(compression), self.pulls)
     }
 
-    /// Stored energy at a length, J; zero at the free length.
+    /// Returns the stored energy at a length, J; zero at the free length.
     #[must_use]
     pub fn stored_energy(&self, length: f64) -> f64 {
         let compression = self.free_length - length;
@@ -244,7 +244,7 @@ impl Element for Coil {
     }
 }
 
-/// Spring and dashpot between the seat and the coil's end at `d`, which moves with `rate`.
+/// Returns the spring and dashpot between the seat and the coil's end at `d`, which moves with `rate`.
 #[inline(always)]
 fn pull<S: Real>(damping: f64, d: Vector<S>, rate: Vector<S>, spring: impl FnOnce(S) -> S) -> Pull<S> {
     let length = d.dot::<S, S>(d).sqrt();
@@ -259,7 +259,7 @@ fn pull<S: Real>(damping: f64, d: Vector<S>, rate: Vector<S>, spring: impl FnOnc
     }
 }
 
-/// The force of a spring, which may not be able to pull.
+/// Returns the force of a spring, which may not be able to pull.
 #[inline(always)]
 pub(crate) fn taut<S: Number>(force: S, pulls: bool) -> S {
     if pulls {

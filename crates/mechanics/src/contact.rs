@@ -108,13 +108,13 @@ pub struct FaceResultant<S> {
 }
 
 impl<F: Surface> ContactFace<F> {
-    /// How many internal states the face has.
+    /// Returns how many internal states the face has.
     #[must_use]
     pub fn state_count(&self) -> usize {
         self.points.len() * self.law.states_per_point()
     }
 
-    /// The resultant of all points; `each` sees every closed point and every point with internal states.
+    /// Returns the resultant of all points; `each` sees every closed point and every point with internal states.
     ///
     /// `deflections` holds the internal states, two a point, or is empty.
     #[inline(always)]
@@ -194,7 +194,7 @@ impl<F: Surface> ContactFace<F> {
         }
     }
 
-    /// The forces at a point: none of the surface where it is not closed.
+    /// Returns the forces at a point: none of the surface where it is not closed.
     #[inline(always)]
     pub(crate) fn point_force<S: Number>(
         &self,
@@ -218,7 +218,7 @@ impl<F: Surface> ContactFace<F> {
         }
     }
 
-    /// How far a point is from its law's own change between stick and slip, see [`Friction::load`]; of no meaning with a bristle where it
+    /// Returns how far a point is from its law's own change between stick and slip, see [`Friction::load`]; of no meaning with a bristle where it
     /// is open.
     #[inline(always)]
     fn load<S: Number>(
@@ -237,7 +237,7 @@ impl<F: Surface> ContactFace<F> {
         }
     }
 
-    /// Friction of a point that carries `share` of the face's tangential stiffness.
+    /// Returns the friction of a point that carries `share` of the face's tangential stiffness.
     #[inline(always)]
     pub fn friction<S: Number>(
         &self,

@@ -45,7 +45,7 @@ pub enum CurveError {
 }
 
 impl Curve {
-    /// The curve through points `[abscissa, ordinate]`; a single point makes a constant.
+    /// Returns the curve through points `[abscissa, ordinate]`; a single point makes a constant.
     ///
     /// # Errors
     /// No point, values not finite, abscissae that do not increase.
@@ -66,7 +66,7 @@ impl Curve {
         Ok(Self::through(points))
     }
 
-    /// The same; if the first point is the origin (both coordinates zero), the curve is mirrored: `f(-x) = -f(x)`.
+    /// Returns the same; if the first point is the origin (both coordinates zero), the curve is mirrored: `f(-x) = -f(x)`.
     ///
     /// That is how the comparison program reads its tables.
     ///
@@ -81,7 +81,7 @@ impl Curve {
         Self::new(all)
     }
 
-    /// A constant.
+    /// Returns a constant.
     #[must_use]
     pub fn constant(value: f64) -> Self {
         Self::through(vec![[0.0, value]])
@@ -120,25 +120,25 @@ impl Curve {
         }
     }
 
-    /// The points.
+    /// Returns the points.
     #[must_use]
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points
     }
 
-    /// The slopes of the pieces, by the number that [`Curve::piece`] gives.
+    /// Returns the slopes of the pieces, by the number that [`Curve::piece`] gives.
     #[must_use]
     pub fn slopes(&self) -> &[f64] {
         &self.slopes
     }
 
-    /// Whether the curve is zero everywhere.
+    /// Returns whether the curve is zero everywhere.
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.points.iter().all(|p| p[1] == 0.0)
     }
 
-    /// The number of the piece that holds an abscissa.
+    /// Returns the number of the piece that holds an abscissa.
     #[inline(always)]
     #[must_use]
     pub fn piece(&self, x: f64) -> usize {
@@ -152,7 +152,7 @@ impl Curve {
         piece
     }
 
-    /// The ordinate.
+    /// Returns the ordinate.
     #[inline(always)]
     pub fn evaluate<S: Real>(&self, x: S) -> S {
         let at = x.value();
@@ -161,7 +161,7 @@ impl Curve {
         x.chain(point[1] + slope * (at - point[0]), slope)
     }
 
-    /// The integral from zero to `x`.
+    /// Returns the integral from zero to `x`.
     #[must_use]
     pub fn integral(&self, x: f64) -> f64 {
         let i = self.piece(x);
@@ -169,14 +169,14 @@ impl Curve {
         self.integrals[i] + d * (self.points[i][1] + 0.5 * self.slopes[i] * d)
     }
 
-    /// The same curve with other ordinates: `offset + factor · y`.
+    /// Returns the same curve with other ordinates: `offset + factor · y`.
     #[must_use]
     pub fn scaled(&self, factor: f64, offset: f64) -> Self {
         let points = self.points.iter();
         Self::through(points.map(|p| [p[0], offset + factor * p[1]]).collect())
     }
 
-    /// The curve held between `low` and `high` (which may be infinite): again piecewise linear.
+    /// Returns the curve held between `low` and `high` (which may be infinite): again piecewise linear.
     #[must_use]
     pub fn clamped(&self, low: f64, high: f64) -> Self {
         let clamp = |y: f64| y.max(low).min(high);

@@ -120,7 +120,7 @@ impl Clone for Marked {
 }
 
 impl Marked {
-    /// The motion of marker A by that of its origin.
+    /// Returns the motion of marker A by that of its origin.
     pub fn turned<S: Real>(&self, origin: &RelativeMotion<S>) -> RelativeMotion<S> {
         RelativeMotion {
             rotation: origin.rotation.times(self.marker.rotation),
@@ -128,7 +128,7 @@ impl Marked {
         }
     }
 
-    /// The wrench about the origin of the body that carries marker A, by the motion of that body.
+    /// Returns the wrench about the origin of the body that carries marker A, by the motion of that body.
     pub fn on_body<S: Scalar>(&self, body: &RelativeMotion<S>) -> Wrench<S> {
         let wrench = S::evaluate(&*self.element, &self.turned(&body.at(self.marker.origin)));
         let arm: Vector<S> = body.rotation.apply(self.marker.origin);
@@ -157,7 +157,7 @@ impl Clone for Placement {
 }
 
 impl Placement {
-    /// An element between marker A on body `a`, which must have free coordinates, and marker B on body `b`.
+    /// Returns an element between marker A on body `a`, which must have free coordinates, and marker B on body `b`.
     pub fn new(
         element: impl Element,
         (a, marker_a): (usize, Marker),

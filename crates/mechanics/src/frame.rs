@@ -38,7 +38,7 @@ pub struct FrameMotion<S> {
 }
 
 impl Frame {
-    /// A frame at rest.
+    /// Returns a frame at rest.
     #[must_use]
     pub fn fixed(origin: [f64; 3], orientation: [f64; 3]) -> Self {
         Self {
@@ -48,19 +48,19 @@ impl Frame {
         }
     }
 
-    /// Whether the frame never moves.
+    /// Returns whether the frame never moves.
     #[must_use]
     pub fn is_fixed(&self) -> bool {
         self.motions.iter().all(Motion::is_constant)
     }
 
-    /// Whether the frame never turns.
+    /// Returns whether the frame never turns.
     #[must_use]
     pub fn keeps_orientation(&self) -> bool {
         self.motions[3..].iter().all(Motion::is_constant)
     }
 
-    /// The first time after `time` at which a motion is not smooth.
+    /// Returns the first time after `time` at which a motion is not smooth.
     #[must_use]
     pub fn next_break(&self, time: f64) -> Option<f64> {
         self.motions
@@ -69,7 +69,7 @@ impl Frame {
             .min_by(f64::total_cmp)
     }
 
-    /// The frame's motion at `time`, on the smooth piece that holds `reference`.
+    /// Returns the frame's motion at `time`, on the smooth piece that holds `reference`.
     #[must_use]
     pub fn evaluate<S: Real>(&self, time: S, reference: f64) -> FrameMotion<S> {
         self.moved(&std::array::from_fn(|k| {
@@ -77,7 +77,7 @@ impl Frame {
         }))
     }
 
-    /// The frame where its six motions have these values, rates and second derivatives.
+    /// Returns the frame where its six motions have these values, rates and second derivatives.
     #[must_use]
     pub fn moved<S: Real>(&self, jets: &[Jet<S>; 6]) -> FrameMotion<S> {
         let base: Matrix<S> = Matrix::lift(crate::orientation::fixed(self.orientation));

@@ -22,7 +22,7 @@ pub struct Marker {
 }
 
 impl Marker {
-    /// A mount at `origin` (m), turned by roll, pitch, yaw (rad).
+    /// Returns a mount at `origin` (m), turned by roll, pitch, yaw (rad).
     #[must_use]
     pub fn new(origin: [f64; 3], angles: [f64; 3]) -> Self {
         Self {
@@ -50,7 +50,7 @@ pub struct RelativeFrame<S> {
 }
 
 impl<S: Real> RelativeFrame<S> {
-    /// The frame of `a` seen from the mount on `b`.
+    /// Returns the frame of `a` seen from the mount on `b`.
     pub fn new(a: &FrameMotion<S>, b: &FrameMotion<S>, body: &Kinematics<S>, marker: &Marker) -> Self {
         let rotation: Matrix<S> = b.rotation.times(body.orientation.rotation);
         let axes: Matrix<S> = rotation.times(marker.rotation);
@@ -105,7 +105,7 @@ pub struct Translation {
 }
 
 impl Translation {
-    /// The constant part of the sight of a frame `a`; `b` rests at `rest` (fixed axes) and moves along `ways` (fixed axes, at most three).
+    /// Returns the constant part of the sight of a frame `a`; `b` rests at `rest` (fixed axes) and moves along `ways` (fixed axes, at most three).
     pub fn new(
         a: &FrameMotion<f64>,
         b: &FrameMotion<f64>,
@@ -142,7 +142,7 @@ impl Translation {
         relative_frame.velocity = -velocity;
     }
 
-    /// The acceleration of the frame as the mount sees it: the rate of the sight's velocity.
+    /// Returns the acceleration of the frame as the mount sees it: the rate of the sight's velocity.
     #[inline(always)]
     pub fn acceleration(&self, jets: impl Iterator<Item = [f64; 3]>) -> Vector<f64> {
         let mut acceleration = Vector::zero();
@@ -179,7 +179,7 @@ impl<S: Real> RelativeMotion<S> {
         ])
     }
 
-    /// The motion of a point of the body (body axes, from its origin) instead of the body's origin.
+    /// Returns the motion of a point of the body (body axes, from its origin) instead of the body's origin.
     #[inline(always)]
     #[must_use]
     pub fn at(&self, point: Vector<f64>) -> Self {

@@ -106,13 +106,13 @@ pub enum RampProfile {
 /// Value, first and second derivative by time.
 pub type Jet<S> = [S; 3];
 
-/// Whether numbers of this size can still be counted one by one: so late that they cannot, breaks are not told any more.
+/// Returns whether numbers of this size can still be counted one by one: so late that they cannot, breaks are not told any more.
 fn is_counted(n: f64) -> bool {
     n.abs() < 1.0 / f64::EPSILON
 }
 
 impl Motion {
-    /// The cubic that has a value (m or rad) and a rate at `start`, and another value and rate after `duration` (s, positive).
+    /// Returns the cubic that has a value (m or rad) and a rate at `start`, and another value and rate after `duration` (s, positive).
     #[must_use]
     pub fn between(start: f64, duration: f64, [from, from_rate]: [f64; 2], [to, to_rate]: [f64; 2]) -> Self {
         let mean_rate = (to - from) / duration;
@@ -127,7 +127,7 @@ impl Motion {
         }
     }
 
-    /// The straight line that has a value (m or rad) and a rate at `start`.
+    /// Returns the straight line that has a value (m or rad) and a rate at `start`.
     #[must_use]
     pub fn line(start: f64, [value, rate]: [f64; 2]) -> Self {
         Self::Polynomial {
@@ -136,7 +136,7 @@ impl Motion {
         }
     }
 
-    /// Value, rate and second derivative at `time`, on the smooth piece that holds `reference`.
+    /// Returns the value, rate and second derivative at `time`, on the smooth piece that holds `reference`.
     #[must_use]
     pub fn evaluate<S: Real>(&self, time: S, reference: f64) -> Jet<S> {
         match self {
@@ -263,7 +263,7 @@ impl Motion {
         }
     }
 
-    /// The first time after `time` at which the motion is not smooth, if there is one.
+    /// Returns the first time after `time` at which the motion is not smooth, if there is one.
     #[must_use]
     pub fn next_break(&self, time: f64) -> Option<f64> {
         match self {
@@ -321,7 +321,7 @@ impl Motion {
         }
     }
 
-    /// The motion times a factor.
+    /// Returns the motion times a factor.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let mut scaled = self.clone();
@@ -344,7 +344,7 @@ impl Motion {
         }
     }
 
-    /// Whether the motion never moves.
+    /// Returns whether the motion never moves.
     #[must_use]
     pub fn is_constant(&self) -> bool {
         match self {

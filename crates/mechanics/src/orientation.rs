@@ -19,7 +19,7 @@ pub struct Orientation<S> {
 }
 
 impl<S: Number> Orientation<S> {
-    /// The turn by the angles roll, pitch, yaw (rad). `rolls` tells whether roll may differ from zero: without it,
+    /// Returns the turn by the angles roll, pitch, yaw (rad). `rolls` tells whether roll may differ from zero: without it,
     /// nothing is spent on it.
     #[inline(always)]
     #[must_use]
@@ -47,7 +47,7 @@ impl<S: Number> Orientation<S> {
         Self { rotation, axes }
     }
 
-    /// Angular velocity for the rates of roll, pitch, yaw (rad/s), body axes.
+    /// Returns the angular velocity for the rates of roll, pitch, yaw (rad/s), body axes.
     #[inline(always)]
     #[must_use]
     pub fn spin(&self, rates: [S; 3], rolls: bool) -> Vector<S> {
@@ -62,7 +62,7 @@ impl<S: Number> Orientation<S> {
         spin
     }
 
-    /// Angular acceleration for rates and accelerations of roll, pitch, yaw, body axes: the rate of the components of
+    /// Returns the angular acceleration for rates and accelerations of roll, pitch, yaw, body axes: the rate of the components of
     /// [`Orientation::spin`], `Σ e_k q¨_k + pitch˙ yaw˙ (e_pitch × e_yaw) + roll˙ (pitch˙ e_pitch + yaw˙ e_yaw) × e_roll`.
     #[inline(always)]
     #[must_use]
@@ -85,7 +85,7 @@ impl<S: Number> Orientation<S> {
     }
 }
 
-/// A fixed rotation by roll, pitch, yaw (rad), in the order of [`Orientation`].
+/// Returns a fixed rotation by roll, pitch, yaw (rad), in the order of [`Orientation`].
 #[must_use]
 pub fn fixed(angles: [f64; 3]) -> Matrix<f64> {
     let [roll, pitch, yaw] = angles.map(libm::sincos);

@@ -21,7 +21,7 @@ pub struct Column {
 }
 
 impl Column {
-    /// The column's name with its unit, as in files: `wedge_x_in`.
+    /// Returns the column's name with its unit, as in files: `wedge_x_in`.
     #[must_use]
     pub fn full_name(&self, units: Units) -> String {
         let suffix = self.kind.suffix(units);

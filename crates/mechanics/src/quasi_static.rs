@@ -83,7 +83,7 @@ impl SlopeFriction {
 }
 
 impl QuasiStaticWedge {
-    /// The branch that rigid kinematics choose: toe out (and no toe) b = -a, toe in b = +a.
+    /// Returns the branch that rigid kinematics choose: toe out (and no toe) b = -a, toe in b = +a.
     #[must_use]
     pub fn branch(&self, direction: Direction) -> SlopeFriction {
         let toe_in = self.toe < 0.0;
@@ -93,7 +93,7 @@ impl QuasiStaticWedge {
         }
     }
 
-    /// The jam margin `θ + φ - b ψ_s - a ψ_c`, rad: the wedge jams where it is not positive.
+    /// Returns the jam margin `θ + φ - b ψ_s - a ψ_c`, rad: the wedge jams where it is not positive.
     #[must_use]
     pub fn jam_margin(&self, direction: Direction, slope: SlopeFriction) -> f64 {
         self.angle + self.toe
@@ -147,7 +147,7 @@ impl QuasiStaticWedge {
         Some([load * on_column / denominator, load * on_slope / denominator])
     }
 
-    /// Friction force over normal force at column (positive: up on the wedge) and slope (positive: up the slope on the wedge), see
+    /// Returns the friction force over normal force at column (positive: up on the wedge) and slope (positive: up the slope on the wedge), see
     /// [`QuasiStaticWedge::normal_forces`].
     pub fn mobilize<S: Real>(&self, mobilized: S) -> [S; 2] {
         let way = match self.branch(Direction::Down) {
@@ -160,7 +160,7 @@ impl QuasiStaticWedge {
         ]
     }
 
-    /// The friction coefficient (equal at both faces) at which loading with the slope's friction up the slope
+    /// Returns the friction coefficient (equal at both faces) at which loading with the slope's friction up the slope
     /// jams: `tan((θ + φ)/2)`.
     #[must_use]
     pub fn critical_friction(&self) -> f64 {

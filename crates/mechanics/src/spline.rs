@@ -67,7 +67,7 @@ pub enum SplineError {
 }
 
 impl Spline {
-    /// The spline through the points (`abscissae[i]`, `ordinates[i]`).
+    /// Returns the spline through the points (`abscissae[i]`, `ordinates[i]`).
     ///
     /// # Errors
     /// Fewer than four points, unequal lengths, values that are not finite, abscissae that do not increase
@@ -106,18 +106,18 @@ impl Spline {
         })
     }
 
-    /// The first and last abscissa.
+    /// Returns the first and last abscissa.
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
         (self.abscissae[0], self.abscissae[self.abscissae.len() - 1])
     }
 
-    /// The points, as given.
+    /// Returns the points, as given.
     pub fn points(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
         self.abscissae.iter().copied().zip(self.ordinates.iter().copied())
     }
 
-    /// The spline with all ordinates times a factor.
+    /// Returns the spline with all ordinates times a factor.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let times = |values: &[f64]| values.iter().map(|value| value * factor).collect();
@@ -128,7 +128,7 @@ impl Spline {
         }
     }
 
-    /// Value, first and second derivative.
+    /// Returns the value, first and second derivative.
     #[must_use]
     pub fn evaluate<S: Real>(&self, x: S) -> [S; 3] {
         let last = self.abscissae.len() - 2;

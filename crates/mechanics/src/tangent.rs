@@ -14,7 +14,7 @@ use crate::link::RelativeMotion;
 use crate::vector::{Matrix, Vector};
 
 impl Wrench<Dual<1>> {
-    /// The wrench of a tangent with a change as its derivative; the powers have no value.
+    /// Returns the wrench of a tangent with a change as its derivative; the powers have no value.
     #[inline(always)]
     pub(crate) fn with_change(tangent: &Tangent, change: &TangentColumn) -> Self {
         let [[fx, fy, fz, first], [mx, my, mz, second]] = change.map(Lanes::to_array);
@@ -81,20 +81,20 @@ pub(crate) fn combined(columns: &[TangentColumn; 3], weights: Vector<f64>) -> Ta
     [0, 1].map(|o| columns[0][o] * x + columns[1][o] * y + columns[2][o] * z)
 }
 
-/// The sum of two changes.
+/// Returns the sum of two changes.
 #[inline(always)]
 pub(crate) fn sum(a: TangentColumn, b: TangentColumn) -> TangentColumn {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-/// The force of a column.
+/// Returns the force of a column.
 #[inline(always)]
 pub(crate) fn force_of(column: &TangentColumn) -> Vector<f64> {
     let [x, y, z, _] = column[0].to_array();
     Vector([x, y, z])
 }
 
-/// The moment of a column.
+/// Returns the moment of a column.
 #[inline(always)]
 pub(crate) fn moment_of(column: &TangentColumn) -> Vector<f64> {
     let [x, y, z, _] = column[1].to_array();
@@ -109,7 +109,7 @@ impl Tangent {
         by: TangentColumns::NONE,
     };
 
-    /// The tangent of a law that is written over any scalar.
+    /// Returns the tangent of a law that is written over any scalar.
     #[inline(always)]
     pub fn of(inputs: Inputs, relative: &RelativeMotion<f64>, law: &impl Element) -> Self {
         match inputs {
@@ -118,7 +118,7 @@ impl Tangent {
         }
     }
 
-    /// The tangent by numbers with `N` derivatives: by position and velocity, and from 12 on by rotation and angular velocity.
+    /// Returns the tangent by numbers with `N` derivatives: by position and velocity, and from 12 on by rotation and angular velocity.
     #[inline(always)]
     fn seeded<const N: usize>(relative: &RelativeMotion<f64>, law: &impl Element) -> Self {
         let seed = |vector: Vector<f64>, first: usize| {
@@ -182,7 +182,7 @@ impl TangentColumns {
         angular_velocity: [NO_CHANGE; 3],
     };
 
-    /// The change along a change of the relative motion.
+    /// Returns the change along a change of the relative motion.
     #[inline(always)]
     pub fn along(&self, change: &Change) -> TangentColumn {
         sum(
@@ -207,7 +207,7 @@ impl Change {
         angular_velocity: Vector([0.0; 3]),
     };
 
-    /// The change that a relative motion carries as its only derivative.
+    /// Returns the change that a relative motion carries as its only derivative.
     pub fn of(relative: &RelativeMotion<Dual<1>>) -> Self {
         let part = |v: &Vector<Dual<1>>| Vector([0, 1, 2].map(|i| v.0[i].derivative[0]));
         let Matrix(r) = &relative.rotation;

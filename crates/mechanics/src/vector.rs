@@ -16,19 +16,19 @@ pub struct Vector<S>(pub [S; 3]);
 pub struct Matrix<S>(pub [[S; 3]; 3]);
 
 impl<S: Number> Vector<S> {
-    /// The zero vector.
+    /// Returns the zero vector.
     #[inline(always)]
     #[must_use]
     pub fn zero() -> Self {
         Self([S::zero(); 3])
     }
-    /// A plain vector as one with derivatives that are zero.
+    /// Returns a plain vector as one with derivatives that are zero.
     #[inline(always)]
     #[must_use]
     pub fn lift(v: Vector<f64>) -> Self {
         Self([S::from(v.0[0]), S::from(v.0[1]), S::from(v.0[2])])
     }
-    /// The scalar product.
+    /// Returns the scalar product.
     #[inline(always)]
     #[must_use]
     pub fn dot<R: Copy, O>(self, o: Vector<R>) -> O
@@ -38,7 +38,7 @@ impl<S: Number> Vector<S> {
     {
         self.0[0] * o.0[0] + self.0[1] * o.0[1] + self.0[2] * o.0[2]
     }
-    /// The vector product.
+    /// Returns the vector product.
     #[inline(always)]
     #[must_use]
     pub fn cross<R: Copy, O>(self, o: Vector<R>) -> Vector<O>
@@ -65,21 +65,21 @@ impl<S: Number> Vector<S> {
 }
 
 impl<S: Number> Matrix<S> {
-    /// The unit matrix.
+    /// Returns the unit matrix.
     #[inline(always)]
     #[must_use]
     pub fn identity() -> Self {
         let (o, i) = (S::zero(), S::from(1.0));
         Self([[i, o, o], [o, i, o], [o, o, i]])
     }
-    /// A plain matrix as one with derivatives that are zero.
+    /// Returns a plain matrix as one with derivatives that are zero.
     #[inline(always)]
     #[must_use]
     pub fn lift(m: Matrix<f64>) -> Self {
         let row = |i: usize| Vector::<S>::lift(Vector(m.0[i])).0;
         Self([row(0), row(1), row(2)])
     }
-    /// The transposed matrix.
+    /// Returns the transposed matrix.
     #[inline(always)]
     #[must_use]
     pub fn transpose(self) -> Self {
@@ -90,7 +90,7 @@ impl<S: Number> Matrix<S> {
             [m[0][2], m[1][2], m[2][2]],
         ])
     }
-    /// One column.
+    /// Returns one column.
     #[inline(always)]
     #[must_use]
     pub fn column(self, j: usize) -> Vector<S> {
@@ -111,7 +111,7 @@ impl<S: Number> Matrix<S> {
         };
         Vector([row(0), row(1), row(2)])
     }
-    /// The transposed matrix times a vector.
+    /// Returns the transposed matrix times a vector.
     #[inline(always)]
     #[must_use]
     pub fn apply_transposed<R: Copy, O>(self, v: Vector<R>) -> Vector<O>
@@ -139,7 +139,7 @@ impl<S: Number> Matrix<S> {
 }
 
 impl<S: Real> Vector<S> {
-    /// The values without derivatives.
+    /// Returns the values without derivatives.
     #[inline(always)]
     #[must_use]
     pub fn value(self) -> Vector<f64> {
@@ -148,7 +148,7 @@ impl<S: Real> Vector<S> {
 }
 
 impl<S: Real> Matrix<S> {
-    /// The values without derivatives.
+    /// Returns the values without derivatives.
     #[inline(always)]
     #[must_use]
     pub fn value(self) -> Matrix<f64> {

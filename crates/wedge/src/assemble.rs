@@ -93,7 +93,7 @@ impl Wedge {
     }
 }
 
-/// How far column and pocket must move apart, each along the x axis of its body, until no corner penetrates at time zero, m.
+/// Returns how far column and pocket must move apart, each along the x axis of its body, until no corner penetrates at time zero, m.
 fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
     let mut system = System::new(model(parameters, [0.0; 2]))?;
     let start = system.initial_state();
@@ -107,7 +107,7 @@ fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
     }))
 }
 
-/// The same wedge without friction, its neighbours held where they are at time zero.
+/// Returns the same wedge without friction, its neighbours held where they are at time zero.
 fn held(parameters: &Parameters) -> Parameters {
     let mut held = parameters.clone();
     for neighbour in [&mut held.side_frame, &mut held.bolster] {
@@ -229,7 +229,7 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
     }
 }
 
-/// A prescribed neighbour and its origin: the point that it turns about.
+/// Returns a prescribed neighbour and its origin: the point that it turns about.
 fn neighbour(name: &str, motion: &NeighbourMotion, center: [f64; 3]) -> (Body, [f64; 3]) {
     let origin = motion.center.unwrap_or(center);
     let frame = Frame {
@@ -240,7 +240,7 @@ fn neighbour(name: &str, motion: &NeighbourMotion, center: [f64; 3]) -> (Body, [
     (Body::prescribed(name, frame), origin)
 }
 
-/// A length along the normal of a surface that is pitched by this angle; nothing for nothing, to the last bit.
+/// Returns a length along the normal of a surface that is pitched by this angle; nothing for nothing, to the last bit.
 fn along(length: f64, pitch: f64) -> [f64; 3] {
     if length == 0.0 {
         return [0.0; 3];

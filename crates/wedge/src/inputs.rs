@@ -65,7 +65,7 @@ impl NeighbourState {
         place
     }
 
-    /// The place reached after `duration` (s) where only positions are known: rates are the mean rates on the way.
+    /// Returns the place reached after `duration` (s) where only positions are known: rates are the mean rates on the way.
     #[must_use]
     pub fn reached(&self, position: [f64; 6], duration: f64) -> Self {
         Self {
@@ -74,7 +74,7 @@ impl NeighbourState {
         }
     }
 
-    /// Whether all values are finite.
+    /// Returns whether all values are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.position
@@ -83,13 +83,13 @@ impl NeighbourState {
             .all(|value| value.is_finite())
     }
 
-    /// The straight motions through this place at a time (s).
+    /// Returns the straight motions through this place at a time (s).
     #[must_use]
     pub fn lines(&self, time: f64) -> [Motion; 6] {
         std::array::from_fn(|k| Motion::line(time, [self.position[k], self.rate[k]]))
     }
 
-    /// The cubic motions from this place at `start` (s) to another one `duration` (s) later.
+    /// Returns the cubic motions from this place at `start` (s) to another one `duration` (s) later.
     #[must_use]
     pub fn cubics(&self, start: f64, duration: f64, end: &Self) -> [Motion; 6] {
         std::array::from_fn(|k| {
@@ -109,13 +109,13 @@ impl Neighbours {
         }
     }
 
-    /// Whether all values are finite.
+    /// Returns whether all values are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.side_frame.is_finite() && self.bolster.is_finite()
     }
 
-    /// The places reached after `duration` (s) where only positions are known, see [`NeighbourState::reached`].
+    /// Returns the places reached after `duration` (s) where only positions are known, see [`NeighbourState::reached`].
     #[must_use]
     pub fn reached(&self, side_frame: [f64; 6], bolster: [f64; 6], duration: f64) -> Self {
         Self {
@@ -153,7 +153,7 @@ impl Neighbours {
 }
 
 impl CoilInput {
-    /// Whether its value is usable.
+    /// Returns whether its value is usable.
     #[must_use]
     pub fn is_valid(&self) -> bool {
         match self {
@@ -163,7 +163,7 @@ impl CoilInput {
         }
     }
 
-    /// The law of the coil under it.
+    /// Returns the law of the coil under it.
     #[must_use]
     pub fn law(&self, parameters: &Parameters) -> CoilLaw {
         match self {
@@ -177,7 +177,7 @@ impl CoilInput {
 }
 
 impl Parameters {
-    /// The same wedge with neighbours that a caller moves, starting from these places.
+    /// Returns the same wedge with neighbours that a caller moves, starting from these places.
     #[must_use]
     pub fn with_inputs(&self, start: &Neighbours) -> Self {
         let mut wedge = self.clone();

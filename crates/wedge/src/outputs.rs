@@ -109,7 +109,7 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// The table for a wedge of these parameters.
+    /// Returns the table for a wedge of these parameters.
     #[must_use]
     pub fn new(parameters: &Parameters) -> Self {
         let mut table = Self {
@@ -125,13 +125,13 @@ impl Outputs {
         table
     }
 
-    /// The columns.
+    /// Returns the columns.
     #[must_use]
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
 
-    /// The values of all columns (SI) at one instant; `contact_states` are those of the contact points, `start_energy` the
+    /// Returns the values of all columns (SI) at one instant; `contact_states` are those of the contact points, `start_energy` the
     /// stored energy at the start (J). Returns the ledger, which is among them.
     pub fn values(
         &self,
@@ -152,7 +152,7 @@ impl Outputs {
         instant.ledger
     }
 
-    /// The energy ledger at one instant.
+    /// Returns the energy ledger at one instant.
     #[must_use]
     pub fn ledger(system: &System, observation: &Observation, start_energy: f64) -> Ledger {
         Ledger::new(
@@ -500,7 +500,7 @@ fn displacement(instant: &Instant<'_>, body: usize) -> Vector<f64> {
     instant.observation.bodies[body].travel
 }
 
-/// Roll, pitch and yaw of a neighbour.
+/// Returns the roll, pitch and yaw of a neighbour.
 fn angles(instant: &Instant<'_>, body: usize) -> [f64; 3] {
     // R = Ry(pitch) Rz(yaw) Rx(roll)
     let r = instant.observation.bodies[body].rotation.0;

@@ -23,7 +23,7 @@ pub enum Damping {
 }
 
 impl Damping {
-    /// Its name, as in case files and names of files.
+    /// Returns its name, as in case files and names of files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -109,7 +109,7 @@ pub struct NeighbourMotion {
 }
 
 impl NeighbourMotion {
-    /// A neighbour that stands still.
+    /// Returns a neighbour that stands still.
     #[must_use]
     pub fn fixed() -> Self {
         Self {
@@ -227,7 +227,7 @@ impl Parameters {
         not_negative("environment.gravity", self.gravity)
     }
 
-    /// Length h1 of the wedge's bottom, m: `h2 tan θ`.
+    /// Returns the length h1 of the wedge's bottom, m: `h2 tan θ`.
     #[must_use]
     pub fn bottom_length(&self) -> f64 {
         self.wedge.height * libm::tan(self.wedge.angle)
@@ -240,7 +240,7 @@ impl Parameters {
         self.wedge.center_of_gravity[0] - self.bottom_length() / 3.0
     }
 
-    /// How far a wedge with worn faces stands above an unworn one when both touch column and slope, bolster and side
+    /// Returns how far a wedge with worn faces stands above an unworn one when both touch column and slope, bolster and side
     /// frame being where they were, m: `(w_c cos θ + w_s cos φ) / sin(θ + φ)` with the depths of wear w_c and w_s.
     ///
     /// It follows from the two faces that both touch. The wedge's displacement (x, z) takes up the wear along both

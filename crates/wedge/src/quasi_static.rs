@@ -53,7 +53,7 @@ pub struct PlaneReading<S> {
     pub motion_power: S,
 }
 
-/// The massless wedge of these parameters.
+/// Returns the massless wedge of these parameters.
 #[must_use]
 pub fn massless(parameters: &Parameters) -> QuasiStaticWedge {
     QuasiStaticWedge {

@@ -24,14 +24,14 @@ pub struct Resultants {
 }
 
 impl Resultants {
-    /// The resultants of what [`System::loads`] says.
+    /// Returns the resultants of what [`System::loads`] says.
     #[must_use]
     pub fn of(damping: Damping, loads: &Loads) -> Self {
         let faces = [COLUMN, SLOPE].map(|face| loads.faces[face]);
         Self::new(damping, &loads.bodies[WEDGE], faces, &loads.coils[0])
     }
 
-    /// The resultants of what [`System::observe`] says.
+    /// Returns the resultants of what [`System::observe`] says.
     #[must_use]
     pub fn of_observation(damping: Damping, observation: &Observation) -> Self {
         let wedge = &observation.bodies[WEDGE];

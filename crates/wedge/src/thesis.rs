@@ -13,7 +13,7 @@ const INCH: f64 = 0.0254;
 const POUND: f64 = 0.453_592_37;
 const POUND_FORCE: f64 = POUND * STANDARD_GRAVITY;
 
-/// The thesis's wedge with this damping, toe angle (rad, positive out) and bolster yaw (rad), driven by
+/// Returns the thesis's wedge with this damping, toe angle (rad, positive out) and bolster yaw (rad), driven by
 /// `1 in · sin(2 rad/s · t)`.
 #[must_use]
 pub fn parameters(damping: Damping, toe: f64, yaw: f64) -> Parameters {

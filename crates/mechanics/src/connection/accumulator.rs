@@ -23,7 +23,7 @@ pub enum Accumulator {
 }
 
 impl Accumulator {
-    /// Number of its states.
+    /// Returns the number of its states.
     #[must_use]
     pub fn states(&self) -> usize {
         match self {
@@ -32,7 +32,7 @@ impl Accumulator {
         }
     }
 
-    /// Its stored energy, J.
+    /// Returns its stored energy, J.
     #[must_use]
     pub fn energy(&self, deflection: [f64; 2]) -> f64 {
         match self {
@@ -43,7 +43,7 @@ impl Accumulator {
         }
     }
 
-    /// The same with its bristle's damping multiplied.
+    /// Returns the same with its bristle's damping multiplied.
     pub(crate) fn with_damping(self, factor: f64) -> Self {
         match self {
             Self::Bristle { stiffness, damping } => Self::Bristle {
@@ -54,7 +54,7 @@ impl Accumulator {
         }
     }
 
-    /// The force that it would hold against, in the strokes' sense.
+    /// Returns the force that it would hold against, in the strokes' sense.
     #[inline(always)]
     pub(crate) fn trial<S: Real>(&self, velocity: [S; 2], deflection: [S; 2]) -> [S; 2] {
         match self {
@@ -79,7 +79,7 @@ pub(crate) enum Grip {
 }
 
 impl Grip {
-    /// The friction limit of an element with this normal force.
+    /// Returns the friction limit of an element with this normal force.
     #[inline(always)]
     pub fn limit<S: Real>(self, limit: S, normal: f64) -> S {
         match self {
@@ -90,7 +90,7 @@ impl Grip {
     }
 }
 
-/// Friction of an accumulator.
+/// Returns the friction of an accumulator.
 #[inline(always)]
 pub(crate) fn friction_of<S: Real>(
     accumulator: &Accumulator,

@@ -45,7 +45,7 @@ impl<'m> ConnectionAssembler<'m> {
         }
     }
 
-    /// The elements of connections that have been checked, and the pairs of free bodies that they couple.
+    /// Returns the elements of connections that have been checked, and the pairs of free bodies that they couple.
     pub fn attach(
         mut self,
         connections: Vec<Connection>,
@@ -117,7 +117,7 @@ impl<'m> ConnectionAssembler<'m> {
     }
 }
 
-/// The quadratures that connections need.
+/// Returns the quadratures that connections need.
 pub(crate) fn energy_terms(connections: &[Connection]) -> Vec<EnergyTermKind> {
     let mut kinds = Vec::new();
     for connection in connections {
@@ -151,7 +151,7 @@ pub(crate) fn energy_terms(connections: &[Connection]) -> Vec<EnergyTermKind> {
 }
 
 impl ConnectionAssembler<'_> {
-    /// The place of an element.
+    /// Returns the place of an element.
     fn site<const D: usize, const P: usize>(
         &mut self,
         connection: &Connection,
@@ -205,7 +205,7 @@ impl ConnectionAssembler<'_> {
         }
     }
 
-    /// The row of a quadrature by a body's states.
+    /// Returns the row of a quadrature by a body's states.
     fn quadrature(&mut self, energy_term: usize, free: usize) -> Option<usize> {
         let next = self.parts.quadrature_bodies.len();
         let row = *self.quadratures.entry((energy_term, free)).or_insert(next);
@@ -215,7 +215,7 @@ impl ConnectionAssembler<'_> {
         Some(row)
     }
 
-    /// A friction element.
+    /// Returns a friction element.
     fn spatial<L>(
         &mut self,
         connection: &Connection,

@@ -29,7 +29,7 @@ pub(crate) struct FrictionVariables {
 pub(crate) const FRICTION_VARIABLES: usize = 2;
 
 impl FrictionVariables {
-    /// Those of one element among the signs of all.
+    /// Returns those of one element among the signs of all.
     pub(crate) fn of(variables: &[f64], index: usize) -> Self {
         Self {
             normal: variables[FRICTION_VARIABLES * index],
@@ -49,7 +49,7 @@ impl FrictionVariables {
         }
     }
 
-    /// The mode that follows one that must be left.
+    /// Returns the mode that follows one that must be left.
     pub(crate) fn next(self, contact_state: ContactState) -> ContactState {
         match contact_state {
             ContactState::Open => self.closed(),
@@ -70,7 +70,7 @@ impl FrictionVariables {
 }
 
 impl Friction {
-    /// The mode without a history.
+    /// Returns the mode without a history.
     pub(crate) fn contact_state(&self) -> ContactState {
         if self.normal > OPENING_FORCE {
             let (normal, load) = (self.normal, self.load);
@@ -81,7 +81,7 @@ impl Friction {
     }
 }
 
-/// Friction of one element.
+/// Returns the friction of one element.
 fn friction<L: SpatialLaw>(
     element: &Spatial<L>,
     (positions, rates): CoordinatesAndRates<'_>,

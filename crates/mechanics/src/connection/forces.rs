@@ -16,7 +16,7 @@ pub(super) trait AxisLaw {
 
 /// A law on three coordinates with two deflections.
 pub(super) trait SpatialLaw {
-    /// Whether forces depend on the second and third stroke.
+    /// Returns whether forces depend on the second and third stroke.
     fn uses_all_extensions(&self) -> bool;
     fn force_at<S: Real>(
         &self,
@@ -75,7 +75,7 @@ impl SpatialLaw for WedgeLaw {
     }
 }
 
-/// The deflections of an element among the internal states.
+/// Returns the deflections of an element among the internal states.
 #[inline(always)]
 pub(super) fn deflection_at(internal: Option<usize>, states: &[f64]) -> [f64; 2] {
     match internal.and_then(|at| states.get(at..at + 2)) {

@@ -62,7 +62,7 @@ impl Gap {
         }
     }
 
-    /// The force at a stroke and its rate.
+    /// Returns the force at a stroke and its rate.
     #[inline(always)]
     pub fn evaluate<S: Real>(&self, extension: S, rate: S) -> AxisForce<S> {
         let at = extension.value();
@@ -92,13 +92,13 @@ impl Gap {
         }
     }
 
-    /// Whether a force would pull where the element only pushes, or push where it only pulls.
+    /// Returns whether a force would pull where the element only pushes, or push where it only pulls.
     #[inline(always)]
     fn wrong(&self, pushes: bool, force: f64) -> bool {
         !self.pulls && if pushes { force > 0.0 } else { force < 0.0 }
     }
 
-    /// Stored energy, J; zero inside the gap.
+    /// Returns the stored energy, J; zero inside the gap.
     pub fn energy(&self, extension: f64) -> f64 {
         let side = if extension <= self.ends[0] {
             0

@@ -32,7 +32,7 @@ struct Partial {
 }
 
 impl Partial {
-    /// The derivatives of a number whose seeds are `N - 5` strokes, three rates, two deflections.
+    /// Returns the derivatives of a number whose seeds are `N - 5` strokes, three rates, two deflections.
     #[inline(always)]
     fn of<const N: usize>(number: &Dual<N>) -> Self {
         let d = &number.derivative;
@@ -44,7 +44,7 @@ impl Partial {
         partial
     }
 
-    /// The derivative by time, strokes and rates changing at these rates.
+    /// Returns the derivative by time, strokes and rates changing at these rates.
     #[inline(always)]
     fn in_time(&self, prescribed_rate: &[f64; 3], prescribed_acceleration: &[f64; 3]) -> f64 {
         let mut sum = 0.0;
@@ -161,7 +161,7 @@ impl JacobianInputs<'_> {
         }
     }
 
-    /// The law with its derivatives.
+    /// Returns the law with its derivatives.
     #[inline(always)]
     fn local<L: SpatialLaw, const N: usize>(&self, element: &Spatial<L>, grip: Grip) -> Local {
         let site = &element.site;
@@ -240,7 +240,7 @@ impl JacobianInputs<'_> {
         }
     }
 
-    /// Derivatives of the power of the prescribed motions.
+    /// Returns the derivatives of the power of the prescribed motions.
     #[inline(always)]
     fn work(&self, site: &Site<3, 3>, local: &Local) -> Partial {
         let mut work = Partial::default();

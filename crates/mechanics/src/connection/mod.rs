@@ -87,7 +87,7 @@ pub enum Law {
 }
 
 impl Law {
-    /// The coordinates (0 to 5) of its components, in the order of outputs.
+    /// Returns the coordinates (0 to 5) of its components, in the order of outputs.
     ///
     /// A wedge with a profile: vertical, longitudinal, lateral; without: vertical, lateral.
     #[must_use]
@@ -154,12 +154,12 @@ pub(crate) struct Connections {
 }
 
 impl Connections {
-    /// The connections.
+    /// Returns the connections.
     pub fn all(&self) -> &[Connection] {
         &self.all
     }
 
-    /// Whether there is none.
+    /// Returns whether there is none.
     pub fn is_empty(&self) -> bool {
         self.all.is_empty()
     }
@@ -172,7 +172,7 @@ impl Connections {
         self.wedges.iter_mut().for_each(|e| e.site.find_pairs(jacobian));
     }
 
-    /// The first of the two accumulator deflections of a connection among the internal states, if it has any.
+    /// Returns the first of the two accumulator deflections of a connection among the internal states, if it has any.
     pub fn deflection_of(&self, connection: usize) -> Option<usize> {
         let (_, internal) = self
             .frictional()
@@ -180,7 +180,7 @@ impl Connections {
         internal
     }
 
-    /// The sites and first internal states of all connections with friction.
+    /// Returns the sites and first internal states of all connections with friction.
     pub fn frictional(&self) -> impl Iterator<Item = (&Site<3, 3>, Option<usize>)> {
         let surfaces = self.surfaces.iter().map(|e| (&e.site, e.internal));
         surfaces.chain(self.wedges.iter().map(|e| (&e.site, e.internal)))

@@ -51,7 +51,7 @@ impl Connections {
         }
     }
 
-    /// What a wedge does inside, and the rates of its strokes.
+    /// Returns what a wedge does inside, and the rates of its strokes.
     fn inside(
         &self,
         wedge: &Spatial<WedgeLaw>,

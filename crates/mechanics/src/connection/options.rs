@@ -111,7 +111,7 @@ const FIXED: [&str; 11] = [
 ];
 
 impl Options {
-    /// The choices and the decisions that are none, in words.
+    /// Returns the choices and the decisions that are none, in words.
     #[must_use]
     pub fn describe(&self) -> Vec<String> {
         let degrees = self.plain_toe_angle.to_degrees();

@@ -16,7 +16,7 @@ pub(crate) struct Row {
 }
 
 impl Row {
-    /// The displacement `coordinate` (0..6) of the point at `offset` from the centre of gravity; `slots` numbers the free
+    /// Returns the displacement `coordinate` (0..6) of the point at `offset` from the centre of gravity; `slots` numbers the free
     /// coordinates.
     pub fn new(coordinate: usize, offset: [f64; 3], slots: &[Option<usize>; 6]) -> Self {
         let [x, y, z] = offset;
@@ -40,7 +40,7 @@ impl Row {
         row
     }
 
-    /// The displacement at these coordinates.
+    /// Returns the displacement at these coordinates.
     #[inline(always)]
     pub fn along(&self, coordinates: &[f64; 6]) -> f64 {
         let mut sum = 0.0;
@@ -132,7 +132,7 @@ impl<const D: usize, const P: usize> Site<D, P> {
         }
     }
 
-    /// Differences of both ends' displacements.
+    /// Returns the differences of both ends' displacements.
     #[inline(always)]
     pub fn extensions(&self, coordinates: &[[f64; 6]]) -> [f64; D] {
         let (a, b) = (&coordinates[self.ends[0].body], &coordinates[self.ends[1].body]);
@@ -143,7 +143,7 @@ impl<const D: usize, const P: usize> Site<D, P> {
         extensions
     }
 
-    /// The part of the strokes' rates that prescribed ends make (from their coordinates' rates).
+    /// Returns the part of the strokes' rates that prescribed ends make (from their coordinates' rates).
     #[inline(always)]
     pub fn prescribed_rates(&self, rates: &[[f64; 6]]) -> [f64; D] {
         let mut prescribed_rate = [0.0; D];

@@ -30,7 +30,7 @@ pub struct SpringDamper {
 }
 
 impl SpringDamper {
-    /// A spring without damper and limits.
+    /// Returns a spring without damper and limits.
     #[must_use]
     pub fn spring(curve: Curve) -> Self {
         Self {
@@ -41,7 +41,7 @@ impl SpringDamper {
         }
     }
 
-    /// A damper without spring and limits.
+    /// Returns a damper without spring and limits.
     #[must_use]
     pub fn damper(curve: Curve) -> Self {
         Self {
@@ -78,12 +78,12 @@ impl Spring {
         })
     }
 
-    /// Whether it loses energy.
+    /// Returns whether it loses energy.
     pub fn damps(&self) -> bool {
         self.damper.is_some()
     }
 
-    /// The force at a stroke and its rate.
+    /// Returns the force at a stroke and its rate.
     #[inline(always)]
     pub fn evaluate<S: Real>(&self, extension: S, rate: S) -> AxisForce<S> {
         let held = self.held.evaluate(extension);
@@ -107,7 +107,7 @@ impl Spring {
         }
     }
 
-    /// Stored energy, J; zero at zero stroke.
+    /// Returns the stored energy, J; zero at zero stroke.
     pub fn energy(&self, extension: f64) -> f64 {
         self.held.integral(extension)
     }

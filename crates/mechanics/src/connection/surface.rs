@@ -55,7 +55,7 @@ impl Surface {
         self.damper.is_some()
     }
 
-    /// Friction at strokes and rates (normal, first, second) and deflections.
+    /// Returns the friction at strokes and rates (normal, first, second) and deflections.
     #[inline(always)]
     pub fn evaluate<S: Real>(
         &self,
@@ -93,7 +93,7 @@ impl Surface {
         }
     }
 
-    /// Energy of the normal spring, J; zero at zero stroke.
+    /// Returns the energy of the normal spring, J; zero at zero stroke.
     pub fn energy(&self, extension: f64) -> f64 {
         -self.normal.integral(extension)
     }

@@ -204,12 +204,12 @@ impl WedgeLaw {
         }
     }
 
-    /// Whether it has a longitudinal force.
+    /// Returns whether it has a longitudinal force.
     pub fn is_spatial(&self) -> bool {
         self.profile.is_some()
     }
 
-    /// The column's normal force at the signed fraction `x` with the slope's friction coefficient `slope` (signed:
+    /// Returns the column's normal force at the signed fraction `x` with the slope's friction coefficient `slope` (signed:
     /// positive up the slope), and whether it is the cap.
     #[inline(always)]
     fn normal<S: Real>(&self, face: &Face, coil: S, x: S, slope: S) -> (S, bool) {
@@ -224,7 +224,7 @@ impl WedgeLaw {
         }
     }
 
-    /// The signed fraction that holds the friction `ratio · coil force`; `own` is the slope's coefficient if it does not
+    /// Returns the signed fraction that holds the friction `ratio · coil force`; `own` is the slope's coefficient if it does not
     /// follow the column.
     #[inline(always)]
     fn fraction<S: Real>(&self, face: &Face, ratio: S, own: Option<S>) -> S {
@@ -251,7 +251,7 @@ impl WedgeLaw {
         }
     }
 
-    /// The wedge at extensions and rates (vertical, longitudinal, lateral) and deflections (vertical, lateral).
+    /// Returns the wedge at extensions and rates (vertical, longitudinal, lateral) and deflections (vertical, lateral).
     #[inline(always)]
     pub fn evaluate<S: Real>(
         &self,
@@ -263,7 +263,7 @@ impl WedgeLaw {
         self.evaluate_with(extensions, rates, deflection, grip, |_| {})
     }
 
-    /// The same; `report` receives what happens inside.
+    /// Returns the same; `report` receives what happens inside.
     #[inline(always)]
     pub fn evaluate_with<S: Real>(
         &self,
@@ -358,7 +358,7 @@ impl WedgeLaw {
         }
     }
 
-    /// The column's friction and what goes with it; `own` is the slope's coefficient if it does not follow the column.
+    /// Returns the column's friction and what goes with it; `own` is the slope's coefficient if it does not follow the column.
     #[inline(always)]
     fn column<S: Real>(
         &self,
@@ -419,7 +419,7 @@ impl WedgeLaw {
         at(slip, if self.friction > 0.0 { x } else { zero }, inside)
     }
 
-    /// Energy of the coil, J; zero at zero extension of the coil.
+    /// Returns the energy of the coil, J; zero at zero extension of the coil.
     pub fn energy(&self, coil_extension: f64) -> f64 {
         -self.coil.integral(coil_extension)
     }

@@ -60,7 +60,7 @@ pub(crate) struct Points {
 }
 
 impl Points {
-    /// The points of a face.
+    /// Returns the points of a face.
     pub fn new(points: &[ContactPoint]) -> Self {
         let blocks: Vec<PointBlock> = points.chunks(LANES).map(PointBlock::new).collect();
         let nowhere = PointKinematics {
@@ -98,7 +98,7 @@ impl Points {
         }
     }
 
-    /// Whether the law, where it was differentiated, has anything but zeros at any of them: not where all are open.
+    /// Returns whether the law, where it was differentiated, has anything but zeros at any of them: not where all are open.
     #[inline(always)]
     pub fn are_active(&self) -> bool {
         self.derivatives.iter().any(|derivatives| derivatives.active)
@@ -137,7 +137,7 @@ impl PointBlock {
         }
     }
 
-    /// The deflections of the block that begins with point `first`: zero where there are none.
+    /// Returns the deflections of the block that begins with point `first`: zero where there are none.
     #[inline(always)]
     fn deflection(&self, deflections: &[f64], first: usize) -> [Lanes; 2] {
         let Some(own) = deflections.get(2 * first..2 * (first + self.count)) else {
@@ -209,7 +209,7 @@ impl PlaneMotion {
         }
     }
 
-    /// What the law sees of four points; the gap's rate only where there is contact damping.
+    /// Returns what the law sees of four points; the gap's rate only where there is contact damping.
     #[inline(always)]
     pub fn kinematics(&self, position: Vector<Lanes>, damped: bool) -> PointKinematics<Lanes> {
         let speed = |i: usize| -> Lanes { self.growth[i].dot::<Lanes, Lanes>(position) + self.speeds[i] };
@@ -220,7 +220,7 @@ impl PlaneMotion {
         }
     }
 
-    /// What it does to the body: forces along the marker's axes, moments (body axes), losses in friction and in contact damping.
+    /// Returns what it does to the body: forces along the marker's axes, moments (body axes), losses in friction and in contact damping.
     #[inline(always)]
     pub fn push(&self, position: Vector<Lanes>, forces: &PointForce<Lanes>) -> [Lanes; 8] {
         let [t1, t2] = forces.friction.force;
@@ -232,7 +232,7 @@ impl PlaneMotion {
     }
 }
 
-/// Whether four points are open, each of them, and not just touching. (Missing ones are copies of the first.)
+/// Returns whether four points are open, each of them, and not just touching. (Missing ones are copies of the first.)
 #[inline(always)]
 fn is_open(at: &PointKinematics<Lanes>) -> bool {
     Lanes::zero().below(at.gap).all()
@@ -244,7 +244,7 @@ fn closed(block: &PointBlock, at: &PointKinematics<Lanes>) -> LaneMask {
 }
 
 impl ContactFace<Plane> {
-    /// What all points do to their body; `rates` receives the rates of the internal states.
+    /// Returns what all points do to their body; `rates` receives the rates of the internal states.
     #[inline(always)]
     pub(crate) fn wrench_on_body(
         &self,

@@ -37,7 +37,7 @@ fn by_velocity(
 }
 
 impl Points {
-    /// The tangent of a face where its law was differentiated. `rates` receives the derivatives of the rates of internal states, of four
+    /// Returns the tangent of a face where its law was differentiated. `rates` receives the derivatives of the rates of internal states, of four
     /// points at a time: those of the first state of each, and of the second; it is empty where there are none.
     #[inline(always)]
     pub fn tangent(&self, relative: &RelativeMotion<f64>, rates: &mut [TangentColumns]) -> Tangent {

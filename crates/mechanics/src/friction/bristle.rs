@@ -16,7 +16,7 @@ use integrate::scalar::{Number, choose};
 
 use super::{Friction, dot};
 
-/// Friction of a point with the friction limit `limit` = μN (N, not negative), tangential velocity (m/s) and
+/// Returns the friction of a point with the friction limit `limit` = μN (N, not negative), tangential velocity (m/s) and
 /// bristle deflection (m); `stiffness` in N/m, `damping` in N·s/m.
 #[inline(always)]
 #[must_use]

@@ -25,7 +25,7 @@ pub enum FrictionLaw {
 }
 
 impl FrictionLaw {
-    /// How many internal states a contact point has under this law.
+    /// Returns how many internal states a contact point has under this law.
     #[must_use]
     pub fn states_per_point(&self) -> usize {
         match self {
@@ -34,7 +34,7 @@ impl FrictionLaw {
         }
     }
 
-    /// The speed at which the point creeps when it holds the fraction `load` (0..1) of the friction limit, m/s.
+    /// Returns the speed at which the point creeps when it holds the fraction `load` (0..1) of the friction limit, m/s.
     #[must_use]
     pub fn creep_speed(&self, load: f64) -> f64 {
         match self {
@@ -85,7 +85,7 @@ impl<S: Number> Blend<S::Mask> for Friction<S> {
     }
 }
 
-/// The scalar product of two plane vectors.
+/// Returns the scalar product of two plane vectors.
 #[inline(always)]
 pub(crate) fn dot<S: Number>(a: [S; 2], b: [S; 2]) -> S {
     a[0] * b[0] + a[1] * b[1]

@@ -122,7 +122,7 @@ impl ElementAssembler<'_> {
 }
 
 impl<E> Mounted<E> {
-    /// The free bodies that it touches, by their numbers among the free ones.
+    /// Returns the free bodies that it touches, by their numbers among the free ones.
     pub(super) fn touches(&self, free_number: &[Option<usize>]) -> impl Iterator<Item = usize> + use<E> {
         [self.body, self.on]
             .map(|body| free_number[body])

@@ -65,7 +65,7 @@ impl FreeBody {
         }
     }
 
-    /// How many angles are free.
+    /// Returns how many angles are free.
     #[inline(always)]
     pub(super) fn angles(&self) -> usize {
         self.free.len() - self.translations
@@ -77,7 +77,7 @@ impl FreeBody {
 struct Projection([Lanes; 3]);
 
 impl Projection {
-    /// Components along these directions (marker axes).
+    /// Returns the components along these directions (marker axes).
     #[inline(always)]
     fn new(directions: [Vector<f64>; 4]) -> Self {
         let component = |i: usize| Lanes::new(std::array::from_fn(|k| directions[k].0[i]));
@@ -137,7 +137,7 @@ impl End {
         }
     }
 
-    /// The rows of a force and a moment about the body's origin (marker axes).
+    /// Returns the rows of a force and a moment about the body's origin (marker axes).
     #[inline(always)]
     fn rows(&self, force: Vector<f64>, moment: Vector<f64>) -> Rows {
         [self.along.of(force), self.about.of(moment)]
@@ -161,7 +161,7 @@ fn cross(a: Vector<f64>, b: Vector<f64>) -> Vector<f64> {
 }
 
 impl<'c> Chain<'c> {
-    /// The chain of an element; `arm` leads from the origin of body a to marker A in the axes of the marker, `relative` is the motion of
+    /// Returns the chain of an element; `arm` leads from the origin of body a to marker A in the axes of the marker, `relative` is the motion of
     /// marker A.
     #[inline(always)]
     pub fn new<E>(
@@ -238,7 +238,7 @@ impl<'c> Chain<'c> {
         }
     }
 
-    /// The moment about the origin of body a of a force and a moment about marker A.
+    /// Returns the moment about the origin of body a of a force and a moment about marker A.
     #[inline(always)]
     fn about_a(&self, force: Vector<f64>, moment: Vector<f64>) -> Vector<f64> {
         if self.a.swing {
@@ -248,18 +248,18 @@ impl<'c> Chain<'c> {
         }
     }
 
-    /// The rows at body b of a force and a moment about marker A on body a.
+    /// Returns the rows at body b of a force and a moment about marker A on body a.
     #[inline(always)]
     fn rows_of_b(&self, b: &End, force: Vector<f64>, moment: Vector<f64>) -> Rows {
         b.rows(-force, -(moment + cross(self.reach, force)))
     }
 
-    /// The moment on body a about its origin, marker axes.
+    /// Returns the moment on body a about its origin, marker axes.
     pub fn moment_on_a(&self) -> Vector<f64> {
         self.about_a(self.tangent.force, self.tangent.moment)
     }
 
-    /// The moment on body b about its origin, marker axes.
+    /// Returns the moment on body b about its origin, marker axes.
     pub fn moment_on_b(&self) -> Vector<f64> {
         -(self.tangent.moment + cross(self.reach, self.tangent.force))
     }
@@ -338,7 +338,7 @@ impl<'c> Chain<'c> {
         }
     }
 
-    /// The derivatives of other quantities by position and rate of coordinate `index` of the body at an end.
+    /// Returns the derivatives of other quantities by position and rate of coordinate `index` of the body at an end.
     #[inline(always)]
     pub fn others(
         &self,
@@ -357,7 +357,7 @@ impl<'c> Chain<'c> {
         ]
     }
 
-    /// The rows of a force and a moment about marker A at the body at an end.
+    /// Returns the rows of a force and a moment about marker A at the body at an end.
     #[inline(always)]
     pub fn load(&self, side: usize, force: Vector<f64>, moment: Vector<f64>) -> Rows {
         match &self.b {

@@ -39,7 +39,7 @@ pub enum ContactState {
 }
 
 impl ContactState {
-    /// The mode with this number; other numbers mean slip.
+    /// Returns the mode with this number; other numbers mean slip.
     #[must_use]
     pub fn from_number(number: u8) -> Self {
         match number {
@@ -49,7 +49,7 @@ impl ContactState {
         }
     }
 
-    /// Its name, as in results.
+    /// Returns its name, as in results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -69,7 +69,7 @@ struct PointVariables {
 }
 
 impl PointVariables {
-    /// The mode that follows one that must be left.
+    /// Returns the mode that follows one that must be left.
     fn next(self, contact_state: ContactState) -> ContactState {
         match contact_state {
             ContactState::Open => self.closed(),
@@ -89,7 +89,7 @@ impl PointVariables {
     }
 }
 
-/// A law's place in [`SLIP_LOAD`] and [`STICK_LOAD`].
+/// Returns a law's place in [`SLIP_LOAD`] and [`STICK_LOAD`].
 #[inline(always)]
 fn threshold(law: &FrictionLaw) -> usize {
     usize::from(matches!(law, FrictionLaw::Bristle { .. }))
@@ -196,7 +196,7 @@ impl System {
         });
     }
 
-    /// The points of a face among all points.
+    /// Returns the points of a face among all points.
     pub(super) fn points_of(&self, face: usize) -> Range<usize> {
         let first = self.first_points[face];
         first..first + self.faces[face].element.points.len()
@@ -287,7 +287,7 @@ impl System {
         }
     }
 
-    /// The mode that follows at one point of a face, by the face's signs.
+    /// Returns the mode that follows at one point of a face, by the face's signs.
     pub(super) fn next_contact_state(
         &self,
         number: usize,
@@ -304,7 +304,7 @@ impl System {
         variables.next(ContactState::from_number(contact_state)) as u8
     }
 
-    /// The points of each face, with the states that they depend on.
+    /// Returns the points of each face, with the states that they depend on.
     pub(super) fn point_groups(&self) -> Vec<EventGroup> {
         let group = |number: usize| {
             let face = &self.faces[number];

@@ -41,7 +41,7 @@ pub enum EnergyTermKind {
 }
 
 impl EnergyTermKind {
-    /// Its name, as in results.
+    /// Returns its name, as in results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -44,7 +44,7 @@ const SETTLING: f64 = 1e-3;
 const ITERATIONS: usize = 2000;
 
 impl System {
-    /// The state of rest near `x` at `time`, with all prescribed bodies where they are then. Quadratures stay as they are.
+    /// Returns the state of rest near `x` at `time`, with all prescribed bodies where they are then. Quadratures stay as they are.
     ///
     /// Implicit Euler steps from rest, of a length that grows as the accelerations fall: with long steps this is
     /// Newton's method with the Jacobian of the integration. Prescribed bodies with linearized kinematics are taken at rest; others should

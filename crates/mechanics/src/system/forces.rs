@@ -20,7 +20,7 @@ use crate::vector::Vector;
 
 /// An element in its place between two bodies.
 pub(super) trait Mountable: Sized {
-    /// What it does to the body that it carries; `rates` receives the rates of the internal states.
+    /// Returns what it does to the body that it carries; `rates` receives the rates of the internal states.
     fn body_wrench(
         &self,
         points: &mut Points,
@@ -29,7 +29,7 @@ pub(super) trait Mountable: Sized {
         rates: &mut [f64],
     ) -> BodyWrench;
 
-    /// The same seen from a mount that does not turn; none if it is nothing.
+    /// Returns the same seen from a mount that does not turn; none if it is nothing.
     fn body_wrench_of_frame(
         &self,
         points: &mut Points,
@@ -43,7 +43,7 @@ pub(super) trait Mountable: Sized {
         Vector::zero()
     }
 
-    /// The tangent by the motion of marker A; `rates` receives the derivatives of the rates of internal states, four pairs at a time.
+    /// Returns the tangent by the motion of marker A; `rates` receives the derivatives of the rates of internal states, four pairs at a time.
     fn tangent(
         &self,
         points: &Points,
@@ -189,7 +189,7 @@ impl Mountable for Marked {
 }
 
 impl<S: Real> Wrench<S> {
-    /// That of a face.
+    /// Returns that of a face.
     #[inline(always)]
     pub fn of_face(face: &FaceResultant<S>) -> Self {
         Self {
@@ -199,7 +199,7 @@ impl<S: Real> Wrench<S> {
         }
     }
 
-    /// That of a coil.
+    /// Returns that of a coil.
     #[inline(always)]
     pub fn of_coil(coil: &CoilForce<S>) -> Self {
         Self {
@@ -209,7 +209,7 @@ impl<S: Real> Wrench<S> {
         }
     }
 
-    /// Force on the carried body (axes of its reference frame) and moment about its origin (body axes).
+    /// Returns the force on the carried body (axes of its reference frame) and moment about its origin (body axes).
     #[inline(always)]
     pub fn on_body<T, K>(
         &self,
@@ -227,13 +227,13 @@ impl<S: Real> Wrench<S> {
         )
     }
 
-    /// The moment about the mount's origin, mount axes.
+    /// Returns the moment about the mount's origin, mount axes.
     #[inline(always)]
     pub fn moment_at_marker(&self, relative: &RelativeMotion<S>) -> Vector<S> {
         self.moment + relative.position.cross::<S, S>(self.force)
     }
 
-    /// Force on the body that the element stands on (axes of its reference frame) and moment about its origin (body axes).
+    /// Returns the force on the body that the element stands on (axes of its reference frame) and moment about its origin (body axes).
     #[inline(always)]
     pub fn reaction<T: Real + Mul<S, Output = S>>(
         &self,
@@ -252,7 +252,7 @@ impl<S: Real> Wrench<S> {
         )
     }
 
-    /// The power that the prescribed motion of the body under the element delivers, W.
+    /// Returns the power that the prescribed motion of the body under the element delivers, W.
     #[inline(always)]
     pub fn prescribed_power<T: Real + Mul<S, Output = S>>(
         &self,
@@ -401,7 +401,7 @@ fn write_powers(energy_terms: &[Option<usize>; 2], own: [f64; 2], powers: &mut [
     }
 }
 
-/// The accelerations of a body's coordinates under force and moment, in a reference frame that may move.
+/// Returns the accelerations of a body's coordinates under force and moment, in a reference frame that may move.
 #[inline(always)]
 fn accelerate(
     kinematics: &Kinematics<f64>,

@@ -304,7 +304,7 @@ pub(super) fn differentiate_internal(
 }
 
 impl<E> Mounted<E> {
-    /// The power that the prescribed motion of the body under the element delivers against a force and a moment about marker A, W.
+    /// Returns the power that the prescribed motion of the body under the element delivers against a force and a moment about marker A, W.
     #[inline(always)]
     pub(super) fn prescribed_power(
         &self,

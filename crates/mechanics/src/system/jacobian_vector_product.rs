@@ -51,7 +51,7 @@ fn dual(value: f64, change: f64) -> Dual<1> {
 }
 
 impl System {
-    /// The derivatives along a direction at `time` and state `x`; `None` if the direction does not have the state's length, or if there are bodies with
+    /// Returns the derivatives along a direction at `time` and state `x`; `None` if the direction does not have the state's length, or if there are bodies with
     /// linearized kinematics, for which they are not made.
     ///
     /// At a kink (a corner that just touches, a bristle at its limit) they are those of the side that the state counts for.

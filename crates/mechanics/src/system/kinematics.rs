@@ -140,7 +140,7 @@ impl FrameState {
         self.motion.acceleration = acceleration;
     }
 
-    /// Value, rate and second derivative of each translation that moves.
+    /// Returns the value, rate and second derivative of each translation that moves.
     #[inline(always)]
     pub(super) fn jets(&self) -> impl Iterator<Item = [f64; 3]> {
         self.moves.iter().map(|way| way.jet)

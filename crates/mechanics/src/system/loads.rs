@@ -48,7 +48,7 @@ pub struct Loads {
 }
 
 impl FaceState {
-    /// The same as [`System::loads`] says, by sums over the points; `center` is the centre of gravity of the carried body.
+    /// Returns the same as [`System::loads`] says, by sums over the points; `center` is the centre of gravity of the carried body.
     #[must_use]
     pub fn load(&self, center: Vector<f64>) -> FaceLoad {
         let mut load = FaceLoad {
@@ -69,7 +69,7 @@ impl FaceState {
 }
 
 impl CoilState {
-    /// The same as [`System::loads`] says.
+    /// Returns the same as [`System::loads`] says.
     #[must_use]
     pub fn load(&self) -> CoilLoad {
         CoilLoad {
@@ -138,7 +138,7 @@ impl System {
         }
     }
 
-    /// A vector from the axes of an element's mount to fixed axes.
+    /// Returns a vector from the axes of an element's mount to fixed axes.
     #[inline(always)]
     fn along_fixed_axes<E>(&self, mounted: &Mounted<E>, vector: Vector<f64>) -> Vector<f64> {
         let own: Vector<f64> = mounted.relative_frame.rotation.apply_transposed(vector);

@@ -207,7 +207,7 @@ pub struct System {
 }
 
 impl System {
-    /// The system of a model.
+    /// Returns the system of a model.
     ///
     /// # Errors
     /// The model refers to bodies that do not exist, has no free body, or something else that
@@ -216,52 +216,52 @@ impl System {
         model::build(model)
     }
 
-    /// The bodies.
+    /// Returns the bodies.
     #[must_use]
     pub fn bodies(&self) -> &[Body] {
         &self.bodies
     }
-    /// The contact faces.
+    /// Returns the contact faces.
     #[must_use]
     pub fn faces(&self) -> &[Mounted<ContactFace<Plane>>] {
         &self.faces
     }
-    /// The coils.
+    /// Returns the coils.
     #[must_use]
     pub fn coils(&self) -> &[Mounted<Coil>] {
         &self.coils
     }
-    /// The quadratures: what each of them integrates.
+    /// Returns the quadratures: what each of them integrates.
     #[must_use]
     pub fn energy_terms(&self) -> &[EnergyTerm] {
         &self.energy_terms
     }
-    /// The parts of the state vector.
+    /// Returns the parts of the state vector.
     #[must_use]
     pub fn layout(&self) -> Layout {
         self.layout
     }
-    /// The connections.
+    /// Returns the connections.
     #[must_use]
     pub fn connections(&self) -> &[Connection] {
         self.connections.all()
     }
-    /// The connection of each contact state beyond those of the points: connections with friction, in their order.
+    /// Returns the connection of each contact state beyond those of the points: connections with friction, in their order.
     #[must_use]
     pub fn frictional_connections(&self) -> &[usize] {
         &self.connections.discrete_states
     }
-    /// The first of the two accumulator deflections of a connection in the state vector, if it has any.
+    /// Returns the first of the two accumulator deflections of a connection in the state vector, if it has any.
     #[must_use]
     pub fn deflection_of(&self, connection: usize) -> Option<usize> {
         Some(2 * self.layout.speeds + self.connections.deflection_of(connection)?)
     }
-    /// Number of contact points, each a switch with the modes of [`ContactState`].
+    /// Returns the number of contact points, each a switch with the modes of [`ContactState`].
     #[must_use]
     pub fn point_count(&self) -> usize {
         self.faces.iter().map(|face| face.element.points.len()).sum()
     }
-    /// The state at the start: initial coordinates, at rest, bristles relaxed.
+    /// Returns the state at the start: initial coordinates, at rest, bristles relaxed.
     #[must_use]
     pub fn initial_state(&self) -> Vec<f64> {
         let mut x = vec![0.0; self.layout.len()];
@@ -282,7 +282,7 @@ impl System {
         }
     }
 
-    /// The place of a body's coordinate (0..6) among the positions, if it is free.
+    /// Returns the place of a body's coordinate (0..6) among the positions, if it is free.
     #[must_use]
     pub fn position_of(&self, body: usize, coordinate: usize) -> Option<usize> {
         let free = &self.free[self.free_number[body]?];
@@ -292,13 +292,13 @@ impl System {
             .map(|j| free.offset + j)
     }
 
-    /// The internal states.
+    /// Returns the internal states.
     fn internal<'x>(&self, x: &'x [f64]) -> &'x [f64] {
         let [_, _, internal, _] = self.layout.split(x);
         internal
     }
 
-    /// Coordinates and rates of a body from the state vector.
+    /// Returns the coordinates and rates of a body from the state vector.
     #[inline(always)]
     fn coordinates(&self, free: &FreeBody, x: &[f64]) -> ([f64; 6], [f64; 6]) {
         let mut coordinates = self.bodies[free.body].initial;
@@ -417,7 +417,7 @@ impl Problem for System {
             .find_contact_states((&self.positions, &self.rates), self.internal(x), others);
     }
 
-    /// Gap (m) and load of each point: the gaps of a face's points, their loads, and so on face by face; then of each connection with friction
+    /// Returns the gap (m) and load of each point: the gaps of a face's points, their loads, and so on face by face; then of each connection with friction
     /// what presses it (N) and the load of its accumulator.
     fn event_variable_count(&self) -> usize {
         2 * self.point_count() + FRICTION_VARIABLES * self.connections.discrete_states.len()
@@ -431,7 +431,7 @@ impl Problem for System {
             .event_variables((&self.positions, &self.rates), self.internal(x), others);
     }
 
-    /// The points of each face, and all connections together.
+    /// Returns the points of each face, and all connections together.
     fn event_groups(&self) -> Vec<EventGroup> {
         let mut groups = self.point_groups();
         if !self.connections.discrete_states.is_empty() {
@@ -480,7 +480,7 @@ impl Problem for System {
     }
 }
 
-/// The parts of the state vector and the structure of the Jacobian.
+/// Returns the parts of the state vector and the structure of the Jacobian.
 fn structure(free: &[FreeBody], couplings: Vec<(usize, usize)>, model: &model::Parts) -> Structure {
     Structure {
         bodies: free.iter().map(|free| free.free.len()).collect(),
@@ -492,7 +492,7 @@ fn structure(free: &[FreeBody], couplings: Vec<(usize, usize)>, model: &model::P
     }
 }
 
-/// The error scale of one coordinate (0..6).
+/// Returns the error scale of one coordinate (0..6).
 fn scale_of(coordinate: usize) -> (f64, f64) {
     if coordinate < 3 {
         (scales::DISPLACEMENT, scales::VELOCITY)
@@ -501,12 +501,12 @@ fn scale_of(coordinate: usize) -> (f64, f64) {
     }
 }
 
-/// Whether a law has internal states, two a point.
+/// Returns whether a law has internal states, two a point.
 fn is_bristle(law: &FrictionLaw) -> bool {
     law.states_per_point() == 2
 }
 
-/// The identity mount, for tests and simple models.
+/// Returns the identity mount, for tests and simple models.
 #[must_use]
 pub fn marker_at(origin: [f64; 3]) -> Marker {
     Marker::new(origin, [0.0; 3])

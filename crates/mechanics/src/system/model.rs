@@ -473,7 +473,7 @@ fn linear(body: &Body, free: &[usize], gravity: [f64; 3]) -> Result<Linear, Mode
     })
 }
 
-/// A frame at time zero, and what of it moves.
+/// Returns a frame at time zero, and what of it moves.
 fn frame_state(frame: &Frame) -> FrameState {
     let base = crate::orientation::fixed(frame.orientation);
     let (mut moves, mut rest) = (Vec::new(), Vector(frame.origin));

@@ -156,7 +156,7 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// Energy that came from nowhere since a start with the stored energy `start` (J) and quadratures at zero: work of the
+    /// Returns the energy that came from nowhere since a start with the stored energy `start` (J) and quadratures at zero: work of the
     /// motions less what is stored and lost. Zero but for the errors of the integration.
     #[must_use]
     pub fn residual(&self, start: f64) -> f64 {
@@ -165,7 +165,7 @@ impl Observation {
 }
 
 impl System {
-    /// Everything that the state `x` at `time` says.
+    /// Returns everything that the state `x` at `time` says.
     #[must_use]
     pub fn observe(&mut self, time: f64, x: &[f64]) -> Observation {
         self.update_kinematics(time, x);
@@ -316,7 +316,7 @@ impl System {
         }
     }
 
-    /// The energy stored in an element of another kind, J.
+    /// Returns the energy stored in an element of another kind, J.
     pub(super) fn element_energy(&self, mounted: &Mounted<Marked>) -> f64 {
         let body: RelativeMotion<f64> = mounted.relative_frame.relative(&self.kinematics[mounted.body]);
         let marked = &mounted.element;
@@ -377,7 +377,7 @@ impl System {
         )
     }
 
-    /// The reaction of an element on the body that it stands on: force and moment about `point` (fixed frame).
+    /// Returns the reaction of an element on the body that it stands on: force and moment about `point` (fixed frame).
     #[must_use]
     pub fn reaction_about(
         force: Vector<f64>,

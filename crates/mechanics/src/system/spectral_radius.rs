@@ -15,7 +15,7 @@ use crate::vector::Vector;
 /// From here on (1/s) no step that is worth making is explicit; explicit steps of no length would only hide that a run cannot go on.
 const LARGEST_RADIUS: f64 = 1e9;
 
-/// A bound of the mobility of a point of a body (body axes), 1/kg: `1/m + |r|²/I` with the least inertia of the free angles.
+/// Returns a bound of the mobility of a point of a body (body axes), 1/kg: `1/m + |r|²/I` with the least inertia of the free angles.
 pub(super) fn mobility(body: &Body, point: Vector<f64>) -> f64 {
     let arm = point - Vector(body.center_of_gravity);
     let least = (0..3)

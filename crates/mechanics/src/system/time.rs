@@ -172,13 +172,13 @@ fn translating_in_time<E: Mountable>(
     }
 }
 
-/// The derivatives of a vector that carries one.
+/// Returns the derivatives of a vector that carries one.
 #[inline(always)]
 fn rate_of(v: &Vector<Dual<1>>) -> Vector<f64> {
     Vector(v.0.map(|component| component.derivative[0]))
 }
 
-/// A frame's pose and velocity with their derivatives by time; accelerations have none here.
+/// Returns a frame's pose and velocity with their derivatives by time; accelerations have none here.
 fn moving(motion: &FrameMotion<f64>) -> FrameMotion<Dual<1>> {
     let with = |value: Vector<f64>, rate: Vector<f64>| {
         Vector(std::array::from_fn(|k| Dual {

@@ -66,7 +66,7 @@ pub struct NoVibration;
 const SYMMETRIC: f64 = 1e-9;
 
 impl System {
-    /// The stiffness matrix `-∂Q/∂q`, N/m and so on, row-major in the order of the positions.
+    /// Returns the stiffness matrix `-∂Q/∂q`, N/m and so on, row-major in the order of the positions.
     #[must_use]
     pub fn stiffness_matrix(&mut self, time: f64, x: &[f64], held: Held) -> Vec<f64> {
         let n = self.layout.speeds;
@@ -107,7 +107,7 @@ impl System {
         stiffness
     }
 
-    /// The mass matrix at the state for which the Jacobian was formed last.
+    /// Returns the mass matrix at the state for which the Jacobian was formed last.
     fn mass_matrix(&mut self) -> DMatrix<f64> {
         let n = self.layout.speeds;
         let mut mass = DMatrix::zeros(n, n);
@@ -120,7 +120,7 @@ impl System {
         mass
     }
 
-    /// The natural vibrations about a state, by rising frequency.
+    /// Returns the natural vibrations about a state, by rising frequency.
     ///
     /// # Errors
     /// The eigenvalues are not found.
@@ -160,7 +160,7 @@ impl System {
     }
 }
 
-/// The frequency of an eigenvalue, Hz.
+/// Returns the frequency of an eigenvalue, Hz.
 fn frequency(value: Complex<f64>) -> f64 {
     if value.im == 0.0 {
         return value.re.max(0.0).sqrt() / (2.0 * std::f64::consts::PI);
