@@ -78,12 +78,12 @@ impl Tally {
 #[test]
 fn issue_029_every_member_of_a_run_edited_by_hand_is_refused_or_goes_on() {
     let tanh: &[fn(&Value) -> bool] = &[
-        |state| is_late(state) && state["integrator"]["ahead"].get("Layer").is_some(),
-        |state| state["integrator"]["passage"].is_object(),
+        |state| is_late(state) && state["integrator"]["prediction"]["zone_step"].is_number(),
+        |state| is_late(state) && state["integrator"]["prediction"]["zone_step"].is_null(),
     ];
     let damping: &[fn(&Value) -> bool] = &[|state| {
         let integrator = &state["integrator"];
-        is_late(state) && integrator["behind"].is_object() && integrator["matrix"].is_object()
+        is_late(state) && integrator["linearization_point"].is_object()
     }];
     for (overrides, wanted) in [(&[][..], tanh), (&["simulation.method=\"tr-bdf2\""][..], damping)] {
         let case = case(overrides);

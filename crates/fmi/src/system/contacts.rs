@@ -16,11 +16,12 @@ pub(super) struct Contacts {
 impl Contacts {
     /// Returns those of a system at `time` and state `x`.
     pub fn new(system: &mut System, time: f64, x: &[f64]) -> Self {
-        let mut states = vec![0; system.discrete_state_count()];
+        let structure = system.structure();
+        let mut states = vec![0; structure.discrete_states()];
         system.initial_discrete_states(time, x, &mut states);
         Self {
-            groups: system.event_groups(),
-            variables: vec![0.0; system.event_variable_count()],
+            variables: vec![0.0; structure.event_variables()],
+            groups: structure.event_groups,
             functions: vec![0.0; states.len()],
             states,
         }
@@ -28,7 +29,7 @@ impl Contacts {
 
     /// Returns the event functions at `time` and state `x`.
     pub fn evaluate(&mut self, system: &mut System, time: f64, x: &[f64]) -> &[f64] {
-        system.event_variables(time, x, &mut self.variables);
+        system.event_variables(None, time, x, &mut self.variables);
         for number in 0..self.groups.len() {
             self.evaluate_group(system, number);
         }
@@ -40,7 +41,7 @@ impl Contacts {
         let own = group.discrete_states.clone();
         let variables = &self.variables[group.variables.clone()];
         let (states, functions) = (&self.states[own.clone()], &mut self.functions[own]);
-        system.group_event_functions(number, variables, states, functions);
+        system.event_functions(number, variables, states, functions);
     }
 
     /// Brings the states up to date; returns whether one has changed.

@@ -125,7 +125,7 @@ impl SystemElement {
 
     /// The dimension of the system.
     fn dimension(&self) -> usize {
-        self.plant.system.dimension()
+        self.plant.system.layout().len()
     }
 
     /// Brings the copy of the system that is evaluated to inputs and time.
@@ -184,7 +184,7 @@ impl SystemElement {
         let after = integrator.x();
         let ways = after[..speeds].iter().zip(&self.states[..speeds]);
         let work = self.loads.work(ways.map(|(after, before)| after - before));
-        let dimension = self.plant.system.dimension();
+        let dimension = self.plant.system.layout().len();
         self.states[..dimension].copy_from_slice(after);
         self.states[dimension] += work;
         self.time = point;
