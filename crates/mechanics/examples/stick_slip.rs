@@ -58,7 +58,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         rotational_damping: 0.0,
         pulls: true,
     };
-    // The normal of a plane is the mount's x axis: here it points up.
+    // The normal of a plane is the marker's x axis: here it points up.
     let up = Marker::new([0.0; 3], [0.0, -FRAC_PI_2, 0.0]);
     let model = Model {
         bodies: vec![ground, belt, block],

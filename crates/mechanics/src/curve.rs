@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use crate::characteristic::Characteristic;
 
-/// An ordinate (force, moment, depth) over an abscissa (stroke, rate), piecewise linear. SI units.
+/// An ordinate (force, moment, depth) over an abscissa (extension, rate), piecewise linear. SI units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<[f64; 2]>", into = "Vec<[f64; 2]>")]
 pub struct Curve {
@@ -20,7 +20,7 @@ pub struct Curve {
     integrals: Vec<f64>,
 }
 
-/// Why points make no curve.
+/// Why points define no curve.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CurveError {
     /// There is no point.

@@ -7,8 +7,9 @@
 //! residual = work − change of stored energy − losses,
 //! ```
 //!
-//! zero but for the errors of the integration. Its size alone says nothing: a residual of 1 J is large for a wedge that is dropped,
-//! and small for a wagon that rolls over a joint. [`relative_residual`] is the measure for all runs.
+//! zero but for the errors of the integration. Its size alone has no meaning: a residual of 1 J is large for
+//! a wedge that is dropped, and small for a wagon that rolls over a joint. [`relative_residual`] is the
+//! measure for all runs.
 
 use serde::{Deserialize, Serialize};
 
@@ -18,8 +19,8 @@ pub const DOUBTFUL: f64 = 1e-3;
 /// A run whose relative residual exceeds this has failed: its energies are wrong in the second digit. Its results are kept.
 pub const FAILED: f64 = 1e-2;
 
-/// Energies up to this share of the stored energy are rounding: stored energy is a difference of sums with some ten entries, so
-/// that what is below cannot be told from zero.
+/// Energies up to this share of the stored energy are rounding: stored energy is a difference of sums with
+/// some ten entries, so that smaller energies cannot be distinguished from zero.
 const ROUNDING: f64 = 1e-12;
 
 /// Returns the relative residual of an energy ledger (a pure number): the absolute residual, over the largest of
@@ -61,7 +62,8 @@ pub struct Entries {
 }
 
 impl Entries {
-    /// Returns the [`relative_residual`] of this time alone, where what was before is not known: an importer of an FMU may go back.
+    /// Returns the [`relative_residual`] of this time alone. It needs no history: an importer of an FMU may
+    /// go back in time.
     #[must_use]
     pub fn relative_residual(&self) -> f64 {
         relative_residual(self.residual, self.work, self.losses, self.stored_change)
@@ -71,7 +73,7 @@ impl Entries {
 /// The energy balance of a run, followed from output time to output time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyBalance {
-    /// Stored energy at the start, without sign, J: what rounding is measured against.
+    /// Absolute stored energy at the start, J: the scale of rounding.
     pub stored_at_start: f64,
     /// Work done by the prescribed motions until the last output time, J.
     pub work: f64,

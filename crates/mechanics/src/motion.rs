@@ -67,8 +67,8 @@ pub enum Motion {
         /// Time from peak to peak (s).
         spacing: f64,
     },
-    /// `c0 + c1 τ + c2 τ² + c3 τ³` with τ the time since `start`, at all times: a motion that a caller gives piece by piece (see
-    /// [`Motion::between`]).
+    /// `c0 + c1 τ + c2 τ² + c3 τ³` with τ the time since `start`, at all times: a motion that a caller
+    /// prescribes piece by piece (see [`Motion::between`]).
     Polynomial {
         /// Where τ begins (s).
         start: f64,
@@ -106,7 +106,8 @@ pub enum RampProfile {
 /// Value, first and second derivative by time.
 pub type Jet<S> = [S; 3];
 
-/// Returns whether numbers of this size can still be counted one by one: so late that they cannot, breaks are not told any more.
+/// Returns whether numbers of this size can still be counted one by one: at later times breaks are no longer
+/// reported.
 fn is_counted(n: f64) -> bool {
     n.abs() < 1.0 / f64::EPSILON
 }

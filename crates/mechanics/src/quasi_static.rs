@@ -61,7 +61,7 @@ pub struct Sliding {
 }
 
 impl Direction {
-    /// a: +1 down, -1 up.
+    /// Returns a: +1 down, -1 up.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {
@@ -72,7 +72,7 @@ impl Direction {
 }
 
 impl SlopeFriction {
-    /// b: +1 up the slope, -1 down the slope.
+    /// Returns b: +1 up the slope, -1 down the slope.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {
@@ -101,7 +101,7 @@ impl QuasiStaticWedge {
             - direction.sign() * libm::atan(self.column_friction)
     }
 
-    /// Steady sliding under a coil force (N), or `None` where the wedge jams.
+    /// Returns the steady sliding under a coil force (N), or `None` if the wedge jams.
     #[must_use]
     pub fn slide(&self, direction: Direction, slope: SlopeFriction, coil_force: f64) -> Option<Sliding> {
         let margin = self.jam_margin(direction, slope);
@@ -120,9 +120,10 @@ impl QuasiStaticWedge {
         })
     }
 
-    /// Normal forces (N) at column and slope under a load (N: coil force less weight) while a part of the friction is mobilized:
-    /// `mobilized` goes from -1 (steady sliding up) over 0 (no friction) to +1 (steady sliding down), at both faces alike, the slope's
-    /// friction acting as on the [`QuasiStaticWedge::branch`]. `None` where the wedge jams.
+    /// Returns the normal forces (N) at column and slope under a load (N: coil force less weight) while a
+    /// part of the friction is mobilized: `mobilized` goes from -1 (steady sliding up) over 0 (no friction)
+    /// to +1 (steady sliding down), at both faces alike, the slope's friction acting as on the
+    /// [`QuasiStaticWedge::branch`]. `None` where the wedge jams.
     ///
     /// It is the same balance as [`QuasiStaticWedge::slide`], with `μ = mobilized · coefficient` for `tan ψ`:
     ///

@@ -22,7 +22,7 @@ fn energies(system: System, options: Options, x: &[f64], end: f64) -> [f64; 2] {
 
 #[test]
 fn a_pendulum() {
-    // Pitch about y; centre of gravity below the axis: its least energy is hanging.
+    // Pitch about y; center of gravity below the axis: its least energy is hanging.
     let (mass, length, inertia) = (2.0, 0.5, 0.1);
     let free = [false, false, false, false, true, false];
     let mut one = body(
@@ -96,7 +96,7 @@ fn a_thrown_body() {
     let after = momenta(&mut twin, 0.8, done.x());
     let position = cg(&mut twin, 0.8, done.x());
     for k in 0..3 {
-        // The centre of gravity flies on a parabola, the spin about it stays.
+        // The center of gravity flies on a parabola, the spin about it stays.
         let flown = start[k] + before[k] / 2.0 * 0.8 + 0.5 * gravity[k] * 0.64;
         assert!((position[k] - flown).abs() < 1e-8, "{position:?} {k} {flown}");
     }

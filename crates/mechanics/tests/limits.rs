@@ -189,7 +189,7 @@ fn creep_speeds_of_a_system() {
 
 #[test]
 fn equilibrium_on_springs() {
-    // A body on a face of four points, its centre of gravity not in their middle.
+    // A body on a face of four points, its center of gravity not in their middle.
     let one = body(
         "b",
         20.0,
@@ -229,7 +229,7 @@ fn equilibrium_on_springs() {
     // Share of each corner of a rigid rectangle on equal springs: W/4 (1 + x_c x_i/a² + y_c y_i/b²).
     for (normal, corner) in normals.iter().zip(corners) {
         let expected = 0.25 * weight * (1.0 + 0.05 * corner[0] / 0.04 - 0.02 * corner[1] / 0.01);
-        // The tilt (about 1e-4) moves the centre of gravity by its height times the tilt.
+        // The tilt (about 1e-4) moves the center of gravity by its height times the tilt.
         assert!(
             (normal - expected).abs() < 5e-4 * weight,
             "{normal} instead of {expected}"
@@ -268,7 +268,8 @@ fn floating(law: FrictionLaw, damping: f64) -> Model {
         [-0.1, 0.1, -0.1],
         [-0.1, -0.1, -0.1],
     ];
-    // Which pair meets where is a matter of the mount: the plane is placed so that three corners are closed at the start.
+    // Which pair meets where is a matter of the marker: the plane is placed so that three corners are closed
+    // at the start.
     for (body, on, marker) in [
         (0, 1, Marker::new([0.0, 0.05, -0.2], UP)),
         (1, 0, Marker::new([0.05, 0.0, -0.3], UP)),

@@ -1,4 +1,4 @@
-//! The wedge of Steets (2007): tables 3-1 to 3-4, with what the tables leave open resolved.
+//! The wedge of Steets (2007): tables 3-1 to 3-4, and values for quantities that the tables leave open.
 
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;

@@ -1,5 +1,6 @@
-//! Two wedges in one system, the second turned by 180° about the vertical axis through the bolster's centre: both give
-//! what one gives. Side frame and bolster are shared bodies; the second wedge's mounts on them are turned.
+//! Two wedges in one system, the second turned by 180° about the vertical axis through the bolster's center:
+//! both give what one gives. Side frame and bolster are shared bodies; the second wedge's markers on them are
+//! turned.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -14,7 +15,7 @@ use std::f64::consts::PI;
 use wedge::parameters::{Damping, Parameters};
 use wedge::{BOLSTER, SIDE_FRAME, WEDGE, Wedge, thesis};
 
-/// The bolster's centre is far enough away that the two wedges do not overlap.
+/// The bolster's center is far enough away that the two wedges do not overlap.
 const CENTER: f64 = 10.0 * INCH;
 
 fn parameters(damping: Damping) -> Parameters {

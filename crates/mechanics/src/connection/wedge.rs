@@ -1,9 +1,10 @@
 //! The industry's friction wedge as an element without mass (the comparison program's types 6.3, 6.7, 6.8, 6.9).
 //!
-//! Body A is the bolster, body B the side frame. A coil pushes a massless wedge up between the pocket's slope (angle θ
-//! from the vertical) and the column (inclined by φ, positive where the gap widens downwards: toe out). With x the signed
-//! mobilised fraction of friction (positive when the column's friction on the wedge acts up, |x| = 1 when it slips),
-//! and α = -μ_s (toe out, no toe) or +μ_s (toe in), balance of the wedge (see [`crate::quasi_static`]) gives
+//! Body A is the bolster, body B the side frame. A coil pushes a massless wedge up between the pocket's slope
+//! (angle θ from the vertical) and the column (inclined by φ, positive where the gap widens downwards: toe
+//! out). With x the signed mobilized fraction of friction (positive when the column's friction on the wedge
+//! acts up, |x| = 1 when it slips), and α = -μ_s (toe out, no toe) or +μ_s (toe in), balance of the wedge
+//! (see [`crate::quasi_static`]) gives
 //!
 //! ```text
 //! N(x) = F_s (cos θ + α x sin θ) / D(x),   D(x) = sin(θ+φ) - x (α + μ_c) cos(θ+φ) - x² α μ_c sin(θ+φ)
@@ -14,12 +15,13 @@
 //! quadratic equation. N is at most [`Wedge::normal_limit`], also where D is not positive: there no steady sliding
 //! exists, the wedge jams.
 //!
-//! Kinematics with a column profile h(z) (depth in m over the vertical extension, positive away from the bolster) and
-//! direction d (+1: the column lies ahead, +x of the bolster): gap `e = -d s_x + h(s_z)`, `φ = -atan h'(s_z)`, rise of
-//! the wedge in its pocket `r = e / tan θ`; extension of the coil `s_z + r` (coil on the side frame) or `r` (coil in the
-//! bolster). Without a profile r = 0. Forces in the extensions' sense:
-//! `f_z = -(F_s [coil on the side frame] + F_t cos φ - N sin φ)`, `f_x = d (N cos φ + F_t sin φ)`, f_y lateral friction.
-//! Without a profile f_x = 0, and a given inclination enters N only. Units: N, m, s, rad.
+//! Kinematics with a column profile h(z) (depth in m over the vertical extension, positive away from the
+//! bolster) and direction d (+1: the column lies ahead, +x of the bolster): gap `e = -d s_x + h(s_z)`,
+//! `φ = -atan h'(s_z)`, rise of the wedge in its pocket `r = e / tan θ`; extension of the coil `s_z + r`
+//! (coil on the side frame) or `r` (coil in the bolster). Without a profile r = 0. Forces in the direction of
+//! the extension: `f_z = -(F_s [coil on the side frame] + F_t cos φ - N sin φ)`,
+//! `f_x = d (N cos φ + F_t sin φ)`, f_y lateral friction. Without a profile f_x = 0, and a given inclination
+//! enters N only. Units: N, m, s, rad.
 //!
 //! Energy. Stored: the coil's, the accumulator's. Lost: the accumulator's losses (column); the power of the slope's
 //! friction, `-α x N_s r˙ / cos θ`, which may be negative, because its direction is that of the column's friction and not that of its
@@ -27,12 +29,14 @@
 //! stopping the rise leave the wedge's constraint forces with a small power (tan φ / tan θ of the column's: 0.6 % at 0.2°, all
 //! but 1e-4 of it by the slip velocity); it is integrated from its own forces and velocities and is a ledger entry of its own.
 //!
-//! Source: names of the parameters and variables from published input files and their comments; the law itself is derived,
-//! choices are listed in [`crate::connection::Options`]. Defects: no mass, no moments, no lift-off ringing. The slope's friction is no slider of
-//! its own: where the bolster swings along x it can feed energy (a negative slope entry in the ledger tells), above all jammed (toe
-//! in with much friction: a half-truck with yaw then chatters at hundreds of hertz) and with
-//! [`crate::connection::Options::rise_in_slip`]; [`SlopeDirection::OwnSlip`] is the remedy, with `-μ_s tanh(slip/v0)` in place of `α x`. Where `μ_c x N(x)` is not monotonic (steep angles with high friction) sticking and
-//! slipping disagree about N at the limit.
+//! Source: names of the parameters and variables from published input files and their comments; the law
+//! itself is derived, choices are listed in [`crate::connection::Options`]. Defects: no mass, no moments, no
+//! lift-off ringing. The slope's friction is no slider of its own: if the bolster swings along x, it can feed
+//! energy (the slope's entry of the ledger is then negative), above all if the wedge is jammed (toe in with
+//! much friction: a half-truck with yaw then chatters at hundreds of hertz) and with
+//! [`crate::connection::Options::rise_in_slip`]; [`SlopeDirection::OwnSlip`] is the remedy, with
+//! `-μ_s tanh(slip/v0)` in place of `α x`. Where `μ_c x N(x)` is not monotonic (steep angles with high
+//! friction) sticking and slipping disagree about N at the limit.
 
 use integrate::scalar::Real;
 
@@ -143,7 +147,7 @@ pub struct WedgeState {
     pub slope_normal: f64,
     /// Friction of the slope along it, on the wedge, positive up.
     pub slope_friction: f64,
-    /// Signed fraction of the mobilised friction, x.
+    /// Signed fraction of the mobilized friction, x.
     pub mobilised: f64,
     /// Limit of the friction in its present direction.
     pub friction_limit: f64,
@@ -263,7 +267,7 @@ impl WedgeLaw {
         self.evaluate_with(extensions, rates, deflection, grip, |_| {})
     }
 
-    /// Returns the same; `report` receives what happens inside.
+    /// Returns the same; `report` receives the internal forces and motions.
     #[inline(always)]
     pub fn evaluate_with<S: Real>(
         &self,
@@ -358,7 +362,8 @@ impl WedgeLaw {
         }
     }
 
-    /// Returns the column's friction and what goes with it; `own` is the slope's coefficient if it does not follow the column.
+    /// Returns the column's friction, normal force and fraction; `own` is the slope's coefficient if it does
+    /// not follow the column.
     #[inline(always)]
     fn column<S: Real>(
         &self,

@@ -1,7 +1,7 @@
 //! The tangent of a face: the chain rule of points on a rigid body.
 //!
-//! With a small change d of the body's origin, φ of its rotation, δv and δω of its velocities, all in mount axes, and r from the origin
-//! to a point,
+//! With a small change d of the body's origin, φ of its rotation, δv and δω of its velocities, all in marker
+//! axes, and r from the origin to a point,
 //!
 //! ```text
 //! δr = φ × r,   δg = (d + δr)·n,   δv_P = δv + δω × r + ω × δr,   δM = r × δF + δr × F
@@ -17,7 +17,7 @@ use crate::link::RelativeMotion;
 use crate::tangent::{Tangent, TangentColumn, TangentColumns, sum};
 use crate::vector::Vector;
 
-/// What the law's outputs change by with the velocity of a point.
+/// Adds the derivatives of the law's outputs by the velocity of a point.
 #[inline(always)]
 fn by_velocity(
     derivatives: &PointDerivatives,
@@ -65,7 +65,7 @@ impl Points {
                     Lanes::sums([m0, m1, m2, out[4]]),
                 ]
             };
-            // Where internal states have none, what is written for them goes nowhere.
+            // Without internal states the derivatives of their rates are discarded.
             let mut nowhere = TangentColumns::NONE;
             let rate = rates.get_mut(number).unwrap_or(&mut nowhere);
             let add = |to: &mut TangentColumn, rate: &mut TangentColumn, out: &[Lanes; OUTPUTS], carried| {

@@ -4,9 +4,10 @@
 //! - stick, while `|T| ≤ μN`: `F_t = -T`, `ė = v`;
 //! - slip: `F_t = -μN d`, `d = T/|T|`, `ė = (μN d - K e)/C`.
 //!
-//! Both forms agree where `|T| = μN`, so the right-hand side is continuous; it has a kink there. Losses: the
-//! dashpot's `C |ė|²` always, and in slip the slider's `μN d·(v - ė) = μN (|T| - μN)/C`; both are never negative.
-//! The stored energy `K e²/2` is recoverable. An open contact (N = 0) lets its bristle relax: `ė = -K e/C`.
+//! Both forms agree where `|T| = μN`, so the right-hand side is continuous; its derivative is discontinuous
+//! there. Losses: the dashpot's `C |ė|²` always, and in slip the slider's `μN d·(v - ė) = μN (|T| - μN)/C`;
+//! both are never negative. The stored energy `K e²/2` is recoverable. An open contact (N = 0) lets its
+//! bristle relax: `ė = -K e/C`.
 //!
 //! Source: the force accumulators (stiffness and damping) of the industry's wedge elements, in the rate form of a
 //! Maxwell-slip element. Units: N, m, s. Defect: under a held load the contact deflects elastically by

@@ -6,7 +6,7 @@ pub mod tanh;
 use integrate::scalar::{Blend, Number};
 use serde::{Deserialize, Serialize};
 
-/// The friction laws. Which one is active is part of every result.
+/// The friction laws. Every result states the active one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", tag = "law")]
 pub enum FrictionLaw {
@@ -44,7 +44,7 @@ impl FrictionLaw {
     }
 }
 
-/// What friction does at one contact point (or at four in lanes), in two tangential directions.
+/// Friction of one contact point (or of four in lanes), in two tangential directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Friction<S: Number> {
     /// Force on the moving body, N.
@@ -53,7 +53,7 @@ pub struct Friction<S: Number> {
     pub rate: [S; 2],
     /// Power lost, W: never negative.
     pub loss: S,
-    /// How far the law is from its own change between stick and slip: |T| / (μN) with the bristle,
+    /// Load of the law, which decides between stick and slip: |T| / (μN) with the bristle,
     /// |v| / v0 with tanh.
     pub load: S::Plain,
 }

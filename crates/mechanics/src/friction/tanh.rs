@@ -5,7 +5,7 @@
 //!
 //! Defect: at zero velocity the force is zero, so that a held load never truly sticks but creeps with
 //! `v = v0 atanh(|F_t| / μN)`; the law is a stiff dashpot of μN/v0 there. Remedy: [`super::bristle`].
-//! What remains: with v0 = 0.001 in/s a load of half the limit creeps by 0.00055 in/s.
+//! Example: with v0 = 0.001 in/s a load of half the limit creeps by 0.00055 in/s.
 
 use integrate::scalar::Number;
 

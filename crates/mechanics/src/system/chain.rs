@@ -1,10 +1,11 @@
-//! What the coordinates of a body do to the relative motion at an element, and what becomes of its wrench at both bodies: the part of the
-//! Jacobian that all elements share.
+//! The chain rule of an element: derivatives of the relative motion by the coordinates of the bodies at both
+//! ends, and the generalized forces of its wrench there. This part of the Jacobian is the same for all
+//! elements.
 //!
-//! Marker A is on body a at `arm` from its origin, D leads from the origin of body b to it, everything along the axes of marker B (the
-//! mount). c are the axes of a body's reference frame, α and β those of the angles of a and b, and δω is what an angular velocity changes
-//! by at fixed rates of the angles. v and ω are the relative velocities, s the angular velocity of b in its frame, Ω that of the frame of
-//! a relative to b:
+//! Marker A is on body a at `arm` from its origin, D leads from the origin of body b to it, all in the axes
+//! of marker B. c are the axes of a body's reference frame, α and β those of the angles of a and b, and δω is
+//! the change of an angular velocity at fixed rates of the angles. v and ω are the relative velocities, s the
+//! angular velocity of b in its frame, Ω that of the frame of a relative to b:
 //!
 //! ```text
 //!                     δd        φ    δv                          δω
@@ -16,8 +17,8 @@
 //! rate of b                          -c; -β × D                  0; -β
 //! ```
 //!
-//! The wrench (F, M) acts on a as the force F and the moment `M + arm × F` about its origin, on b as -F and `-(M + D × F)`; with b the
-//! axes turn along which it is given.
+//! The wrench (F, M) acts on a as the force F and the moment `M + arm × F` about its origin, on b as -F and
+//! `-(M + D × F)`; the axes in which it is given rotate with b.
 
 use integrate::lanes::Lanes;
 
@@ -72,7 +73,7 @@ impl FreeBody {
     }
 }
 
-/// What becomes of a vector along the axes of a marker: up to four components along others.
+/// Components of a vector (marker axes) along up to four other directions.
 #[derive(Clone, Copy)]
 struct Projection([Lanes; 3]);
 
@@ -91,13 +92,13 @@ impl Projection {
     }
 }
 
-/// What the coordinates of the body at one end do to the relative motion.
+/// Derivatives of the relative motion by the coordinates of the body at one end.
 struct End {
-    /// Positions change d by this, and their rates v.
+    /// Derivatives of d by positions, and of v by their rates.
     ways: [Vector<f64>; 3],
-    /// What positions change v by, if anything.
+    /// Derivatives of v by positions, unless zero.
     carried: Option<[Vector<f64>; 3]>,
-    /// What the angles change; their rates change v and ω by what they change d and φ by.
+    /// Derivatives by the angles. Those of v and ω by their rates equal those of d and φ by the angles.
     angles: [Change; 3],
     /// Whether the angles change d.
     swing: bool,
@@ -319,7 +320,7 @@ impl<'c> Chain<'c> {
             let moved = match free.row(j) {
                 (0, k) => b.ways[k],
                 (_, l) => {
-                    // The axes turn the other way than what is seen from them.
+                    // Vectors of body a rotate against the axes of b.
                     let change = &b.angles[l];
                     turned_force = turned_force - cross(change.rotation, force);
                     turned_moment = turned_moment - cross(change.rotation, moment);
@@ -367,7 +368,8 @@ impl<'c> Chain<'c> {
     }
 }
 
-/// Derivatives of the powers of an element and of the motion that drives its marker, by coordinates (first) and rates.
+/// Derivatives of the powers of an element and of the prescribed motion of its marker, by coordinates (first)
+/// and rates.
 pub(super) struct Powers([[[f64; 6]; 3]; 2]);
 
 impl Powers {

@@ -1,4 +1,4 @@
-//! The stored energies of a state, where they are all that is wanted of many states.
+//! The stored energies of a state, without other derived quantities.
 
 use super::{Energies, Linear, System};
 use crate::link::RelativeMotion;

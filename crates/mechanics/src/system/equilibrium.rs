@@ -60,7 +60,7 @@ impl System {
     ) -> Result<Vec<f64>, NoEquilibrium> {
         let before = self.connections.grips;
         let moving: Vec<_> = self.moved.iter().map(|m| m.motions.clone()).collect();
-        // Motions have smooth pieces: the place at `time` is that of its own piece.
+        // Motions are smooth in pieces: the position at `time` is that of the piece which begins there.
         let reference = self.reference;
         self.next_time_discontinuity(time);
         // the prescribed bodies held where they are

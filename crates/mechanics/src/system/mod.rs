@@ -55,10 +55,11 @@ pub use vibration::{Held, NoVibration, Vibration, Vibrations};
 
 /// Fixed error scales, by kind of state: the error of a step is measured against `relative tolerance × scale`.
 ///
-/// They are fixed, not the size of the state, because the contacts turn a relative error of an absolute position into
-/// a force. Rotations are weighted with a lever of 0.1 m, velocities with the frequency of ringing contacts
-/// (100 rad/s). Work and losses are controlled too: they see what the contacts do within a step, and with them the energy
-/// ledger of the thesis's runs closes to 1e-6 of the work done, and better, at a relative tolerance of 1e-6.
+/// They are fixed, not the size of the state, because the contacts turn a relative error of an absolute
+/// position into a force. Rotations are weighted with a lever of 0.1 m, velocities with the frequency of
+/// ringing contacts (100 rad/s). Work and losses are controlled too: they resolve the contacts within a step,
+/// and with them the energy ledger of the thesis's runs closes to 1e-6 of the work done, and better, at a
+/// relative tolerance of 1e-6.
 pub mod scales {
     /// Displacements, m.
     pub const DISPLACEMENT: f64 = 0.1;
@@ -72,20 +73,21 @@ pub mod scales {
     pub const DEFLECTION: f64 = 0.1;
     /// Work of the motions and losses, J.
     pub const ENERGY: f64 = 10.0;
-    /// Energy lost in contact damping, J: smaller, because it goes on while a point that carries no force any more
-    /// springs back, which no other state sees.
+    /// Energy lost in contact damping, J. The scale is smaller, because the loss continues while an unloaded
+    /// point springs back, which changes no other state.
     pub const CONTACT_DAMPING_LOSS: f64 = 1.0;
-    /// The widest tolerance that positions and speeds are held to, whatever is asked for: 1e-6 m and 1e-4 m/s. Where all friction is
-    /// by tanh, speeds are held to its reference speed instead (of a point 0.1 m from the axis, if they are angular) while a point sticks
-    /// or is about to; while all of them slide, to a twentieth of the slowest slip. With more a wedge slides to and fro by the integrator's own
-    /// errors, each of them admissible: steps follow the reversals, and the run is slower and wrong.
+    /// The largest tolerance for positions and speeds, whatever is requested: 1e-6 m and 1e-4 m/s. Where all
+    /// friction is by tanh, speeds are held to its reference speed instead (of a point 0.1 m from the axis,
+    /// if they are angular) while a point sticks or is about to; while all of them slide, to a twentieth of
+    /// the slowest slip. With a larger tolerance a wedge slides to and fro by admissible errors of the
+    /// integrator: steps follow the reversals, and the run is slower and wrong.
     ///
     /// Not held to it are coordinates along which no gap changes, those of a mass that can only slide along its plane, say: there an error
     /// does not press on a stiff contact. (Speeds are held to the reference speed there too.)
     pub const WIDEST_TOLERANCE: f64 = 1e-5;
 }
 
-/// A free body's place in the state vector.
+/// A free body and its position in the state vector.
 #[derive(Clone, Debug)]
 struct FreeBody {
     /// Its number among all bodies.
@@ -94,17 +96,17 @@ struct FreeBody {
     free: Vec<usize>,
     /// How many of them are translations; the others are angles.
     translations: usize,
-    /// What its motion depends on.
+    /// Mass properties and free coordinates.
     rigid: Rigid,
     /// Its first position among q, and its first speed among u.
     offset: usize,
     /// Its diagonal block in the Jacobian.
     pair: usize,
-    /// The faces that touch it, in their order.
+    /// The faces at it, in their order.
     faces: Vec<usize>,
-    /// The coils that touch it, in their order.
+    /// The coils at it, in their order.
     coils: Vec<usize>,
-    /// What its motion depends on if its kinematics are linearized.
+    /// Inertia and weight, if its kinematics are linearized.
     linear: Option<Linear>,
 }
 
@@ -163,7 +165,7 @@ pub struct System {
     /// For each body its number among the free ones.
     free_number: Vec<Option<usize>>,
     frames: Vec<FrameState>,
-    /// The time at which `frames` and the sights that depend on time alone were evaluated.
+    /// The time at which `frames` and the relative frames that depend on time alone were evaluated.
     frames_at: f64,
     /// Start of the smooth piece of the motions, and a time inside it.
     reference: f64,
@@ -184,7 +186,7 @@ pub struct System {
     accelerations: Vec<[f64; 6]>,
     force: Vec<Vector<f64>>,
     moment: Vec<Vector<f64>>,
-    /// What differentiation gathers for each free body.
+    /// Derivatives summed for each free body.
     gathered: Vec<Gathered>,
     /// Derivative by time of the force on each body and of the moments about the axes of its angles.
     load_rate: Vec<(Vector<f64>, [f64; 3])>,
@@ -193,15 +195,15 @@ pub struct System {
     moves: bool,
     /// Whether all elements are plain.
     plain: bool,
-    /// Whether the speed of the system's answers can be bounded.
+    /// Whether the spectral radius can be bounded.
     bounded: bool,
-    /// Whether all points have a law that tells where it bends.
+    /// Whether the laws of all points report their discontinuities.
     discontinuities_complete: bool,
-    /// Positions and speeds for which all this was evaluated.
+    /// Positions and speeds of the last evaluation.
     current_state: Vec<f64>,
-    /// The face that alone was brought to them, and to this time, where `frames_at` is not a number.
+    /// The face that alone was updated, and the time, if `frames_at` is NaN.
     current_face: (usize, f64),
-    /// Whether the faces have seen their points there.
+    /// Whether the contact kinematics of the points are up to date.
     points_updated: bool,
 }
 
@@ -230,7 +232,7 @@ impl System {
     pub fn coils(&self) -> &[Mounted<Coil>] {
         &self.coils
     }
-    /// Returns the quadratures: what each of them integrates.
+    /// Returns the energy terms that the quadratures integrate.
     #[must_use]
     pub fn energy_terms(&self) -> &[EnergyTerm] {
         &self.energy_terms
@@ -255,7 +257,7 @@ impl System {
     pub fn deflection_of(&self, connection: usize) -> Option<usize> {
         Some(2 * self.layout.speeds + self.connections.deflection_of(connection)?)
     }
-    /// Returns the number of contact points, each a switch with the modes of [`ContactState`].
+    /// Returns the number of contact points, each a discrete state with the values of [`ContactState`].
     #[must_use]
     pub fn point_count(&self) -> usize {
         self.faces.iter().map(|face| face.element.points.len()).sum()
@@ -272,8 +274,8 @@ impl System {
         x
     }
 
-    /// Takes the smooth piece of the motions from another copy of the same system, so that a copy kept for
-    /// observation sees the same side of a break as the one that is being integrated.
+    /// Takes the smooth piece of the motions from another copy of the same system, so that a copy for
+    /// observation is on the same side of a break as the integrated one.
     pub fn segment_like(&mut self, other: &Self) {
         if self.reference != other.reference {
             self.reference = other.reference;
@@ -281,7 +283,7 @@ impl System {
         }
     }
 
-    /// Returns the place of a body's coordinate (0..6) among the positions, if it is free.
+    /// Returns the index of a body's coordinate (0..6) among the positions, if it is free.
     #[must_use]
     pub fn position_of(&self, body: usize, coordinate: usize) -> Option<usize> {
         let free = &self.free[self.free_number[body]?];
@@ -399,7 +401,8 @@ impl Problem for System {
         self.discontinuity_functions(time, x, functions);
     }
 
-    /// Bristles come to slip without telling. (So do coils that go solid, but they change no more than their own stiffness.)
+    /// Bristles begin to slip without a discontinuity function. (So do coils that go solid, but only their
+    /// own stiffness changes.)
     fn discontinuities_complete(&self) -> bool {
         self.discontinuities_complete
     }
@@ -416,8 +419,8 @@ impl Problem for System {
             .find_contact_states((&self.positions, &self.rates), self.internal(x), others);
     }
 
-    /// Returns the gap (m) and load of each point: the gaps of a face's points, their loads, and so on face by face; then of each connection with friction
-    /// what presses it (N) and the load of its accumulator.
+    /// Returns the gap (m) and load of each point: the gaps of a face's points, their loads, and so on face
+    /// by face; then the normal (or coil) force (N) and the load of each connection with friction.
     fn event_variable_count(&self) -> usize {
         2 * self.point_count() + FRICTION_VARIABLES * self.connections.discrete_states.len()
     }
@@ -505,7 +508,7 @@ fn is_bristle(law: &FrictionLaw) -> bool {
     law.states_per_point() == 2
 }
 
-/// Returns the identity mount, for tests and simple models.
+/// Returns the identity marker, for tests and simple models.
 #[must_use]
 pub fn marker_at(origin: [f64; 3]) -> Marker {
     Marker::new(origin, [0.0; 3])

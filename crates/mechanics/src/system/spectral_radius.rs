@@ -1,4 +1,4 @@
-//! An upper bound of the spectral radius of the Jacobian matrix, so that the integrator knows where nothing is stiff.
+//! An upper bound of the spectral radius of the Jacobian matrix, by which the integrator detects stiffness.
 //!
 //! With b the mobility of a point (how much a force there accelerates it), the springs' part of the eigenvalues is at most
 //! `√(Σ k (1 + μ) b)`, since friction feeds the normal force's stiffness into the tangents; that of dampers at most `Σ c b`, where friction
@@ -26,7 +26,8 @@ pub(super) fn mobility(body: &Body, point: Vector<f64>) -> f64 {
 }
 
 impl System {
-    /// Returns the bound at the state that [`System::update_kinematics`] was called with, 1/s; infinite if it is not known.
+    /// Returns the bound at the state of the last [`System::update_kinematics`], 1/s. Returns infinity if it
+    /// is unknown.
     pub(super) fn spectral_radius(&mut self) -> f64 {
         self.update_points();
         let (mut springs, mut dampers) = (0.0, 0.0);

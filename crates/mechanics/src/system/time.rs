@@ -74,7 +74,7 @@ impl System {
     }
 }
 
-/// The derivative by time of what one element does.
+/// Adds the derivatives by time of one element's wrenches and powers.
 #[inline(always)]
 fn element_in_time<E: Mountable>(
     mounted: &Mounted<E>,
@@ -132,7 +132,7 @@ fn element_in_time<E: Mountable>(
     }
 }
 
-/// The same where the mount translates with this acceleration of the body's frame, as seen from it.
+/// The same if marker B translates; `acceleration` is that of the body's frame relative to it.
 #[inline(always)]
 fn translating_in_time<E: Mountable>(
     mounted: &Mounted<E>,

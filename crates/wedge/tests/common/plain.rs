@@ -54,7 +54,7 @@ pub struct Answer {
     pub friction_loss: [f64; 2],
     pub contact_damping_loss: f64,
     pub coil_damping_loss: f64,
-    /// Power of the couple that moves the coil's force to the centre of gravity.
+    /// Power of the couple that moves the coil's force to the center of gravity.
     pub guide: f64,
     /// How many of the eight corners are closed.
     pub closed: usize,
