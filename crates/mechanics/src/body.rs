@@ -1,8 +1,8 @@
 //! Rigid bodies in absolute coordinates, each with its own set of freed coordinates.
 //!
-//! A body has six coordinates x, y, z, roll, pitch, yaw, measured from its reference frame along that frame's axes.
-//! Some are free, the others are held. There are no algebraic constraints: a joint is a held coordinate or a
-//! stiff element. So the mass matrix is block diagonal, one block a body.
+//! A body has six coordinates x, y, z, roll, pitch, yaw, measured from its reference frame along that frame's
+//! axes. Some are free, the others are held. There are no algebraic constraints: a joint is a held coordinate
+//! or a stiff element. So the mass matrix is block diagonal, one block a body.
 //!
 //! Equations of motion (Kane's method, generalized speeds = rates of the free coordinates): `M q¨ = Q - b`,
 //! `M = m J_vᵀJ_v + J_ωᵀ I J_ω`, with J_v the velocity Jacobian of the center of gravity, J_ω that of the
@@ -204,7 +204,8 @@ impl<S: Number> Kinematics<S> {
         self.orientation.rotation.apply(self.spin)
     }
 
-    /// Returns the generalized force of coordinate `k` by a force at the body's origin (frame axes) and a moment about it (body axes).
+    /// Returns the generalized force of coordinate `k` by a force at the body's origin (frame axes) and a
+    /// moment about it (body axes).
     #[inline(always)]
     #[must_use]
     pub fn generalized(&self, k: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
@@ -289,8 +290,9 @@ impl Kinematics<f64> {
         [0, 1, 2].map(|k| self.orientation.axes[k].dot::<f64, f64>(*moment))
     }
 
-    /// Returns the accelerations of the six coordinates (held ones: zero) under a force at the body's origin (frame axes) and moments about
-    /// the axes of its angles ([`Kinematics::about_axes`]), bias and gravity already taken off.
+    /// Returns the accelerations of the six coordinates (held ones: zero) under a force at the body's origin
+    /// (frame axes) and moments about the axes of its angles ([`Kinematics::about_axes`]), bias and gravity
+    /// already taken off.
     ///
     /// Solves `M q¨ = Q` by eliminating the translations, whose block of M is m times the unit matrix: the
     /// remainder is the inertia of the free rotations about the center of gravity, plus that of the mass in
@@ -437,7 +439,8 @@ impl Kinematics<f64> {
         0.5 * (body.mass * velocity.dot::<f64, f64>(velocity) + spin)
     }
 
-    /// Returns the velocity of a point of the body and its angular velocity in the fixed frame, along the reference frame's axes.
+    /// Returns the velocity of a point of the body and its angular velocity in the fixed frame, along the
+    /// reference frame's axes.
     #[must_use]
     pub fn absolute(&self, frame: &FrameMotion<f64>, point: Vector<f64>) -> (Vector<f64>, Vector<f64>) {
         let arm: Vector<f64> = self.orientation.rotation.apply(point);

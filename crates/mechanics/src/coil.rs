@@ -31,8 +31,8 @@ pub enum CoilLaw {
     },
     /// A table of compression (m) and force (N), straight between its points and on beyond them.
     Table(Characteristic),
-    /// A force that comes from outside the model, whatever the compression. Its energy is not the model's: the ledger does not hold
-    /// its work.
+    /// A force that comes from outside the model, whatever the compression. Its energy is not the model's:
+    /// the ledger does not hold its work.
     Given {
         /// The force, N: positive pushes.
         force: f64,

@@ -1,8 +1,8 @@
 //! Unilateral contact of weighted points on one body with a surface on another.
 //!
-//! Normal force (Steets 2007, eq. 3-7, with optional damping): `N = max(0, -k g - c ġ)` where the gap `g < 0`,
-//! else 0. Friction acts against the tangential velocity of the point relative to the surface, which includes
-//! ω × r of both bodies. Units: N, m, s.
+//! Normal force (Steets 2007, eq. 3-7, with optional damping): `N = max(0, -k g - c ġ)` where the gap
+//! `g < 0`, else 0. Friction acts against the tangential velocity of the point relative to the surface, which
+//! includes ω × r of both bodies. Units: N, m, s.
 //!
 //! Defects: with `c > 0` the force jumps at an impact; the stiffness per point is a model parameter that
 //! stands for the elasticity of the faces, not a property of a point. Four corners are the 2 × 2 case of a
@@ -161,7 +161,8 @@ impl<F: Surface> ContactFace<F> {
         sum
     }
 
-    /// Returns the energies stored at a point: in its normal spring, and in its bristle by its share of the face's stiffness, J.
+    /// Returns the energies stored at a point: in its normal spring, and in its bristle by its share of the
+    /// face's stiffness, J.
     pub(crate) fn stored(&self, point: &ContactPoint, gap: f64, deflection: Option<&[f64]>) -> [f64; 2] {
         let pressed = if gap < 0.0 {
             0.5 * point.stiffness * gap * gap

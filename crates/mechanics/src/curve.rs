@@ -1,7 +1,7 @@
 //! Piecewise linear curves: straight between their points, the end slopes continued outside.
 //!
-//! Unlike a [`Characteristic`] a curve may fall, be mirrored about the origin, and be clamped. Its integral from
-//! zero is exact: that is the energy of a spring that follows it.
+//! Unlike a [`Characteristic`] a curve may fall, be mirrored about the origin, and be clamped. Its integral
+//! from zero is exact: that is the energy of a spring that follows it.
 
 use integrate::scalar::Real;
 use serde::{Deserialize, Serialize};
@@ -66,7 +66,8 @@ impl Curve {
         Ok(Self::through(points))
     }
 
-    /// Returns the same; if the first point is the origin (both coordinates zero), the curve is mirrored: `f(-x) = -f(x)`.
+    /// Returns the same; if the first point is the origin (both coordinates zero), the curve is mirrored:
+    /// `f(-x) = -f(x)`.
     ///
     /// That is how the comparison program reads its tables.
     ///

@@ -1,9 +1,9 @@
 //! Force elements: one law between a marker A on one body and a marker B on another.
 //!
-//! An element is one file: its parameters, one function over any scalar from the relative motion of its markers to the wrench on A and the
-//! power that is lost, and its stored energy. The core ([`crate::system`]) does the rest: forces on both bodies, the Jacobian of both ends
-//! (from numbers with derivatives), the work of prescribed motions, the energy ledger, observation. `examples/custom_element.rs` adds a
-//! bushing.
+//! An element is one file: its parameters, one function over any scalar from the relative motion of its
+//! markers to the wrench on A and the power that is lost, and its stored energy. The core ([`crate::system`])
+//! does the rest: forces on both bodies, the Jacobian of both ends (from numbers with derivatives), the work
+//! of prescribed motions, the energy ledger, observation. `examples/custom_element.rs` adds a bushing.
 //!
 //! Limits: such an element has no internal states and no events of its own; contact faces have both.
 
@@ -157,7 +157,8 @@ impl Clone for Placement {
 }
 
 impl Placement {
-    /// Returns an element between marker A on body `a`, which must have free coordinates, and marker B on body `b`.
+    /// Returns an element between marker A on body `a`, which must have free coordinates, and marker B on
+    /// body `b`.
     pub fn new(
         element: impl Element,
         (a, marker_a): (usize, Marker),

@@ -58,7 +58,8 @@ pub enum Motion {
     },
     /// A cubic spline (C²) through tabulated points.
     Table(Spline),
-    /// Peaks `amplitude · exp(-|t - c| / decay)` around the middles c of periods of `spacing`, the first of which begins at zero.
+    /// Peaks `amplitude · exp(-|t - c| / decay)` around the middles c of periods of `spacing`, the first of
+    /// which begins at zero.
     Cusps {
         /// Height of the peaks (m or rad).
         amplitude: f64,
@@ -75,8 +76,8 @@ pub enum Motion {
         /// The coefficients c0 to c3 (m or rad, per power of s).
         coefficients: [f64; 4],
     },
-    /// Motions one after the other, each from its own start. Before the first one its value at its start is held; values
-    /// may jump.
+    /// Motions one after the other, each from its own start. Before the first one its value at its start is
+    /// held; values may jump.
     Sequence(Vec<Piece>),
     /// The sum of motions.
     Sum(Vec<Motion>),
@@ -113,7 +114,8 @@ fn is_counted(n: f64) -> bool {
 }
 
 impl Motion {
-    /// Returns the cubic that has a value (m or rad) and a rate at `start`, and another value and rate after `duration` (s, positive).
+    /// Returns the cubic that has a value (m or rad) and a rate at `start`, and another value and rate after
+    /// `duration` (s, positive).
     #[must_use]
     pub fn between(start: f64, duration: f64, [from, from_rate]: [f64; 2], [to, to_rate]: [f64; 2]) -> Self {
         let mean_rate = (to - from) / duration;

@@ -62,8 +62,9 @@ impl<S: Number> Orientation<S> {
         spin
     }
 
-    /// Returns the angular acceleration for rates and accelerations of roll, pitch, yaw, body axes: the rate of the components of
-    /// [`Orientation::spin`], `Σ e_k q¨_k + pitch˙ yaw˙ (e_pitch × e_yaw) + roll˙ (pitch˙ e_pitch + yaw˙ e_yaw) × e_roll`.
+    /// Returns the angular acceleration for rates and accelerations of roll, pitch, yaw, body axes: the rate
+    /// of the components of [`Orientation::spin`], `Σ e_k q¨_k + pitch˙ yaw˙ (e_pitch × e_yaw) + roll˙
+    /// (pitch˙ e_pitch + yaw˙ e_yaw) × e_roll`.
     #[inline(always)]
     #[must_use]
     pub fn spin_rate(&self, rates: [S; 3], accelerations: [S; 3], rolls: bool) -> Vector<S> {

@@ -9,7 +9,8 @@ use crate::vector::Vector;
 pub trait Surface {
     /// Returns the signed distance of a point from the surface, m: positive outside, negative inside.
     fn gap<S: Number>(&self, point: Vector<S>) -> S;
-    /// Returns the components of a vector along the outward normal and two tangents of the surface next to `point`.
+    /// Returns the components of a vector along the outward normal and two tangents of the surface next to
+    /// `point`.
     fn resolve<S: Number>(&self, point: Vector<S>, vector: Vector<S>) -> [S; 3];
     /// Returns the vector with the given components along the normal and the two tangents.
     fn compose<S: Number>(&self, point: Vector<S>, components: [S; 3]) -> Vector<S>;

@@ -1,4 +1,5 @@
-//! The tangent of a force element: how its wrench changes with the relative motion of the markers at its ends.
+//! The tangent of a force element: how its wrench changes with the relative motion of the markers at its
+//! ends.
 //!
 //! With χ = (d, φ) the position and rotation of marker A relative to marker B, χ˙ = (v, ω) the relative
 //! twist, all in the axes of B, and (F, M) the wrench on A, the tangent holds the columns of
@@ -119,7 +120,8 @@ impl Tangent {
         }
     }
 
-    /// Returns the tangent by numbers with `N` derivatives: by position and velocity, and from 12 on by rotation and angular velocity.
+    /// Returns the tangent by numbers with `N` derivatives: by position and velocity, and from 12 on by
+    /// rotation and angular velocity.
     #[inline(always)]
     fn seeded<const N: usize>(relative: &RelativeMotion<f64>, law: &impl Element) -> Self {
         let seed = |vector: Vector<f64>, first: usize| {

@@ -1,7 +1,7 @@
 //! Vectors and matrices of three, generic over the scalar.
 //!
-//! Products may mix a plain matrix with a vector that carries derivatives: quantities that are constant in a pass of
-//! differentiation cost no derivative arithmetic.
+//! Products may mix a plain matrix with a vector that carries derivatives: quantities that are constant in a
+//! pass of differentiation cost no derivative arithmetic.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 

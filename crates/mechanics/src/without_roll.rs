@@ -19,8 +19,9 @@ use crate::body::{Kinematics, Rigid};
 use crate::vector::Vector;
 
 impl Kinematics<f64> {
-    /// Returns the accelerations of the six coordinates (held ones: zero) under a force at the body's origin (frame axes) and a moment about it (body axes), where roll is
-    /// held at zero and the frame rests; `field` is its acceleration less gravity, in its own axes.
+    /// Returns the accelerations of the six coordinates (held ones: zero) under a force at the body's origin
+    /// (frame axes) and a moment about it (body axes), where roll is held at zero and the frame rests;
+    /// `field` is its acceleration less gravity, in its own axes.
     #[inline(always)]
     pub(crate) fn accelerations_without_roll(
         &self,

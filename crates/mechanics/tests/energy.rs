@@ -142,7 +142,8 @@ const BRISTLE: FrictionLaw = FrictionLaw::Bristle {
     damping: 300.0,
 };
 
-/// A body that falls on a face (damped or not), moves on it, and hangs on a damped coil with a guiding couple.
+/// A body that falls on a face (damped or not), moves on it, and hangs on a damped coil with a guiding
+/// couple.
 fn dropped(law: FrictionLaw, damping: f64, frame: Frame) -> Model {
     let one = body(
         "b",
@@ -243,8 +244,8 @@ fn the_ledger_closes() {
     closes(0.0);
 }
 
-/// Damping must not pull: from where the force has come to zero until the point opens, the spring's energy is still being
-/// lost, while no force acts by which the integrator could notice the end of it.
+/// Damping must not pull: from where the force has come to zero until the point opens, the spring's energy is
+/// still being lost, while no force acts by which the integrator could notice the end of it.
 #[test]
 fn the_ledger_closes_with_contact_damping() {
     closes(100.0);
@@ -303,7 +304,8 @@ fn rebound_from_a_damped_contact() {
     x[1] = -v;
     let w0 = f64::sqrt(k / mass);
     let zeta = c / (2.0 * mass * w0);
-    // g = -(v/w) exp(-ζ w0 t) sin(w t), w = w0 sqrt(1-ζ²); the force ends where k g + c g˙ = 0: tan(w t) = -2 ζ sqrt(1-ζ²)/(1-2ζ²)
+    // g = -(v/w) exp(-ζ w0 t) sin(w t), w = w0 sqrt(1-ζ²); the force ends where k g + c g˙ = 0: tan(w t) = -2
+    // ζ sqrt(1-ζ²)/(1-2ζ²)
     let phase =
         std::f64::consts::PI - (2.0 * zeta * (1.0 - zeta * zeta).sqrt()).atan2(1.0 - 2.0 * zeta * zeta);
     let rebound = v * (-zeta * phase / (1.0 - zeta * zeta).sqrt()).exp();

@@ -1,4 +1,5 @@
-//! What models come to: a mass that friction stops, creep, rest in equilibrium, momentum, the same bits again.
+//! What models come to: a mass that friction stops, creep, rest in equilibrium, momentum, the same bits
+//! again.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -23,7 +24,8 @@ const STIFFNESS: f64 = 4000.0;
 const LIMIT: f64 = 29.43;
 const RELEASED: f64 = 0.2;
 
-/// A mass (x and z free) that lies on a plane by its weight, on a coil along x that is without force at x = 0.
+/// A mass (x and z free) that lies on a plane by its weight, on a coil along x that is without force at
+/// x = 0.
 fn sliding_mass(law: FrictionLaw) -> System {
     let (gravity, normal) = (9.81, 1e6);
     let sunk = -MASS * gravity / normal;
@@ -55,8 +57,9 @@ fn friction_stops_a_mass_on_a_spring_for_ever() {
         damping: 1e5,
     });
     let x = system.initial_state();
-    // With a rigid slider every half cycle takes 2 F/k off the amplitude A. A bristle has to be turned over first,
-    // within 2F/K of way, during which friction loses less than F·2F/K too little: k/2 (A0² - A1²) ≥ F (A0 + A1) - 2F²/K.
+    // With a rigid slider every half cycle takes 2 F/k off the amplitude A. A bristle has to be turned over
+    // first, within 2F/K of way, during which friction loses less than F·2F/K too little: k/2 (A0² - A1²) ≥ F
+    // (A0 + A1) - 2F²/K.
     let loss = 2.0 * LIMIT / STIFFNESS;
     let mut bound = 0.0;
     let mut amplitude = RELEASED;
@@ -126,8 +129,8 @@ fn tanh_creeps_where_the_bristle_holds() {
     let mut x = system.initial_state();
     x[0] = -0.006;
     let mut speeds = Vec::new();
-    // A short step at most, so that there is something to look at: creep is slow. The speeds are asked for to a hundredth of what inertia does to
-    // them, 1e-10 m/s: the tolerance is 1e-11 m/s.
+    // A short step at most, so that there is something to look at: creep is slow. The speeds are asked for to
+    // a hundredth of what inertia does to them, 1e-10 m/s: the tolerance is 1e-11 m/s.
     let options = Options {
         maximum_step: 0.25,
         ..options(Method::Rodas4, 1e-12)
@@ -338,7 +341,8 @@ fn action_and_reaction_at_random_states() {
             for value in change {
                 assert!(value.abs() < 1e-9 * size, "{value} of {size}");
             }
-            // The wrenches as observed: what carries the points, and the reaction on the other body, about any point.
+            // The wrenches as observed: what carries the points, and the reaction on the other body, about
+            // any point.
             let about: [f64; 3] = random.vector(1.0);
             for (mounted, state) in system.faces().iter().zip(&observation.faces) {
                 let from = observation.bodies[mounted.body].origin.0;

@@ -1,7 +1,7 @@
 //! Assembly of the wedge, its neighbors, faces and coil.
 //!
-//! Nominal position: the wedge frame's origin B at (0, 0, L) with L the nominal coil length; with no toe and no yaw
-//! both faces just touch.
+//! Nominal position: the wedge frame's origin B at (0, 0, L) with L the nominal coil length; with no toe and
+//! no yaw both faces just touch.
 //! - Column: plane through (x_A, 0, L + h2/2), normal (cos φ, 0, -sin φ) for toe-out φ.
 //! - Slope: plane through the pocket's center (x_A + h1/2, 0, L + h2/2), normal (-cos θ, 0, -sin θ) in the
 //!   bolster's axes. The bolster turns about that center unless another is named.
@@ -93,7 +93,8 @@ impl Wedge {
     }
 }
 
-/// Returns how far column and pocket must move apart, each along the x axis of its body, until no corner penetrates at time zero, m.
+/// Returns how far column and pocket must move apart, each along the x axis of its body, until no corner
+/// penetrates at time zero, m.
 fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
     let mut system = System::new(model(parameters, [0.0; 2]))?;
     let start = system.initial_state();
@@ -240,7 +241,8 @@ fn neighbour(name: &str, motion: &NeighbourMotion, center: [f64; 3]) -> (Body, [
     (Body::prescribed(name, frame), origin)
 }
 
-/// Returns a length along the normal of a surface that is pitched by this angle; nothing for nothing, to the last bit.
+/// Returns a length along the normal of a surface that is pitched by this angle; nothing for nothing, to the
+/// last bit.
 fn along(length: f64, pitch: f64) -> [f64; 3] {
     if length == 0.0 {
         return [0.0; 3];

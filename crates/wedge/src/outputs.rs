@@ -52,7 +52,8 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// Returns the ledger of a state whose stored energy is `stored` more than that at the start (J), with these quadratures.
+    /// Returns the ledger of a state whose stored energy is `stored` more than that at the start (J), with
+    /// these quadratures.
     #[must_use]
     pub fn new(system: &System, stored: f64, quadratures: &[f64]) -> Self {
         let mut ledger = Self {
@@ -132,8 +133,8 @@ impl Outputs {
         &self.columns
     }
 
-    /// Returns the values of all columns (SI) at one instant; `contact_states` are those of the contact points, `start_energy` the
-    /// stored energy at the start (J). Returns the ledger, which is among them.
+    /// Returns the values of all columns (SI) at one instant; `contact_states` are those of the contact
+    /// points, `start_energy` the stored energy at the start (J). Returns the ledger, which is among them.
     pub fn values(
         &self,
         system: &System,

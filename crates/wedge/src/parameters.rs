@@ -1,7 +1,8 @@
 //! Parameters of a stand-alone wedge: validated, immutable, in SI units.
 //!
-//! Frames and signs: x longitudinal (positive from the column towards the bolster), y lateral, z up; the origin
-//! lies at the coil's seat level below the nominal position of the wedge frame's origin. Toe out is positive.
+//! Frames and signs: x longitudinal (positive from the column towards the bolster), y lateral, z up; the
+//! origin lies at the coil's seat level below the nominal position of the wedge frame's origin. Toe out is
+//! positive.
 
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
@@ -240,12 +241,13 @@ impl Parameters {
         self.wedge.center_of_gravity[0] - self.bottom_length() / 3.0
     }
 
-    /// Returns how far a wedge with worn faces stands above an unworn one when both touch column and slope, bolster and side
-    /// frame being where they were, m: `(w_c cos θ + w_s cos φ) / sin(θ + φ)` with the depths of wear w_c and w_s.
+    /// Returns how far a wedge with worn faces stands above an unworn one when both touch column and slope,
+    /// bolster and side frame being where they were, m: `(w_c cos θ + w_s cos φ) / sin(θ + φ)` with the
+    /// depths of wear w_c and w_s.
     ///
-    /// It follows from the two faces that both touch. The wedge's displacement (x, z) takes up the wear along both
-    /// normals: `x cos φ - z sin φ = -w_c` and `x cos θ + z sin θ = w_s`. Rigid faces; with elastic contacts the
-    /// rise is less by what the unworn wedge, under its greater coil force, is pressed in more.
+    /// It follows from the two faces that both touch. The wedge's displacement (x, z) takes up the wear along
+    /// both normals: `x cos φ - z sin φ = -w_c` and `x cos θ + z sin θ = w_s`. Rigid faces; with elastic
+    /// contacts the rise is less by what the unworn wedge, under its greater coil force, is pressed in more.
     #[must_use]
     pub fn wedge_rise(&self) -> f64 {
         let (angle, toe) = (self.wedge.angle, self.toe);

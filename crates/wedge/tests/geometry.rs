@@ -99,7 +99,8 @@ fn equilibrium_is_at_rest_with_the_closed_forms_of_statics() {
                 / LBF
         };
         let coil = observation.coils[0].spring_force.0.map(|f| f / LBF);
-        // Two unknown normal forces: n_c = (cos φ, -sin φ), n_s = (-cos θ, -sin θ); coil (0, F) and weight (0, -W).
+        // Two unknown normal forces: n_c = (cos φ, -sin φ), n_s = (-cos θ, -sin θ); coil (0, F) and weight
+        // (0, -W).
         let (column, slope) = (sum(COLUMN), sum(SLOPE));
         let x = column * toe.cos() - slope * angle.cos() + coil[0];
         let z = -column * toe.sin() - slope * angle.sin() + coil[2] - 50.0;

@@ -1,4 +1,5 @@
-//! How the friction of a connection holds: by a force accumulator, a bristle in series with a slider, or by a damper up to the limit.
+//! How the friction of a connection holds: by a force accumulator, a bristle in series with a slider, or by a
+//! damper up to the limit.
 
 use integrate::scalar::Real;
 

@@ -45,7 +45,8 @@ impl<'m> ConnectionAssembler<'m> {
         }
     }
 
-    /// Returns the elements of connections that have been checked, and the pairs of free bodies that they couple.
+    /// Returns the elements of connections that have been checked, and the pairs of free bodies that they
+    /// couple.
     pub fn attach(
         mut self,
         connections: Vec<Connection>,

@@ -4,8 +4,8 @@
 //! counting as events:
 //! - an element closes where its normal force (of a wedge its coil force) grows to [`CLOSING_FORCE`], and
 //!   opens where it falls to [`OPENING_FORCE`];
-//! - it starts to slip where the load |T|/limit of its accumulator rises to [`SLIP_LOAD`], and sticks again where it falls
-//!   to [`STICK_LOAD`], the values of bristles elsewhere in this program.
+//! - it starts to slip where the load |T|/limit of its accumulator rises to [`SLIP_LOAD`], and sticks again
+//!   where it falls to [`STICK_LOAD`], the values of bristles elsewhere in this program.
 
 use super::accumulator::Friction;
 use super::forces::{CoordinatesAndRates, SpatialLaw, deflection_at};

@@ -4,13 +4,13 @@
 //! zero, beyond the upper end not below zero ([`GapTension::Never`], the default). The curves take the
 //! extension itself, not the distance from the gap's end. Units: N and m, or N·m and rad.
 //!
-//! Energy: stored is the integral of K from the gap's end, a function of s alone; the rest of the force has the damper's
-//! sign or, where the limit holds, takes away the spring's energy that the damper eats while it retreats slower than
-//! the body: never negative either.
+//! Energy: stored is the integral of K from the gap's end, a function of s alone; the rest of the force has
+//! the damper's sign or, where the limit holds, takes away the spring's energy that the damper eats while it
+//! retreats slower than the body: never negative either.
 //!
-//! Source: derived from published input files, where such a damper acts in a bearing while the bearing spring of another
-//! connection is loaded. Defect: force jumps from zero where the gap closes at speed. Limit: it knows its own spring
-//! only, not that of a neighbouring connection.
+//! Source: derived from published input files, where such a damper acts in a bearing while the bearing spring
+//! of another connection is loaded. Defect: force jumps from zero where the gap closes at speed. Limit: it
+//! knows its own spring only, not that of a neighbouring connection.
 
 use integrate::scalar::Real;
 

@@ -1,4 +1,5 @@
-//! Derivatives: every law once, with numbers that carry its own few derivatives, and the constant rows around them.
+//! Derivatives: every law once, with numbers that carry its own few derivatives, and the constant rows around
+//! them.
 //!
 //! An element gives derivatives by its extensions, their rates and its deflections (2, 6 or 8 of them); with
 //! the rows J of its displacements they become `-Jᵀ (∂f/∂s) J` in the blocks of the two bodies.

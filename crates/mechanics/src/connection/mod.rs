@@ -1,4 +1,5 @@
-//! Connections: the element laws of the industry's vehicle dynamics programs, between bodies with linearized kinematics.
+//! Connections: the element laws of the industry's vehicle dynamics programs, between bodies with linearized
+//! kinematics.
 //!
 //! Every such body has six coordinates of its center of gravity measured from the drawn layout, levers are
 //! those of the layout, the mass matrix is diagonal and constant, there are no gyroscopic terms and no
@@ -7,8 +8,9 @@
 //! (displacement of its point on body A less that on body B, extension positive): a force f in the direction
 //! of the extension acts as -f on A and +f on B.
 //!
-//! How connections of the comparison program's files become [`Law`]s (its tables give ordinates first; read with
-//! [`Curve::mirrored_from_origin`](crate::curve::Curve::mirrored_from_origin) as `[abscissa, ordinate]`; no table: none, or zero):
+//! How connections of the comparison program's files become [`Law`]s (its tables give ordinates first; read
+//! with [`Curve::mirrored_from_origin`](crate::curve::Curve::mirrored_from_origin) as `[abscissa, ordinate]`;
+//! no table: none, or zero):
 //!
 //! | type | law |
 //! |---|---|
@@ -173,7 +175,8 @@ impl Connections {
         self.wedges.iter_mut().for_each(|e| e.site.find_pairs(jacobian));
     }
 
-    /// Returns the first of the two accumulator deflections of a connection among the internal states, if it has any.
+    /// Returns the first of the two accumulator deflections of a connection among the internal states, if it
+    /// has any.
     pub fn deflection_of(&self, connection: usize) -> Option<usize> {
         let (_, internal) = self
             .frictional()

@@ -1,5 +1,5 @@
-//! Choices where no public text defines the industry's elements: each with its default, named in words for the output
-//! of a run.
+//! Choices where no public text defines the industry's elements: each with its default, named in words for
+//! the output of a run.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Branch {
-    /// By the direction of the friction force: at a reversal the force unloads along the accumulator through zero
-    /// and loads up to the other branch's limit.
+    /// By the direction of the friction force: at a reversal the force unloads along the accumulator through
+    /// zero and loads up to the other branch's limit.
     FrictionForce,
     /// By the direction of the vertical velocity, smoothed by `tanh(v / reference_speed)`; the coefficients
     /// are then fully mobilized also while sticking, and the force snaps at a reversal.
@@ -25,8 +25,8 @@ pub enum SlopeDirection {
     /// By the toe: it follows the column's friction, mobilized by the same fraction. It may feed energy where
     /// the bolster swings longitudinally.
     Toe,
-    /// By the wedge's slip on the slope, smoothed by `tanh(slip / reference_speed)`: it never feeds energy, creeps under a
-    /// held load, and vanishes where there is neither toe nor longitudinal motion.
+    /// By the wedge's slip on the slope, smoothed by `tanh(slip / reference_speed)`: it never feeds energy,
+    /// creeps under a held load, and vanishes where there is neither toe nor longitudinal motion.
     OwnSlip {
         /// Reference speed, m/s.
         reference_speed: f64,
@@ -57,9 +57,9 @@ pub enum GapTension {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
-    /// Inclination of the column under a wedge whose toe is only a direction (types 6.3, 6.7, 6.8), rad: its size, the
-    /// sign follows the direction. It enters the normal force, nothing else. Default 0: a vertical column on the
-    /// branch of the direction.
+    /// Inclination of the column under a wedge whose toe is only a direction (types 6.3, 6.7, 6.8), rad: its
+    /// size, the sign follows the direction. It enters the normal force, nothing else. Default 0: a vertical
+    /// column on the branch of the direction.
     pub plain_toe_angle: f64,
     /// Criterion for the branch. Default: the friction force.
     pub branch: Branch,
@@ -71,8 +71,8 @@ pub struct Options {
     pub rise_in_slip: bool,
     /// Negative rise. Default: the coil's curve goes on.
     pub negative_rise: NegativeRise,
-    /// Factor on the damping of all force accumulators. Default 1; towards 0 the accumulator becomes the elastic-ideally
-    /// slipping element of a return mapping.
+    /// Factor on the damping of all force accumulators. Default 1; towards 0 the accumulator becomes the
+    /// elastic-ideally slipping element of a return mapping.
     pub accumulator_damping: f64,
     /// Dampers behind a gap. Default: never tension.
     pub gap_tension: GapTension,

@@ -1,11 +1,11 @@
 //! A spring and a damper in parallel on one coordinate (the comparison program's types 1, 1.1, 1.3).
 //!
-//! Equation: `f = clamp(K(s) + C(s˙), compression limit, extension limit)`, K and C piecewise linear, extension
-//! positive. Units: N and m, or N·m and rad.
+//! Equation: `f = clamp(K(s) + C(s˙), compression limit, extension limit)`, K and C piecewise linear,
+//! extension positive. Units: N and m, or N·m and rad.
 //!
-//! Energy: stored is the integral of `clamp(K(s))`, a function of s alone; the rest of the force, f - clamp(K(s)), has
-//! the sign of C(s˙), because clamping keeps order, so that its power is never negative for a damper that
-//! opposes motion. Both together are the whole power, also at the limits.
+//! Energy: stored is the integral of `clamp(K(s))`, a function of s alone; the rest of the force, f -
+//! clamp(K(s)), has the sign of C(s˙), because clamping keeps order, so that its power is never negative for
+//! a damper that opposes motion. Both together are the whole power, also at the limits.
 //!
 //! Source: derived from the numbers of published input files (a bearing spring without tension, a vertical
 //! spring whose extension limit is zero). Defect: the limit also cuts the damper's force, with a

@@ -8,9 +8,9 @@
 //!
 //! Energy: the integral of K, the accumulator's `K_a e²/2`, its losses, and those of the damper.
 //!
-//! Source: the form is read from published input files, the accumulator's name and numbers from the wedge elements
-//! beside it. Defect: under a held load it deflects by F/K_a. Limit: the limit of friction is taken from the spring's
-//! force, without the damper's.
+//! Source: the form is read from published input files, the accumulator's name and numbers from the wedge
+//! elements beside it. Defect: under a held load it deflects by F/K_a. Limit: the limit of friction is taken
+//! from the spring's force, without the damper's.
 
 use integrate::scalar::Real;
 

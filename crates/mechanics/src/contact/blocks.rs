@@ -9,7 +9,8 @@
 //! g = d·e_n + n·r,   v_i = c_i + (Qᵀ(e_i × ω))·r,   F = Qᵀ(N, T1, T2),   M = Σ r × F
 //! ```
 //!
-//! so that gap, gap rate and slip of all points are linear in their coordinates. The laws are those of [`ContactFace`].
+//! so that gap, gap rate and slip of all points are linear in their coordinates. The laws are those of
+//! [`ContactFace`].
 
 use std::ops::Range;
 
@@ -238,7 +239,8 @@ impl PlaneMotion {
     }
 }
 
-/// Returns whether four points are open, each of them, and not just touching. (Missing ones are copies of the first.)
+/// Returns whether four points are open, each of them, and not just touching. (Missing ones are copies of the
+/// first.)
 #[inline(always)]
 fn is_open(at: &PointKinematics<Lanes>) -> bool {
     Lanes::zero().below(at.gap).all()

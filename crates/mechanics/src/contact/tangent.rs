@@ -37,8 +37,9 @@ fn by_velocity(
 }
 
 impl Points {
-    /// Returns the tangent of a face where its law was differentiated. `rates` receives the derivatives of the rates of internal states, of four
-    /// points at a time: those of the first state of each, and of the second; it is empty where there are none.
+    /// Returns the tangent of a face where its law was differentiated. `rates` receives the derivatives of
+    /// the rates of internal states, of four points at a time: those of the first state of each, and of the
+    /// second; it is empty where there are none.
     #[inline(always)]
     pub fn tangent(&self, relative: &RelativeMotion<f64>, rates: &mut [TangentColumns]) -> Tangent {
         let mut tangent = Tangent::NONE;

@@ -1,4 +1,5 @@
-//! Friction of a contact point: a tangential force that depends on the normal force and the tangential velocity.
+//! Friction of a contact point: a tangential force that depends on the normal force and the tangential
+//! velocity.
 
 pub mod bristle;
 pub mod tanh;
@@ -34,7 +35,8 @@ impl FrictionLaw {
         }
     }
 
-    /// Returns the speed at which the point creeps when it holds the fraction `load` (0..1) of the friction limit, m/s.
+    /// Returns the speed at which the point creeps when it holds the fraction `load` (0..1) of the friction
+    /// limit, m/s.
     #[must_use]
     pub fn creep_speed(&self, load: f64) -> f64 {
         match self {

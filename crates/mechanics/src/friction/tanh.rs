@@ -11,7 +11,8 @@ use integrate::scalar::Number;
 
 use super::{Friction, dot};
 
-/// Returns the friction of a point with the friction limit `limit` = μN (N) and tangential velocity `velocity` (m/s).
+/// Returns the friction of a point with the friction limit `limit` = μN (N) and tangential velocity
+/// `velocity` (m/s).
 #[inline(always)]
 #[must_use]
 pub fn friction<S: Number>(limit: S, reference_speed: f64, velocity: [S; 2]) -> Friction<S> {

@@ -28,7 +28,8 @@ use crate::link::{RelativeMotion, RotationAxes};
 use crate::tangent::{Change, Tangent, TangentColumn, TangentColumns, combined, force_of, moment_of, sum};
 use crate::vector::{Matrix, Vector};
 
-/// The rows of a generalized force at a body: of its translations (axes of its reference frame), and of its free angles.
+/// The rows of a generalized force at a body: of its translations (axes of its reference frame), and of its
+/// free angles.
 pub(super) type Rows = [Lanes; 2];
 
 /// The derivatives of the load on a body by coordinates (first) and by their rates.
@@ -162,8 +163,8 @@ fn cross(a: Vector<f64>, b: Vector<f64>) -> Vector<f64> {
 }
 
 impl<'c> Chain<'c> {
-    /// Returns the chain of an element; `arm` leads from the origin of body a to marker A in the axes of the marker, `relative` is the motion of
-    /// marker A.
+    /// Returns the chain of an element; `arm` leads from the origin of body a to marker A in the axes of the
+    /// marker, `relative` is the motion of marker A.
     #[inline(always)]
     pub fn new<E>(
         mounted: &'c Mounted<E>,
@@ -265,8 +266,8 @@ impl<'c> Chain<'c> {
         -(self.tangent.moment + cross(self.reach, self.tangent.force))
     }
 
-    /// The derivatives by the coordinates of body a: of the load on it, added to `own`; of that on body b, added to `other`; and of the
-    /// powers of the element and of a marker that translates.
+    /// The derivatives by the coordinates of body a: of the load on it, added to `own`; of that on body b,
+    /// added to `other`; and of the powers of the element and of a marker that translates.
     #[inline(always)]
     pub fn by_a(&self, free: &FreeBody, own: &mut Block, other: &mut Block, powers: &mut Powers) {
         let (force, moment) = (self.tangent.force, self.moment_on_a());
@@ -305,8 +306,8 @@ impl<'c> Chain<'c> {
         }
     }
 
-    /// The derivatives by the coordinates of body b: of the load on it, added to `own`; of that on body a, added to `other`; and of the
-    /// powers.
+    /// The derivatives by the coordinates of body b: of the load on it, added to `own`; of that on body a,
+    /// added to `other`; and of the powers.
     #[inline(always)]
     pub fn by_b(&self, free: &FreeBody, own: &mut Block, other: &mut Block, powers: &mut Powers) {
         let Some(b) = &self.b else {
@@ -339,7 +340,8 @@ impl<'c> Chain<'c> {
         }
     }
 
-    /// Returns the derivatives of other quantities by position and rate of coordinate `index` of the body at an end.
+    /// Returns the derivatives of other quantities by position and rate of coordinate `index` of the body at
+    /// an end.
     #[inline(always)]
     pub fn others(
         &self,

@@ -3,8 +3,8 @@
 //! Contact states are recorded. They do not change the forces. Thresholds with hysteresis keep rounding from
 //! counting as events:
 //! - a point closes where its gap falls to [`CLOSING_GAP`], and opens where it grows to [`OPENING_GAP`];
-//! - it starts to slip where the load of its friction law rises to [`SLIP_LOAD`], and sticks again where it falls to
-//!   [`STICK_LOAD`]. The load is |v|/v0 with tanh and |T|/(μN) with the bristle.
+//! - it starts to slip where the load of its friction law rises to [`SLIP_LOAD`], and sticks again where it
+//!   falls to [`STICK_LOAD`]. The load is |v|/v0 with tanh and |T|/(μN) with the bristle.
 
 use std::ops::Range;
 

@@ -29,7 +29,8 @@ pub(super) fn presses<'f>(
         .map(move |&coordinate| own.clone().any(|face| may(coordinate, face)))
 }
 
-/// Returns the widest admissible errors of positions and speeds, and those of speeds where a point sticks: see [`scales::WIDEST_TOLERANCE`].
+/// Returns the widest admissible errors of positions and speeds, and those of speeds where a point sticks:
+/// see [`scales::WIDEST_TOLERANCE`].
 pub(super) fn error_bounds(
     error_scales: &[f64],
     layout: Layout,

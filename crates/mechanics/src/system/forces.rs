@@ -43,7 +43,8 @@ pub(super) trait Mountable: Sized {
         Vector::zero()
     }
 
-    /// Returns the tangent by the motion of marker A; `rates` receives the derivatives of the rates of internal states, four pairs at a time.
+    /// Returns the tangent by the motion of marker A; `rates` receives the derivatives of the rates of
+    /// internal states, four pairs at a time.
     fn tangent(
         &self,
         points: &Points,
@@ -209,7 +210,8 @@ impl<S: Real> Wrench<S> {
         }
     }
 
-    /// Returns the force on the carried body (axes of its reference frame) and moment about its origin (body axes).
+    /// Returns the force on the carried body (axes of its reference frame) and moment about its origin (body
+    /// axes).
     #[inline(always)]
     pub fn on_body<T, K>(
         &self,
@@ -233,7 +235,8 @@ impl<S: Real> Wrench<S> {
         self.moment + relative.position.cross::<S, S>(self.force)
     }
 
-    /// Returns the force on the body that the element stands on (axes of its reference frame) and moment about its origin (body axes).
+    /// Returns the force on the body that the element stands on (axes of its reference frame) and moment
+    /// about its origin (body axes).
     #[inline(always)]
     pub fn reaction<T: Real + Mul<S, Output = S>>(
         &self,
@@ -402,7 +405,8 @@ fn write_powers(energy_terms: &[Option<usize>; 2], own: [f64; 2], powers: &mut [
     }
 }
 
-/// Returns the accelerations of a body's coordinates under force and moment, in a reference frame that may move.
+/// Returns the accelerations of a body's coordinates under force and moment, in a reference frame that may
+/// move.
 #[inline(always)]
 fn accelerate(
     kinematics: &Kinematics<f64>,

@@ -40,8 +40,8 @@ pub enum InputError {
 }
 
 impl System {
-    /// Replaces the motions of a prescribed body that was built with motions which can all move and turn it, such as
-    /// [`Motion::line`]. States stay what they are; no memory is allocated for polynomials.
+    /// Replaces the motions of a prescribed body that was built with motions which can all move and turn it,
+    /// such as [`Motion::line`]. States stay what they are; no memory is allocated for polynomials.
     ///
     /// # Errors
     /// There is no such body, or it was not built with prescribed motions.

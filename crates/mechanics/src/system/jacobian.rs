@@ -141,8 +141,9 @@ impl System {
         }
     }
 
-    /// The inertia of a body by its angles (half of the `D` derivatives) and their rates, with the moment of its elements, the axes of
-    /// which turn; with 12 derivatives by all coordinates and rates, which count in a reference frame that moves.
+    /// The inertia of a body by its angles (half of the `D` derivatives) and their rates, with the moment of
+    /// its elements, the axes of which turn; with 12 derivatives by all coordinates and rates, which count in
+    /// a reference frame that moves.
     fn inertia<const D: usize>(&mut self, number: usize, x: &[f64]) {
         let free = &self.free[number];
         let body = &self.bodies[free.body];
@@ -306,7 +307,8 @@ pub(super) fn differentiate_internal(
 }
 
 impl<E> Mounted<E> {
-    /// Returns the power that the prescribed motion of the body under the element delivers against a force and a moment about marker A, W.
+    /// Returns the power that the prescribed motion of the body under the element delivers against a force
+    /// and a moment about marker A, W.
     #[inline(always)]
     pub(super) fn prescribed_power(
         &self,

@@ -1,7 +1,8 @@
 //! Bodies and elements put together: the equations of motion as a problem for the integrator.
 //!
-//! State vector `(q, u, s, w)`: free coordinates of all free bodies, their rates, internal states of the elements
-//! (bristle deflections), and quadratures (work of the prescribed motions, every dissipation). SI units.
+//! State vector `(q, u, s, w)`: free coordinates of all free bodies, their rates, internal states of the
+//! elements (bristle deflections), and quadratures (work of the prescribed motions, every dissipation). SI
+//! units.
 
 mod assembler;
 mod chain;
@@ -53,7 +54,8 @@ pub use model::{Model, ModelError, Mounted};
 pub use observe::{BodyState, CoilState, ElementState, Energies, FaceState, Observation};
 pub use vibration::{Held, NoVibration, Vibration, Vibrations};
 
-/// Fixed error scales, by kind of state: the error of a step is measured against `relative tolerance × scale`.
+/// Fixed error scales, by kind of state: the error of a step is measured against
+/// `relative tolerance × scale`.
 ///
 /// They are fixed, not the size of the state, because the contacts turn a relative error of an absolute
 /// position into a force. Rotations are weighted with a lever of 0.1 m, velocities with the frequency of
@@ -82,8 +84,9 @@ pub mod scales {
     /// the slowest slip. With a larger tolerance a wedge slides to and fro by admissible errors of the
     /// integrator: steps follow the reversals, and the run is slower and wrong.
     ///
-    /// Not held to it are coordinates along which no gap changes, those of a mass that can only slide along its plane, say: there an error
-    /// does not press on a stiff contact. (Speeds are held to the reference speed there too.)
+    /// Not held to it are coordinates along which no gap changes, those of a mass that can only slide along
+    /// its plane, say: there an error does not press on a stiff contact. (Speeds are held to the reference
+    /// speed there too.)
     pub const WIDEST_TOLERANCE: f64 = 1e-5;
 }
 
@@ -182,7 +185,8 @@ pub struct System {
     internal_ends: Vec<Vec<usize>>,
     /// The quadratures that connections share.
     added: Range<usize>,
-    /// Accelerations of free bodies where they are differentiated, and of prescribed ones with linearized kinematics.
+    /// Accelerations of free bodies where they are differentiated, and of prescribed ones with linearized
+    /// kinematics.
     accelerations: Vec<[f64; 6]>,
     force: Vec<Vector<f64>>,
     moment: Vec<Vector<f64>>,
@@ -247,12 +251,14 @@ impl System {
     pub fn connections(&self) -> &[Connection] {
         self.connections.all()
     }
-    /// Returns the connection of each contact state beyond those of the points: connections with friction, in their order.
+    /// Returns the connection of each contact state beyond those of the points: connections with friction, in
+    /// their order.
     #[must_use]
     pub fn frictional_connections(&self) -> &[usize] {
         &self.connections.discrete_states
     }
-    /// Returns the first of the two accumulator deflections of a connection in the state vector, if it has any.
+    /// Returns the first of the two accumulator deflections of a connection in the state vector, if it has
+    /// any.
     #[must_use]
     pub fn deflection_of(&self, connection: usize) -> Option<usize> {
         Some(2 * self.layout.speeds + self.connections.deflection_of(connection)?)

@@ -52,7 +52,8 @@ impl Model {
         }
     }
 
-    /// Adds a force element between marker A on one body (its number), which must have free coordinates, and marker B on another.
+    /// Adds a force element between marker A on one body (its number), which must have free coordinates, and
+    /// marker B on another.
     pub fn add(&mut self, element: impl Element, a: (usize, Marker), b: (usize, Marker)) {
         self.elements.push(Placement::new(element, a, b));
     }
@@ -90,7 +91,8 @@ pub enum ModelError {
         /// The body's name.
         body: String,
     },
-    /// A free body with linearized kinematics has a frame that moves or is turned, or does not start in the drawn layout.
+    /// A free body with linearized kinematics has a frame that moves or is turned, or does not start in the
+    /// drawn layout.
     #[error(
         "{body} has linearized kinematics; its reference frame must stand still along the fixed axes, and all coordinates start at zero"
     )]
@@ -154,7 +156,8 @@ pub struct Mounted<E> {
     pub(super) translation: Option<Translation>,
     /// Whether the body under it is prescribed and does not rotate, nor does the frame of its body.
     pub(super) plain: bool,
-    /// Its tangent where it was differentiated last, and that of the rates of its internal states, by four pairs.
+    /// Its tangent where it was differentiated last, and that of the rates of its internal states, by four
+    /// pairs.
     pub(super) tangent: Tangent,
     pub(super) rate_tangents: Vec<TangentColumns>,
     /// Bounds of how much a force at each of its points accelerates the point, 1/kg.
@@ -507,8 +510,8 @@ mod tests {
     use crate::friction::FrictionLaw;
     use crate::vector::Vector;
 
-    /// The lists from which the Jacobian is made hold each element at each free body that it touches, once and in order, so that
-    /// its cost grows in proportion to the elements.
+    /// The lists from which the Jacobian is made hold each element at each free body that it touches, once
+    /// and in order, so that its cost grows in proportion to the elements.
     #[test]
     fn limits_each_body_lists_the_elements_that_touch_it_once() {
         let frame = || Frame::fixed([0.0; 3], [0.0; 3]);

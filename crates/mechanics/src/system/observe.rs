@@ -235,8 +235,8 @@ impl System {
         }
     }
 
-    /// The accelerations of bodies with linearized kinematics, and their kinetic energy and that in the gravity field, which is zero in the
-    /// drawn layout.
+    /// The accelerations of bodies with linearized kinematics, and their kinetic energy and that in the
+    /// gravity field, which is zero in the drawn layout.
     fn observe_linearized(
         &mut self,
         time: f64,
@@ -379,7 +379,8 @@ impl System {
         )
     }
 
-    /// Returns the reaction of an element on the body that it stands on: force and moment about `point` (fixed frame).
+    /// Returns the reaction of an element on the body that it stands on: force and moment about `point`
+    /// (fixed frame).
     #[must_use]
     pub fn reaction_about(
         force: Vector<f64>,

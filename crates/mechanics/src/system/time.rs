@@ -1,4 +1,5 @@
-//! The explicit dependence of the rates on time, through the motions of prescribed bodies and reference frames.
+//! The explicit dependence of the rates on time, through the motions of prescribed bodies and reference
+//! frames.
 
 use integrate::scalar::Dual;
 

@@ -40,10 +40,11 @@ impl Held {
 pub struct Vibration {
     /// Frequency, Hz; zero where the eigenvalue is not positive.
     pub frequency: f64,
-    /// The eigenvalue λ of M⁻¹K, 1/s²: ω² of a vibration, negative where the state is unstable; real and imaginary part.
+    /// The eigenvalue λ of M⁻¹K, 1/s²: ω² of a vibration, negative where the state is unstable; real and
+    /// imaginary part.
     pub eigenvalue: [f64; 2],
-    /// Its shape q in all free coordinates, in the order of the positions in the state vector (m, rad; real part), the
-    /// largest entry of `Lᵀ q` being 1, with the mass matrix `M = L Lᵀ`.
+    /// Its shape q in all free coordinates, in the order of the positions in the state vector (m, rad; real
+    /// part), the largest entry of `Lᵀ q` being 1, with the mass matrix `M = L Lᵀ`.
     pub shape: Vec<f64>,
 }
 

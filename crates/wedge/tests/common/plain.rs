@@ -95,8 +95,8 @@ impl Plain {
         self.weight / G
     }
 
-    /// Twice the kinetic energy at rates `u`, from the velocities of the mass: the rotational part by the second
-    /// moments of the mass distribution, Σ S_k |Ṙ e_k|² with S_k = (I_i + I_j - I_k)/2.
+    /// Twice the kinetic energy at rates `u`, from the velocities of the mass: the rotational part by the
+    /// second moments of the mass distribution, Σ S_k |Ṙ e_k|² with S_k = (I_i + I_j - I_k)/2.
     fn twice_kinetic(&self, q: &[f64; 4], u: &[f64; 4]) -> f64 {
         let r = Turn::at(q[2], q[3]);
         let rate = combine(&r.by_pitch, u[2], &r.by_yaw, u[3]);
