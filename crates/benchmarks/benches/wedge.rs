@@ -1,4 +1,5 @@
-//! The right-hand side, the Jacobian and one factorization with a solution, of the wedge and of the half-truck, in ns.
+//! The right-hand side, the Jacobian and one factorization with a solution, of the wedge and of the
+//! half-truck, in ns.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use std::hint::black_box;

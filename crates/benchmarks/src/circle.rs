@@ -1,12 +1,13 @@
 //! A free body carried once round a circle of track: which coordinates can a car on track have?
 //!
-//! A guide runs along a circle to the left at constant speed, and holds the body by a bushing. [`Carried`] is the body in
-//! absolute coordinates, written here for this question alone, with any order of its three angles; [`on_core`] is a body
-//! of the core, in absolute coordinates or in coordinates relative to the moving guide. No gravity. SI units.
+//! A guide runs along a circle to the left at constant speed, and holds the body by a bushing. [`Carried`] is
+//! the body in absolute coordinates, written here for this question alone, with any order of its three
+//! angles; [`on_core`] is a body of the core, in absolute coordinates or in coordinates relative to the
+//! moving guide. No gravity. SI units.
 //!
-//! Equations: rotation `R = R_1(q4) R_2(q5) R_3(q6)` about the axes of [`Order`], angular velocity `ω = Σ q˙_k e_k`, and
-//! by Kane's method `e_k · (I ω˙ + ω × I ω) = e_k · M` in fixed axes. With the spin last the bushing holds the carrier,
-//! which does not spin: `M` does no work on the spin.
+//! Equations: rotation `R = R_1(q4) R_2(q5) R_3(q6)` about the axes of [`Order`], angular velocity
+//! `ω = Σ q˙_k e_k`, and by Kane's method `e_k · (I ω˙ + ω × I ω) = e_k · M` in fixed axes. With the spin
+//! last the bushing holds the carrier, which does not spin: `M` does no work on the spin.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -310,7 +311,8 @@ impl Carried {
     }
 }
 
-/// Integrates until `end`, s, or as far as it goes, and shows the run after each step; returns why it stopped.
+/// Integrates until `end`, s, or as far as it goes, and shows the run after each step; returns why it
+/// stopped.
 ///
 /// # Errors
 /// It cannot begin.

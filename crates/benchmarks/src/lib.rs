@@ -1,7 +1,7 @@
 //! Benchmarks: how fast, with caveats.
 //!
-//! Wall times depend on the machine and on what else it does: compare within one run, and trust ratios of 1.2 and more.
-//! Instruction counts (`valgrind --tool=callgrind`) repeat to the last digit for the same binary.
+//! Wall times depend on the machine and on what else it does: compare within one run, and trust ratios of 1.2
+//! and more. Instruction counts (`valgrind --tool=callgrind`) repeat to the last digit for the same binary.
 
 pub mod circle;
 pub mod truck;
@@ -32,7 +32,8 @@ pub fn sliding_wedge(damping: Damping) -> Result<(Wedge, Vec<f64>), BuildError> 
     Ok((wedge, x))
 }
 
-/// A half-truck of the catalog ([`catalog::entries`]) with its bolster going down and its wedges sliding, and its state.
+/// A half-truck of the catalog ([`catalog::entries`]) with its bolster going down and its wedges sliding, and
+/// its state.
 ///
 /// # Errors
 /// There is no such run, or it makes no system.
@@ -68,8 +69,8 @@ pub fn cpu_seconds() -> f64 {
     now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
 }
 
-/// CPU times (µs) of right-hand side, Jacobian matrix, factorization and solution at a state: the least of nine rounds
-/// of `calls` each. `shift` is what the matrix is factored with, 1/s.
+/// CPU times (µs) of right-hand side, Jacobian matrix, factorization and solution at a state: the least of
+/// nine rounds of `calls` each. `shift` is what the matrix is factored with, 1/s.
 pub fn costs<P: Problem>(problem: &mut P, time: f64, x: &[f64], shift: f64, calls: usize) -> [f64; 4] {
     let (mut dx, mut df_dt) = (vec![0.0; x.len()], vec![0.0; x.len()]);
     // Each call a little later, so that nothing is known from the one before.

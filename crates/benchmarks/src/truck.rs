@@ -1,14 +1,15 @@
-//! The three-piece truck on one core: six free bodies, built from the library alone, to see what a truck asks of the
-//! assembly and of the integrator.
+//! The three-piece truck on one core: six free bodies, built from the library alone, to see what a truck asks
+//! of the assembly and of the integrator.
 //!
-//! Axes: x forward, y left, z up from the top of rail, origin at the truck's centre. Two side frames and four wedges have
-//! six free coordinates each; the bolster's motion is prescribed, the wheelsets stand still. A side frame stands on each
-//! axle by two points with bristle friction (the adapter). Wedges meet a column and the bolster's slope by four corners a
-//! face, with bristle friction.
+//! Axes: x forward, y left, z up from the top of rail, origin at the truck's centre. Two side frames and four
+//! wedges have six free coordinates each; the bolster's motion is prescribed, the wheelsets stand still. A
+//! side frame stands on each axle by two points with bristle friction (the adapter). Wedges meet a column and
+//! the bolster's slope by four corners a face, with bristle friction.
 //!
-//! A load or control coil is one coil along z, and two across it, 40 in long and without force at the nominal place, which
-//! give it its shear stiffness and take back the geometric stiffness of its preload. Those across lie outwards, so that
-//! the truck is symmetric. Stops (gibs, lands, pocket sides, adapter stops) are left out: no motion here reaches them.
+//! A load or control coil is one coil along z, and two across it, 40 in long and without force at the nominal
+//! place, which give it its shear stiffness and take back the geometric stiffness of its preload. Those
+//! across lie outwards, so that the truck is symmetric. Stops (gibs, lands, pocket sides, adapter stops) are
+//! left out: no motion here reaches them.
 
 use std::f64::consts::PI;
 
@@ -72,7 +73,8 @@ pub enum BolsterMotion {
 pub struct Rig {
     /// Its name.
     pub name: &'static str,
-    /// Where the control coils stand: on the bolster (constant damping) or on the side frames (variable damping).
+    /// Where the control coils stand: on the bolster (constant damping) or on the side frames (variable
+    /// damping).
     pub damping: Damping,
     /// Toe out of all columns, degrees.
     pub toe: f64,

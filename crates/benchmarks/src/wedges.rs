@@ -28,14 +28,16 @@ const LENGTH: f64 = 0.2;
 pub enum Arrangement {
     /// Each between a column and a bolster of its own, whose motions are prescribed.
     Uncoupled,
-    /// Column, wedge, bolster, wedge, column, wedge ...: all but the first column are free bodies on stiff supports, so that every body is
-    /// coupled to its two neighbours.
+    /// Column, wedge, bolster, wedge, column, wedge ...: all but the first column are free bodies on stiff
+    /// supports, so that every body is coupled to its two neighbours.
     Chained,
-    /// The free bodies of the chain on their supports, without wedges: what of the chain's cost is not that of wedges between free bodies.
+    /// The free bodies of the chain on their supports, without wedges: what of the chain's cost is not that
+    /// of wedges between free bodies.
     Supports,
 }
 
-/// Where a wedge of the chain stands: moved along x, and turned by half a turn about the vertical axis if it looks backwards.
+/// Where a wedge of the chain stands: moved along x, and turned by half a turn about the vertical axis if it
+/// looks backwards.
 struct WedgePose {
     shift: f64,
     center: f64,
@@ -67,7 +69,8 @@ impl WedgePose {
     }
 }
 
-/// A system of `count` wedges of the thesis, variable damping, toe out, whose bolsters (or their supports) move down and up.
+/// A system of `count` wedges of the thesis, variable damping, toe out, whose bolsters (or their supports)
+/// move down and up.
 ///
 /// # Errors
 /// They make no system, which would be a defect.

@@ -25,8 +25,8 @@ fn wheelset(heading: f64) -> Carried {
     }
 }
 
-/// Closed forms: the bushing gives the centripetal force, and turns the wheelset's spin by the gyroscopic moment
-/// `ω z × (I ω)` in the leaning axle's axes.
+/// Closed forms: the bushing gives the centripetal force, and turns the wheelset's spin by the gyroscopic
+/// moment `ω z × (I ω)` in the leaning axle's axes.
 #[test]
 fn analytic_force_and_gyroscopic_moment_at_any_heading() {
     let force = steady_force();
@@ -74,8 +74,8 @@ fn energy_ledger_closes_once_round() {
     }
 }
 
-/// Pitch before yaw: at a quarter of the circle a body that leans by 5 mrad has 90° of pitch. Relative to a moving frame
-/// it has 5 mrad.
+/// Pitch before yaw: at a quarter of the circle a body that leans by 5 mrad has 90° of pitch. Relative to a
+/// moving frame it has 5 mrad.
 #[test]
 fn limits_pitch_before_yaw_means_nothing_at_a_quarter_of_the_circle() {
     let (quarter, by) = (0.25 * CIRCLE, (Method::default(), 1e-6));
@@ -90,8 +90,8 @@ fn limits_pitch_before_yaw_means_nothing_at_a_quarter_of_the_circle() {
     assert!((absolute.abs() - FRAC_PI_2).abs() < 0.01, "{absolute}");
 }
 
-/// Seen from the guide, small motions are the same at every heading: with `T` from the guide's axes to the coordinates,
-/// `A = T⁻¹ (J T - T˙)` is one matrix.
+/// Seen from the guide, small motions are the same at every heading: with `T` from the guide's axes to the
+/// coordinates, `A = T⁻¹ (J T - T˙)` is one matrix.
 #[test]
 fn analytic_linearization_relative_to_the_guide_is_the_same_at_every_heading() {
     let relative = |heading: f64| {

@@ -33,7 +33,8 @@ fn analytic_each_uncoupled_wedge_does_what_one_does() {
     }
 }
 
-/// A push on one body of the chain is felt by it and its neighbours, and by nobody else: no two bodies further apart are coupled.
+/// A push on one body of the chain is felt by it and its neighbours, and by nobody else: no two bodies
+/// further apart are coupled.
 #[test]
 fn limits_bodies_of_the_chain_feel_their_neighbours_alone() {
     let mut chain = wedges(5, Arrangement::Chained).unwrap();
@@ -48,7 +49,8 @@ fn limits_bodies_of_the_chain_feel_their_neighbours_alone() {
     let (time, x) = (integrator.time(), integrator.x().to_vec());
     let before = rates(&mut chain, time, &x);
     let count = chain.layout().speeds;
-    // Four coordinates a body; the first of them is x. Pushed to and fro, so that a contact that is open just now closes.
+    // Four coordinates a body; the first of them is x. Pushed to and fro, so that a contact that is open just
+    // now closes.
     let felt = |chain: &mut System, body: usize| -> Vec<usize> {
         let pushed = [-1e-4, 1e-4].map(|push| {
             let mut x = x.clone();

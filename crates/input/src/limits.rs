@@ -1,7 +1,7 @@
 //! The limits of every reader. `docs/reliability.md` lists them for users.
 //!
-//! Each limit is far beyond what any real input needs and far below what takes a second or a gigabyte; where a limit was
-//! chosen by another one, its comment says so.
+//! Each limit is far beyond what any real input needs and far below what takes a second or a gigabyte; where
+//! a limit was chosen by another one, its comment says so.
 
 /// Largest file that holds a case, a study, a table of a case or a file of NUCARS, in bytes.
 ///
@@ -31,8 +31,8 @@ pub const VALUES: usize = 1_000_000;
 /// Most rows of a table in a case, or beside it.
 pub const TABLE_ROWS: usize = 100_000;
 
-/// Most rows of all tables of a case together, so that the case can be written with its tables inside and read again
-/// (three values a row, see [`VALUES`]).
+/// Most rows of all tables of a case together, so that the case can be written with its tables inside and
+/// read again (three values a row, see [`VALUES`]).
 pub const CASE_ROWS: usize = 300_000;
 
 /// Most parameters that a study varies, and most that it sets for all runs.

@@ -2,8 +2,8 @@
 
 use crate::limits;
 
-/// Returns the beginning of a user's text for a message: at most [`limits::QUOTED`] characters, control characters
-/// replaced, with `...` if something was left out.
+/// Returns the beginning of a user's text for a message: at most [`limits::QUOTED`] characters, control
+/// characters replaced, with `...` if something was left out.
 #[must_use]
 pub fn shortened(text: &str) -> String {
     let mut letters = text.chars().map(printable);
@@ -14,8 +14,8 @@ pub fn shortened(text: &str) -> String {
     beginning
 }
 
-/// Returns a whole message within [`limits::MESSAGE`] bytes: of a longer one the middle is left out, since what is wrong
-/// stands at the end as often as at the beginning.
+/// Returns a whole message within [`limits::MESSAGE`] bytes: of a longer one the middle is left out, since
+/// what is wrong stands at the end as often as at the beginning.
 #[must_use]
 pub fn bounded(message: String) -> String {
     if message.len() <= limits::MESSAGE && !message.contains(is_unprintable) {

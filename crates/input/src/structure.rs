@@ -1,5 +1,5 @@
-//! The structure of TOML, looked at before it is parsed: the parser recurses, and where it recovers from mistakes its time
-//! grows with the square of the nesting.
+//! The structure of TOML, looked at before it is parsed: the parser recurses, and where it recovers from
+//! mistakes its time grows with the square of the nesting.
 
 use std::ops::Range;
 
@@ -92,8 +92,9 @@ pub fn lines(text: &str) -> Result<(), Excess> {
 
 /// Checks length, nesting and number of values of a TOML text.
 ///
-/// A closing bracket closes an open one of its kind only, and only the innermost: one that fits nothing closes nothing,
-/// since the parser stays inside and recurses further. So the depth found here is at least the parser's.
+/// A closing bracket closes an open one of its kind only, and only the innermost: one that fits nothing
+/// closes nothing, since the parser stays inside and recurses further. So the depth found here is at least
+/// the parser's.
 ///
 /// # Errors
 /// One of them is beyond its limit.
@@ -167,7 +168,8 @@ mod tests {
         assert!(matches!(toml(&hidden), Err(Excess::Nesting { .. })));
     }
 
-    /// A bracket of the other kind closed what the parser kept open: the program was aborted by 280 kB of such lines.
+    /// A bracket of the other kind closed what the parser kept open: the program was aborted by 280 kB of
+    /// such lines.
     #[test]
     fn issue_029_brackets_of_the_other_kind_close_nothing() {
         for line in [

@@ -8,8 +8,9 @@ use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanConten
 use crate::limits;
 use crate::shorten::is_hidden;
 
-/// A text with a name. As a [`SourceCode`] it shows at most [`limits::EXCERPT`] bytes on either side of a place, so that
-/// messages about long lines stay short; the printer of messages cannot place a mark beyond column 65,535.
+/// A text with a name. As a [`SourceCode`] it shows at most [`limits::EXCERPT`] bytes on either side of a
+/// place, so that messages about long lines stay short; the printer of messages cannot place a mark beyond
+/// column 65,535.
 #[derive(Debug)]
 pub struct Text {
     name: String,
@@ -66,8 +67,8 @@ impl Text {
         (start, end - start).into()
     }
 
-    /// The text as it may be shown: control characters and those that turn the direction of writing replaced, byte by byte, so
-    /// that places stay.
+    /// The text as it may be shown: control characters and those that turn the direction of writing replaced,
+    /// byte by byte, so that places stay.
     fn printable(&self) -> &str {
         let printable = self.printable.get_or_init(|| {
             let hidden = |letter: char| is_hidden(letter) && !matches!(letter, '\n' | '\t');

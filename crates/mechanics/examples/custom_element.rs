@@ -10,7 +10,8 @@ use mechanics::frame::Frame;
 use mechanics::link::{Marker, RelativeMotion};
 use mechanics::system::{Model, System};
 
-/// Linear springs (N/m, N·m/rad) and dampers (N·s/m, N·m·s/rad) along and about the axes of marker B, for small rotations.
+/// Linear springs (N/m, N·m/rad) and dampers (N·s/m, N·m·s/rad) along and about the axes of marker B, for
+/// small rotations.
 #[derive(Clone, Debug)]
 struct Bushing {
     stiffness: [f64; 2],

@@ -1,5 +1,6 @@
-//! A mass on a belt: a spring holds a block that rests on a moving plane with friction (Coulomb's, as an elastic bristle in series with a
-//! slider). It is carried along, breaks away and slides until it stands still against the belt.
+//! A mass on a belt: a spring holds a block that rests on a moving plane with friction (Coulomb's, as an
+//! elastic bristle in series with a slider). It is carried along, breaks away and slides until it stands
+//! still against the belt.
 //!
 //! `cargo run --release -p mechanics --example stick_slip`
 
@@ -58,7 +59,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         rotational_damping: 0.0,
         pulls: true,
     };
-    // The normal of a plane is the mount's x axis: here it points up.
+    // The normal of a plane is the marker's x axis: here it points up.
     let up = Marker::new([0.0; 3], [0.0, -FRAC_PI_2, 0.0]);
     let model = Model {
         bodies: vec![ground, belt, block],
@@ -77,7 +78,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         farthest = farthest.max(integrator.x()[0]);
     }
     let observation = system.observe(2.0, integrator.x());
-    // Slipping begins where the spring pulls as hard as friction holds; the block then overshoots by its speed.
+    // Slipping begins where the spring pulls as hard as friction holds; the block then overshoots by its
+    // speed.
     let (slips_at, omega) = (FRICTION * MASS * GRAVITY / STIFFNESS, (STIFFNESS / MASS).sqrt());
     println!("carried to {farthest:.4} m, friction holds up to {slips_at:.4} m");
     println!(

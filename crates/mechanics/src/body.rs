@@ -1,14 +1,13 @@
 //! Rigid bodies in absolute coordinates, each with its own set of freed coordinates.
 //!
-//! A body has six coordinates x, y, z, roll, pitch, yaw, measured from its reference frame along that frame's axes.
-//! Some are free, the others are held. There are no algebraic constraints: a joint is a held coordinate or a
-//! stiff element. So the mass matrix is block diagonal, one block a body.
+//! A body has six coordinates x, y, z, roll, pitch, yaw, measured from its reference frame along that frame's
+//! axes. Some are free, the others are held. There are no algebraic constraints: a joint is a held coordinate
+//! or a stiff element. So the mass matrix is block diagonal, one block a body.
 //!
-//! Equations of motion (Kane's method, generalized speeds = rates of the free coordinates):
-//! `M q¨ = Q - b`, `M = m J_vᵀJ_v + J_ωᵀ I J_ω`, with J_v the velocity Jacobian of the centre of gravity, J_ω that of the
-//! angular velocity, Q the generalized forces and b the bias
-//! `m J_vᵀ a_b + J_ωᵀ (I α_b + ω × I ω)`, where a_b and α_b are the accelerations at q¨ = 0
-//! (Steets 2007, eq. 3-9, derived anew).
+//! Equations of motion (Kane's method, generalized speeds = rates of the free coordinates): `M q¨ = Q - b`,
+//! `M = m J_vᵀJ_v + J_ωᵀ I J_ω`, with J_v the velocity Jacobian of the center of gravity, J_ω that of the
+//! angular velocity, Q the generalized forces and b the bias `m J_vᵀ a_b + J_ωᵀ (I α_b + ω × I ω)`, where a_b
+//! and α_b are the accelerations at q¨ = 0 (Steets 2007, eq. 3-9, derived anew).
 
 use std::ops::{Add, Mul};
 
@@ -31,9 +30,9 @@ pub struct Body {
     pub name: String,
     /// Mass, kg; of no effect on a body without free coordinates.
     pub mass: f64,
-    /// Principal moments of inertia about the centre of gravity, body axes, kg·m².
+    /// Principal moments of inertia about the center of gravity, body axes, kg·m².
     pub inertia: [f64; 3],
-    /// Centre of gravity from the body's origin, body axes, m.
+    /// Center of gravity from the body's origin, body axes, m.
     pub center_of_gravity: [f64; 3],
     /// Where its coordinates are measured from.
     pub frame: Frame,
@@ -41,9 +40,9 @@ pub struct Body {
     pub free: [bool; 6],
     /// The values of all coordinates at the start; held coordinates keep them. m, rad.
     pub initial: [f64; 6],
-    /// Whether its kinematics are linearized: displacements of its centre of gravity and small rotations about x, y, z, along the axes of a
-    /// frame at rest; no gyroscopic terms. Only [`crate::connection`]s act on such a body. If it is prescribed, its frame's motions are its
-    /// coordinates.
+    /// Whether its kinematics are linearized: displacements of its center of gravity and small rotations
+    /// about x, y, z, along the axes of a frame at rest; no gyroscopic terms. Only [`crate::connection`]s act
+    /// on such a body. If it is prescribed, its frame's motions are its coordinates.
     #[serde(default)]
     pub linearized: bool,
 }
@@ -64,8 +63,8 @@ impl Body {
         }
     }
 
-    /// Returns a body with six free coordinates, measured from the fixed frame, its centre of gravity at its origin: mass (kg), principal moments of
-    /// inertia (kg·m²), coordinates at the start (m, rad).
+    /// Returns a body with six free coordinates, measured from the fixed frame, its center of gravity at its
+    /// origin: mass (kg), principal moments of inertia (kg·m²), coordinates at the start (m, rad).
     #[must_use]
     pub fn free(name: &str, mass: f64, inertia: [f64; 3], initial: [f64; 6]) -> Self {
         Self {
@@ -77,8 +76,9 @@ impl Body {
         }
     }
 
-    /// Returns a body with linearized kinematics: its centre of gravity in the drawn layout (m), which coordinates are free, mass (kg) and principal
-    /// moments of inertia (kg·m²). The other coordinates stay at zero.
+    /// Returns a body with linearized kinematics: its center of gravity in the drawn layout (m), which
+    /// coordinates are free, mass (kg) and principal moments of inertia (kg·m²). The other coordinates stay
+    /// at zero.
     #[must_use]
     pub fn linearized(
         name: &str,
@@ -96,8 +96,8 @@ impl Body {
         }
     }
 
-    /// Returns a body with linearized kinematics and prescribed motions of its centre of gravity (x, y, z, m) and of its rotations (roll, pitch,
-    /// yaw, rad) from the drawn layout.
+    /// Returns a body with linearized kinematics and prescribed motions of its center of gravity (x, y, z, m)
+    /// and of its rotations (roll, pitch, yaw, rad) from the drawn layout.
     #[must_use]
     pub fn linearized_prescribed(name: &str, center_of_gravity: [f64; 3], motions: [Motion; 6]) -> Self {
         let mut frame = Frame::fixed(center_of_gravity, [0.0; 3]);
@@ -120,7 +120,7 @@ impl Body {
         !self.free.contains(&true)
     }
 
-    /// Returns whether it is prescribed and moves.
+    /// Returns whether the body is prescribed and moves.
     #[must_use]
     pub fn is_moving_prescribed(&self) -> bool {
         self.is_prescribed() && !self.frame.is_fixed()
@@ -137,7 +137,7 @@ impl Body {
         self.free[3] || self.initial[3] != 0.0
     }
 
-    /// Returns what its motion depends on.
+    /// Returns its mass properties and free coordinates, on which its motion depends.
     #[inline(always)]
     pub(crate) fn rigid(&self) -> Rigid {
         Rigid {
@@ -151,13 +151,13 @@ impl Body {
     }
 }
 
-/// What of a body its motion depends on.
+/// The mass properties and free coordinates of a body, on which its motion depends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rigid {
     pub mass: f64,
     pub inertia: [f64; 3],
     pub center_of_gravity: Vector<f64>,
-    /// Whether the centre of gravity is the origin.
+    /// Whether the center of gravity is the origin.
     pub central: bool,
     pub free: [bool; 6],
     /// Whether roll can differ from zero.
@@ -204,7 +204,8 @@ impl<S: Number> Kinematics<S> {
         self.orientation.rotation.apply(self.spin)
     }
 
-    /// Returns the generalized force of coordinate `k` by a force at the body's origin (frame axes) and a moment about it (body axes).
+    /// Returns the generalized force of coordinate `k` by a force at the body's origin (frame axes) and a
+    /// moment about it (body axes).
     #[inline(always)]
     #[must_use]
     pub fn generalized(&self, k: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
@@ -215,8 +216,9 @@ impl<S: Number> Kinematics<S> {
         }
     }
 
-    /// Returns the force at the body's origin (frame axes) and the moment about it (body axes) that give the body the accelerations
-    /// `accelerations` of its six coordinates: inertia `m a` at the centre of gravity and `I α + ω × I ω`, less gravity.
+    /// Returns the force at the body's origin (frame axes) and the moment about it (body axes) that give the
+    /// body the accelerations `accelerations` of its six coordinates: inertia `m a` at the center of gravity
+    /// and `I α + ω × I ω`, less gravity.
     ///
     /// `frame` is the motion of the reference frame, `gravity` the field in fixed axes (m/s²).
     #[inline(always)]
@@ -288,19 +290,22 @@ impl Kinematics<f64> {
         [0, 1, 2].map(|k| self.orientation.axes[k].dot::<f64, f64>(*moment))
     }
 
-    /// Returns the accelerations of the six coordinates (held ones: zero) under a force at the body's origin (frame axes) and moments about
-    /// the axes of its angles ([`Kinematics::about_axes`]), bias and gravity already taken off.
+    /// Returns the accelerations of the six coordinates (held ones: zero) under a force at the body's origin
+    /// (frame axes) and moments about the axes of its angles ([`Kinematics::about_axes`]), bias and gravity
+    /// already taken off.
     ///
-    /// Solves `M q¨ = Q` by eliminating the translations, whose block of M is m times the unit matrix: what is
-    /// left is the inertia of the free rotations about the centre of gravity, plus that of the mass in the held
-    /// directions. A body that cannot be accelerated (no inertia) gives infinite or undefined values.
+    /// Solves `M q¨ = Q` by eliminating the translations, whose block of M is m times the unit matrix: the
+    /// remainder is the inertia of the free rotations about the center of gravity, plus that of the mass in
+    /// the held directions. A body that cannot be accelerated (no inertia) gives infinite or undefined
+    /// values.
     #[inline(always)]
     #[must_use]
     pub(crate) fn accelerations(&self, body: &Rigid, force: &Vector<f64>, moments: [f64; 3]) -> [f64; 6] {
         let (free, axes, rotation) = (&body.free, &self.orientation.axes, &self.orientation.rotation);
         let (arm, central) = (body.center_of_gravity, body.central);
         let (zero, one) = (0.0, 1.0);
-        // By the angles' rates: the angular velocity, and the centre of gravity's velocity in held directions.
+        // By the angles' rates: the angular velocity, and the center of gravity's velocity in held
+        // directions.
         let mut spin = [Vector::<f64>::zero(); 3];
         let mut held = [[zero; 3]; 3];
         let mut right = [zero; 3];
@@ -371,7 +376,7 @@ impl Kinematics<f64> {
 }
 
 impl Kinematics<f64> {
-    /// Returns what the elements on the body need to know of its free angles.
+    /// Returns the axes of the free angles, their rates and the angular velocity (body axes).
     pub(crate) fn rotation_axes(&self, free: &[usize]) -> RotationAxes {
         let [roll, pitch, yaw] = self.orientation.axes;
         let before_yaw = pitch.scale::<f64, f64>(self.rates[1]);
@@ -390,7 +395,7 @@ impl Kinematics<f64> {
         rotation_axes
     }
 
-    /// Returns the velocity of the centre of gravity by the rate of angle `k` (roll, pitch, yaw), frame axes.
+    /// Returns the velocity of the center of gravity by the rate of angle `k` (roll, pitch, yaw), frame axes.
     #[inline(always)]
     fn lever(&self, body: &Body, k: usize) -> Vector<f64> {
         let own: Vector<f64> = self.orientation.axes[k].cross(Vector(body.center_of_gravity));
@@ -434,7 +439,8 @@ impl Kinematics<f64> {
         0.5 * (body.mass * velocity.dot::<f64, f64>(velocity) + spin)
     }
 
-    /// Returns the velocity of a point of the body and its angular velocity in the fixed frame, along the reference frame's axes.
+    /// Returns the velocity of a point of the body and its angular velocity in the fixed frame, along the
+    /// reference frame's axes.
     #[must_use]
     pub fn absolute(&self, frame: &FrameMotion<f64>, point: Vector<f64>) -> (Vector<f64>, Vector<f64>) {
         let arm: Vector<f64> = self.orientation.rotation.apply(point);

@@ -15,7 +15,7 @@ pub struct Characteristic {
     zero: f64,
 }
 
-/// Why points make no characteristic.
+/// Why points define no characteristic.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CharacteristicError {
     /// Too few points.

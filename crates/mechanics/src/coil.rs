@@ -1,14 +1,15 @@
 //! The control coil: a spring with damping between a seat on one body and a point of another.
 //!
-//! Equations (Steets 2007, eqs. 3-11, 3-12, 3-16, 3-17): with d from the seat to the coil's upper end and L = |d|,
-//! the force on the upper body is `F(l0 - L) d/L - C ḋ`, and a moment `-C_r Ω` brakes its rotation relative to the
-//! seat (eqs. 3-13, 3-18, where C_r is numerically C in lbf·s·in). Units: N, m, s. ḋ is measured by an
-//! observer on the seat's body.
+//! Equations (Steets 2007, eqs. 3-11, 3-12, 3-16, 3-17): with d from the seat to the coil's upper end and
+//! L = |d|, the force on the upper body is `F(l0 - L) d/L - C ḋ`, and a moment `-C_r Ω` damps its rotation
+//! relative to the seat (eqs. 3-13, 3-18, where C_r is numerically C in lbf·s·in). Units: N, m, s. ḋ is
+//! measured by an observer on the seat's body.
 //!
-//! Line of action. The thesis's moment equations hold no moment of the coil: its force acts at the
-//! centre of gravity although L is measured to the coil's end (`acts_at = "center_of_gravity"`). That is a force
-//! and a guiding couple; the couple does work when the body turns, and this work is integrated and entered in the
-//! energy ledger under its own name. With `acts_at = "seat"` the force acts at the coil's end, and there is no couple.
+//! Line of action. The thesis's moment equations hold no moment of the coil: its force acts at the center of
+//! gravity although L is measured to the coil's end (`acts_at = "center_of_gravity"`). That is a force and a
+//! guiding couple; the couple does work when the body turns, and this work is integrated and entered in the
+//! energy ledger under its own name. With `acts_at = "seat"` the force acts at the coil's end, and there is
+//! no couple.
 
 use integrate::scalar::{Number, Real};
 use serde::{Deserialize, Serialize};
@@ -30,8 +31,8 @@ pub enum CoilLaw {
     },
     /// A table of compression (m) and force (N), straight between its points and on beyond them.
     Table(Characteristic),
-    /// A force that comes from outside the model, whatever the compression. Its energy is not the model's: the ledger does not hold
-    /// its work.
+    /// A force that comes from outside the model, whatever the compression. Its energy is not the model's:
+    /// the ledger does not hold its work.
     Given {
         /// The force, N: positive pushes.
         force: f64,
@@ -42,13 +43,13 @@ pub enum CoilLaw {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CoilLine {
-    /// Through the centre of gravity: no moment about it.
+    /// Through the center of gravity: no moment about it.
     CenterOfGravity,
     /// At the coil's end on the body.
     Seat,
 }
 
-/// A coil. The seat is the origin of its mount.
+/// A coil. Its seat is the origin of marker B.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coil {
     /// The coil's upper end on its body, from the body's origin in body axes, m.
@@ -81,11 +82,11 @@ struct Pull<S> {
 /// What a coil does.
 #[derive(Clone, Copy, Debug)]
 pub struct CoilForce<S> {
-    /// Force on the body, mount axes, N.
+    /// Force on the body, marker axes, N.
     pub force: Vector<S>,
     /// The spring's part of it.
     pub spring_force: Vector<S>,
-    /// Its moment about the body's origin, mount axes, N·m.
+    /// Its moment about the body's origin, marker axes, N·m.
     pub moment: Vector<S>,
     /// Length, m.
     pub length: S,
@@ -117,7 +118,7 @@ impl Coil {
         self.on_body_with(relative, |length| self.spring(length))
     }
 
-    /// Returns the same with a spring force (N) by the length (m) of the caller's own.
+    /// Returns the same with the spring force (N) as a function of the length (m) that the caller gives.
     #[inline(always)]
     pub fn on_body_with<S: Real>(
         &self,
@@ -136,7 +137,7 @@ impl Coil {
         }
     }
 
-    /// Returns the same by the motion of the coil's end, with the moment about it.
+    /// Returns the same from the motion of the coil's end, with the moment about that end.
     #[inline(always)]
     fn at_end<S: Real>(&self, relative: &RelativeMotion<S>, spring: impl FnOnce(S) -> S) -> CoilForce<S> {
         let pull = pull(self.damping, relative.position, relative.velocity, spring);
@@ -162,7 +163,8 @@ impl Coil {
         }
     }
 
-    /// Returns what the coil does to its body, seen from a mount that does not turn: [`Coil::on_body`] with as few products as there need be.
+    /// Returns the wrench of the coil on its body if marker B does not rotate: [`Coil::on_body`] with fewer
+    /// products.
     #[inline(always)]
     pub(crate) fn wrench_on_body(
         &self,

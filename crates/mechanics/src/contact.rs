@@ -1,11 +1,12 @@
 //! Unilateral contact of weighted points on one body with a surface on another.
 //!
-//! Normal force (Steets 2007, eq. 3-7, with optional damping): `N = max(0, -k g - c ġ)` where the gap `g < 0`,
-//! else 0. Friction acts against the tangential velocity of the point relative to the surface, which includes
-//! ω × r of both bodies. Units: N, m, s.
+//! Normal force (Steets 2007, eq. 3-7, with optional damping): `N = max(0, -k g - c ġ)` where the gap
+//! `g < 0`, else 0. Friction acts against the tangential velocity of the point relative to the surface, which
+//! includes ω × r of both bodies. Units: N, m, s.
 //!
-//! Defects: with `c > 0` the force jumps when a point strikes; the stiffness per point is a model parameter that
-//! stands for the elasticity of the faces, not a property of a point. Four corners are the 2 × 2 case of a face.
+//! Defects: with `c > 0` the force jumps at an impact; the stiffness per point is a model parameter that
+//! stands for the elasticity of the faces, not a property of a point. Four corners are the 2 × 2 case of a
+//! face.
 
 mod blocks;
 mod tangent;
@@ -22,7 +23,7 @@ use crate::vector::Vector;
 /// A point of a contact face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPoint {
-    /// Where it is on its body, from the body's origin in body axes, m.
+    /// Its position on its body, from the body's origin in body axes, m.
     pub position: Vector<f64>,
     /// Normal stiffness k, N/m.
     pub stiffness: f64,
@@ -32,14 +33,14 @@ pub struct ContactPoint {
     pub share: f64,
 }
 
-/// Points on one body that meet a surface of another.
+/// Points on one body that touch a surface of another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactFace<F> {
     /// The face's name, as in results: `column`, `slope`.
     pub name: String,
     /// Its points.
     pub points: Vec<ContactPoint>,
-    /// The surface that they meet.
+    /// The surface that they touch.
     pub surface: F,
     /// Coefficient of friction μ.
     pub coefficient: f64,
@@ -50,9 +51,9 @@ pub struct ContactFace<F> {
 /// The state of a contact point.
 #[derive(Clone, Copy, Debug)]
 pub struct PointContact<S: Number> {
-    /// From the mount's origin to the point, mount axes, m.
+    /// From the marker's origin to the point, marker axes, m.
     pub position: Vector<S>,
-    /// From the body's origin to the point, mount axes, m.
+    /// From the body's origin to the point, marker axes, m.
     pub arm: Vector<S>,
     /// Signed distance, m.
     pub gap: S,
@@ -68,7 +69,7 @@ pub struct PointContact<S: Number> {
     pub damping_loss: S,
 }
 
-/// What one point (or four in lanes) is made of.
+/// Parameters of one point (or of four in lanes).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PointProperties<P> {
     pub stiffness: P,
@@ -78,7 +79,7 @@ pub(crate) struct PointProperties<P> {
     pub share: P,
 }
 
-/// What a law sees of a point (or of four).
+/// Contact kinematics of a point (or of four), on which the law depends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PointKinematics<S> {
     pub gap: S,
@@ -97,9 +98,9 @@ pub(crate) struct PointForce<S: Number> {
 /// The resultant of a face.
 #[derive(Clone, Copy, Debug)]
 pub struct FaceResultant<S> {
-    /// Force on the body that carries the points, mount axes, N.
+    /// Force on the body that carries the points, marker axes, N.
     pub force: Vector<S>,
-    /// Its moment about that body's origin, mount axes, N·m.
+    /// Its moment about that body's origin, marker axes, N·m.
     pub moment: Vector<S>,
     /// Power lost in friction, W.
     pub friction_loss: S,
@@ -114,7 +115,8 @@ impl<F: Surface> ContactFace<F> {
         self.points.len() * self.law.states_per_point()
     }
 
-    /// Returns the resultant of all points; `each` sees every closed point and every point with internal states.
+    /// Returns the resultant of all points; `each` is called for every closed point and every point with
+    /// internal states.
     ///
     /// `deflections` holds the internal states, two a point, or is empty.
     #[inline(always)]
@@ -159,7 +161,8 @@ impl<F: Surface> ContactFace<F> {
         sum
     }
 
-    /// Returns the energies stored at a point: in its normal spring, and in its bristle by its share of the face's stiffness, J.
+    /// Returns the energies stored at a point: in its normal spring, and in its bristle by its share of the
+    /// face's stiffness, J.
     pub(crate) fn stored(&self, point: &ContactPoint, gap: f64, deflection: Option<&[f64]>) -> [f64; 2] {
         let pressed = if gap < 0.0 {
             0.5 * point.stiffness * gap * gap
@@ -175,7 +178,7 @@ impl<F: Surface> ContactFace<F> {
         [pressed, bristle]
     }
 
-    /// Where a point is and how it moves; no forces yet.
+    /// Returns the contact kinematics of a point, without forces.
     #[inline(always)]
     pub fn geometry<S: Real>(&self, point: &ContactPoint, relative: &RelativeMotion<S>) -> PointContact<S> {
         let arm: Vector<S> = relative.rotation.apply(point.position);
@@ -194,7 +197,7 @@ impl<F: Surface> ContactFace<F> {
         }
     }
 
-    /// Returns the forces at a point: none of the surface where it is not closed.
+    /// Returns the forces at a point: no normal force if it is open.
     #[inline(always)]
     pub(crate) fn point_force<S: Number>(
         &self,
@@ -218,8 +221,8 @@ impl<F: Surface> ContactFace<F> {
         }
     }
 
-    /// Returns how far a point is from its law's own change between stick and slip, see [`Friction::load`]; of no meaning with a bristle where it
-    /// is open.
+    /// Returns the load of the friction law, see [`Friction::load`]. It has no meaning with a bristle if the
+    /// point is open.
     #[inline(always)]
     fn load<S: Number>(
         &self,

@@ -1,7 +1,7 @@
 //! Piecewise linear curves: straight between their points, the end slopes continued outside.
 //!
-//! Unlike a [`Characteristic`] a curve may fall, be mirrored about the origin, and be clamped. Its integral from
-//! zero is exact: that is the energy of a spring that follows it.
+//! Unlike a [`Characteristic`] a curve may fall, be mirrored about the origin, and be clamped. Its integral
+//! from zero is exact: that is the energy of a spring that follows it.
 
 use integrate::scalar::Real;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use crate::characteristic::Characteristic;
 
-/// An ordinate (force, moment, depth) over an abscissa (stroke, rate), piecewise linear. SI units.
+/// An ordinate (force, moment, depth) over an abscissa (extension, rate), piecewise linear. SI units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<[f64; 2]>", into = "Vec<[f64; 2]>")]
 pub struct Curve {
@@ -20,7 +20,7 @@ pub struct Curve {
     integrals: Vec<f64>,
 }
 
-/// Why points make no curve.
+/// Why points define no curve.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CurveError {
     /// There is no point.
@@ -66,7 +66,8 @@ impl Curve {
         Ok(Self::through(points))
     }
 
-    /// Returns the same; if the first point is the origin (both coordinates zero), the curve is mirrored: `f(-x) = -f(x)`.
+    /// Returns the same; if the first point is the origin (both coordinates zero), the curve is mirrored:
+    /// `f(-x) = -f(x)`.
     ///
     /// That is how the comparison program reads its tables.
     ///

@@ -1,9 +1,9 @@
 //! Force elements: one law between a marker A on one body and a marker B on another.
 //!
-//! An element is one file: its parameters, one function over any scalar from the relative motion of its markers to the wrench on A and the
-//! power that is lost, and its stored energy. The core ([`crate::system`]) does the rest: forces on both bodies, the Jacobian of both ends
-//! (from numbers with derivatives), the work of prescribed motions, the energy ledger, observation. `examples/custom_element.rs` adds a
-//! bushing.
+//! An element is one file: its parameters, one function over any scalar from the relative motion of its
+//! markers to the wrench on A and the power that is lost, and its stored energy. The core ([`crate::system`])
+//! does the rest: forces on both bodies, the Jacobian of both ends (from numbers with derivatives), the work
+//! of prescribed motions, the energy ledger, observation. `examples/custom_element.rs` adds a bushing.
 //!
 //! Limits: such an element has no internal states and no events of its own; contact faces have both.
 
@@ -15,7 +15,7 @@ use crate::link::{Marker, RelativeMotion};
 use crate::tangent::Tangent;
 use crate::vector::Vector;
 
-/// The wrench of an element on the body that it carries.
+/// The wrench of an element on the body with marker A.
 #[derive(Clone, Copy, Debug)]
 pub struct Wrench<S> {
     /// Force, axes of marker B, N.
@@ -26,7 +26,7 @@ pub struct Wrench<S> {
     pub powers: [S; 2],
 }
 
-/// On what a wrench depends.
+/// Inputs of a wrench.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inputs {
     /// Position and velocity of marker A alone: a force between two points.
@@ -40,16 +40,16 @@ pub trait Element: Clone + Debug + Send + Sync + 'static {
     /// Returns the name of its loss in the energy ledger.
     fn name(&self) -> &str;
 
-    /// Returns the wrench on marker A and the power lost, at a relative motion of marker A seen from marker B.
+    /// Returns the wrench on marker A and the power lost, at a motion of marker A relative to marker B.
     ///
     /// It must not depend on anything else, so that momentum is conserved: the opposite wrench acts on B.
     fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S>;
 
-    /// Returns the stored energy at a relative motion, J. The power of the wrench is what it takes from this energy, less the power lost:
-    /// else the ledger does not close.
+    /// Returns the stored energy at a relative motion, J. The power of the wrench must equal minus the rate
+    /// of this energy minus the power lost; otherwise the ledger does not close.
     fn energy(&self, motion: &RelativeMotion<f64>) -> f64;
 
-    /// Returns on what the wrench depends; elements between two points are differentiated at less cost.
+    /// Returns the inputs of the wrench. Elements between two points cost less to differentiate.
     fn inputs(&self) -> Inputs {
         Inputs::Motion
     }
@@ -139,7 +139,7 @@ impl Marked {
     }
 }
 
-/// An element in its place: the numbers of the bodies that carry markers A and B, and the markers there.
+/// An element between two bodies: the numbers of the bodies with markers A and B, and the markers.
 #[derive(Debug)]
 pub struct Placement {
     pub(crate) ends: [usize; 2],
@@ -157,7 +157,8 @@ impl Clone for Placement {
 }
 
 impl Placement {
-    /// Returns an element between marker A on body `a`, which must have free coordinates, and marker B on body `b`.
+    /// Returns an element between marker A on body `a`, which must have free coordinates, and marker B on
+    /// body `b`.
     pub fn new(
         element: impl Element,
         (a, marker_a): (usize, Marker),

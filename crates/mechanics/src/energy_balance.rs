@@ -1,36 +1,42 @@
 //! The energy balance of a run, and the one measure of how well its ledger closes.
 //!
-//! The ledger compares the work done on the bodies with the change of the energy that they store and with the losses. Each loss is
-//! integrated from its own force and velocity, so the difference is no entry that is chosen to fit: it is the *residual*,
+//! The ledger compares the work done on the bodies with the change of the energy that they store and with the
+//! losses. Each loss is integrated from its own force and velocity, so the difference is no entry that is
+//! chosen to fit: it is the *residual*,
 //!
 //! ```text
 //! residual = work − change of stored energy − losses,
 //! ```
 //!
-//! zero but for the errors of the integration. Its size alone says nothing: a residual of 1 J is large for a wedge that is dropped,
-//! and small for a wagon that rolls over a joint. [`relative_residual`] is the measure for all runs.
+//! zero but for the errors of the integration. Its size alone has no meaning: a residual of 1 J is large for
+//! a wedge that is dropped, and small for a wagon that rolls over a joint. [`relative_residual`] is the
+//! measure for all runs.
 
 use serde::{Deserialize, Serialize};
 
 /// A run whose relative residual exceeds this has a warning: its energies are wrong in the third digit.
 pub const DOUBTFUL: f64 = 1e-3;
 
-/// A run whose relative residual exceeds this has failed: its energies are wrong in the second digit. Its results are kept.
+/// A run whose relative residual exceeds this has failed: its energies are wrong in the second digit. Its
+/// results are kept.
 pub const FAILED: f64 = 1e-2;
 
-/// Energies up to this share of the stored energy are rounding: stored energy is a difference of sums with some ten entries, so
-/// that what is below cannot be told from zero.
+/// Energies up to this share of the stored energy are rounding: stored energy is a difference of sums with
+/// some ten entries, so that smaller energies cannot be distinguished from zero.
 const ROUNDING: f64 = 1e-12;
 
-/// Returns the relative residual of an energy ledger (a pure number): the absolute residual, over the largest of
+/// Returns the relative residual of an energy ledger (a pure number): the absolute residual, over the largest
+/// of
 ///
 /// - the absolute work that the prescribed motions have done,
 /// - the sum of all losses,
-/// - the largest absolute change of the stored energy (kinetic, elastic, gravity) since the start, over the run.
+/// - the largest absolute change of the stored energy (kinetic, elastic, gravity) since the start, over the
+///   run.
 ///
-/// All arguments are energies in one unit, such as J. Three scales are needed: the work is zero in a drop test; losses are
-/// zero without friction and damping; and a motion that comes back to where it began has done little work in the end, although much
-/// energy went to and fro. Returns 0 if all three are zero: nothing has happened. Returns NaN if the residual is NaN.
+/// All arguments are energies in one unit, such as J. Three scales are needed: the work is zero in a drop
+/// test; losses are zero without friction and damping; and a motion that comes back to where it began has
+/// done little work in the end, although much energy went to and fro. Returns 0 if all three are zero:
+/// nothing has happened. Returns NaN if the residual is NaN.
 ///
 /// ```
 /// use mechanics::energy_balance::relative_residual;
@@ -61,7 +67,8 @@ pub struct Entries {
 }
 
 impl Entries {
-    /// Returns the [`relative_residual`] of this time alone, where what was before is not known: an importer of an FMU may go back.
+    /// Returns the [`relative_residual`] of this time alone. It needs no history: an importer of an FMU may
+    /// go back in time.
     #[must_use]
     pub fn relative_residual(&self) -> f64 {
         relative_residual(self.residual, self.work, self.losses, self.stored_change)
@@ -71,7 +78,7 @@ impl Entries {
 /// The energy balance of a run, followed from output time to output time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyBalance {
-    /// Stored energy at the start, without sign, J: what rounding is measured against.
+    /// Absolute stored energy at the start, J: the scale of rounding.
     pub stored_at_start: f64,
     /// Work done by the prescribed motions until the last output time, J.
     pub work: f64,
@@ -106,8 +113,8 @@ impl EnergyBalance {
         (self.work, self.losses) = (entries.work, entries.losses);
     }
 
-    /// Returns the [`relative_residual`] of the run: of the largest residual at any output time, by work and losses at the last
-    /// output time. Where all of them are rounding (a wedge at rest), it is 0.
+    /// Returns the [`relative_residual`] of the run: of the largest residual at any output time, by work and
+    /// losses at the last output time. Where all of them are rounding (a wedge at rest), it is 0.
     #[must_use]
     pub fn relative_residual(&self) -> f64 {
         let change = self.largest_stored_change;

@@ -1,9 +1,9 @@
-//! Rigid bodies with freed coordinates, and the elements between them.
+//! Rigid bodies with free coordinates, and the elements between them.
 //!
-//! Made for a truck, used for a wedge: bodies in absolute coordinates, each measured from a reference frame of its
-//! own ([`body`], [`frame`]); elements that see one body from a mount on another ([`link`]) and answer with
-//! a force and a moment ([`contact`], [`coil`]); a [`system::System`] that puts them together for the
-//! integrator, with exact derivatives from the same lines, and an energy ledger. Bodies with linearized kinematics are joined by
+//! Bodies have absolute coordinates, each measured from its own reference frame ([`body`], [`frame`]).
+//! Elements compute a force and a moment from the relative motion of markers on two bodies ([`link`],
+//! [`contact`], [`coil`]). A [`system::System`] assembles them for the integrator, with exact derivatives
+//! from the same functions, and an energy ledger. Bodies with linearized kinematics are joined by
 //! [`connection`]s, the element laws of the industry's vehicle programs.
 
 pub mod body;

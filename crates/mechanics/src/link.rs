@@ -1,8 +1,9 @@
-//! Links: a body seen from a mount on another body.
+//! Markers, and the motion of a body relative to a marker on another body.
 //!
-//! Every element sits on a link from body `a` to a mount (origin and orientation) on body `b`. It sees the
-//! relative position, rotation, velocity and angular velocity in the mount's axes, and answers with a force and a
-//! moment in these axes. A wedge mounted the other way round is a mount turned by 180°, no special case.
+//! Every element acts between body `a` and a marker (origin and orientation) on body `b`. It depends on the
+//! relative pose (position, rotation) and twist (velocity, angular velocity) in the marker's axes, and gives
+//! a force and a moment in these axes. A wedge that is mounted the other way round has a marker rotated by
+//! 180°; it is no special case.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -12,17 +13,17 @@ use crate::body::Kinematics;
 use crate::frame::FrameMotion;
 use crate::vector::{Matrix, Vector};
 
-/// A mount on a body: where an element sits.
+/// A marker on a body: the point and the axes at which an element acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Marker {
     /// From the body's origin, body axes, m.
     pub origin: Vector<f64>,
-    /// From mount axes to body axes.
+    /// From marker axes to body axes.
     pub rotation: Matrix<f64>,
 }
 
 impl Marker {
-    /// Returns a mount at `origin` (m), turned by roll, pitch, yaw (rad).
+    /// Returns a marker at `origin` (m), rotated by roll, pitch, yaw (rad).
     #[must_use]
     pub fn new(origin: [f64; 3], angles: [f64; 3]) -> Self {
         Self {
@@ -32,25 +33,26 @@ impl Marker {
     }
 }
 
-/// The reference frame of body `a` seen from the mount on body `b`, in the mount's axes.
+/// Pose and twist of the reference frame of body `a` relative to the marker on body `b`, in the marker's
+/// axes.
 #[derive(Clone, Copy, Debug)]
 pub struct RelativeFrame<S> {
-    /// From the mount's origin to the frame's origin.
+    /// From the marker's origin to the frame's origin.
     pub position: Vector<S>,
-    /// From the frame's axes to the mount's.
+    /// From the frame's axes to the marker's.
     pub rotation: Matrix<S>,
     /// Velocity of the frame's origin, for an observer on body `b`.
     pub velocity: Vector<S>,
     /// Angular velocity of the frame relative to body `b`.
     pub angular_velocity: Vector<S>,
-    /// Velocity of the mount's origin in the fixed frame.
+    /// Velocity of the marker's origin in the fixed frame.
     pub marker_velocity: Vector<S>,
     /// Angular velocity of body `b` in the fixed frame.
     pub marker_angular_velocity: Vector<S>,
 }
 
 impl<S: Real> RelativeFrame<S> {
-    /// Returns the frame of `a` seen from the mount on `b`.
+    /// Returns the pose and twist of the frame of `a` relative to the marker on `b`.
     pub fn new(a: &FrameMotion<S>, b: &FrameMotion<S>, body: &Kinematics<S>, marker: &Marker) -> Self {
         let rotation: Matrix<S> = b.rotation.times(body.orientation.rotation);
         let axes: Matrix<S> = rotation.times(marker.rotation);
@@ -76,7 +78,7 @@ impl<S: Real> RelativeFrame<S> {
 }
 
 impl<S: Number> RelativeFrame<S> {
-    /// Body `a` seen from the mount.
+    /// Returns the motion of body `a` relative to the marker.
     #[inline(always)]
     pub fn relative<A: Number, O: Number>(&self, a: &Kinematics<A>) -> RelativeMotion<O>
     where
@@ -95,17 +97,19 @@ impl<S: Number> RelativeFrame<S> {
     }
 }
 
-/// A mount on a prescribed body that moves without turning, seen by a body in a fixed frame: what stays the same.
+/// Constant part of the relative frame if marker B is on a prescribed body that only translates, and the
+/// frame of body `a` is fixed.
 #[derive(Clone, Copy, Debug)]
 pub struct Translation {
-    /// From the mount's origin to that of the body's frame while `b` rests, mount axes.
+    /// From the marker's origin to that of the body's frame while `b` rests, marker axes.
     pub(crate) rest: Vector<f64>,
-    /// The directions in which `b` moves, mount axes.
+    /// The directions in which `b` moves, marker axes.
     pub(crate) ways: [Vector<f64>; 3],
 }
 
 impl Translation {
-    /// Returns the constant part of the sight of a frame `a`; `b` rests at `rest` (fixed axes) and moves along `ways` (fixed axes, at most three).
+    /// Returns the constant part for the frame of `a`; `b` rests at `rest` (fixed axes) and moves along
+    /// `ways` (fixed axes, at most three).
     pub fn new(
         a: &FrameMotion<f64>,
         b: &FrameMotion<f64>,
@@ -129,7 +133,8 @@ impl Translation {
 }
 
 impl Translation {
-    /// Brings position and velocities of a sight up to date with value, rate and second derivative of each way.
+    /// Updates position and velocities of a relative frame from value, rate and second derivative of each
+    /// direction.
     #[inline(always)]
     pub fn update(&self, relative_frame: &mut RelativeFrame<f64>, jets: impl Iterator<Item = [f64; 3]>) {
         let (mut position, mut velocity) = (self.rest, Vector::zero());
@@ -142,7 +147,8 @@ impl Translation {
         relative_frame.velocity = -velocity;
     }
 
-    /// Returns the acceleration of the frame as the mount sees it: the rate of the sight's velocity.
+    /// Returns the acceleration of the frame relative to the marker: the rate of the relative frame's
+    /// velocity.
     #[inline(always)]
     pub fn acceleration(&self, jets: impl Iterator<Item = [f64; 3]>) -> Vector<f64> {
         let mut acceleration = Vector::zero();
@@ -153,12 +159,13 @@ impl Translation {
     }
 }
 
-/// Body `a` seen from the mount on body `b`: what an element sees, in the mount's axes (SI).
+/// Pose and twist of body `a` relative to the marker on body `b`, on which elements depend, in the marker's
+/// axes (SI).
 #[derive(Clone, Copy, Debug)]
 pub struct RelativeMotion<S> {
-    /// From the mount's origin to the body's origin.
+    /// From the marker's origin to the body's origin.
     pub position: Vector<S>,
-    /// From body axes to mount axes.
+    /// From body axes to marker axes.
     pub rotation: Matrix<S>,
     /// Velocity of the body's origin, for an observer on body `b`.
     pub velocity: Vector<S>,
@@ -167,7 +174,8 @@ pub struct RelativeMotion<S> {
 }
 
 impl<S: Real> RelativeMotion<S> {
-    /// Returns the small rotations about the mount's axes, rad: half the antisymmetric part of the rotation, `sin(angle)` times its axis.
+    /// Returns the small rotations about the marker's axes, rad: half the antisymmetric part of the rotation,
+    /// `sin(angle)` times its axis.
     #[inline(always)]
     #[must_use]
     pub fn small_rotations(&self) -> Vector<S> {
@@ -192,19 +200,19 @@ impl<S: Real> RelativeMotion<S> {
     }
 }
 
-/// What an element does to the body that it carries.
+/// Wrench of an element on the body with marker A.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BodyWrench {
-    /// Force, mount axes, N.
+    /// Force, marker axes, N.
     pub force: Vector<f64>,
     /// Moment about the body's origin, body axes, N·m.
     pub moment: Vector<f64>,
-    /// Powers of the element's channels, W.
+    /// Powers of the element's energy terms, W.
     pub powers: [f64; 2],
 }
 
-/// The free angles of a body: their axes, how its angular velocity changes with them at fixed rates, and the angular velocity (body axes).
-/// Slots beyond the number of free angles are of no meaning.
+/// The free angles of a body: their axes, the derivatives of the angular velocity by them at fixed rates, and
+/// the angular velocity (body axes). Slots beyond the number of free angles have no meaning.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RotationAxes {
     pub axes: [Vector<f64>; 3],

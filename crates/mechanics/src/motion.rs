@@ -58,7 +58,8 @@ pub enum Motion {
     },
     /// A cubic spline (C²) through tabulated points.
     Table(Spline),
-    /// Peaks `amplitude · exp(-|t - c| / decay)` around the middles c of periods of `spacing`, the first of which begins at zero.
+    /// Peaks `amplitude · exp(-|t - c| / decay)` around the middles c of periods of `spacing`, the first of
+    /// which begins at zero.
     Cusps {
         /// Height of the peaks (m or rad).
         amplitude: f64,
@@ -67,16 +68,16 @@ pub enum Motion {
         /// Time from peak to peak (s).
         spacing: f64,
     },
-    /// `c0 + c1 τ + c2 τ² + c3 τ³` with τ the time since `start`, at all times: a motion that a caller gives piece by piece (see
-    /// [`Motion::between`]).
+    /// `c0 + c1 τ + c2 τ² + c3 τ³` with τ the time since `start`, at all times: a motion that a caller
+    /// prescribes piece by piece (see [`Motion::between`]).
     Polynomial {
         /// Where τ begins (s).
         start: f64,
         /// The coefficients c0 to c3 (m or rad, per power of s).
         coefficients: [f64; 4],
     },
-    /// Motions one after the other, each from its own start. Before the first one its value at its start is held; values
-    /// may jump.
+    /// Motions one after the other, each from its own start. Before the first one its value at its start is
+    /// held; values may jump.
     Sequence(Vec<Piece>),
     /// The sum of motions.
     Sum(Vec<Motion>),
@@ -106,13 +107,15 @@ pub enum RampProfile {
 /// Value, first and second derivative by time.
 pub type Jet<S> = [S; 3];
 
-/// Returns whether numbers of this size can still be counted one by one: so late that they cannot, breaks are not told any more.
+/// Returns whether numbers of this size can still be counted one by one: at later times breaks are no longer
+/// reported.
 fn is_counted(n: f64) -> bool {
     n.abs() < 1.0 / f64::EPSILON
 }
 
 impl Motion {
-    /// Returns the cubic that has a value (m or rad) and a rate at `start`, and another value and rate after `duration` (s, positive).
+    /// Returns the cubic that has a value (m or rad) and a rate at `start`, and another value and rate after
+    /// `duration` (s, positive).
     #[must_use]
     pub fn between(start: f64, duration: f64, [from, from_rate]: [f64; 2], [to, to_rate]: [f64; 2]) -> Self {
         let mean_rate = (to - from) / duration;

@@ -1,9 +1,9 @@
 //! The three angles of a body: rotation, angular velocity and acceleration.
 //!
-//! Orientation (Steets 2007, eqs. 3-3 and 3-6, with roll last): `R = Ry(pitch) · Rz(yaw) · Rx(roll)`. The axes about which
-//! the angles turn are y, `Ry z` and `Ry Rz x`, so that
-//! `ω = pitch˙ e_pitch + yaw˙ e_yaw + roll˙ e_roll`; with roll held this is (u4 sin q3, u3, u4 cos q3) in the axes of the reference
-//! frame, and (u3 sin q4, u3 cos q4, u4) in those of the body, where moments are taken.
+//! Orientation (Steets 2007, eqs. 3-3 and 3-6, with roll last): `R = Ry(pitch) · Rz(yaw) · Rx(roll)`. The
+//! rotation axes of the angles are y, `Ry z` and `Ry Rz x`, so that
+//! `ω = pitch˙ e_pitch + yaw˙ e_yaw + roll˙ e_roll`; with roll held this is (u4 sin q3, u3, u4 cos q3) in the
+//! axes of the reference frame, and (u3 sin q4, u3 cos q4, u4) in those of the body, where moments are taken.
 
 use integrate::scalar::Number;
 
@@ -14,13 +14,13 @@ use crate::vector::{Matrix, Vector, rotation_x, rotation_y, rotation_z};
 pub struct Orientation<S> {
     /// From body axes to reference axes.
     pub rotation: Matrix<S>,
-    /// The axes about which roll, pitch and yaw turn, body axes: x, `Rxᵀ (sin yaw, cos yaw, 0)`, `Rxᵀ z`.
+    /// The rotation axes of roll, pitch and yaw, body axes: x, `Rxᵀ (sin yaw, cos yaw, 0)`, `Rxᵀ z`.
     pub axes: [Vector<S>; 3],
 }
 
 impl<S: Number> Orientation<S> {
-    /// Returns the turn by the angles roll, pitch, yaw (rad). `rolls` tells whether roll may differ from zero: without it,
-    /// nothing is spent on it.
+    /// Returns the orientation at the angles roll, pitch, yaw (rad). `rolls` states whether roll may differ
+    /// from zero; otherwise its terms are left out.
     #[inline(always)]
     #[must_use]
     pub fn new(angles: [S; 3], rolls: bool) -> Self {
@@ -62,8 +62,9 @@ impl<S: Number> Orientation<S> {
         spin
     }
 
-    /// Returns the angular acceleration for rates and accelerations of roll, pitch, yaw, body axes: the rate of the components of
-    /// [`Orientation::spin`], `Σ e_k q¨_k + pitch˙ yaw˙ (e_pitch × e_yaw) + roll˙ (pitch˙ e_pitch + yaw˙ e_yaw) × e_roll`.
+    /// Returns the angular acceleration for rates and accelerations of roll, pitch, yaw, body axes: the rate
+    /// of the components of [`Orientation::spin`], `Σ e_k q¨_k + pitch˙ yaw˙ (e_pitch × e_yaw) + roll˙
+    /// (pitch˙ e_pitch + yaw˙ e_yaw) × e_roll`.
     #[inline(always)]
     #[must_use]
     pub fn spin_rate(&self, rates: [S; 3], accelerations: [S; 3], rolls: bool) -> Vector<S> {

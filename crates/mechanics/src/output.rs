@@ -16,7 +16,7 @@ pub struct Column {
     pub frame: Cow<'static, str>,
     /// The point that it refers to (of moments, displacements).
     pub reference: Cow<'static, str>,
-    /// What it is, in a few words.
+    /// Its meaning, in a few words.
     pub text: String,
 }
 

@@ -1,20 +1,21 @@
 //! The massless wedge in quasi-static sliding, with its jam condition.
 //!
-//! The wedge between a column (toe angle φ, positive toe out) and a slope (angle θ from the vertical) is pushed up by
-//! the coil force F_s. With a = +1 while the bolster moves down and -1 while it moves up, and b = +1 when the
-//! friction of the slope on the wedge acts up the slope, force balance along the slope and across it gives
-//! (Steets 2007, eq. 5-1, derived anew; ψ_c = atan μ_c, ψ_s = atan μ_s):
+//! The wedge between a column (toe angle φ, positive toe out) and a slope (angle θ from the vertical) is
+//! pushed up by the coil force F_s. With a = +1 while the bolster moves down and -1 while it moves up, and
+//! b = +1 when the friction of the slope on the wedge acts up the slope, force balance along the slope and
+//! across it gives (Steets 2007, eq. 5-1, derived anew; ψ_c = atan μ_c, ψ_s = atan μ_s):
 //!
 //! ```text
 //! N_c = F_s cos ψ_c cos(θ - b ψ_s) / sin(θ + φ - b ψ_s - a ψ_c)
 //! N_s = F_s cos ψ_s cos(φ - a ψ_c) / sin(θ + φ - b ψ_s - a ψ_c)
 //! ```
 //!
-//! As printed, eq. 5-1 is this normal force for unloading, with sin φ misprinted for sin θ. A steady solution exists
-//! only while the angle in the denominator, the jam margin, is positive (and the numerators are). Units: N, rad.
+//! As printed, eq. 5-1 is this normal force for unloading, with sin φ misprinted for sin θ. A steady solution
+//! exists only while the angle in the denominator, the jam margin, is positive (and the numerators are).
+//! Units: N, rad.
 //!
-//! Limits: no mass, no moments, the faces flat on each other. Rigid kinematics choose b: toe out b = -a, toe in
-//! b = +a; with no toe the slope does not slip, and the industry's elements take the toe-out branch.
+//! Limits: no mass, no moments, the faces flat on each other. Rigid kinematics choose b: toe out b = -a, toe
+//! in b = +a; with no toe the slope does not slip, and the industry's elements take the toe-out branch.
 
 use integrate::scalar::Real;
 
@@ -61,7 +62,7 @@ pub struct Sliding {
 }
 
 impl Direction {
-    /// a: +1 down, -1 up.
+    /// Returns a: +1 down, -1 up.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {
@@ -72,7 +73,7 @@ impl Direction {
 }
 
 impl SlopeFriction {
-    /// b: +1 up the slope, -1 down the slope.
+    /// Returns b: +1 up the slope, -1 down the slope.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {
@@ -101,7 +102,7 @@ impl QuasiStaticWedge {
             - direction.sign() * libm::atan(self.column_friction)
     }
 
-    /// Steady sliding under a coil force (N), or `None` where the wedge jams.
+    /// Returns the steady sliding under a coil force (N), or `None` if the wedge jams.
     #[must_use]
     pub fn slide(&self, direction: Direction, slope: SlopeFriction, coil_force: f64) -> Option<Sliding> {
         let margin = self.jam_margin(direction, slope);
@@ -120,9 +121,10 @@ impl QuasiStaticWedge {
         })
     }
 
-    /// Normal forces (N) at column and slope under a load (N: coil force less weight) while a part of the friction is mobilized:
-    /// `mobilized` goes from -1 (steady sliding up) over 0 (no friction) to +1 (steady sliding down), at both faces alike, the slope's
-    /// friction acting as on the [`QuasiStaticWedge::branch`]. `None` where the wedge jams.
+    /// Returns the normal forces (N) at column and slope under a load (N: coil force less weight) while a
+    /// part of the friction is mobilized: `mobilized` goes from -1 (steady sliding up) over 0 (no friction)
+    /// to +1 (steady sliding down), at both faces alike, the slope's friction acting as on the
+    /// [`QuasiStaticWedge::branch`]. `None` where the wedge jams.
     ///
     /// It is the same balance as [`QuasiStaticWedge::slide`], with `μ = mobilized · coefficient` for `tan ψ`:
     ///
@@ -147,8 +149,8 @@ impl QuasiStaticWedge {
         Some([load * on_column / denominator, load * on_slope / denominator])
     }
 
-    /// Returns the friction force over normal force at column (positive: up on the wedge) and slope (positive: up the slope on the wedge), see
-    /// [`QuasiStaticWedge::normal_forces`].
+    /// Returns the friction force over normal force at column (positive: up on the wedge) and slope
+    /// (positive: up the slope on the wedge), see [`QuasiStaticWedge::normal_forces`].
     pub fn mobilize<S: Real>(&self, mobilized: S) -> [S; 2] {
         let way = match self.branch(Direction::Down) {
             SlopeFriction::UpSlope => 1.0,
@@ -160,8 +162,8 @@ impl QuasiStaticWedge {
         ]
     }
 
-    /// Returns the friction coefficient (equal at both faces) at which loading with the slope's friction up the slope
-    /// jams: `tan((θ + φ)/2)`.
+    /// Returns the friction coefficient (equal at both faces) at which loading with the slope's friction up
+    /// the slope jams: `tan((θ + φ)/2)`.
     #[must_use]
     pub fn critical_friction(&self) -> f64 {
         libm::tan(0.5 * (self.angle + self.toe))

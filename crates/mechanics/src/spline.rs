@@ -14,14 +14,14 @@ pub struct Spline {
     curvatures: Vec<f64>,
 }
 
-/// What a spline is made of.
+/// Knots and ordinates of a spline.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Points {
     abscissae: Vec<f64>,
     ordinates: Vec<f64>,
 }
 
-/// Why points make no spline.
+/// Why points define no spline.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SplineError {
     /// Too few points.
@@ -151,8 +151,8 @@ impl Spline {
     }
 }
 
-/// Second derivatives at the knots; the third derivative is continuous at the second and last but one knot
-/// (not-a-knot, de Boor 1978, chapter IV).
+/// Returns the second derivatives at the knots; the third derivative is continuous at the second and last but
+/// one knot (not-a-knot, de Boor 1978, chapter IV).
 fn curvatures(x: &[f64], y: &[f64]) -> Vec<f64> {
     let n = x.len();
     let h: Vec<f64> = x.windows(2).map(|w| w[1] - w[0]).collect();

@@ -1,10 +1,12 @@
-//! The tangent of a force element: how its wrench changes with the relative motion of the markers at its ends.
+//! The tangent of a force element: how its wrench changes with the relative motion of the markers at its
+//! ends.
 //!
-//! With χ = (d, φ) the relative position and rotation of marker A seen from marker B, χ˙ = (v, ω) the relative twist, all in the axes of B,
-//! and (F, M) the wrench on A, the tangent holds the columns of `∂(F, M, powers)/∂(d, φ, v, ω)`: stiffness and damping, but for their
-//! signs. φ is a small rotation in addition to R: `δR = φ × R`. What the coordinates of the two bodies do to the relative motion is the
-//! same for all elements ([`crate::system`]); so an element states one function over any scalar, and its derivatives come from
-//! [`Tangent::of`].
+//! With χ = (d, φ) the position and rotation of marker A relative to marker B, χ˙ = (v, ω) the relative
+//! twist, all in the axes of B, and (F, M) the wrench on A, the tangent holds the columns of
+//! `∂(F, M, powers)/∂(d, φ, v, ω)`: stiffness and damping, but for their signs. φ is a small rotation in
+//! addition to R: `δR = φ × R`. The chain rule for the coordinates of the two bodies is the same for all
+//! elements ([`crate::system`]); so an element states one function over any scalar, and its derivatives come
+//! from [`Tangent::of`].
 
 use integrate::lanes::Lanes;
 use integrate::scalar::Dual;
@@ -102,7 +104,7 @@ pub(crate) fn moment_of(column: &TangentColumn) -> Vector<f64> {
 }
 
 impl Tangent {
-    /// No wrench, and none near.
+    /// No wrench, and no derivatives.
     pub const NONE: Self = Self {
         force: Vector([0.0; 3]),
         moment: Vector([0.0; 3]),
@@ -118,7 +120,8 @@ impl Tangent {
         }
     }
 
-    /// Returns the tangent by numbers with `N` derivatives: by position and velocity, and from 12 on by rotation and angular velocity.
+    /// Returns the tangent by numbers with `N` derivatives: by position and velocity, and from 12 on by
+    /// rotation and angular velocity.
     #[inline(always)]
     fn seeded<const N: usize>(relative: &RelativeMotion<f64>, law: &impl Element) -> Self {
         let seed = |vector: Vector<f64>, first: usize| {

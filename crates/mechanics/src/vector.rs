@@ -1,7 +1,7 @@
 //! Vectors and matrices of three, generic over the scalar.
 //!
-//! Products may mix a plain matrix with a vector that carries derivatives: what is constant in a pass of
-//! differentiation costs no derivative arithmetic.
+//! Products may mix a plain matrix with a vector that carries derivatives: quantities that are constant in a
+//! pass of differentiation cost no derivative arithmetic.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
@@ -157,7 +157,7 @@ impl<S: Real> Matrix<S> {
     }
 }
 
-/// Rotation about +x by the angle with this sine and cosine.
+/// Returns the rotation about +x by the angle with this sine and cosine.
 #[inline(always)]
 #[must_use]
 pub fn rotation_x<S: Number>((s, c): (S, S)) -> Matrix<S> {
@@ -165,7 +165,7 @@ pub fn rotation_x<S: Number>((s, c): (S, S)) -> Matrix<S> {
     Matrix([[i, o, o], [o, c, -s], [o, s, c]])
 }
 
-/// Rotation about +y by the angle with this sine and cosine.
+/// Returns the rotation about +y by the angle with this sine and cosine.
 #[inline(always)]
 #[must_use]
 pub fn rotation_y<S: Number>((s, c): (S, S)) -> Matrix<S> {
@@ -173,7 +173,7 @@ pub fn rotation_y<S: Number>((s, c): (S, S)) -> Matrix<S> {
     Matrix([[c, o, s], [o, i, o], [-s, o, c]])
 }
 
-/// Rotation about +z by the angle with this sine and cosine.
+/// Returns the rotation about +z by the angle with this sine and cosine.
 #[inline(always)]
 #[must_use]
 pub fn rotation_z<S: Number>((s, c): (S, S)) -> Matrix<S> {

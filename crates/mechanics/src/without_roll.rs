@@ -1,8 +1,11 @@
-//! Accelerations of a body that does not roll, in a frame at rest: [`Kinematics::inertia`] and [`Kinematics::accelerations`] with what is zero left out.
+//! Accelerations of a body that does not roll, in a frame at rest: [`Kinematics::inertia`] and
+//! [`Kinematics::accelerations`] without the terms that are zero.
 //!
-//! Without roll the axes of pitch θ and yaw ψ are `e_θ = (sin ψ, cos ψ, 0)` and `e_ψ = z` in the body's axes, in which inertia does not couple them. At θ¨ = ψ¨ = 0
-//! the angular acceleration is `β = θ˙ψ˙ (cos ψ, -sin ψ, 0)` and the centre of gravity at r is accelerated by `b = β × r + ω × (ω × r)`, beside the field
-//! (the frame's acceleration less gravity). With force F and moment M at the body's origin, what moves freely eliminated:
+//! Without roll the axes of pitch θ and yaw ψ are `e_θ = (sin ψ, cos ψ, 0)` and `e_ψ = z` in the body's axes,
+//! in which inertia does not couple them. At θ¨ = ψ¨ = 0 the angular acceleration is
+//! `β = θ˙ψ˙ (cos ψ, -sin ψ, 0)` and the center of gravity at r is accelerated by `b = β × r + ω × (ω × r)`,
+//! beside the field (the frame's acceleration less gravity). With force F and moment M at the body's origin,
+//! the free translations eliminated:
 //!
 //! ```text
 //! Σ_l J_kl q¨_l = e_k · (M - I β - ω × I ω - r × Rᵀ w),   w = F where the body is free to move, m (R b + field) where it is held,
@@ -16,8 +19,9 @@ use crate::body::{Kinematics, Rigid};
 use crate::vector::Vector;
 
 impl Kinematics<f64> {
-    /// Returns the accelerations of the six coordinates (held ones: zero) under a force at the body's origin (frame axes) and a moment about it (body axes), where roll is
-    /// held at zero and the frame rests; `field` is its acceleration less gravity, in its own axes.
+    /// Returns the accelerations of the six coordinates (held ones: zero) under a force at the body's origin
+    /// (frame axes) and a moment about it (body axes), where roll is held at zero and the frame rests;
+    /// `field` is its acceleration less gravity, in its own axes.
     #[inline(always)]
     pub(crate) fn accelerations_without_roll(
         &self,
@@ -39,7 +43,7 @@ impl Kinematics<f64> {
                 w1 * w2 * (i2 - i1),
             ]);
         let (mut pitch, mut both, mut yaw) = (i1 * sine * sine + i2 * cosine * cosine, zero, i3);
-        // Acceleration of the centre of gravity from the field's, body axes.
+        // Acceleration of the center of gravity from the field's, body axes.
         let mut own = Vector::zero();
         if !body.central {
             let swing: Vector<f64> = self.spin.cross(arm);
@@ -98,7 +102,7 @@ mod tests {
     }
 
     proptest! {
-        /// With any coordinates held, and the centre of gravity anywhere.
+        /// With any coordinates held, and the center of gravity anywhere.
         #[test]
         fn is_what_the_general_equations_give(
             free in prop::array::uniform6(any::<bool>()),

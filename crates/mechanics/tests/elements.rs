@@ -1,4 +1,5 @@
-//! Force elements of any kind: derivatives at both ends, momentum, the energy ledger; bodies with finite and with linearized kinematics.
+//! Force elements of any kind: derivatives at both ends, momentum, the energy ledger; bodies with finite and
+//! with linearized kinematics.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -231,8 +232,8 @@ fn run(system: &System, end: f64) -> (f64, f64) {
     (observation.residual(stored).abs(), observation.losses)
 }
 
-/// What is stored and what is lost account for the work, with a driver that turns and bodies in moving frames; an element that hides a
-/// tenth of its energy is found out.
+/// What is stored and what is lost account for the work, with a driver that turns and bodies in moving
+/// frames; an element that hides a tenth of its energy is found out.
 #[test]
 fn energy_an_element_that_is_left_out_of_the_ledger_is_noticed() {
     let frame = Frame::fixed([0.0; 3], [0.0; 3]);
@@ -309,7 +310,8 @@ const SPRINGS: [[f64; 3]; 4] = [
     [-0.3, -0.2, -0.1],
 ];
 
-/// A body on four springs with finite and with linearized kinematics: accelerations differ by the square of the angles.
+/// A body on four springs with finite and with linearized kinematics: accelerations differ by the square of
+/// the angles.
 #[test]
 fn limits_a_linearized_body_is_a_finite_one_at_small_angles() {
     let (mass, inertia, stiffness) = (5.0, [0.1, 0.2, 0.25], 2e3);

@@ -22,7 +22,7 @@ fn energies(system: System, options: Options, x: &[f64], end: f64) -> [f64; 2] {
 
 #[test]
 fn a_pendulum() {
-    // Pitch about y; centre of gravity below the axis: its least energy is hanging.
+    // Pitch about y; center of gravity below the axis: its least energy is hanging.
     let (mass, length, inertia) = (2.0, 0.5, 0.1);
     let free = [false, false, false, false, true, false];
     let mut one = body(
@@ -96,7 +96,7 @@ fn a_thrown_body() {
     let after = momenta(&mut twin, 0.8, done.x());
     let position = cg(&mut twin, 0.8, done.x());
     for k in 0..3 {
-        // The centre of gravity flies on a parabola, the spin about it stays.
+        // The center of gravity flies on a parabola, the spin about it stays.
         let flown = start[k] + before[k] / 2.0 * 0.8 + 0.5 * gravity[k] * 0.64;
         assert!((position[k] - flown).abs() < 1e-8, "{position:?} {k} {flown}");
     }
@@ -142,7 +142,8 @@ const BRISTLE: FrictionLaw = FrictionLaw::Bristle {
     damping: 300.0,
 };
 
-/// A body that falls on a face (damped or not), moves on it, and hangs on a damped coil with a guiding couple.
+/// A body that falls on a face (damped or not), moves on it, and hangs on a damped coil with a guiding
+/// couple.
 fn dropped(law: FrictionLaw, damping: f64, frame: Frame) -> Model {
     let one = body(
         "b",
@@ -245,8 +246,8 @@ fn the_ledger_closes() {
     closes(0.0);
 }
 
-/// Damping must not pull: from where the force has come to zero until the point opens, the spring's energy is still being
-/// lost, while no force acts by which the integrator could notice the end of it.
+/// Damping must not pull: from where the force has come to zero until the point opens, the spring's energy is
+/// still being lost, while no force acts by which the integrator could notice the end of it.
 #[test]
 fn the_ledger_closes_with_contact_damping() {
     closes(100.0);
@@ -305,7 +306,8 @@ fn rebound_from_a_damped_contact() {
     x[1] = -v;
     let w0 = f64::sqrt(k / mass);
     let zeta = c / (2.0 * mass * w0);
-    // g = -(v/w) exp(-ζ w0 t) sin(w t), w = w0 sqrt(1-ζ²); the force ends where k g + c g˙ = 0: tan(w t) = -2 ζ sqrt(1-ζ²)/(1-2ζ²)
+    // g = -(v/w) exp(-ζ w0 t) sin(w t), w = w0 sqrt(1-ζ²); the force ends where k g + c g˙ = 0: tan(w t) = -2
+    // ζ sqrt(1-ζ²)/(1-2ζ²)
     let phase =
         std::f64::consts::PI - (2.0 * zeta * (1.0 - zeta * zeta).sqrt()).atan2(1.0 - 2.0 * zeta * zeta);
     let rebound = v * (-zeta * phase / (1.0 - zeta * zeta).sqrt()).exp();

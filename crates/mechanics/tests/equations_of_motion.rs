@@ -1,6 +1,7 @@
-//! The accelerations against Lagrange's equations `d/dt ∂T/∂u - ∂T/∂q + ∂V/∂q + ∂D/∂u = 0`, with T, V and D written
-//! here from positions and rotation matrices alone: velocities and angular velocities come from differentiating these
-//! by numbers with three nilpotent units (exact to rounding), so that no formula of the library is used twice.
+//! The accelerations against Lagrange's equations `d/dt ∂T/∂u - ∂T/∂q + ∂V/∂q + ∂D/∂u = 0`, with T, V and D
+//! written here from positions and rotation matrices alone: velocities and angular velocities come from
+//! differentiating these by numbers with three nilpotent units (exact to rounding), so that no formula of the
+//! library is used twice.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -15,8 +16,8 @@ use mechanics::motion::Motion;
 use mechanics::system::System;
 use std::ops::{Add, Mul, Sub};
 
-/// A number with three units e1, e2, e3 whose squares are zero; component `s` belongs to the product of the units in the
-/// bit set `s`.
+/// A number with three units e1, e2, e3 whose squares are zero; component `s` belongs to the product of the
+/// units in the bit set `s`.
 #[derive(Clone, Copy, Debug)]
 struct N([f64; 8]);
 
@@ -58,7 +59,8 @@ impl Mul for N {
     }
 }
 impl N {
-    /// A function by its value and three derivatives at the plain part (the fourth power of the rest is zero).
+    /// A function by its value and three derivatives at the plain part (the fourth power of the rest is
+    /// zero).
     fn chain(self, f: [f64; 4]) -> N {
         let mut rest = self;
         rest.0[0] = 0.0;
@@ -127,7 +129,8 @@ fn rotation(roll: N, pitch: N, yaw: N) -> M3 {
     product(&ry, &product(&rz, &rx))
 }
 
-/// Position of the origin and rotation of a body. The frame's motions are sines: (amplitude, frequency, phase).
+/// Position of the origin and rotation of a body. The frame's motions are sines: (amplitude, frequency,
+/// phase).
 struct Pose {
     origin: V3,
     turn: M3,
@@ -396,8 +399,8 @@ fn in_a_frame_that_moves_without_turning() {
     }
 }
 
-/// Two bodies (one of them in a frame that moves and turns) between which a damped coil and a frictionless face act, and
-/// which stand on a driven third one: elements as a potential and a dissipation function.
+/// Two bodies (one of them in a frame that moves and turns) between which a damped coil and a frictionless
+/// face act, and which stand on a driven third one: elements as a potential and a dissipation function.
 #[test]
 fn elements_between_bodies() {
     let mut random = Random(5);

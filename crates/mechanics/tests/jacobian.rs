@@ -1,4 +1,5 @@
-//! Every entry of the Jacobian matrix, and the derivative by time, against differences of the right-hand side.
+//! Every entry of the Jacobian matrix, and the derivative by time, against differences of the right-hand
+//! side.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -161,7 +162,8 @@ fn check_matrix(system: &mut System, time: f64, x: &[f64], expected: &[Vec<f64>]
     }
 }
 
-/// Compares matrix and time derivative at random states; passes over states with a kink within the difference.
+/// Compares matrix and time derivative at random states; passes over states with a kink within the
+/// difference.
 fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Counts {
     let mut system = System::new(model.clone()).unwrap();
     let layout = system.layout();
@@ -542,7 +544,8 @@ fn open_points_at_rest_with_relaxed_bristles() {
     check_matrix(&mut system, 0.0, &x, &expected, &mut Random(30));
 }
 
-/// The stiffness that is due to the accelerations (change of the mass matrix) is there: a body that turns fast.
+/// The stiffness that is due to the accelerations (change of the mass matrix) is there: a body that turns
+/// fast.
 #[test]
 fn a_fast_turning_body_without_elements() {
     let one = body("b", 2.0, [0.3, 0.5, 0.7], [-0.4, 0.3, 0.2], ALL, [0.0; 6]);

@@ -1,4 +1,5 @@
-//! What models come to: a mass that friction stops, creep, rest in equilibrium, momentum, the same bits again.
+//! What models come to: a mass that friction stops, creep, rest in equilibrium, momentum, the same bits
+//! again.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -23,7 +24,8 @@ const STIFFNESS: f64 = 4000.0;
 const LIMIT: f64 = 29.43;
 const RELEASED: f64 = 0.2;
 
-/// A mass (x and z free) that lies on a plane by its weight, on a coil along x that is without force at x = 0.
+/// A mass (x and z free) that lies on a plane by its weight, on a coil along x that is without force at
+/// x = 0.
 fn sliding_mass(law: FrictionLaw) -> System {
     let (gravity, normal) = (9.81, 1e6);
     let sunk = -MASS * gravity / normal;
@@ -55,8 +57,9 @@ fn friction_stops_a_mass_on_a_spring_for_ever() {
         damping: 1e5,
     });
     let x = system.initial_state();
-    // With a rigid slider every half cycle takes 2 F/k off the amplitude A. A bristle has to be turned over first,
-    // within 2F/K of way, during which friction loses less than F·2F/K too little: k/2 (A0² - A1²) ≥ F (A0 + A1) - 2F²/K.
+    // With a rigid slider every half cycle takes 2 F/k off the amplitude A. A bristle has to be turned over
+    // first, within 2F/K of way, during which friction loses less than F·2F/K too little: k/2 (A0² - A1²) ≥ F
+    // (A0 + A1) - 2F²/K.
     let loss = 2.0 * LIMIT / STIFFNESS;
     let mut bound = 0.0;
     let mut amplitude = RELEASED;
@@ -126,8 +129,8 @@ fn tanh_creeps_where_the_bristle_holds() {
     let mut x = system.initial_state();
     x[0] = -0.006;
     let mut speeds = Vec::new();
-    // A short step at most, so that there is something to look at: creep is slow. The speeds are asked for to a hundredth of what inertia does to
-    // them, 1e-10 m/s: the tolerance is 1e-11 m/s.
+    // A short step at most, so that there is something to look at: creep is slow. The speeds are asked for to
+    // a hundredth of what inertia does to them, 1e-10 m/s: the tolerance is 1e-11 m/s.
     let options = Options {
         maximum_step: 0.25,
         ..options(Method::Rodas5P, 1e-12)
@@ -189,7 +192,7 @@ fn creep_speeds_of_a_system() {
 
 #[test]
 fn equilibrium_on_springs() {
-    // A body on a face of four points, its centre of gravity not in their middle.
+    // A body on a face of four points, its center of gravity not in their middle.
     let one = body(
         "b",
         20.0,
@@ -229,7 +232,7 @@ fn equilibrium_on_springs() {
     // Share of each corner of a rigid rectangle on equal springs: W/4 (1 + x_c x_i/a² + y_c y_i/b²).
     for (normal, corner) in normals.iter().zip(corners) {
         let expected = 0.25 * weight * (1.0 + 0.05 * corner[0] / 0.04 - 0.02 * corner[1] / 0.01);
-        // The tilt (about 1e-4) moves the centre of gravity by its height times the tilt.
+        // The tilt (about 1e-4) moves the center of gravity by its height times the tilt.
         assert!(
             (normal - expected).abs() < 5e-4 * weight,
             "{normal} instead of {expected}"
@@ -268,7 +271,8 @@ fn floating(law: FrictionLaw, damping: f64) -> Model {
         [-0.1, 0.1, -0.1],
         [-0.1, -0.1, -0.1],
     ];
-    // Which pair meets where is a matter of the mount: the plane is placed so that three corners are closed at the start.
+    // Which pair meets where is a matter of the marker: the plane is placed so that three corners are closed
+    // at the start.
     for (body, on, marker) in [
         (0, 1, Marker::new([0.0, 0.05, -0.2], UP)),
         (1, 0, Marker::new([0.05, 0.0, -0.3], UP)),
@@ -337,7 +341,8 @@ fn action_and_reaction_at_random_states() {
             for value in change {
                 assert!(value.abs() < 1e-9 * size, "{value} of {size}");
             }
-            // The wrenches as observed: what carries the points, and the reaction on the other body, about any point.
+            // The wrenches as observed: what carries the points, and the reaction on the other body, about
+            // any point.
             let about: [f64; 3] = random.vector(1.0);
             for (mounted, state) in system.faces().iter().zip(&observation.faces) {
                 let from = observation.bodies[mounted.body].origin.0;

@@ -1,8 +1,9 @@
 //! The half-truck with four wedges that Steets (2007) compares with, as files.
 //!
 //! Numbers and structure are those of the thesis's appendices A and B, with their inconsistencies, which
-//! [`check`](crate::check) reports; titles, comments and free text are our own. The two data files that are both called
-//! `sngl_trk.dat` there carry `_68` and `_69` here, while the run files still name `sngl_trk.DAT`.
+//! [`check`](crate::check) reports; titles, comments and free text are our own. The two data files that are
+//! both called `sngl_trk.dat` there carry `_68` and `_69` here, while the run files still name
+//! `sngl_trk.DAT`.
 
 use std::sync::Arc;
 

@@ -1,9 +1,10 @@
 //! Words, quoted texts and lines.
 //!
-//! Inside a section the files are free-format as in Fortran's list-directed input: values are separated by blanks, tabs,
-//! commas and line ends. `!` begins a comment that ends with the line, `'...'` protects it; a doubled quotation mark
-//! stands for itself. Left out of Fortran's rules: repeat counts (`3*0.0`), empty values between commas, and `/` as the
-//! end of a record. Where one stands, the reader finds a text where a number belongs.
+//! Inside a section the files are free-format as in Fortran's list-directed input: values are separated by
+//! blanks, tabs, commas and line ends. `!` begins a comment that ends with the line, `'...'` protects it; a
+//! doubled quotation mark stands for itself. Left out of Fortran's rules: repeat counts (`3*0.0`), empty
+//! values between commas, and `/` as the end of a record. Where one stands, the reader finds a text where a
+//! number belongs.
 
 use crate::source::Span;
 

@@ -1,4 +1,5 @@
-//! Input files of NUCARS, the vehicle dynamics program of the North American railways: reading, checking, showing.
+//! Input files of NUCARS, the vehicle dynamics program of the North American railways: reading, checking,
+//! showing.
 //!
 //! - [`source`]: texts and places in them,
 //! - [`tree`]: what the files say, typed, as typed, in the files' units,
@@ -11,9 +12,9 @@
 //! - [`truck`]: a system and its inputs as a model that can be run,
 //! - [`builtin`]: the half-truck of Steets (2007), appendices A and B.
 //!
-//! The program's manual is not public. The grammar and the meaning of the values follow the files printed in R. Steets,
-//! "Three-dimensional multibody modeling of railway friction wedges", Virginia Tech 2007, appendices A and B, with what
-//! their comments and numbers tell.
+//! The program's manual is not public. The grammar and the meaning of the values follow the files printed in
+//! R. Steets, "Three-dimensional multibody modeling of railway friction wedges", Virginia Tech 2007,
+//! appendices A and B, with what their comments and numbers tell.
 
 //! ```
 //! use nucars::read::read_system;

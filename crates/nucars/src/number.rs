@@ -2,8 +2,8 @@
 
 use crate::tree::{Component, Dof, DofKind};
 
-/// A real number: `32`, `1.0E6`, `1.D0`, `-15e3`, `.5`, `1.5+3` (exponent without letter). `None` for anything else,
-/// for numbers beyond double precision, and for `inf` and `nan`.
+/// A real number: `32`, `1.0E6`, `1.D0`, `-15e3`, `.5`, `1.5+3` (exponent without letter). `None` for
+/// anything else, for numbers beyond double precision, and for `inf` and `nan`.
 pub fn real(text: &str) -> Option<f64> {
     let bytes = text.as_bytes();
     let digits = match bytes {

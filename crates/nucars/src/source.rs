@@ -43,8 +43,8 @@ impl Span {
 
 /// A value with the place it was read from.
 ///
-/// Two of them are equal if their values are: places do not count, so that trees from differently laid out files can
-/// be compared.
+/// Two of them are equal if their values are: places do not count, so that trees from differently laid out
+/// files can be compared.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spanned<T> {
     /// The value as typed, in the file's units.
@@ -87,7 +87,8 @@ impl<T: fmt::Display> fmt::Display for Spanned<T> {
     }
 }
 
-/// The place of a record. All of them are equal, so that trees from differently laid out files can be compared.
+/// The place of a record. All of them are equal, so that trees from differently laid out files can be
+/// compared.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct At(pub Span);
 
@@ -115,7 +116,8 @@ pub struct SourceText {
 }
 
 impl SourceText {
-    /// The text of a file: UTF-8, with or without byte order mark, UTF-16 with one, or else Latin-1. Lines end with `\n`, `\r\n` or `\r`.
+    /// The text of a file: UTF-8, with or without byte order mark, UTF-16 with one, or else Latin-1. Lines
+    /// end with `\n`, `\r\n` or `\r`.
     ///
     /// # Errors
     /// It, or one of its lines, is longer than [`input::limits`] allow.

@@ -179,7 +179,8 @@ fn the_printed_data_files_have_the_known_faults() {
         );
     }
     assert!(!codes(&data(text("sngl_trk_68.dat"), CONSTANT), Severity::Warning).contains(&"mixed-sum"));
-    // What is switched off: 52 announced, 31 listed, of which 3 flexible modes and the 14 of bodies 2, 5, 6 do not exist.
+    // What is switched off: 52 announced, 31 listed, of which 3 flexible modes and the 14 of bodies 2, 5, 6
+    // do not exist.
     assert!(
         has(&findings, Severity::Note, 22, &["the count is 52, but 31"]),
         "{}",

@@ -1,4 +1,5 @@
-//! Files broken at random: no panic, every mistake has its place, and what is read without errors can be written.
+//! Files broken at random: no panic, every mistake has its place, and what is read without errors can be
+//! written.
 
 #![allow(clippy::unwrap_used)]
 

@@ -104,7 +104,8 @@ fn issue_029_files_of_another_kind_are_recognized() {
     assert!(error.to_string().contains("this line has"), "{error}");
 }
 
-/// A keyword kept a `=` before white space that is none of ASCII, and lost it when it was written and read again.
+/// A keyword kept a `=` before white space that is none of ASCII, and lost it when it was written and read
+/// again.
 #[test]
 fn issue_029_keywords_are_read_as_written() {
     for keyword in ["=\u{2028}\u{2028}", "A -\u{a0}", "B :\t="] {

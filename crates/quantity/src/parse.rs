@@ -213,7 +213,8 @@ fn bad_number(text: &str, start: usize, end: usize, expected: Option<Kind>) -> O
     None
 }
 
-/// A number in the shortest form that reads back to the same bits: with an exponent where it would have many zeros.
+/// A number in the shortest form that reads back to the same bits: with an exponent where it would have many
+/// zeros.
 #[derive(Clone, Copy, Debug)]
 pub struct Number(pub f64);
 

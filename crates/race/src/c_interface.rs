@@ -1,7 +1,7 @@
 //! The equations for drivers in other languages: the C interface of `drivers/race.h`.
 //!
-//! A handle comes from [`race_open`] and goes to [`race_close`]. Vectors are as long as [`race_dimension`] says. No panic
-//! crosses the border: a call that fails gives a null pointer, or something other than zero.
+//! A handle comes from [`race_open`] and goes to [`race_close`]. Vectors are as long as [`race_dimension`]
+//! says. No panic crosses the border: a call that fails gives a null pointer, or something other than zero.
 #![allow(unsafe_code)] // A C interface is made of pointers; each use says why it holds. Valgrind runs it in the `race` check.
 
 use std::ffi::{CStr, c_char, c_int};
@@ -94,7 +94,8 @@ pub unsafe extern "C" fn race_time(handle: *const Handle, row: c_int) -> f64 {
 /// Writes the state at the start and the error scales of the states; other than 0 for null.
 ///
 /// # Safety
-/// `handle` is null or comes from [`race_open`]; `start` and `scales` have room for [`race_dimension`] numbers.
+/// `handle` is null or comes from [`race_open`]; `start` and `scales` have room for [`race_dimension`]
+/// numbers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn race_start(handle: *const Handle, start: *mut f64, scales: *mut f64) -> c_int {
     // SAFETY: null or alive, by the caller's promise.

@@ -1,7 +1,8 @@
 //! diffsol in the race: BDF, TR-BDF2 and ESDIRK34, dense LU (nalgebra), the analytic Jacobian.
 //!
-//! Options beyond its defaults: relative tolerance zero and an absolute one of tolerance times scale for each state, as
-//! every solver here; no limit of failures of Newton's method and of the error test, without which runs end at impacts.
+//! Options beyond its defaults: relative tolerance zero and an absolute one of tolerance times scale for each
+//! state, as every solver here; no limit of failures of Newton's method and of the error test, without which
+//! runs end at impacts.
 
 use std::cell::{Cell, RefCell};
 
@@ -33,7 +34,8 @@ struct StoredStates {
     matrix: Vec<f64>,
 }
 
-/// One integration up to `rows` rows; the states of the rows reached. `fresh`: a new Jacobian and factorization each step.
+/// One integration up to `rows` rows; the states of the rows reached. `fresh`: a new Jacobian and
+/// factorization each step.
 ///
 /// # Errors
 /// The problem does not exist, or diffsol refuses it.

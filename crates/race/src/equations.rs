@@ -1,8 +1,8 @@
 //! The equations as every other solver gets them: a state, its rates, its Jacobian matrix.
 //!
-//! State `z = (q, u, s, w)`: positions, speeds, bristle deflections, and one quadrature, the energy lost in friction at the
-//! first face (the side frame's column), which the energy per cycle needs. Our own integrator carries all quadratures of
-//! the energy ledger besides, as it always does.
+//! State `z = (q, u, s, w)`: positions, speeds, bristle deflections, and one quadrature, the energy lost in
+//! friction at the first face (the side frame's column), which the energy per cycle needs. Our own integrator
+//! carries all quadratures of the energy ledger besides, as it always does.
 
 use integrate::{Problem as _, Singular};
 use mechanics::system::{EnergyTermKind, System};
@@ -122,8 +122,8 @@ impl Equations {
     /// The Jacobian matrix of the rates by the state, column by column.
     ///
     /// It is the matrix that our own integrator factors, read out through the same interface: the columns of
-    /// `(σ - J)⁻¹` are solutions for unit vectors, and its inverse is `σ - J`. Whatever structure the matrix is kept in, the
-    /// others get the same derivatives; reading them out costs them some 2 µs a matrix.
+    /// `(σ - J)⁻¹` are solutions for unit vectors, and its inverse is `σ - J`. Whatever structure the matrix
+    /// is kept in, the others get the same derivatives; reading them out costs them some 2 µs a matrix.
     ///
     /// # Errors
     /// `σ - J` has no inverse, which another state or time mends.

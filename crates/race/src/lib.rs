@@ -1,11 +1,12 @@
 //! The solver race: other people's solvers and ours on the same equations, side by side.
 //!
 //! - [`problem`]: the problems by name.
-//! - [`equations`]: state, rates and Jacobian matrix, as every other solver gets them; [`c_interface`] for drivers in C,
-//!   Python and Octave (`drivers/`); [`wedge_case`] for the one that has the equations in its own language.
+//! - [`equations`]: state, rates and Jacobian matrix, as every other solver gets them; [`c_interface`] for
+//!   drivers in C, Python and Octave (`drivers/`); [`wedge_case`] for the one that has the equations in its
+//!   own language.
 //! - [`own`], [`diffsol`]: the drivers in Rust; [`outcome`]: what every driver reports.
-//! - [`contest`]: who runs; [`runner`]: runs them; [`measure`], [`standings`]: errors, fronts, ratios; [`tables`], [`figures`]: what is
-//!   shown of them; [`page`]: `docs/race.md`.
+//! - [`contest`]: who runs; [`runner`]: runs them; [`measure`], [`standings`]: errors, fronts, ratios;
+//!   [`tables`], [`figures`]: what is shown of them; [`page`]: `docs/race.md`.
 
 pub mod c_interface;
 pub mod clock;

@@ -11,7 +11,8 @@ use crate::problem::{Judged, Problem};
 pub enum Quantities {
     /// Time series: vertical and longitudinal wedge force, or the position.
     Series(Vec<Vec<f64>>),
-    /// Mean vertical wedge force of the upward and the downward branch, N, and friction energy per cycle at the side frame, J.
+    /// Mean vertical wedge force of the upward and the downward branch, N, and friction energy per cycle at
+    /// the side frame, J.
     Means([f64; 3]),
 }
 
@@ -123,9 +124,9 @@ impl Judge {
 impl Quantities {
     /// How far these quantities are from those of a reference, relative to the reference.
     ///
-    /// Series: root mean square of the difference over that of the reference, the greatest of the series. Means: the
-    /// greatest of the differences of the branch means over the larger branch mean, and of the energies over the energy.
-    /// Infinite if they cannot be compared.
+    /// Series: root mean square of the difference over that of the reference, the greatest of the series.
+    /// Means: the greatest of the differences of the branch means over the larger branch mean, and of the
+    /// energies over the energy. Infinite if they cannot be compared.
     #[must_use]
     pub fn error(&self, reference: &Self) -> f64 {
         match (self, reference) {

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 /// What a driver prints.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
-    /// CPU time of the integration, s: the least of the repetitions. Without starting the program, without files.
+    /// CPU time of the integration, s: the least of the repetitions. Without starting the program, without
+    /// files.
     pub cpu: f64,
     /// Wall time of the same repetition, s.
     pub wall: f64,

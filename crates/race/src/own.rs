@@ -1,5 +1,5 @@
-//! Our own integrator in the race: all quadratures of the energy ledger, error control of all; contact modes recorded, as in users' runs, or
-//! not, as by the other solvers.
+//! Our own integrator in the race: all quadratures of the energy ledger, error control of all; contact modes
+//! recorded, as in users' runs, or not, as by the other solvers.
 
 use integrate::{Family, Integrator, Method, Options};
 

@@ -1,5 +1,5 @@
-//! The page of the race, `docs/race.md`: text that stays, around the tables of the results that are stored beside it
-//! (`docs/measured/race.json`). A whole race replaces these results; nobody edits the page.
+//! The page of the race, `docs/race.md`: text that stays, around the tables of the results that are stored
+//! beside it (`docs/measured/race.json`). A whole race replaces these results; nobody edits the page.
 
 use std::fmt::Write;
 use std::path::Path;

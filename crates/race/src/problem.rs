@@ -101,8 +101,8 @@ pub fn is_yawed(name: &str) -> bool {
     builtin::thesis_names().any(|known| known == name) && !name.ends_with("psi_0")
 }
 
-/// The name of a case from another start than its own, which is number 0: `vdrun_toe_0_psi_0@2` begins with the wedge 2 steps of
-/// [`START_STEP`] lower. Drivers in other languages hand such a name on.
+/// The name of a case from another start than its own, which is number 0: `vdrun_toe_0_psi_0@2` begins with
+/// the wedge 2 steps of [`START_STEP`] lower. Drivers in other languages hand such a name on.
 #[must_use]
 pub fn with_start(case: &str, start: u32) -> String {
     match start {
@@ -211,8 +211,8 @@ impl Problem {
         })
     }
 
-    /// A mass of 10 kg that slides along x on a plane, pressed by its weight, friction 0.3, on a spring of 4000 N/m,
-    /// released at 0.2 m. Its height is held at the depth at which the plane carries its weight.
+    /// A mass of 10 kg that slides along x on a plane, pressed by its weight, friction 0.3, on a spring of
+    /// 4000 N/m, released at 0.2 m. Its height is held at the depth at which the plane carries its weight.
     fn stick(name: &str, law: FrictionLaw) -> Result<Self, String> {
         let (mass, gravity, normal) = (10.0, 9.81, 1e6);
         let sunk = -mass * gravity / normal;

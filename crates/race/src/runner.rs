@@ -15,7 +15,8 @@ use crate::problem::{Judged, Problem, with_start};
 pub const TOLERANCES: [&str; 12] = [
     "1e-3", "3e-4", "1e-4", "3e-5", "1e-5", "3e-6", "1e-6", "3e-7", "1e-7", "3e-8", "1e-8", "1e-9",
 ];
-/// The solver of the reference, which is not ours, and its tolerance; the next one tells how good the reference is.
+/// The solver of the reference, which is not ours, and its tolerance; the next one tells how good the
+/// reference is.
 pub const REFERENCE: (&str, &str, &str) = ("CVODE BDF", "1e-11", "1e-10");
 /// CPU time that a reference may take, s.
 const REFERENCE_LIMIT: f64 = 600.0;
@@ -123,7 +124,8 @@ impl Plan {
     ) -> Result<Vec<Entry>, String> {
         let mut entries = Vec::new();
         let mut late = None;
-        // Halves of decades only where a run takes seconds at most: a front of seven points makes one of them a matter of luck.
+        // Halves of decades only where a run takes seconds at most: a front of seven points makes one of them
+        // a matter of luck.
         let compiled = matches!(one.program, Program::Own | Program::Cvode);
         for tolerance in self.tolerances.iter().filter(|t| compiled || !t.starts_with('3')) {
             // Smaller tolerances only take longer there. (Multistep methods are slowest at loose ones.)

@@ -1,4 +1,5 @@
-//! Errors of all runs, work-precision fronts, and how many times faster one solver is than another at equal error.
+//! Errors of all runs, work-precision fronts, and how many times faster one solver is than another at equal
+//! error.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -43,8 +44,8 @@ pub struct Standing {
     pub judged: String,
     /// How well the reference is known: smaller errors say nothing.
     pub floor: f64,
-    /// From how many starts each run was made: errors and the floor are root mean squares over them, times and counts their means; the floor
-    /// then has twice the scatter of such a root mean square on top.
+    /// From how many starts each run was made: errors and the floor are root mean squares over them, times
+    /// and counts their means; the floor then has twice the scatter of such a root mean square on top.
     pub starts: usize,
     /// The runs.
     pub runs: Vec<Judgement>,
@@ -87,8 +88,8 @@ pub fn over_starts(each: Vec<Standing>) -> Option<Standing> {
     let others: Vec<Standing> = others.collect();
     whole.floor = floor;
     if starts > 1 {
-        // A root mean square over n starts scatters by 1/√(2n) of itself. Nearer to the floor than twice that, who is below a level and who
-        // is above it would be luck.
+        // A root mean square over n starts scatters by 1/√(2n) of itself. Nearer to the floor than twice
+        // that, who is below a level and who is above it would be luck.
         whole.floor *= 1.0 + (2.0 / starts as f64).sqrt();
     }
     for run in whole.runs.iter_mut().filter(|run| run.finished()) {
@@ -147,7 +148,8 @@ fn standing(folder: &Path, case: &str, group: &[&Entry]) -> Result<Standing, Str
         } else {
             None
         };
-        // What is chaotic scatters: the reference is not known better than its solver's close tolerances agree.
+        // What is chaotic scatters: the reference is not known better than its solver's close tolerances
+        // agree.
         let close = entry.solver == REFERENCE.0 && entry.tolerance == "1e-9";
         if let (true, Some(error)) = (close, error) {
             floor = floor.max(error);
@@ -185,7 +187,8 @@ impl Standing {
         names
     }
 
-    /// The cheapest finished run of the named solvers whose error is not above `level` (or the floor, if that is higher).
+    /// The cheapest finished run of the named solvers whose error is not above `level` (or the floor, if that
+    /// is higher).
     #[must_use]
     pub fn cheapest(&self, names: &[&str], level: f64) -> Option<&Judgement> {
         let level = level.max(self.floor);
@@ -206,7 +209,8 @@ impl Standing {
         levels
     }
 
-    /// How many times longer `others` take than `ours` at equal error: each at its best tolerance; level by level where both come.
+    /// How many times longer `others` take than `ours` at equal error: each at its best tolerance; level by
+    /// level where both come.
     #[must_use]
     pub fn ratios(&self, others: &[&str], ours: &[&str]) -> Vec<(f64, f64)> {
         let levels = self.levels().into_iter();

@@ -100,7 +100,8 @@ fn power(value: f64) -> String {
     format!("{value:.0e}")
 }
 
-/// How many times faster ours is, case by case and solver by solver: the least and the middle of all error levels.
+/// How many times faster ours is, case by case and solver by solver: the least and the middle of all error
+/// levels.
 #[must_use]
 pub fn ratios(standings: &[Standing]) -> Table {
     let full = standings.iter().map(|one| one.span).fold(0.0, f64::max);

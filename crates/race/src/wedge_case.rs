@@ -1,4 +1,5 @@
-//! A case as a driver gets it that has the equations in its own language: the parameters, not the right-hand side.
+//! A case as a driver gets it that has the equations in its own language: the parameters, not the right-hand
+//! side.
 
 use serde::Serialize;
 use wedge::parameters::Parameters;

@@ -1,4 +1,5 @@
-//! What the other solvers get is right: the Jacobian matrix against differences of the rates, errors and fronts by hand.
+//! What the other solvers get is right: the Jacobian matrix against differences of the rates, errors and
+//! fronts by hand.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use race::equations::Equations;
@@ -8,7 +9,8 @@ use race::problem::{Problem, START_STEP, names, start_of, with_start};
 use race::runner::Entry;
 use race::standings::{Judgement, Standing, over_starts};
 
-/// Each column against a central difference with Richardson's extrapolation, at a state on the way, where contacts are closed.
+/// Each column against a central difference with Richardson's extrapolation, at a state on the way, where
+/// contacts are closed.
 #[test]
 fn the_jacobian_is_the_derivative_of_the_rates() {
     for name in names() {
@@ -18,7 +20,8 @@ fn the_jacobian_is_the_derivative_of_the_rates() {
         let (_, states) =
             race::own::run(&name, integrate::Method::Rodas5P, false, 1e-7, 10.0, 40).expect("our own run");
         let mut z = states[states.len() - n..].to_vec();
-        // A wedge that hangs free may hang at a face without touching it: a thousand differences away from there.
+        // A wedge that hangs free may hang at a face without touching it: a thousand differences away from
+        // there.
         for (value, scale) in z.iter_mut().zip(equations.scales()) {
             *value += 1e-6 * scale;
         }
@@ -111,7 +114,8 @@ fn standing(runs: &[(&str, f64, f64, &str)]) -> Standing {
     }
 }
 
-/// Two starts: the root mean square of errors and floors, the mean of times; what fails from one start has failed.
+/// Two starts: the root mean square of errors and floors, the mean of times; what fails from one start has
+/// failed.
 #[test]
 fn starts_are_taken_together_by_hand() {
     let own = standing(&[

@@ -1,6 +1,7 @@
-//! CVODE's driver in C, through the C interface, agrees with our own integrator. `cargo xtask test --only race` compiles the
-//! driver and names it in `RACE_CVODE`, and the folder of the library compiled for all processors in `RACE_PORTABLE`; where valgrind is
-//! installed it looks for wrong accesses too.
+//! CVODE's driver in C, through the C interface, agrees with our own integrator.
+//! `cargo xtask test --only race` compiles the driver and names it in `RACE_CVODE`, and the folder of the
+//! library compiled for all processors in `RACE_PORTABLE`; where valgrind is installed it looks for wrong
+//! accesses too.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use std::process::Command;

@@ -1,5 +1,5 @@
-//! The wedge's equations in Octave's language give the compiled rates. `cargo xtask test --only octave` installs Octave and names it in
-//! `WEDGELAB_OCTAVE`.
+//! The wedge's equations in Octave's language give the compiled rates. `cargo xtask test --only octave`
+//! installs Octave and names it in `WEDGELAB_OCTAVE`.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use std::path::{Path, PathBuf};
@@ -46,7 +46,8 @@ struct Counts {
 }
 
 impl Counts {
-    /// Counts the corners of a state: open, or by slip over reference speed. Says how large the rates would be if nothing balanced.
+    /// Counts the corners of a state: open, or by slip over reference speed. Says how large the rates would
+    /// be if nothing balanced.
     fn count(
         &mut self,
         equations: &mut Equations,
@@ -79,7 +80,8 @@ impl Counts {
     }
 }
 
-/// Times and states of a case: along a run of ours, and beside it, where corners open and close and slip in all directions.
+/// Times and states of a case: along a run of ours, and beside it, where corners open and close and slip in
+/// all directions.
 fn states_of(name: &str, equations: &Equations) -> Vec<(f64, Vec<f64>)> {
     let n = equations.dimension();
     let problem = Problem::named(name).unwrap();

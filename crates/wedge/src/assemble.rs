@@ -1,10 +1,10 @@
-//! The wedge, its neighbours, faces and coil as a system.
+//! Assembly of the wedge, its neighbors, faces and coil.
 //!
-//! Nominal position: the wedge frame's origin B at (0, 0, L) with L the nominal coil length; with no toe and no yaw
-//! both faces just touch.
+//! Nominal position: the wedge frame's origin B at (0, 0, L) with L the nominal coil length; with no toe and
+//! no yaw both faces just touch.
 //! - Column: plane through (x_A, 0, L + h2/2), normal (cos φ, 0, -sin φ) for toe-out φ.
-//! - Slope: plane through the pocket's centre (x_A + h1/2, 0, L + h2/2), normal (-cos θ, 0, -sin θ) in the bolster's axes.
-//!   The bolster turns about that centre unless another is named.
+//! - Slope: plane through the pocket's center (x_A + h1/2, 0, L + h2/2), normal (-cos θ, 0, -sin θ) in the
+//!   bolster's axes. The bolster turns about that center unless another is named.
 //! - Worn faces: column and slope lie deeper by the depth of wear, along their normals.
 //! - Coil: its seat is the origin, on the side frame (variable damping) or on the bolster (constant damping).
 
@@ -35,7 +35,7 @@ pub const COLUMN: usize = 0;
 /// The slope's number among the faces.
 pub const SLOPE: usize = 1;
 
-/// Why parameters make no wedge.
+/// Why parameters define no wedge.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum BuildError {
     /// A parameter is outside its range.
@@ -52,7 +52,7 @@ pub enum BuildError {
 /// A stand-alone wedge, ready to run.
 #[derive(Clone, Debug)]
 pub struct Wedge {
-    /// What it is made of.
+    /// Its parameters.
     pub parameters: Parameters,
     /// Its equations of motion.
     pub system: System,
@@ -93,7 +93,8 @@ impl Wedge {
     }
 }
 
-/// Returns how far column and pocket must move apart, each along the x axis of its body, until no corner penetrates at time zero, m.
+/// Returns how far column and pocket must move apart, each along the x axis of its body, until no corner
+/// penetrates at time zero, m.
 fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
     let mut system = System::new(model(parameters, [0.0; 2]))?;
     let start = system.initial_state();
@@ -107,7 +108,7 @@ fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
     }))
 }
 
-/// Returns the same wedge without friction, its neighbours held where they are at time zero.
+/// Returns the same wedge without friction, its neighbors held where they are at time zero.
 fn held(parameters: &Parameters) -> Parameters {
     let mut held = parameters.clone();
     for neighbour in [&mut held.side_frame, &mut held.bolster] {
@@ -124,7 +125,7 @@ fn held(parameters: &Parameters) -> Parameters {
     held
 }
 
-/// Bodies and elements; `shifts` move column and pocket apart.
+/// Returns bodies and elements; `shifts` move column and pocket apart.
 fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
     let Parameters { wedge, coil, .. } = parameters;
     let (bottom, face_x, length) = (
@@ -229,7 +230,7 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
     }
 }
 
-/// Returns a prescribed neighbour and its origin: the point that it turns about.
+/// Returns a prescribed neighbor and its origin: the point that it turns about.
 fn neighbour(name: &str, motion: &NeighbourMotion, center: [f64; 3]) -> (Body, [f64; 3]) {
     let origin = motion.center.unwrap_or(center);
     let frame = Frame {
@@ -240,7 +241,8 @@ fn neighbour(name: &str, motion: &NeighbourMotion, center: [f64; 3]) -> (Body, [
     (Body::prescribed(name, frame), origin)
 }
 
-/// Returns a length along the normal of a surface that is pitched by this angle; nothing for nothing, to the last bit.
+/// Returns a length along the normal of a surface that is pitched by this angle; nothing for nothing, to the
+/// last bit.
 fn along(length: f64, pitch: f64) -> [f64; 3] {
     if length == 0.0 {
         return [0.0; 3];

@@ -1,9 +1,10 @@
-//! The wedge between neighbours that a caller moves: where they are, and what the wedge does to them.
+//! Inputs and outputs of a wedge whose neighbors a caller moves: their motions, and the loads on them.
 //!
-//! Coordinates of a neighbour are those of [`NeighbourMotion`]: x, y, z of its turning centre from the nominal position along
-//! fixed axes (m), roll, pitch, yaw (rad; see [`mechanics::orientation`]), and their rates. Force and moment on a neighbour are given along
-//! fixed axes, the moment about the neighbour's turning centre where that is at the time: so, with small angles, force and
-//! moment times the rates are the power that the neighbour takes up.
+//! Coordinates of a neighbor are those of [`NeighbourMotion`]: x, y, z of its turning center from the nominal
+//! position along fixed axes (m), roll, pitch, yaw (rad; see [`mechanics::orientation`]), and their rates.
+//! Force and moment on a neighbor are given along fixed axes, the moment about the neighbor's turning center
+//! where that is at the time: so, with small angles, force and moment times the rates are the power that the
+//! neighbor takes up.
 
 use integrate::scalar::Real;
 use mechanics::coil::CoilLaw;
@@ -17,7 +18,7 @@ use crate::parameters::{NeighbourMotion, Parameters};
 /// The number of the control coil among the coils.
 pub const COIL: usize = 0;
 
-/// Where a neighbour is, and how it moves.
+/// Displacements and rates of a neighbor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct NeighbourState {
     /// x, y, z (m), roll, pitch, yaw (rad).
@@ -26,7 +27,7 @@ pub struct NeighbourState {
     pub rate: [f64; 6],
 }
 
-/// Both neighbours.
+/// Both neighbors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Neighbours {
     /// The side frame.
@@ -42,14 +43,14 @@ pub enum CoilInput {
     /// From the parameters.
     #[default]
     Internal,
-    /// A stiffness (N/m) times the compression; what a caller finds from the compression.
+    /// A stiffness (N/m), by which the compression is multiplied; a caller finds it from the compression.
     Stiffness(f64),
     /// A force (N), positive when it pushes.
     Force(f64),
 }
 
 impl NeighbourState {
-    /// Where a prescribed motion is at a time (s).
+    /// Returns displacements and rates of a prescribed motion at a time (s).
     #[must_use]
     pub fn of(motion: &NeighbourMotion, time: f64) -> Self {
         let mut place = Self::default();
@@ -65,7 +66,7 @@ impl NeighbourState {
         place
     }
 
-    /// Returns the place reached after `duration` (s) where only positions are known: rates are the mean rates on the way.
+    /// Returns the state after `duration` (s) if only displacements are known: rates are the mean rates.
     #[must_use]
     pub fn reached(&self, position: [f64; 6], duration: f64) -> Self {
         Self {
@@ -83,13 +84,13 @@ impl NeighbourState {
             .all(|value| value.is_finite())
     }
 
-    /// Returns the straight motions through this place at a time (s).
+    /// Returns the motions at constant rates through this state at a time (s).
     #[must_use]
     pub fn lines(&self, time: f64) -> [Motion; 6] {
         std::array::from_fn(|k| Motion::line(time, [self.position[k], self.rate[k]]))
     }
 
-    /// Returns the cubic motions from this place at `start` (s) to another one `duration` (s) later.
+    /// Returns the cubic motions from this state at `start` (s) to another one `duration` (s) later.
     #[must_use]
     pub fn cubics(&self, start: f64, duration: f64, end: &Self) -> [Motion; 6] {
         std::array::from_fn(|k| {
@@ -100,7 +101,7 @@ impl NeighbourState {
 }
 
 impl Neighbours {
-    /// Where the prescribed motions of these parameters are at a time (s).
+    /// Returns the states of both neighbors under the prescribed motions of these parameters at a time (s).
     #[must_use]
     pub fn of(parameters: &Parameters, time: f64) -> Self {
         Self {
@@ -115,7 +116,8 @@ impl Neighbours {
         self.side_frame.is_finite() && self.bolster.is_finite()
     }
 
-    /// Returns the places reached after `duration` (s) where only positions are known, see [`NeighbourState::reached`].
+    /// Returns the states after `duration` (s) if only displacements are known, see
+    /// [`NeighbourState::reached`].
     #[must_use]
     pub fn reached(&self, side_frame: [f64; 6], bolster: [f64; 6], duration: f64) -> Self {
         Self {
@@ -124,19 +126,19 @@ impl Neighbours {
         }
     }
 
-    /// Puts both neighbours of a driven wedge here at a time (s), to move on with their rates.
+    /// Sets the motions of both neighbors: from here at a time (s), at constant rates.
     ///
     /// # Errors
-    /// The system is no driven wedge.
+    /// The system is no wedge with prescribed neighbors.
     pub fn set_at(&self, system: &mut System, time: f64) -> Result<(), InputError> {
         system.set_motions(SIDE_FRAME, self.side_frame.lines(time))?;
         system.set_motions(BOLSTER, self.bolster.lines(time))
     }
 
-    /// Lets both neighbours of a driven wedge go from here to another place within `duration` (s).
+    /// Sets the motions of both neighbors: cubics from here to another state within `duration` (s).
     ///
     /// # Errors
-    /// The system is no driven wedge.
+    /// The system is no wedge with prescribed neighbors.
     pub fn set_between(
         &self,
         system: &mut System,
@@ -153,7 +155,7 @@ impl Neighbours {
 }
 
 impl CoilInput {
-    /// Returns whether its value is usable.
+    /// Returns whether its value is valid.
     #[must_use]
     pub fn is_valid(&self) -> bool {
         match self {
@@ -177,7 +179,7 @@ impl CoilInput {
 }
 
 impl Parameters {
-    /// Returns the same wedge with neighbours that a caller moves, starting from these places.
+    /// Returns the same wedge with neighbors that a caller moves, starting from these states.
     #[must_use]
     pub fn with_inputs(&self, start: &Neighbours) -> Self {
         let mut wedge = self.clone();
@@ -187,12 +189,12 @@ impl Parameters {
     }
 }
 
-/// What the wedge does to its neighbours, and what its coil and faces feel.
+/// Loads on the neighbors, and forces of coil and faces.
 #[derive(Clone, Copy, Debug)]
 pub struct Reading<S> {
-    /// Force and moment on the side frame, about its turning centre.
+    /// Force and moment on the side frame, about its turning center.
     pub on_side_frame: Load<S>,
-    /// Force and moment on the bolster, about its turning centre.
+    /// Force and moment on the bolster, about its turning center.
     pub on_bolster: Load<S>,
     /// Compression of the coil: free length less length, m.
     pub coil_compression: S,
@@ -205,7 +207,7 @@ pub struct Reading<S> {
 }
 
 impl<S: Real> Reading<S> {
-    /// Reads what elements feel; `None` if they are not those of a wedge.
+    /// Returns the reading of an element evaluation; `None` if it is not that of a wedge.
     #[must_use]
     pub fn of(evaluation: &ElementEvaluation<S>, system: &System, parameters: &Parameters) -> Option<Self> {
         let coil = evaluation.coils.get(COIL)?;

@@ -1,9 +1,10 @@
-//! What comes out of a wedge run: the output table, and the values at one instant.
+//! Results of a wedge run: the output table, and the values at one instant.
 //!
-//! Signs: the *longitudinal wedge force* is Σ N n_c·x over the column corners (Steets 2007, eq. 5-2); the *vertical wedge
-//! force* is the column friction as it acts on the side frame, positive up; the *vertical force on the side frame* is the
-//! same less the coil's spring force where the coil stands on the side frame (eq. 5-3). Moments act on the wedge,
-//! about its centre of gravity. Friction powers are Σ F_t·v (eqs. 5-4, 5-5), never positive with tanh.
+//! Signs: the *longitudinal wedge force* is Σ N n_c·x over the column corners (Steets 2007, eq. 5-2); the
+//! *vertical wedge force* is the column friction as it acts on the side frame, positive up; the *vertical
+//! force on the side frame* is the same less the coil's spring force where the coil stands on the side frame
+//! (eq. 5-3). Moments act on the wedge, about its center of gravity. Friction powers are Σ F_t·v (eqs. 5-4,
+//! 5-5), never positive with tanh.
 
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
@@ -20,7 +21,7 @@ pub const CORNERS: [&str; 4] = ["lower_right", "lower_left", "upper_right", "upp
 /// The names of the faces in results.
 pub const FACES: [&str; 2] = ["column", "slope"];
 
-/// Everything that a column may need.
+/// Inputs of all columns at one instant.
 struct Instant<'s> {
     observation: &'s Observation,
     contact_states: &'s [u8],
@@ -34,7 +35,7 @@ struct Instant<'s> {
 pub struct Ledger {
     /// Work done by the prescribed motions.
     pub motion_work: f64,
-    /// Work done by the coil's guiding couple (only when its force acts at the centre of gravity).
+    /// Work done by the coil's guiding couple (only when its force acts at the center of gravity).
     pub coil_guide_work: f64,
     /// Stored energy, less that at the start.
     pub stored: f64,
@@ -46,12 +47,13 @@ pub struct Ledger {
     pub contact_damping_loss: f64,
     /// Lost in the coil's damping.
     pub coil_damping_loss: f64,
-    /// Work less stored energy and losses: what does not add up.
+    /// Work less stored energy and losses.
     pub residual: f64,
 }
 
 impl Ledger {
-    /// Returns the ledger of a state whose stored energy is `stored` more than that at the start (J), with these quadratures.
+    /// Returns the ledger of a state whose stored energy is `stored` more than that at the start (J), with
+    /// these quadratures.
     #[must_use]
     pub fn new(system: &System, stored: f64, quadratures: &[f64]) -> Self {
         let mut ledger = Self {
@@ -66,7 +68,7 @@ impl Ledger {
                 (EnergyTermKind::ContactDampingLoss, _) => &mut ledger.contact_damping_loss,
                 (EnergyTermKind::CoilDampingLoss, _) => &mut ledger.coil_damping_loss,
                 (EnergyTermKind::CoilGuideWork, _) => &mut ledger.coil_guide_work,
-                // What connections lose: a wedge has none.
+                // Losses of connections: a wedge has none.
                 _ => continue,
             };
             *entry += value;
@@ -80,7 +82,7 @@ impl Ledger {
         ledger
     }
 
-    /// Returns what the energy balance of a run takes from it.
+    /// Returns the entries of the energy balance of a run.
     #[must_use]
     pub fn entries(&self) -> Entries {
         Entries {
@@ -131,8 +133,8 @@ impl Outputs {
         &self.columns
     }
 
-    /// Returns the values of all columns (SI) at one instant; `contact_states` are those of the contact points, `start_energy` the
-    /// stored energy at the start (J). Returns the ledger, which is among them.
+    /// Returns the values of all columns (SI) at one instant; `contact_states` are those of the contact
+    /// points, `start_energy` the stored energy at the start (J). Returns the ledger, which is among them.
     pub fn values(
         &self,
         system: &System,
@@ -185,7 +187,7 @@ impl Outputs {
     fn fixed_columns(&mut self) {
         let nominal = ("fixed", "nominal position");
         let none = ("fixed", "");
-        let cg = ("fixed", "wedge centre of gravity");
+        let cg = ("fixed", "wedge center of gravity");
         self.add("time", Kind::Time, ("", ""), "time", |s| s.observation.time);
         self.add(
             "bolster_vertical",
@@ -283,7 +285,7 @@ impl Outputs {
 
     fn motion_columns(&mut self) {
         let nominal = ("fixed", "nominal position");
-        self.moment_columns("bolster", SLOPE, ("fixed", "wedge centre of gravity"));
+        self.moment_columns("bolster", SLOPE, ("fixed", "wedge center of gravity"));
         for (name, kind, k) in [("wedge_y", Kind::Length, 1), ("wedge_roll", Kind::Angle, 3)] {
             self.add(
                 name,
@@ -306,12 +308,12 @@ impl Outputs {
         for (body, name) in [(BOLSTER, "bolster"), (SIDE_FRAME, "side_frame")] {
             for (k, axis) in ["longitudinal", "lateral", "vertical"].into_iter().enumerate() {
                 if (body, k) != (BOLSTER, 2) {
-                    let text = format!("{axis} displacement of the {name}'s turning centre");
+                    let text = format!("{axis} displacement of the {name}'s turning center");
                     self.add(format!("{name}_{axis}"), Kind::Length, nominal, text, move |s| {
                         displacement(s, body).0[k]
                     });
                 }
-                let text = format!("{axis} velocity of the {name}'s turning centre");
+                let text = format!("{axis} velocity of the {name}'s turning center");
                 self.add(
                     format!("{name}_{axis}_rate"),
                     Kind::Speed,
@@ -388,8 +390,8 @@ impl Outputs {
 
     fn neighbour_columns(&mut self) {
         for (name, reference) in [
-            ("side_frame", "centre of the column face"),
-            ("bolster", "centre of the pocket's slope"),
+            ("side_frame", "center of the column face"),
+            ("bolster", "center of the pocket's slope"),
         ] {
             let bolster = name == "bolster";
             for (moment, kind) in [(false, Kind::Force), (true, Kind::Moment)] {
@@ -495,12 +497,12 @@ impl Outputs {
     }
 }
 
-/// Displacement of a neighbour's turning centre from its place at zero motion.
+/// Returns the displacement of a neighbor's turning center from its position at zero motion.
 fn displacement(instant: &Instant<'_>, body: usize) -> Vector<f64> {
     instant.observation.bodies[body].travel
 }
 
-/// Returns the roll, pitch and yaw of a neighbour.
+/// Returns the roll, pitch and yaw of a neighbor.
 fn angles(instant: &Instant<'_>, body: usize) -> [f64; 3] {
     // R = Ry(pitch) Rz(yaw) Rx(roll)
     let r = instant.observation.bodies[body].rotation.0;

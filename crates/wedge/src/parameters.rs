@@ -1,7 +1,8 @@
-//! What a stand-alone wedge is made of: validated, immutable, in SI units.
+//! Parameters of a stand-alone wedge: validated, immutable, in SI units.
 //!
-//! Frames and signs: x longitudinal (positive from the column towards the bolster), y lateral, z up; the origin
-//! lies at the coil's seat level below the nominal position of the wedge frame's origin. Toe out is positive.
+//! Frames and signs: x longitudinal (positive from the column towards the bolster), y lateral, z up; the
+//! origin lies at the coil's seat level below the nominal position of the wedge frame's origin. Toe out is
+//! positive.
 
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
@@ -44,9 +45,9 @@ pub struct WedgeBody {
     pub width: f64,
     /// Mass, kg.
     pub mass: f64,
-    /// Moments of inertia about the centre of gravity (roll, pitch, yaw), kg·m².
+    /// Moments of inertia about the center of gravity (roll, pitch, yaw), kg·m².
     pub inertia: [f64; 3],
-    /// Centre of gravity from the wedge frame's origin, m.
+    /// Center of gravity from the wedge frame's origin, m.
     pub center_of_gravity: [f64; 3],
     /// Which of x, y, z, roll, pitch, yaw are free.
     pub free: [bool; 6],
@@ -71,8 +72,8 @@ pub struct ControlCoil {
     pub pulls: bool,
 }
 
-/// How deep the faces are worn. What wedge and neighbour have lost is one depth: it opens the gap of their faces,
-/// measured along the normal of the neighbour's surface, which recedes by it and stays flat.
+/// How deep the faces are worn. The wear of wedge and neighbor together is one depth: it opens the gap of
+/// their faces, measured along the normal of the neighbor's surface, which recedes by it and stays flat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Wear {
     /// Depth of wear of the column and the wedge's vertical face together, m.
@@ -99,17 +100,17 @@ pub struct FaceFriction {
     pub law: FrictionLaw,
 }
 
-/// The prescribed motion of a neighbour.
+/// The prescribed motion of a neighbor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NeighbourMotion {
-    /// The point that it turns about, m; `None`: the centre of its face (pocket or column).
+    /// The point that it turns about, m; `None`: the center of its face (pocket or column).
     pub center: Option<[f64; 3]>,
     /// Motions of x, y, z (m), roll, pitch, yaw (rad).
     pub coordinates: [Motion; 6],
 }
 
 impl NeighbourMotion {
-    /// Returns a neighbour that stands still.
+    /// Returns a neighbor that stands still.
     #[must_use]
     pub fn fixed() -> Self {
         Self {
@@ -127,7 +128,7 @@ pub enum Start {
     Rest,
     /// The same, with column and pocket moved apart (along x) until nothing penetrates.
     Touching,
-    /// Frictionless static equilibrium at the neighbours' position at time zero.
+    /// Frictionless static equilibrium at the neighbors' position at time zero.
     Equilibrium,
 }
 
@@ -165,11 +166,11 @@ pub struct Parameters {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{path} is {got}; it must be {expected}")]
 pub struct ParameterError {
-    /// The parameter's place in a case file, such as `wedge.angle`.
+    /// The parameter's key in a case file, such as `wedge.angle`.
     pub path: &'static str,
-    /// What it is, SI.
+    /// Its value, SI.
     pub got: f64,
-    /// What it must be.
+    /// The condition.
     pub expected: &'static str,
 }
 
@@ -233,19 +234,20 @@ impl Parameters {
         self.wedge.height * libm::tan(self.wedge.angle)
     }
 
-    /// Longitudinal position of the vertical face in the wedge frame, m: `p1 - h1/3`, so that the centre of
-    /// gravity is the prism's centroid.
+    /// Returns the longitudinal position of the vertical face in the wedge frame, m: `p1 - h1/3`, so that the
+    /// center of gravity is the prism's centroid.
     #[must_use]
     pub fn column_face(&self) -> f64 {
         self.wedge.center_of_gravity[0] - self.bottom_length() / 3.0
     }
 
-    /// Returns how far a wedge with worn faces stands above an unworn one when both touch column and slope, bolster and side
-    /// frame being where they were, m: `(w_c cos θ + w_s cos φ) / sin(θ + φ)` with the depths of wear w_c and w_s.
+    /// Returns how far a wedge with worn faces stands above an unworn one when both touch column and slope,
+    /// bolster and side frame being where they were, m: `(w_c cos θ + w_s cos φ) / sin(θ + φ)` with the
+    /// depths of wear w_c and w_s.
     ///
-    /// It follows from the two faces that both touch. The wedge's displacement (x, z) takes up the wear along both
-    /// normals: `x cos φ - z sin φ = -w_c` and `x cos θ + z sin θ = w_s`. Rigid faces; with elastic contacts the
-    /// rise is less by what the unworn wedge, under its greater coil force, is pressed in more.
+    /// It follows from the two faces that both touch. The wedge's displacement (x, z) takes up the wear along
+    /// both normals: `x cos φ - z sin φ = -w_c` and `x cos θ + z sin θ = w_s`. Rigid faces; with elastic
+    /// contacts the rise is less by what the unworn wedge, under its greater coil force, is pressed in more.
     #[must_use]
     pub fn wedge_rise(&self) -> f64 {
         let (angle, toe) = (self.wedge.angle, self.toe);

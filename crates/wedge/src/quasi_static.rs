@@ -1,10 +1,12 @@
-//! The quasi-static wedge between neighbours that a caller moves: forces by places and rates, without mass, moments or elasticity.
+//! The quasi-static wedge between neighbors that a caller moves: forces from displacements and rates, without
+//! mass, moments or elasticity.
 //!
-//! The faces lie flat on each other, so that the wedge's height over the side frame follows from both neighbours,
-//! `w = (z sin θ + x cos θ) cos φ / sin(θ+φ)` with the bolster's displacements x and z relative to the side frame, plus the rise by
-//! wear; the coil's force follows from w. Friction is mobilized by `tanh(w˙/v0)`, v0 the reference speed of the column's tanh law (with a
-//! bristle law 0.001 in/s): it creeps under a held load as that law does. Where the weight exceeds the coil's force nothing
-//! is carried. Units SI; x longitudinal, z up, as in [`crate::inputs`].
+//! The faces lie flat on each other, so that the wedge's height over the side frame follows from both
+//! neighbors, `w = (z sin θ + x cos θ) cos φ / sin(θ+φ)` with the bolster's displacements x and z relative to
+//! the side frame, plus the rise by wear; the coil's force follows from w. Friction is mobilized by
+//! `tanh(w˙/v0)`, v0 the reference speed of the column's tanh law (with a bristle law 0.001 in/s): it creeps
+//! under a held load as that law does. Where the weight exceeds the coil's force nothing is carried. Units
+//! SI; x longitudinal, z up, as in [`crate::inputs`].
 
 use integrate::scalar::Real;
 use mechanics::friction::FrictionLaw;
@@ -25,7 +27,7 @@ const REFERENCE_SPEED: f64 = 0.001 * 0.0254;
 )]
 pub struct Jams;
 
-/// Place and rates of a neighbour: x, z (m), and their rates (m/s).
+/// Displacements and rates of a neighbor: x, z (m), and their rates (m/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanePlace<S> {
     /// x and z.
@@ -34,7 +36,7 @@ pub struct PlanePlace<S> {
     pub rate: [S; 2],
 }
 
-/// What the wedge does.
+/// Forces and powers of the wedge.
 #[derive(Clone, Copy, Debug)]
 pub struct PlaneReading<S> {
     /// Force on the bolster, x and z, N.
@@ -49,7 +51,7 @@ pub struct PlaneReading<S> {
     pub normal_forces: [S; 2],
     /// Power lost in friction at column and slope, W.
     pub friction_losses: [S; 2],
-    /// Power that the neighbours deliver, W.
+    /// Power that the neighbors deliver, W.
     pub motion_power: S,
 }
 
@@ -64,7 +66,8 @@ pub fn massless(parameters: &Parameters) -> QuasiStaticWedge {
     }
 }
 
-/// Forces at these places; `coil_change` is added to the spring's force (zero, with a derivative where the law changes).
+/// Returns the forces at these displacements and rates; `coil_change` is added to the spring's force (zero,
+/// with a derivative if the law changes).
 ///
 /// # Errors
 /// The wedge jams.

@@ -1,4 +1,4 @@
-//! Resultants of what acts on the wedge, and what acts on its neighbours in return.
+//! Resultants of the forces on the wedge and of the reactions on its neighbors.
 
 use mechanics::system::{BodyState, CoilLoad, FaceLoad, Loads, Observation, System};
 use mechanics::vector::Vector;
@@ -15,23 +15,23 @@ pub struct Resultants {
     pub vertical: f64,
     /// The same less the spring force of a coil on the side frame, N: `vertical_force_on_side_frame`.
     pub vertical_on_side_frame: f64,
-    /// Moments of the contact forces of each face on the wedge, about its centre of gravity, N·m.
+    /// Moments of the contact forces of each face on the wedge, about its center of gravity, N·m.
     pub moments: [Vector<f64>; 2],
-    /// Net force and moment on the side frame, about the centre of its column, N and N·m.
+    /// Net force and moment on the side frame, about the center of its column, N and N·m.
     pub on_side_frame: (Vector<f64>, Vector<f64>),
-    /// Net force and moment on the bolster, about the centre of its pocket, N and N·m.
+    /// Net force and moment on the bolster, about the center of its pocket, N and N·m.
     pub on_bolster: (Vector<f64>, Vector<f64>),
 }
 
 impl Resultants {
-    /// Returns the resultants of what [`System::loads`] says.
+    /// Returns the resultants of [`System::loads`].
     #[must_use]
     pub fn of(damping: Damping, loads: &Loads) -> Self {
         let faces = [COLUMN, SLOPE].map(|face| loads.faces[face]);
         Self::new(damping, &loads.bodies[WEDGE], faces, &loads.coils[0])
     }
 
-    /// Returns the resultants of what [`System::observe`] says.
+    /// Returns the resultants of [`System::observe`].
     #[must_use]
     pub fn of_observation(damping: Damping, observation: &Observation) -> Self {
         let wedge = &observation.bodies[WEDGE];
@@ -41,7 +41,7 @@ impl Resultants {
 
     fn new(damping: Damping, wedge: &BodyState, faces: [FaceLoad; 2], coil: &CoilLoad) -> Self {
         let vertical = -faces[COLUMN].friction.0[2];
-        // The neighbour that the coil stands on.
+        // The neighbor that the coil stands on.
         let (on_frame, seat) = match damping {
             Damping::Variable => (coil.spring.0[2], COLUMN),
             Damping::Constant => (0.0, SLOPE),

@@ -1,4 +1,4 @@
-//! The wedge of Steets (2007): tables 3-1 to 3-4, with what the tables leave open resolved.
+//! The wedge of Steets (2007): tables 3-1 to 3-4, and values for quantities that the tables leave open.
 
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
@@ -13,8 +13,8 @@ const INCH: f64 = 0.0254;
 const POUND: f64 = 0.453_592_37;
 const POUND_FORCE: f64 = POUND * STANDARD_GRAVITY;
 
-/// Returns the thesis's wedge with this damping, toe angle (rad, positive out) and bolster yaw (rad), driven by
-/// `1 in · sin(2 rad/s · t)`.
+/// Returns the thesis's wedge with this damping, toe angle (rad, positive out) and bolster yaw (rad), driven
+/// by `1 in · sin(2 rad/s · t)`.
 #[must_use]
 pub fn parameters(damping: Damping, toe: f64, yaw: f64) -> Parameters {
     let (angle, stiffness, free_length, nominal_length): (f64, f64, f64, f64) = match damping {

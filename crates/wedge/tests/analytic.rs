@@ -86,10 +86,11 @@ fn a_wedge_on_stiff_contacts_rises_by_the_closed_form() {
     }
 }
 
-/// With elastic contacts penetration counts like wear that is negative for the gap: the wedge stands higher by the rise of
-/// the depths N_c/k and N_s/k. The forces are those of statics without friction under F = F_nominal - W - K z, so that
-/// the height is one linear equation. With toe, a wedge that is held upright bears on two corners of the column only, which
-/// lie (h2/2) sin φ deeper. The coil leans as the wedge moves along x; that is left out here.
+/// With elastic contacts penetration counts like wear that is negative for the gap: the wedge stands higher
+/// by the rise of the depths N_c/k and N_s/k. The forces are those of statics without friction under F =
+/// F_nominal - W - K z, so that the height is one linear equation. With toe, a wedge that is held upright
+/// bears on two corners of the column only, which lie (h2/2) sin φ deeper. The coil leans as the wedge moves
+/// along x; that is left out here.
 #[test]
 fn a_wedge_on_elastic_contacts_rises_by_the_closed_form() {
     for damping in BOTH {

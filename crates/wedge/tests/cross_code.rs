@@ -1,8 +1,8 @@
 //! Agreement with an independent code: the second derivation of the equations of motion (`common/plain.rs`),
 //! integrated by diffsol's implicit Runge-Kutta methods, against the wedge as it is.
 //!
-//! Two yawed cases, over the release from the start, its ringing, and sliding under load (with variable damping the
-//! bolster goes down first here: going up it would leave the wedge free).
+//! Two yawed cases, over the release from the start, its ringing, and sliding under load (with variable
+//! damping the bolster goes down first here: going up it would leave the wedge free).
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -43,7 +43,8 @@ fn independent(plain: &Plain, tolerance: f64) -> Vec<Row> {
         .rhs_implicit(
             |x: &[f64], _: &[f64], t: f64, y: &mut [f64]| rates(t, x, y),
             |x: &[f64], _: &[f64], t: f64, v: &[f64], y: &mut [f64]| {
-                // Differences: a step of 1e-7 in stays on one side of the contacts, and far below the reference speed.
+                // Differences: a step of 1e-7 in stays on one side of the contacts, and far below the
+                // reference speed.
                 let size = v.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
                 if size == 0.0 {
                     y.fill(0.0);
@@ -120,8 +121,8 @@ fn differences(a: &[Row], b: &[Row]) -> [f64; 3] {
 }
 
 /// The independent code carries an error of 1e-7 in a step, which a face of 1e6 lbf/in makes 0.1 lbf; its
-/// result at ten times that tells how far these errors add up. The wedge's own run at 1e-9 must lie within that band
-/// around the independent one; and the band is narrow.
+/// result at ten times that tells how far these errors add up. The wedge's own run at 1e-9 must lie within
+/// that band around the independent one; and the band is narrow.
 #[test]
 fn yawed_cases_agree() {
     for (damping, toe, amplitude) in [(Damping::Variable, TOE, -1.0), (Damping::Constant, TOE, 1.0)] {

@@ -1,5 +1,6 @@
-//! The energy ledger: work of the motions = change of the stored energy + losses, each of them integrated from its own
-//! force and velocity. It closes for every combination, and does not close when one entry is left out.
+//! The energy ledger: work of the motions = change of the stored energy + losses, each of them integrated
+//! from its own force and velocity. It closes for every combination, and does not close when one entry is
+//! left out.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -18,8 +19,8 @@ const BOTH: [Damping; 2] = [Damping::Variable, Damping::Constant];
 /// As the thesis's runs.
 const UNTIL: f64 = 10.0;
 
-/// Runs and checks on the way: losses never negative and never falling, and with tanh no friction power into the wedge.
-/// Returns the end and the relative residual of the ledger.
+/// Runs and checks on the way: losses never negative and never falling, and with tanh no friction power into
+/// the wedge. Returns the end and the relative residual of the ledger.
 fn checked(parameters: Parameters, tolerance: f64, until: f64) -> (End, f64) {
     let wedge = Wedge::new(parameters).unwrap();
     let losses: Vec<usize> = (0..wedge.system.energy_terms().len())
@@ -61,7 +62,8 @@ fn checked(parameters: Parameters, tolerance: f64, until: f64) -> (End, f64) {
     // What went through the wedge.
     let entries = end.ledger.entries();
     let work = entries.work.abs().max(entries.losses);
-    // Losses are integrated without an error control of their own: they may swing by as much as the ledger may be off.
+    // Losses are integrated without an error control of their own: they may swing by as much as the ledger
+    // may be off.
     assert!(fall < 1e-5 * work, "a loss falls by {fall:e} of {work} J");
     (end, balance.relative_residual())
 }

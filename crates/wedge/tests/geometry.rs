@@ -45,8 +45,9 @@ fn toe_and_yaw_make_the_right_corners_penetrate() {
                 // Toe out opens the gap downwards: the upper corners are inside.
                 let depth = 0.5 * 6.125 * toe.sin();
                 assert_gaps(column, [depth, depth, -depth, -depth]);
-                // Yaw to the left brings the slope's +y half (n has -y) onto the wedge, by its width; the height of
-                // the corner also counts, as the slope leans: its trace turns about the pocket's centre.
+                // Yaw to the left brings the slope's +y half (n has -y) onto the wedge, by its width; the
+                // height of the corner also counts, as the slope leans: its trace turns about the pocket's
+                // center.
                 let side = 0.5 * 10.5 * cos * yaw.sin();
                 let tilt = 0.5
                     * 6.125
@@ -98,7 +99,8 @@ fn equilibrium_is_at_rest_with_the_closed_forms_of_statics() {
                 / LBF
         };
         let coil = observation.coils[0].spring_force.0.map(|f| f / LBF);
-        // Two unknown normal forces: n_c = (cos φ, -sin φ), n_s = (-cos θ, -sin θ); coil (0, F) and weight (0, -W).
+        // Two unknown normal forces: n_c = (cos φ, -sin φ), n_s = (-cos θ, -sin θ); coil (0, F) and weight
+        // (0, -W).
         let (column, slope) = (sum(COLUMN), sum(SLOPE));
         let x = column * toe.cos() - slope * angle.cos() + coil[0];
         let z = -column * toe.sin() - slope * angle.sin() + coil[2] - 50.0;
@@ -138,8 +140,8 @@ fn a_free_wedge_sags_by_its_weight_over_the_coil() {
         parameters.coil.acts_at = acts_at;
         // The bolster is lifted away; the column just touches.
         parameters.bolster.coordinates[2] = Motion::Constant(INCH);
-        // Free in x the wedge would topple off its coil (a negative stiffness of weight over length); with the coil at
-        // its seat, beside the centre of gravity, it would lean.
+        // Free in x the wedge would topple off its coil (a negative stiffness of weight over length); with
+        // the coil at its seat, beside the center of gravity, it would lean.
         parameters.wedge.free = match acts_at {
             CoilLine::CenterOfGravity => common::free(&["z", "pitch", "yaw"]),
             CoilLine::Seat => common::free(&["z"]),

@@ -1,5 +1,6 @@
-//! issue 7: at wide tolerances (1e-3, 1e-4) the yawed runs crawled through up to 940,000 steps, since the integrator's own errors of 0.01 m/s
-//! made the wedge slide to and fro, and the energy lost was wrong by a third.
+//! issue 7: at wide tolerances (1e-3, 1e-4) the yawed runs crawled through up to 940,000 steps, since the
+//! integrator's own errors of 0.01 m/s made the wedge slide to and fro, and the energy lost was wrong by a
+//! third.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use integrate::{Integrator, Method, Options, Problem, Reason};
@@ -45,7 +46,8 @@ fn wide_tolerances_neither_crawl_nor_lose_the_energy() {
     }
 }
 
-/// A coil of 1e300 N/m cannot be integrated. Explicit steps of no length, each within its tolerance, hid that for as many steps as were allowed.
+/// A coil of 1e300 N/m cannot be integrated. Explicit steps of no length, each within its tolerance, hid that
+/// for as many steps as were allowed.
 #[test]
 fn a_run_that_cannot_go_on_stops_at_once() {
     let mut parameters = thesis::parameters(Damping::Constant, -0.003, 0.012);
@@ -64,8 +66,8 @@ fn a_run_that_cannot_go_on_stops_at_once() {
     assert!(integrator.statistics().rejected() < 5_000);
 }
 
-/// How far steps of at least this length are off on the way from a start to `end`: their number, and the worst error in tolerances, each
-/// against a run at 1e-9 over the same step.
+/// How far steps of at least this length are off on the way from a start to `end`: their number, and the
+/// worst error in tolerances, each against a run at 1e-9 over the same step.
 fn errors_of_steps(
     system: &System,
     (time, start): (f64, &[f64]),
@@ -102,8 +104,8 @@ fn held_to(relative_tolerance: f64) -> Options {
     }
 }
 
-/// Where a wedge that rang has come to rest on its faces and only creeps, steps grow. The losses of one by collocation, which there was
-/// once, were off by 10 tolerances.
+/// Where a wedge that rang has come to rest on its faces and only creeps, steps grow. The losses of one by
+/// collocation, which there was once, were off by 10 tolerances.
 #[test]
 fn long_steps_over_what_creeps_keep_the_tolerance() {
     let wedge = Wedge::new(thesis::parameters(Damping::Constant, 0.0, 0.0)).unwrap();
@@ -118,8 +120,9 @@ fn long_steps_over_what_creeps_keep_the_tolerance() {
     assert!(worst < 1.0, "a step is off by {worst} tolerances");
 }
 
-/// While a wedge that was let go still rattles, what sticks breaks loose for a fifth of a millisecond and is stuck again. A step that goes
-/// over that sees it at neither end; one was off by 106 tolerances, which a run kept for good.
+/// While a wedge that was let go still rattles, what sticks breaks loose for a fifth of a millisecond and is
+/// stuck again. A step that goes over that sees it at neither end; one was off by 106 tolerances, which a run
+/// kept for good.
 #[test]
 fn long_steps_do_not_go_over_what_breaks_loose() {
     let wedge = Wedge::new(thesis::parameters(Damping::Constant, 0.0, 0.0)).unwrap();

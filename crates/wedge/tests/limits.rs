@@ -14,13 +14,14 @@ use wedge::{COLUMN, SLOPE, WEDGE, Wedge, thesis};
 
 const BOTH: [Damping; 2] = [Damping::Variable, Damping::Constant];
 
-/// Steady sliding, toe out: column friction over the force that pushes the wedge up; `a` is +1 going down, -1 up.
+/// Steady sliding, toe out: column friction over the force that pushes the wedge up; `a` is +1 going down, -1
+/// up.
 fn sliding_ratio(angle: f64, toe: f64, mu: f64, a: f64) -> f64 {
     mu * (angle.cos() - a * mu * angle.sin()) / ((1.0 + mu * mu) * (angle + toe).sin())
 }
 
-/// Mean column friction over the coil force less the weight, one value a branch (up, down), where the bolster's phase lies
-/// within the given degrees; planar, toe out.
+/// Mean column friction over the coil force less the weight, one value a branch (up, down), where the
+/// bolster's phase lies within the given degrees; planar, toe out.
 fn sliding(damping: Damping, contact_damping: f64, windows: [(f64, f64); 2]) -> [Vec<f64>; 2] {
     let mut parameters = thesis::parameters(damping, TOE, 0.0);
     parameters.wedge.free = free(&["x", "z"]);
@@ -49,8 +50,8 @@ fn steady_sliding_reaches_the_closed_forms_with_constant_damping() {
         sliding_ratio(angle, TOE, 0.4, -1.0),
     );
     assert!((down - 0.310).abs() < 5e-4 && (up - 0.585).abs() < 5e-4);
-    // The last part of each branch in which the slope still slides well above the reference speed. The very first
-    // branch is the start's.
+    // The last part of each branch in which the slope still slides well above the reference speed. The very
+    // first branch is the start's.
     let [ups, downs] = sliding(Damping::Constant, 0.0, [(55.0, 60.0), (235.0, 240.0)]);
     println!("up {up} {ups:?} down {down} {downs:?}");
     assert!(ups.len() >= 3 && downs.len() >= 3);
@@ -65,8 +66,9 @@ fn steady_sliding_reaches_the_closed_forms_with_constant_damping() {
     }
 }
 
-/// The coil force changes while the faces slide. Without contact damping the contacts ring along the whole branch, and
-/// the mean comes within 4 % of the closed forms by its end; with a little of it the closed forms are met.
+/// The coil force changes while the faces slide. Without contact damping the contacts ring along the whole
+/// branch, and the mean comes within 4 % of the closed forms by its end; with a little of it the closed forms
+/// are met.
 #[test]
 fn steady_sliding_comes_near_the_closed_forms_with_variable_damping() {
     let angle = 32_f64.to_radians();
@@ -298,7 +300,8 @@ fn without_yaw_there_is_no_yaw_moment_and_no_lateral_force() {
     assert!(most / LBF > 10.0);
 }
 
-/// The column alone holds the wedge's weight: pressed on by a shifted side frame, on a coil that is hardly there.
+/// The column alone holds the wedge's weight: pressed on by a shifted side frame, on a coil that is hardly
+/// there.
 fn hanging(law: FrictionLaw, load: f64) -> Parameters {
     let mut parameters = thesis::parameters(Damping::Variable, 0.0, 0.0);
     parameters.wedge.free = free(&["z"]);
@@ -371,7 +374,8 @@ fn the_bristle_holds_a_load_without_creep() {
     assert!((last.1 / expected - 1.0).abs() < 1e-3, "{last:?} {expected}");
 }
 
-/// Slope and column together: the bolster rises and stays. The bristle keeps every force for ten seconds; tanh lets go.
+/// Slope and column together: the bolster rises and stays. The bristle keeps every force for ten seconds;
+/// tanh lets go.
 #[test]
 fn a_held_bolster_is_held_by_bristles_and_not_by_tanh() {
     let case = |law| {

@@ -88,7 +88,8 @@ fn ask(system: &mut System, question: usize, time: f64, x: &[f64], contact_state
 
 #[test]
 fn what_was_asked_before_changes_nothing() {
-    // Open faces are passed over where they were open before: all answers are those of a system that was never asked.
+    // Open faces are passed over where they were open before: all answers are those of a system that was
+    // never asked.
     let mut numbers = Random(11);
     let mut open = 0;
     for (damping, law) in [

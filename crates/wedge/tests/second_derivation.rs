@@ -1,5 +1,5 @@
-//! The whole right-hand side against a second derivation that shares no code with it: Lagrange's equations from a
-//! numeric kinetic energy, contacts corner by corner, inch and pound-force (`common/plain.rs`).
+//! The whole right-hand side against a second derivation that shares no code with it: Lagrange's equations
+//! from a numeric kinetic energy, contacts corner by corner, inch and pound-force (`common/plain.rs`).
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -56,8 +56,8 @@ fn state(wedge: &Wedge, q: &[f64; 4], u: &[f64; 4]) -> Vec<f64> {
     x
 }
 
-/// A random state near the nominal position: corners from open to a tenth of an inch deep, speeds from far below
-/// the reference speed to inches a second.
+/// A random state near the nominal position: corners from open to a tenth of an inch deep, speeds from far
+/// below the reference speed to inches a second.
 fn random_state(random: &mut Random, fast: bool) -> (f64, [f64; 4], [f64; 4]) {
     let t = random.between(0.0, 3.2);
     let q = [
@@ -75,7 +75,8 @@ fn random_state(random: &mut Random, fast: bool) -> (f64, [f64; 4], [f64; 4]) {
     (t, q, u)
 }
 
-/// Compares everything; returns the largest difference of an acceleration, relative to the largest in its group.
+/// Compares everything; returns the largest difference of an acceleration, relative to the largest in its
+/// group.
 fn compare(wedge: &mut Wedge, answer: &Answer, t: f64, x: &[f64]) -> f64 {
     let mut dx = vec![0.0; x.len()];
     wedge.system.derivative(t, x, &mut dx);
@@ -181,7 +182,8 @@ fn other_wedges() {
         let mut plain = Plain::thesis(k % 2 == 0, random.spread(1e-4, 2e-2), random.spread(1e-4, 3e-2));
         plain.angle = random.between(20.0, 55.0);
         plain.weight = random.between(20.0, 120.0);
-        // A principal moment is at most the sum of the two others; all three differ, so that gyroscopic terms show.
+        // A principal moment is at most the sum of the two others; all three differ, so that gyroscopic terms
+        // show.
         plain.inertia = [
             random.between(400.0, 700.0),
             random.between(100.0, 300.0),
@@ -207,7 +209,8 @@ fn other_wedges() {
     }
 }
 
-/// Free flight: no corner closed, so that the inertia forces of fast turning are all there is besides coil and weight.
+/// Free flight: no corner closed, so that the inertia forces of fast turning are all there is besides coil
+/// and weight.
 #[test]
 fn turning_fast_in_the_air() {
     let mut random = Random(11);

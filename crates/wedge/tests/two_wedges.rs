@@ -1,5 +1,6 @@
-//! Two wedges in one system, the second turned by 180° about the vertical axis through the bolster's centre: both give
-//! what one gives. Side frame and bolster are shared bodies; the second wedge's mounts on them are turned.
+//! Two wedges in one system, the second turned by 180° about the vertical axis through the bolster's center:
+//! both give what one gives. Side frame and bolster are shared bodies; the second wedge's markers on them are
+//! turned.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -14,7 +15,7 @@ use std::f64::consts::PI;
 use wedge::parameters::{Damping, Parameters};
 use wedge::{BOLSTER, SIDE_FRAME, WEDGE, Wedge, thesis};
 
-/// The bolster's centre is far enough away that the two wedges do not overlap.
+/// The bolster's center is far enough away that the two wedges do not overlap.
 const CENTER: f64 = 10.0 * INCH;
 
 fn parameters(damping: Damping) -> Parameters {
@@ -82,8 +83,9 @@ fn doubled(one: &Wedge) -> System {
     .unwrap()
 }
 
-/// What one wedge of a system does, in its own frame (the second is looked at from the other side): coordinates,
-/// then for each corner the gap, the normal force and the friction force, then the coil. m, rad, N.
+/// What one wedge of a system does, in its own frame (the second is looked at from the other side):
+/// coordinates, then for each corner the gap, the normal force and the friction force, then the coil. m, rad,
+/// N.
 fn seen_by(observation: &Observation, number: usize) -> Vec<f64> {
     let (body, side) = if number == 0 { (WEDGE, 1.0) } else { (3, -1.0) };
     let own = |f: &Vector<f64>| [side * f.0[0], side * f.0[1], f.0[2]];
@@ -164,13 +166,14 @@ fn the_same_state_gives_the_same_forces() {
     }
 }
 
-/// Over two seconds of yawed cases, with the release, sliding, and a reversal. (With variable damping the bolster goes down
-/// first: a free wedge would strike the pocket, and remember every rounding.)
+/// Over two seconds of yawed cases, with the release, sliding, and a reversal. (With variable damping the
+/// bolster goes down first: a free wedge would strike the pocket, and remember every rounding.)
 ///
-/// The two wedges of one system take the same steps and differ by rounding alone: the half turn is exact to 1.2e-16,
-/// positions to 1e-17 m, that is 1e-9 lbf at 1e6 lbf/in; friction forgets, so a thousand times that is the
-/// limit. A wedge alone takes other steps after a while, and agrees as the tolerance says: 1e-8 of the scale of
-/// displacements a step, which the stiffness of a face (1e6 lbf/in) makes a force; ringing carries some of it on.
+/// The two wedges of one system take the same steps and differ by rounding alone: the half turn is exact to
+/// 1.2e-16, positions to 1e-17 m, that is 1e-9 lbf at 1e6 lbf/in; friction forgets, so a thousand times that
+/// is the limit. A wedge alone takes other steps after a while, and agrees as the tolerance says: 1e-8 of the
+/// scale of displacements a step, which the stiffness of a face (1e6 lbf/in) makes a force; ringing carries
+/// some of it on.
 #[test]
 fn a_reversed_wedge_gives_what_one_gives() {
     for damping in [Damping::Variable, Damping::Constant] {

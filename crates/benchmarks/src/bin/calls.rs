@@ -1,4 +1,5 @@
-//! `calls KIND NUMBER`: calls the wedge's `right-hand-side` or `jacobian` that many times, for counting instructions.
+//! `calls KIND NUMBER`: calls the wedge's `right-hand-side` or `jacobian` that many times, for counting
+//! instructions.
 
 use std::hint::black_box;
 use std::process::ExitCode;

@@ -1,8 +1,8 @@
 //! `circle [TOLERANCE [METHOD]]`: a free body once round a circle of track, in coordinates of several kinds.
 //!
-//! Circle: how far it came, in turns. Force: the largest deviation of the lateral force of the bushing from `m ω² r` at
-//! ends of steps after a quarter of the circle, relative. Residual: the relative residual of the energy ledger, at the ends of
-//! steps.
+//! Circle: how far it came, in turns. Force: the largest deviation of the lateral force of the bushing from
+//! `m ω² r` at ends of steps after a quarter of the circle, relative. Residual: the relative residual of the
+//! energy ledger, at the ends of steps.
 
 use std::process::ExitCode;
 

@@ -1,8 +1,10 @@
-//! The half-truck of the comparison program's files on one core: 20 s of motion, 18 coordinates, 48 to 50 connections.
+//! The half-truck of the comparison program's files on one core: 20 s of motion, 18 coordinates, 48 to 50
+//! connections.
 //!
-//! `half_truck [TOLERANCE] [NAME-PART]`, for example `half_truck 1e-5 69_constant`. Times are those of integration, events and
-//! output rows each 0.01 s, without writing files; the target is 1 s a run at 1e-5. Then the CPU time that the right-hand side,
-//! the Jacobian, a factorization and a solution take in a sliding state; the target is a Jacobian of at most 10 right-hand sides.
+//! `half_truck [TOLERANCE] [NAME-PART]`, for example `half_truck 1e-5 69_constant`. Times are those of
+//! integration, events and output rows each 0.01 s, without writing files; the target is 1 s a run at 1e-5.
+//! Then the CPU time that the right-hand side, the Jacobian, a factorization and a solution take in a sliding
+//! state; the target is a Jacobian of at most 10 right-hand sides.
 
 use std::process::ExitCode;
 use std::time::Instant;

@@ -1,4 +1,5 @@
-//! `steps [STEP [NAME-PART]]`: drives the thesis's yawed wedges through an FMU's instance in communication steps (s) and says what one costs.
+//! `steps [STEP [NAME-PART]]`: drives the thesis's yawed wedges through an FMU's instance in communication
+//! steps (s) and says what one costs.
 
 use std::process::ExitCode;
 use std::time::Instant;

@@ -1,9 +1,10 @@
-//! How many yawed runs a study computes in a second on one core, and how far its branch means are from those of a tight
-//! tolerance.
+//! How many yawed runs a study computes in a second on one core, and how far its branch means are from those
+//! of a tight tolerance.
 //!
-//! `study_rate [TOLERANCE] [OUTPUT-INTERVAL] [METHOD] [REPEATS]`, for example `study_rate 1.5e-5 "0.01 s" tr-bdf2 5` for engineering
-//! accuracy. Errors are against relative tolerance 1e-9 with the case's own output interval. Then the rate of a small study, four variants of
-//! friction of each case.
+//! `study_rate [TOLERANCE] [OUTPUT-INTERVAL] [METHOD] [REPEATS]`, for example
+//! `study_rate 1.5e-5 "0.01 s" tr-bdf2 5` for engineering accuracy. Errors are against relative tolerance
+//! 1e-9 with the case's own output interval. Then the rate of a small study, four variants of friction of
+//! each case.
 
 use std::process::ExitCode;
 use std::time::Instant;

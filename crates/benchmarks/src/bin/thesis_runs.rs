@@ -1,7 +1,7 @@
 //! The twelve runs of the thesis's table 4-1 on one core: wall time, steps, what came out.
 //!
-//! `thesis_runs [METHOD] [TOLERANCE] [NAME-PART]`, for example `thesis_runs rodas5p 1e-5 psi_0.012`. Times are those of
-//! integration, events and output rows, without writing files.
+//! `thesis_runs [METHOD] [TOLERANCE] [NAME-PART]`, for example `thesis_runs rodas5p 1e-5 psi_0.012`. Times
+//! are those of integration, events and output rows, without writing files.
 
 use std::process::ExitCode;
 use std::time::Instant;

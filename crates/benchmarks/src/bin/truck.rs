@@ -1,9 +1,10 @@
-//! `truck [TOLERANCE] [NAME-PART] [METHOD]`: the three-piece truck on one core, 10 s of a prescribed bolster, for
-//! example `truck 1e-5 vertical esdirk3`.
+//! `truck [TOLERANCE] [NAME-PART] [METHOD]`: the three-piece truck on one core, 10 s of a prescribed bolster,
+//! for example `truck 1e-5 vertical esdirk3`.
 //!
-//! CPU times of integration with contact states recorded, without rows or files. Changes: of contact states, a second.
-//! Newton: steps rejected because a stage could not be solved. Residual: the relative residual of the energy ledger, each 0.05 s. Then what right-hand side, Jacobian matrix, factorization and solution cost at the end of the last
-//! run.
+//! CPU times of integration with contact states recorded, without rows or files. Changes: of contact states,
+//! a second. Newton: steps rejected because a stage could not be solved. Residual: the relative residual of
+//! the energy ledger, each 0.05 s. Then what right-hand side, Jacobian matrix, factorization and solution
+//! cost at the end of the last run.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,5 @@
-//! How the friction of a connection holds: by a force accumulator, a bristle in series with a slider, or by a damper up to the limit.
+//! How the friction of a connection holds: by a force accumulator, a bristle in series with a slider, or by a
+//! damper up to the limit.
 
 use integrate::scalar::Real;
 
@@ -54,7 +55,7 @@ impl Accumulator {
         }
     }
 
-    /// Returns the force that it would hold against, in the strokes' sense.
+    /// Returns its trial force, in the direction of the extension.
     #[inline(always)]
     pub(crate) fn trial<S: Real>(&self, velocity: [S; 2], deflection: [S; 2]) -> [S; 2] {
         match self {
@@ -66,10 +67,10 @@ impl Accumulator {
     }
 }
 
-/// How far friction takes part: as its law says, or in a special evaluation.
+/// How friction is evaluated: by its law, or in a special case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Grip {
-    /// As the law says.
+    /// By the law.
     #[default]
     Law,
     /// Every closed element sticks.
@@ -132,7 +133,7 @@ fn viscous<S: Real>(limit: S, damping: f64, velocity: [S; 2]) -> Slip<S> {
 /// A force on one coordinate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AxisForce<S> {
-    /// In the stroke's sense, N or N·m.
+    /// In the direction of the extension, N or N·m.
     pub force: S,
     /// Power that is neither stored nor given back, W.
     pub loss: S,
@@ -148,23 +149,23 @@ impl<S: Real> AxisForce<S> {
     }
 }
 
-/// What a friction element does in its three coordinates.
+/// Forces, rates and powers of a friction element with three coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SpatialForce<S> {
-    /// In the strokes' sense, N.
+    /// In the direction of the extension, N.
     pub force: [S; 3],
     /// Rates of the deflections, m/s.
     pub rate: [S; 2],
-    /// Powers of its channels, W.
+    /// Powers of its energy terms, W.
     pub powers: [S; 3],
-    /// What its friction does.
+    /// Its friction.
     pub friction: Friction,
 }
 
-/// The friction of an element, for modes and outputs.
+/// The friction of an element, for contact states and outputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Friction {
-    /// What presses: the normal force, or the coil force of a wedge, N.
+    /// Normal force, or coil force of a wedge, N.
     pub normal: f64,
     /// |T| / limit.
     pub load: f64,

@@ -1,4 +1,4 @@
-//! How connections are put in their places.
+//! Assembly of connections between bodies.
 
 use std::collections::BTreeMap;
 
@@ -11,23 +11,23 @@ use super::{Axis, Connection, Connections, Law, Options, Spatial};
 use crate::body::Body;
 use crate::system::{EnergyTerm, EnergyTermKind, Parts};
 
-/// Puts connections in their places.
+/// Assembles connections between bodies.
 pub(crate) struct ConnectionAssembler<'m> {
     pub bodies: &'m [Body],
     /// For each body its number among the free ones.
     pub free_number: &'m [Option<usize>],
     /// For each body the numbers of its free coordinates.
     pub slots: &'m [[Option<usize>; 6]],
-    /// What elements before them need.
+    /// Quadratures and internal states of the elements before them.
     pub parts: &'m mut Parts,
-    /// Rows of quadratures by (channel, free body).
+    /// Rows of quadratures by (energy term, free body).
     quadratures: BTreeMap<(usize, usize), usize>,
     couplings: Vec<(usize, usize)>,
     found: Connections,
 }
 
 impl<'m> ConnectionAssembler<'m> {
-    /// Begins after the elements that `parts` is of.
+    /// Returns an assembler that begins after the elements of `parts`.
     pub fn new(
         bodies: &'m [Body],
         free_number: &'m [Option<usize>],
@@ -45,7 +45,8 @@ impl<'m> ConnectionAssembler<'m> {
         }
     }
 
-    /// Returns the elements of connections that have been checked, and the pairs of free bodies that they couple.
+    /// Returns the elements of connections that have been checked, and the pairs of free bodies that they
+    /// couple.
     pub fn attach(
         mut self,
         connections: Vec<Connection>,
@@ -151,7 +152,7 @@ pub(crate) fn energy_terms(connections: &[Connection]) -> Vec<EnergyTermKind> {
 }
 
 impl ConnectionAssembler<'_> {
-    /// Returns the place of an element.
+    /// Returns the site of an element: bodies, rows of its displacements, quadratures.
     fn site<const D: usize, const P: usize>(
         &mut self,
         connection: &Connection,

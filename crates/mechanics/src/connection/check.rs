@@ -1,4 +1,4 @@
-//! What must hold of connections and of the choices that their laws leave open.
+//! Conditions on connections and on the choices that their laws leave open.
 
 use thiserror::Error;
 
@@ -69,7 +69,7 @@ pub enum ConnectionError {
         name: String,
         /// The coordinate.
         coordinate: usize,
-        /// What it must be.
+        /// The condition.
         must: &'static str,
     },
     /// A parameter of a law is not admissible.
@@ -83,7 +83,7 @@ pub enum ConnectionError {
         parameter: &'static str,
         /// Its value, SI.
         value: f64,
-        /// What it must be.
+        /// The condition.
         must: &'static str,
     },
     /// An option is not admissible.
@@ -93,7 +93,7 @@ pub enum ConnectionError {
         name: &'static str,
         /// Its value, SI.
         value: f64,
-        /// What it must be.
+        /// The condition.
         must: &'static str,
     },
 }

@@ -1,10 +1,11 @@
-//! Modes of the friction elements: open, stick, slip; when they change.
+//! Contact states of the friction elements: open, stick, slip; when they change.
 //!
-//! Modes are recorded, they do not change the forces. Thresholds with hysteresis keep rounding from counting as events:
-//! - an element closes where what presses it (normal force of a surface, coil force of a wedge) grows to
-//!   [`CLOSING_FORCE`], and opens where it falls to [`OPENING_FORCE`];
-//! - it starts to slip where the load |T|/limit of its accumulator rises to [`SLIP_LOAD`], and sticks again where it falls
-//!   to [`STICK_LOAD`], the values of bristles elsewhere in this program.
+//! Contact states are recorded. They do not change the forces. Thresholds with hysteresis keep rounding from
+//! counting as events:
+//! - an element closes where its normal force (of a wedge its coil force) grows to [`CLOSING_FORCE`], and
+//!   opens where it falls to [`OPENING_FORCE`];
+//! - it starts to slip where the load |T|/limit of its accumulator rises to [`SLIP_LOAD`], and sticks again
+//!   where it falls to [`STICK_LOAD`], the values of bristles elsewhere in this program.
 
 use super::accumulator::Friction;
 use super::forces::{CoordinatesAndRates, SpatialLaw, deflection_at};
@@ -18,18 +19,18 @@ pub const OPENING_FORCE: f64 = 1e-3;
 /// Bristles, in the tables of thresholds.
 const BRISTLE: usize = 1;
 
-/// What presses an element (N) and the load of its accumulator: the signs of its switch.
+/// Normal (or coil) force of an element, N, and the load of its accumulator: its event variables.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FrictionVariables {
     normal: f64,
     load: f64,
 }
 
-/// Signs of an element.
+/// Number of event variables of an element.
 pub(crate) const FRICTION_VARIABLES: usize = 2;
 
 impl FrictionVariables {
-    /// Returns those of one element among the signs of all.
+    /// Returns the event variables of one element, out of those of all.
     pub(crate) fn of(variables: &[f64], index: usize) -> Self {
         Self {
             normal: variables[FRICTION_VARIABLES * index],
@@ -37,10 +38,10 @@ impl FrictionVariables {
         }
     }
 
-    /// Positive while the mode lasts.
+    /// Returns the event function: positive while the contact state lasts.
     pub(crate) fn margin(self, contact_state: ContactState) -> f64 {
         let stays_closed = (self.normal - OPENING_FORCE) / OPENING_FORCE;
-        // An element without force says nothing about friction; `min` passes over NaN.
+        // Without a force the load has no meaning; `min` ignores NaN.
         let load = if self.normal > 0.0 { self.load } else { f64::NAN };
         match contact_state {
             ContactState::Open => (CLOSING_FORCE - self.normal) / CLOSING_FORCE,
@@ -49,7 +50,7 @@ impl FrictionVariables {
         }
     }
 
-    /// Returns the mode that follows one that must be left.
+    /// Returns the contact state after the event function has become zero.
     pub(crate) fn next(self, contact_state: ContactState) -> ContactState {
         match contact_state {
             ContactState::Open => self.closed(),
@@ -70,7 +71,7 @@ impl FrictionVariables {
 }
 
 impl Friction {
-    /// Returns the mode without a history.
+    /// Returns the contact state without a history.
     pub(crate) fn contact_state(&self) -> ContactState {
         if self.normal > OPENING_FORCE {
             let (normal, load) = (self.normal, self.load);
@@ -125,7 +126,8 @@ impl Connections {
         });
     }
 
-    /// Writes what presses each connection with friction (N) and the load of its accumulator.
+    /// Writes the normal (or coil) force of each connection with friction, N, and the load of its
+    /// accumulator.
     pub fn event_variables(
         &self,
         coordinates: CoordinatesAndRates<'_>,

@@ -16,7 +16,7 @@ pub(super) trait AxisLaw {
 
 /// A law on three coordinates with two deflections.
 pub(super) trait SpatialLaw {
-    /// Returns whether forces depend on the second and third stroke.
+    /// Returns whether forces depend on the second and third extension.
     fn uses_all_extensions(&self) -> bool;
     fn force_at<S: Real>(
         &self,

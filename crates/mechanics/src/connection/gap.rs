@@ -1,16 +1,16 @@
 //! A spring and a damper in parallel behind a gap (the comparison program's type 1.2).
 //!
-//! Equation: no force while `low < s < high`; outside `f = K(s) + C(s˙)`, beyond the lower end not above zero, beyond the
-//! upper end not below zero ([`GapTension::Never`], the default). The curves take the stroke itself, not the
-//! distance from the gap's end. Units: N and m, or N·m and rad.
+//! Equation: no force while `low < s < high`; outside `f = K(s) + C(s˙)`, beyond the lower end not above
+//! zero, beyond the upper end not below zero ([`GapTension::Never`], the default). The curves take the
+//! extension itself, not the distance from the gap's end. Units: N and m, or N·m and rad.
 //!
-//! Energy: stored is the integral of K from the gap's end, a function of s alone; the rest of the force has the damper's
-//! sign or, where the limit holds, takes away the spring's energy that the damper eats while it retreats slower than
-//! the body: never negative either.
+//! Energy: stored is the integral of K from the gap's end, a function of s alone; the rest of the force has
+//! the damper's sign or, where the limit holds, takes away the spring's energy that the damper eats while it
+//! retreats slower than the body: never negative either.
 //!
-//! Source: derived from published input files, where such a damper acts in a bearing while the bearing spring of another
-//! connection is loaded. Defect: force jumps from zero where the gap closes at speed. Limit: it knows its own spring
-//! only, not that of a neighbouring connection.
+//! Source: derived from published input files, where such a damper acts in a bearing while the bearing spring
+//! of another connection is loaded. Defect: force jumps from zero where the gap closes at speed. Limit: it
+//! knows its own spring only, not that of a neighbouring connection.
 
 use integrate::scalar::Real;
 
@@ -21,13 +21,13 @@ use crate::curve::Curve;
 /// A spring and a damper that act outside a gap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GapDamper {
-    /// Force by stroke.
+    /// Force by extension.
     pub spring: Option<Curve>,
-    /// Force by the stroke's rate.
+    /// Force by the extension's rate.
     pub damper: Option<Curve>,
-    /// Lower end of the gap, m or rad: at smaller strokes the element acts.
+    /// Lower end of the gap, m or rad: at smaller extensions the element acts.
     pub low: f64,
-    /// Upper end of the gap, m or rad: at larger strokes the element acts.
+    /// Upper end of the gap, m or rad: at larger extensions the element acts.
     pub high: f64,
 }
 
@@ -62,7 +62,7 @@ impl Gap {
         }
     }
 
-    /// Returns the force at a stroke and its rate.
+    /// Returns the force at a extension and its rate.
     #[inline(always)]
     pub fn evaluate<S: Real>(&self, extension: S, rate: S) -> AxisForce<S> {
         let at = extension.value();

@@ -1,7 +1,8 @@
-//! Derivatives: every law once, with numbers that carry its own few derivatives, and the constant rows around them.
+//! Derivatives: every law once, with numbers that carry its own few derivatives, and the constant rows around
+//! them.
 //!
-//! An element answers with derivatives by its strokes, their rates and its deflections (2, 6 or 8 of them); with the rows J of its
-//! displacements they become `-Jᵀ (∂f/∂s) J` in the blocks of the two bodies.
+//! An element gives derivatives by its extensions, their rates and its deflections (2, 6 or 8 of them); with
+//! the rows J of its displacements they become `-Jᵀ (∂f/∂s) J` in the blocks of the two bodies.
 
 use integrate::partitioned::Partitioned;
 use integrate::scalar::Dual;
@@ -23,7 +24,7 @@ pub(crate) struct JacobianInputs<'s> {
     pub d_quadratures: &'s mut [f64],
 }
 
-/// Derivatives of one quantity by strokes, rates and deflections.
+/// Derivatives of one quantity by extensions, rates and deflections.
 #[derive(Clone, Copy, Debug, Default)]
 struct Partial {
     extensions: [f64; 3],
@@ -32,7 +33,7 @@ struct Partial {
 }
 
 impl Partial {
-    /// Returns the derivatives of a number whose seeds are `N - 5` strokes, three rates, two deflections.
+    /// Returns the derivatives of a number whose seeds are `N - 5` extensions, three rates, two deflections.
     #[inline(always)]
     fn of<const N: usize>(number: &Dual<N>) -> Self {
         let d = &number.derivative;
@@ -44,7 +45,7 @@ impl Partial {
         partial
     }
 
-    /// Returns the derivative by time, strokes and rates changing at these rates.
+    /// Returns the derivative by time, extensions and rates changing at these rates.
     #[inline(always)]
     fn in_time(&self, prescribed_rate: &[f64; 3], prescribed_acceleration: &[f64; 3]) -> f64 {
         let mut sum = 0.0;

@@ -1,13 +1,16 @@
-//! Connections: the element laws of the industry's vehicle dynamics programs, between bodies with linearized kinematics.
+//! Connections: the element laws of the industry's vehicle dynamics programs, between bodies with linearized
+//! kinematics.
 //!
-//! Every such body has six coordinates of its centre of gravity measured from the drawn layout, levers are those of the layout, the mass
-//! matrix is diagonal and constant, there are no gyroscopic terms and no geometric stiffness of weights (a heavy body on soft pitch springs
-//! would otherwise topple, which the programs modelled here do not let it do). Axes: x forward, y left, z up. A connection acts on strokes
-//! (displacement of its point on body A less that on body B, extension positive): a force f in the stroke's sense acts as -f on A and +f
-//! on B.
+//! Every such body has six coordinates of its center of gravity measured from the drawn layout, levers are
+//! those of the layout, the mass matrix is diagonal and constant, there are no gyroscopic terms and no
+//! geometric stiffness of weights (a heavy body on soft pitch springs would otherwise topple, which it does
+//! not in the programs modeled here). Axes: x forward, y left, z up. A connection acts on extensions
+//! (displacement of its point on body A less that on body B, extension positive): a force f in the direction
+//! of the extension acts as -f on A and +f on B.
 //!
-//! How connections of the comparison program's files become [`Law`]s (its tables give ordinates first; read with
-//! [`Curve::mirrored_from_origin`](crate::curve::Curve::mirrored_from_origin) as `[abscissa, ordinate]`; no table: none, or zero):
+//! How connections of the comparison program's files become [`Law`]s (its tables give ordinates first; read
+//! with [`Curve::mirrored_from_origin`](crate::curve::Curve::mirrored_from_origin) as `[abscissa, ordinate]`;
+//! no table: none, or zero):
 //!
 //! | type | law |
 //! |---|---|
@@ -57,8 +60,8 @@ pub use wedge::{ColumnFace, Wedge, WedgeState};
 
 /// A connection of two bodies at a point.
 ///
-/// Its stroke in a coordinate is the displacement of the point on body A less that on body B: extension positive. A force f in the
-/// stroke's sense acts as -f on body A and as +f on body B.
+/// Its extension in a coordinate is the displacement of the point on body A less that on body B: extension
+/// positive. A force f in the direction of the extension acts as -f on body A and as +f on body B.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Connection {
     /// Its name, for messages and outputs; names need not differ.
@@ -139,7 +142,7 @@ pub(crate) struct Grips {
     pub wedges: Grip,
 }
 
-/// Connections in their places, ready to be evaluated.
+/// Assembled connections, ready to be evaluated.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Connections {
     all: Vec<Connection>,
@@ -172,7 +175,8 @@ impl Connections {
         self.wedges.iter_mut().for_each(|e| e.site.find_pairs(jacobian));
     }
 
-    /// Returns the first of the two accumulator deflections of a connection among the internal states, if it has any.
+    /// Returns the first of the two accumulator deflections of a connection among the internal states, if it
+    /// has any.
     pub fn deflection_of(&self, connection: usize) -> Option<usize> {
         let (_, internal) = self
             .frictional()

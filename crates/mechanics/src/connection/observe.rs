@@ -1,4 +1,4 @@
-//! What connections do at a state, for outputs.
+//! Extensions, forces and energies of connections at a state, for outputs.
 
 use super::forces::{CoordinatesAndRates, SpatialLaw, deflection_at};
 use super::site::Row;
@@ -10,15 +10,15 @@ use crate::system::{ContactState, Energies};
 /// A connection (SI); components in the order of [`super::Law::coordinates`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConnectionState {
-    /// Strokes, extension positive.
+    /// Extensions, extension positive.
     pub extensions: Vec<f64>,
     /// Their rates.
     pub velocities: Vec<f64>,
-    /// Forces and moments in the strokes' sense: -f acts on body A, +f on body B.
+    /// Forces and moments in the direction of the extension: -f acts on body A, +f on body B.
     pub forces: Vec<f64>,
-    /// What its friction does, if it has any.
+    /// Contact state, if it has friction.
     pub contact_state: Option<ContactState>,
-    /// What a wedge does inside.
+    /// Internal forces and motions of a wedge.
     pub wedge: Option<WedgeState>,
     /// Stored energy, accumulators included, J.
     pub energy: f64,
@@ -70,7 +70,8 @@ impl Connections {
         (inside, rates)
     }
 
-    /// All connections at a place; adds their energies.
+    /// Returns the states of all connections at given coordinates and rates; adds their energies to
+    /// `energies`.
     pub fn states(
         &self,
         bodies: &[Body],
@@ -144,12 +145,12 @@ impl Connections {
             energies.coil += coil;
             energies.bristle += held;
         }
-        // Components that carry nothing (a coordinate without spring and damper) still have strokes.
+        // Components without spring and damper have no force, but an extension.
         self.fill_idle(bodies, coordinates, &mut all);
         all
     }
 
-    /// Strokes of components without a law.
+    /// Extensions of components without a law.
     fn fill_idle(
         &self,
         bodies: &[Body],
@@ -176,7 +177,7 @@ impl Connections {
     }
 }
 
-/// Strokes, rates, forces and mode of a friction element.
+/// Extensions, rates, forces and contact state of a friction element.
 fn fill<L: SpatialLaw>(
     element: &Spatial<L>,
     grip: Grip,

@@ -1,39 +1,39 @@
-//! Choices where no public text defines the industry's elements: each with its default, named in words for the output
-//! of a run.
+//! Choices where no public text defines the industry's elements: each with its default, named in words for
+//! the output of a run.
 
 use serde::{Deserialize, Serialize};
 
-/// By what the wedge's branch (loading, unloading) is chosen.
+/// Criterion for the wedge's branch (loading, unloading).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Branch {
-    /// By the direction of the friction force: at a reversal the force unloads along the accumulator through zero
-    /// and loads up to the other branch's limit.
+    /// By the direction of the friction force: at a reversal the force unloads along the accumulator through
+    /// zero and loads up to the other branch's limit.
     FrictionForce,
-    /// By the direction of the vertical velocity, smoothed by `tanh(v / reference_speed)`; the coefficients are then fully mobilised
-    /// also while sticking, and the force snaps at a reversal.
+    /// By the direction of the vertical velocity, smoothed by `tanh(v / reference_speed)`; the coefficients
+    /// are then fully mobilized also while sticking, and the force snaps at a reversal.
     Velocity {
         /// Reference speed, m/s.
         reference_speed: f64,
     },
 }
 
-/// By what the direction of a profile wedge's slope friction is chosen.
+/// Criterion for the direction of a profile wedge's slope friction.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SlopeDirection {
-    /// By the toe: it follows the column's friction, mobilised by the same fraction. It may feed energy where the
-    /// bolster swings longitudinally.
+    /// By the toe: it follows the column's friction, mobilized by the same fraction. It may feed energy where
+    /// the bolster swings longitudinally.
     Toe,
-    /// By the wedge's slip on the slope, smoothed by `tanh(slip / reference_speed)`: it never feeds energy, creeps under a
-    /// held load, and vanishes where there is neither toe nor longitudinal motion.
+    /// By the wedge's slip on the slope, smoothed by `tanh(slip / reference_speed)`: it never feeds energy,
+    /// creeps under a held load, and vanishes where there is neither toe nor longitudinal motion.
     OwnSlip {
         /// Reference speed, m/s.
         reference_speed: f64,
     },
 }
 
-/// What becomes of a wedge that the bolster pushes back beyond its drawn place (negative rise).
+/// Treatment of a wedge that the bolster pushes back beyond its drawn position (negative rise).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NegativeRise {
@@ -57,22 +57,22 @@ pub enum GapTension {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
-    /// Inclination of the column under a wedge whose toe is only a direction (types 6.3, 6.7, 6.8), rad: its size, the
-    /// sign follows the direction. It enters the normal force, nothing else. Default 0: a vertical column on the
-    /// branch of the direction.
+    /// Inclination of the column under a wedge whose toe is only a direction (types 6.3, 6.7, 6.8), rad: its
+    /// size, the sign follows the direction. It enters the normal force, nothing else. Default 0: a vertical
+    /// column on the branch of the direction.
     pub plain_toe_angle: f64,
-    /// By what the branch is chosen. Default: by the friction force.
+    /// Criterion for the branch. Default: the friction force.
     pub branch: Branch,
     /// The direction of slope friction of wedges with a profile. Default: by the toe.
     pub slope: SlopeDirection,
-    /// Whether the rate of the wedge's rise enters the slip velocity on the column. Default: no, it is the vertical
-    /// stroke's rate. With it longitudinal swinging moves the column's friction, and the slope's, which follows it, can
-    /// excite the swinging.
+    /// Whether the rate of the wedge's rise enters the slip velocity on the column. Default: no, it is the
+    /// vertical extension's rate. With it longitudinal swinging moves the column's friction, and the slope's,
+    /// which follows it, can excite the swinging.
     pub rise_in_slip: bool,
     /// Negative rise. Default: the coil's curve goes on.
     pub negative_rise: NegativeRise,
-    /// Factor on the damping of all force accumulators. Default 1; towards 0 the accumulator becomes the elastic-ideally
-    /// slipping element of a return mapping.
+    /// Factor on the damping of all force accumulators. Default 1; towards 0 the accumulator becomes the
+    /// elastic-ideally slipping element of a return mapping.
     pub accumulator_damping: f64,
     /// Dampers behind a gap. Default: never tension.
     pub gap_tension: GapTension,
@@ -100,7 +100,7 @@ const FIXED: [&str; 11] = [
     "wedge: the column's normal force is capped by its limit, also where no steady sliding exists (the wedge is then \
      reported as jammed)",
     "wedge: a zero toe takes the toe-out branch",
-    "wedge: the profile of the column is taken at the vertical stroke, not at the wedge's own height",
+    "wedge: the profile of the column is taken at the vertical extension, not at the wedge's own height",
     "wedge components: vertical is the whole force (coil where it stands on the side frame, friction, inclined normal \
      force); longitudinal is the force across the column",
     "coil groups (type 1.3): no coupling of shear into roll",

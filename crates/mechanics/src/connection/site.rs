@@ -1,7 +1,7 @@
 //! Where connections act: displacements of a point of a body, linear in its six coordinates.
 //!
-//! `u = x + θ lz - ψ ly`, `v = y - φ lz + ψ lx`, `w = z + φ ly - θ lx`; rotations pass through. The offset
-//! l from the centre of gravity is that of the drawn layout.
+//! `u = x + θ lz - ψ ly`, `v = y - φ lz + ψ lx`, `w = z + φ ly - θ lx`; rotations pass through. The offset l
+//! from the center of gravity is that of the drawn layout.
 
 use integrate::partitioned::Partitioned;
 
@@ -16,8 +16,8 @@ pub(crate) struct Row {
 }
 
 impl Row {
-    /// Returns the displacement `coordinate` (0..6) of the point at `offset` from the centre of gravity; `slots` numbers the free
-    /// coordinates.
+    /// Returns the displacement `coordinate` (0..6) of the point at `offset` from the center of gravity;
+    /// `slots` numbers the free coordinates.
     pub fn new(coordinate: usize, offset: [f64; 3], slots: &[Option<usize>; 6]) -> Self {
         let [x, y, z] = offset;
         let (at, arm) = match coordinate {
@@ -92,7 +92,7 @@ pub(crate) struct End {
     pub size: usize,
     /// Whether it is prescribed and moves.
     pub prescribed: bool,
-    /// +1 for body A, -1 for body B: its share in the stroke.
+    /// +1 for body A, -1 for body B: its share in the extension.
     pub sign: f64,
 }
 
@@ -143,7 +143,7 @@ impl<const D: usize, const P: usize> Site<D, P> {
         extensions
     }
 
-    /// Returns the part of the strokes' rates that prescribed ends make (from their coordinates' rates).
+    /// Returns the part of the extensions' rates that prescribed ends make (from their coordinates' rates).
     #[inline(always)]
     pub fn prescribed_rates(&self, rates: &[[f64; 6]]) -> [f64; D] {
         let mut prescribed_rate = [0.0; D];

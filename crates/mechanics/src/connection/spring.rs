@@ -1,15 +1,16 @@
 //! A spring and a damper in parallel on one coordinate (the comparison program's types 1, 1.1, 1.3).
 //!
-//! Equation: `f = clamp(K(s) + C(s˙), compression limit, extension limit)`, K and C piecewise linear, extension
-//! positive. Units: N and m, or N·m and rad.
+//! Equation: `f = clamp(K(s) + C(s˙), compression limit, extension limit)`, K and C piecewise linear,
+//! extension positive. Units: N and m, or N·m and rad.
 //!
-//! Energy: stored is the integral of `clamp(K(s))`, a function of s alone; the rest of the force, f - clamp(K(s)), has
-//! the sign of C(s˙), because clamping keeps order, so that its power is never negative for a damper that
-//! opposes motion. Both together are the whole power, also at the limits.
+//! Energy: stored is the integral of `clamp(K(s))`, a function of s alone; the rest of the force, f -
+//! clamp(K(s)), has the sign of C(s˙), because clamping keeps order, so that its power is never negative for
+//! a damper that opposes motion. Both together are the whole power, also at the limits.
 //!
-//! Source: derived from the numbers of published input files (a bearing spring without tension, a vertical spring whose
-//! extension limit is zero). Defect: the limit also cuts the damper's force, with a kink. Limit: coordinates of one group
-//! are independent of each other; a coil's shear does not roll it.
+//! Source: derived from the numbers of published input files (a bearing spring without tension, a vertical
+//! spring whose extension limit is zero). Defect: the limit also cuts the damper's force, with a
+//! discontinuous derivative. Limit: coordinates of one group are independent of each other; a coil's shear
+//! does not roll it.
 
 use integrate::scalar::Real;
 
@@ -19,9 +20,9 @@ use crate::curve::Curve;
 /// A spring and a damper in parallel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpringDamper {
-    /// Force by stroke.
+    /// Force by extension.
     pub spring: Option<Curve>,
-    /// Force by the stroke's rate.
+    /// Force by the extension's rate.
     pub damper: Option<Curve>,
     /// The least force (the most compressive), N or N·m; usually negative.
     pub compression_limit: f64,
@@ -83,7 +84,7 @@ impl Spring {
         self.damper.is_some()
     }
 
-    /// Returns the force at a stroke and its rate.
+    /// Returns the force at a extension and its rate.
     #[inline(always)]
     pub fn evaluate<S: Real>(&self, extension: S, rate: S) -> AxisForce<S> {
         let held = self.held.evaluate(extension);
@@ -107,7 +108,7 @@ impl Spring {
         }
     }
 
-    /// Returns the stored energy, J; zero at zero stroke.
+    /// Returns the stored energy, J; zero at zero extension.
     pub fn energy(&self, extension: f64) -> f64 {
         self.held.integral(extension)
     }

@@ -1,15 +1,16 @@
 //! Friction on a surface that a spring presses together (the comparison program's type 6.5).
 //!
-//! Equations: normal force `N = max(0, -K(s_n))` from a piecewise linear curve of the normal stroke (extension positive, so
-//! that the curve is negative where the surfaces press), with an optional damper that never pulls; in the two other
-//! coordinates a force accumulator with the limit `μN`, one circle for both (see [`crate::friction::bristle`]). Forces
-//! in the strokes' sense: the normal one is `-N`. Units: N, m, s.
+//! Equations: normal force `N = max(0, -K(s_n))` from a piecewise linear curve of the normal extension
+//! (extension positive, so that the curve is negative where the surfaces press), with an optional damper that
+//! never pulls; in the two other coordinates a force accumulator with the limit `μN`, one circle for both
+//! (see [`crate::friction::bristle`]). Forces in the direction of the extension: the normal one is `-N`.
+//! Units: N, m, s.
 //!
 //! Energy: the integral of K, the accumulator's `K_a e²/2`, its losses, and those of the damper.
 //!
-//! Source: the form is read from published input files, the accumulator's name and numbers from the wedge elements
-//! beside it. Defect: under a held load it deflects by F/K_a. Limit: the limit of friction is taken from the spring's
-//! force, without the damper's.
+//! Source: the form is read from published input files, the accumulator's name and numbers from the wedge
+//! elements beside it. Defect: under a held load it deflects by F/K_a. Limit: the limit of friction is taken
+//! from the spring's force, without the damper's.
 
 use integrate::scalar::Real;
 
@@ -22,9 +23,9 @@ use crate::friction::Friction as Slip;
 pub struct SurfaceFriction {
     /// The normal coordinate and the two of the surface (0 to 2: x, y, z).
     pub coordinates: [usize; 3],
-    /// Force by the normal stroke, N by m; negative where the surfaces press.
+    /// Force by the normal extension, N by m; negative where the surfaces press.
     pub spring: Curve,
-    /// Force by the normal stroke's rate, N by m/s.
+    /// Force by the normal extension's rate, N by m/s.
     pub damper: Option<Curve>,
     /// Coefficient of friction.
     pub coefficient: f64,
@@ -55,7 +56,7 @@ impl Surface {
         self.damper.is_some()
     }
 
-    /// Returns the friction at strokes and rates (normal, first, second) and deflections.
+    /// Returns the friction at extensions and rates (normal, first, second) and deflections.
     #[inline(always)]
     pub fn evaluate<S: Real>(
         &self,
@@ -93,7 +94,7 @@ impl Surface {
         }
     }
 
-    /// Returns the energy of the normal spring, J; zero at zero stroke.
+    /// Returns the energy of the normal spring, J; zero at zero extension.
     pub fn energy(&self, extension: f64) -> f64 {
         -self.normal.integral(extension)
     }

@@ -1,38 +1,44 @@
-//! The industry's friction wedge as an element without mass (the comparison program's types 6.3, 6.7, 6.8, 6.9).
+//! The industry's friction wedge as an element without mass (the comparison program's types 6.3, 6.7, 6.8,
+//! 6.9).
 //!
-//! Body A is the bolster, body B the side frame. A coil pushes a massless wedge up between the pocket's slope (angle θ
-//! from the vertical) and the column (inclined by φ, positive where the gap widens downwards: toe out). With x the signed
-//! mobilised fraction of friction (positive when the column's friction on the wedge acts up, |x| = 1 when it slips),
-//! and α = -μ_s (toe out, no toe) or +μ_s (toe in), balance of the wedge (see [`crate::quasi_static`]) gives
+//! Body A is the bolster, body B the side frame. A coil pushes a massless wedge up between the pocket's slope
+//! (angle θ from the vertical) and the column (inclined by φ, positive where the gap widens downwards: toe
+//! out). With x the signed mobilized fraction of friction (positive when the column's friction on the wedge
+//! acts up, |x| = 1 when it slips), and α = -μ_s (toe out, no toe) or +μ_s (toe in), balance of the wedge
+//! (see [`crate::quasi_static`]) gives
 //!
 //! ```text
 //! N(x) = F_s (cos θ + α x sin θ) / D(x),   D(x) = sin(θ+φ) - x (α + μ_c) cos(θ+φ) - x² α μ_c sin(θ+φ)
 //! ```
 //!
-//! The column's friction is a force accumulator ([`Accumulator`]) in the vertical and the lateral coordinate, with trial
-//! force T. It slips where |T| exceeds `μ_c N(-T_z/|T|)`; while it sticks x follows from `F_t = μ_c x N(x)`, a
-//! quadratic equation. N is at most [`Wedge::normal_limit`], also where D is not positive: there no steady sliding
-//! exists, the wedge jams.
+//! The column's friction is a force accumulator ([`Accumulator`]) in the vertical and the lateral coordinate,
+//! with trial force T. It slips where |T| exceeds `μ_c N(-T_z/|T|)`; while it sticks x follows from
+//! `F_t = μ_c x N(x)`, a quadratic equation. N is at most [`Wedge::normal_limit`], also where D is not
+//! positive: there no steady sliding exists, the wedge jams.
 //!
-//! Kinematics with a column profile h(z) (depth in m over the vertical extension, positive away from the bolster) and
-//! direction d (+1: the column lies ahead, +x of the bolster): gap `e = -d s_x + h(s_z)`, `φ = -atan h'(s_z)`, rise of
-//! the wedge in its pocket `r = e / tan θ`; extension of the coil `s_z + r` (coil on the side frame) or `r` (coil in the
-//! bolster). Without a profile r = 0. Forces in the extensions' sense:
-//! `f_z = -(F_s [coil on the side frame] + F_t cos φ - N sin φ)`, `f_x = d (N cos φ + F_t sin φ)`, f_y lateral friction.
-//! Without a profile f_x = 0, and a given inclination enters N only. Units: N, m, s, rad.
+//! Kinematics with a column profile h(z) (depth in m over the vertical extension, positive away from the
+//! bolster) and direction d (+1: the column lies ahead, +x of the bolster): gap `e = -d s_x + h(s_z)`,
+//! `φ = -atan h'(s_z)`, rise of the wedge in its pocket `r = e / tan θ`; extension of the coil `s_z + r`
+//! (coil on the side frame) or `r` (coil in the bolster). Without a profile r = 0. Forces in the direction of
+//! the extension: `f_z = -(F_s [coil on the side frame] + F_t cos φ - N sin φ)`,
+//! `f_x = d (N cos φ + F_t sin φ)`, f_y lateral friction. Without a profile f_x = 0, and a given inclination
+//! enters N only. Units: N, m, s, rad.
 //!
-//! Energy. Stored: the coil's, the accumulator's. Lost: the accumulator's losses (column); the power of the slope's
-//! friction, `-α x N_s r˙ / cos θ`, which may be negative, because its direction is that of the column's friction and not that of its
-//! own slip. Taking the profile at the bolster's height instead of the wedge's, the slip velocity without the rise, capping N and
-//! stopping the rise leave the wedge's constraint forces with a small power (tan φ / tan θ of the column's: 0.6 % at 0.2°, all
-//! but 1e-4 of it by the slip velocity); it is integrated from its own forces and velocities and is a ledger entry of its own.
+//! Energy. Stored: the coil's, the accumulator's. Lost: the accumulator's losses (column); the power of the
+//! slope's friction, `-α x N_s r˙ / cos θ`, which may be negative, because its direction is that of the
+//! column's friction and not that of its own slip. Taking the profile at the bolster's height instead of the
+//! wedge's, the slip velocity without the rise, capping N and stopping the rise leave the wedge's constraint
+//! forces with a small power (tan φ / tan θ of the column's: 0.6 % at 0.2°, all but 1e-4 of it by the slip
+//! velocity); it is integrated from its own forces and velocities and is a ledger entry of its own.
 //!
-//! Source: names of the parameters and variables from published input files and their comments; the law itself is derived,
-//! choices are listed in [`crate::connection::Options`]. Defects: no mass, no moments, no lift-off ringing. The slope's friction is no slider of
-//! its own: where the bolster swings along x it can feed energy (a negative slope entry in the ledger tells), above all jammed (toe
-//! in with much friction: a half-truck with yaw then chatters at hundreds of hertz) and with
-//! [`crate::connection::Options::rise_in_slip`]; [`SlopeDirection::OwnSlip`] is the remedy, with `-μ_s tanh(slip/v0)` in place of `α x`. Where `μ_c x N(x)` is not monotonic (steep angles with high friction) sticking and
-//! slipping disagree about N at the limit.
+//! Source: names of the parameters and variables from published input files and their comments; the law
+//! itself is derived, choices are listed in [`crate::connection::Options`]. Defects: no mass, no moments, no
+//! lift-off ringing. The slope's friction is no slider of its own: if the bolster swings along x, it can feed
+//! energy (the slope's entry of the ledger is then negative), above all if the wedge is jammed (toe in with
+//! much friction: a half-truck with yaw then chatters at hundreds of hertz) and with
+//! [`crate::connection::Options::rise_in_slip`]; [`SlopeDirection::OwnSlip`] is the remedy, with
+//! `-μ_s tanh(slip/v0)` in place of `α x`. Where `μ_c x N(x)` is not monotonic (steep angles with high
+//! friction) sticking and slipping disagree about N at the limit.
 
 use integrate::scalar::Real;
 
@@ -63,11 +69,13 @@ pub enum ColumnFace {
 pub struct Wedge {
     /// Wedge angle θ from the vertical, rad, between 0 and π/2.
     pub angle: f64,
-    /// Force of the coil, N by m of its extension, extension positive: negative where it pushes. It never pulls.
+    /// Force of the coil, N by m of its extension, extension positive: negative where it pushes. It never
+    /// pulls.
     pub coil: Curve,
     /// Force added to the coil's, N, positive pushing.
     pub preload: f64,
-    /// Whether the coil stands in the bolster's pocket (constant damping); else on the side frame (variable damping).
+    /// Whether the coil stands in the bolster's pocket (constant damping); else on the side frame (variable
+    /// damping).
     pub coil_in_bolster: bool,
     /// The column.
     pub column: ColumnFace,
@@ -143,7 +151,7 @@ pub struct WedgeState {
     pub slope_normal: f64,
     /// Friction of the slope along it, on the wedge, positive up.
     pub slope_friction: f64,
-    /// Signed fraction of the mobilised friction, x.
+    /// Signed fraction of the mobilized friction, x.
     pub mobilised: f64,
     /// Limit of the friction in its present direction.
     pub friction_limit: f64,
@@ -209,8 +217,8 @@ impl WedgeLaw {
         self.profile.is_some()
     }
 
-    /// Returns the column's normal force at the signed fraction `x` with the slope's friction coefficient `slope` (signed:
-    /// positive up the slope), and whether it is the cap.
+    /// Returns the column's normal force at the signed fraction `x` with the slope's friction coefficient
+    /// `slope` (signed: positive up the slope), and whether it is the cap.
     #[inline(always)]
     fn normal<S: Real>(&self, face: &Face, coil: S, x: S, slope: S) -> (S, bool) {
         let [s, c] = face.sum;
@@ -224,8 +232,8 @@ impl WedgeLaw {
         }
     }
 
-    /// Returns the signed fraction that holds the friction `ratio · coil force`; `own` is the slope's coefficient if it does not
-    /// follow the column.
+    /// Returns the signed fraction that holds the friction `ratio · coil force`; `own` is the slope's
+    /// coefficient if it does not follow the column.
     #[inline(always)]
     fn fraction<S: Real>(&self, face: &Face, ratio: S, own: Option<S>) -> S {
         let [s, c] = face.sum;
@@ -251,7 +259,8 @@ impl WedgeLaw {
         }
     }
 
-    /// Returns the wedge at extensions and rates (vertical, longitudinal, lateral) and deflections (vertical, lateral).
+    /// Returns the wedge at extensions and rates (vertical, longitudinal, lateral) and deflections (vertical,
+    /// lateral).
     #[inline(always)]
     pub fn evaluate<S: Real>(
         &self,
@@ -263,7 +272,7 @@ impl WedgeLaw {
         self.evaluate_with(extensions, rates, deflection, grip, |_| {})
     }
 
-    /// Returns the same; `report` receives what happens inside.
+    /// Returns the same; `report` receives the internal forces and motions.
     #[inline(always)]
     pub fn evaluate_with<S: Real>(
         &self,
@@ -358,7 +367,8 @@ impl WedgeLaw {
         }
     }
 
-    /// Returns the column's friction and what goes with it; `own` is the slope's coefficient if it does not follow the column.
+    /// Returns the column's friction, normal force and fraction; `own` is the slope's coefficient if it does
+    /// not follow the column.
     #[inline(always)]
     fn column<S: Real>(
         &self,

@@ -1,13 +1,16 @@
-//! The points of a face four at a time: forces in lanes, and the law differentiated by what it sees of a point.
+//! The points of a face four at a time: forces in SIMD lanes, and derivatives of the law by the contact
+//! kinematics.
 //!
-//! The body sees the surface from its own axes, in which its points rest: with the rows n, t1, t2 of the rotation Q from body to mount
-//! axes, d and c the place and velocity of its origin and ω the relative angular velocity (mount axes), a point r has
+//! The plane is evaluated in the axes of the body, in which the points rest: with the rows n, t1, t2 of the
+//! rotation Q from body to marker axes, d and c the position and velocity of its origin and ω the relative
+//! angular velocity (marker axes), a point r has
 //!
 //! ```text
 //! g = d·e_n + n·r,   v_i = c_i + (Qᵀ(e_i × ω))·r,   F = Qᵀ(N, T1, T2),   M = Σ r × F
 //! ```
 //!
-//! so that gap, gap rate and slip of all points are linear in their coordinates. The laws are those of [`ContactFace`].
+//! so that gap, gap rate and slip of all points are linear in their coordinates. The laws are those of
+//! [`ContactFace`].
 
 use std::ops::Range;
 
@@ -29,13 +32,14 @@ pub(super) struct PointBlock {
     pub count: usize,
 }
 
-/// What the law's outputs are: force along the normal and two tangents, losses in friction and in contact damping, rates of the bristle.
+/// The law's outputs: force along the normal and two tangents, losses in friction and in contact damping,
+/// rates of the bristle.
 pub(super) const OUTPUTS: usize = 7;
 
 /// The derivatives of the law at four points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PointDerivatives {
-    /// Whether there is anything but zeros.
+    /// Whether any derivative differs from zero.
     pub active: bool,
     /// Forces along the normal and two tangents.
     pub force: [Lanes; 3],
@@ -48,13 +52,13 @@ pub(super) struct PointDerivatives {
     pub by_deflection: [[Lanes; OUTPUTS]; 2],
 }
 
-/// The points of a face, ready for evaluation; what the law sees of them where [`Points::update`] was called last, and its derivatives where
-/// [`ContactFace::linearize`] was.
+/// The points of a face, ready for evaluation: contact kinematics at the last call of [`Points::update`], and
+/// derivatives of the law at the last call of [`ContactFace::linearize`].
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Points {
     pub(super) blocks: Vec<PointBlock>,
     kinematics: Vec<PointKinematics<Lanes>>,
-    /// Whether all were open where forces were asked for last; never where there are internal states.
+    /// Whether all were open at the last evaluation of the forces; never with internal states.
     open: bool,
     pub(super) derivatives: Vec<PointDerivatives>,
 }
@@ -76,8 +80,9 @@ impl Points {
         }
     }
 
-    /// Sees where the points are if all are still open, as they were where forces were asked for last; whether they are, else nothing is
-    /// known. How open points without internal states move makes no difference. Only for a marker that does not turn.
+    /// Updates the gaps if all points were open at the last evaluation of the forces. Returns whether all are
+    /// still open; otherwise the contact kinematics are unknown. Velocities of open points without internal
+    /// states are not needed. Valid only if marker B does not rotate.
     #[inline(always)]
     pub fn update_if_open(&mut self, relative_frame: &RelativeFrame<f64>, body: &Kinematics<f64>) -> bool {
         if !self.open {
@@ -90,7 +95,7 @@ impl Points {
         self.kinematics.iter().all(is_open)
     }
 
-    /// Sees where the points are and how they move.
+    /// Updates the contact kinematics of the points.
     #[inline(always)]
     pub fn update(&mut self, plane: &PlaneMotion) {
         for (block, kinematics) in self.blocks.iter().zip(&mut self.kinematics) {
@@ -98,7 +103,7 @@ impl Points {
         }
     }
 
-    /// Returns whether the law, where it was differentiated, has anything but zeros at any of them: not where all are open.
+    /// Returns whether the law has derivatives other than zero at any point; it has none if all are open.
     #[inline(always)]
     pub fn are_active(&self) -> bool {
         self.derivatives.iter().any(|derivatives| derivatives.active)
@@ -151,20 +156,21 @@ impl PointBlock {
     }
 }
 
-/// A plane and its motion as the body sees them: what is linear in the coordinates of points.
+/// A plane and its motion in the axes of the body: gap, gap rate and slip are linear in the coordinates of
+/// points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlaneMotion {
     distance: f64,
     normal: Vector<f64>,
     speeds: [f64; 3],
-    /// By what the components of the velocity grow with the position.
+    /// Gradients of the velocity components with the position.
     growth: [Vector<f64>; 3],
     /// From body axes to marker axes.
     rotation: Matrix<f64>,
 }
 
 impl PlaneMotion {
-    /// From a marker that does not turn: `v_i = c_i + (e_i × ω)·r` with ω in body axes.
+    /// Returns the plane's motion if marker B does not rotate: `v_i = c_i + (e_i × ω)·r` with ω in body axes.
     #[inline(always)]
     pub fn of(relative_frame: &RelativeFrame<f64>, body: &Kinematics<f64>) -> Self {
         let rotation: Matrix<f64> = relative_frame.rotation.times(body.orientation.rotation);
@@ -180,7 +186,7 @@ impl PlaneMotion {
         }
     }
 
-    /// Distance and normal alone, as [`PlaneMotion::of`] sees them.
+    /// Returns distance and normal alone, as in [`PlaneMotion::of`].
     #[inline(always)]
     fn distance_and_normal(
         relative_frame: &RelativeFrame<f64>,
@@ -209,7 +215,7 @@ impl PlaneMotion {
         }
     }
 
-    /// Returns what the law sees of four points; the gap's rate only where there is contact damping.
+    /// Returns the contact kinematics of four points; the gap rate only with contact damping.
     #[inline(always)]
     pub fn kinematics(&self, position: Vector<Lanes>, damped: bool) -> PointKinematics<Lanes> {
         let speed = |i: usize| -> Lanes { self.growth[i].dot::<Lanes, Lanes>(position) + self.speeds[i] };
@@ -220,7 +226,8 @@ impl PlaneMotion {
         }
     }
 
-    /// Returns what it does to the body: forces along the marker's axes, moments (body axes), losses in friction and in contact damping.
+    /// Returns the wrench on the body: forces along the marker's axes, moments (body axes), losses in
+    /// friction and in contact damping.
     #[inline(always)]
     pub fn push(&self, position: Vector<Lanes>, forces: &PointForce<Lanes>) -> [Lanes; 8] {
         let [t1, t2] = forces.friction.force;
@@ -232,7 +239,8 @@ impl PlaneMotion {
     }
 }
 
-/// Returns whether four points are open, each of them, and not just touching. (Missing ones are copies of the first.)
+/// Returns whether four points are open, each of them, and not just touching. (Missing ones are copies of the
+/// first.)
 #[inline(always)]
 fn is_open(at: &PointKinematics<Lanes>) -> bool {
     Lanes::zero().below(at.gap).all()
@@ -244,7 +252,7 @@ fn closed(block: &PointBlock, at: &PointKinematics<Lanes>) -> LaneMask {
 }
 
 impl ContactFace<Plane> {
-    /// Returns what all points do to their body; `rates` receives the rates of the internal states.
+    /// Returns the wrench of all points on their body; `rates` receives the rates of the internal states.
     #[inline(always)]
     pub(crate) fn wrench_on_body(
         &self,
@@ -290,7 +298,8 @@ impl ContactFace<Plane> {
         }
     }
 
-    /// Gap and friction load of these points, four at a time; of no meaning is the load of open ones.
+    /// Calls `each` with gap and friction load of four points at a time. The load of open points has no
+    /// meaning.
     #[inline(always)]
     pub(crate) fn event_variables(
         &self,
@@ -399,8 +408,9 @@ impl PointDerivatives {
 }
 
 impl Points {
-    /// For every point with internal states: how their rates (row-major), the forces at the point (marker axes, with its position in body
-    /// axes) and the friction loss change with them.
+    /// For every point with internal states, calls `each` with the derivatives by them: of their rates
+    /// (row-major), the forces at the point (marker axes, with its position in body axes) and the friction
+    /// loss.
     pub fn internal_derivatives(&self, mut each: impl FnMut(usize, &InternalDerivatives)) {
         for (number, (block, derivatives)) in self.blocks.iter().zip(&self.derivatives).enumerate() {
             let by = derivatives.by_deflection.map(|row| row.map(Lanes::to_array));

@@ -1,7 +1,7 @@
 //! The tangent of a face: the chain rule of points on a rigid body.
 //!
-//! With a small change d of the body's origin, φ of its rotation, δv and δω of its velocities, all in mount axes, and r from the origin
-//! to a point,
+//! With a small change d of the body's origin, φ of its rotation, δv and δω of its velocities, all in marker
+//! axes, and r from the origin to a point,
 //!
 //! ```text
 //! δr = φ × r,   δg = (d + δr)·n,   δv_P = δv + δω × r + ω × δr,   δM = r × δF + δr × F
@@ -17,7 +17,7 @@ use crate::link::RelativeMotion;
 use crate::tangent::{Tangent, TangentColumn, TangentColumns, sum};
 use crate::vector::Vector;
 
-/// What the law's outputs change by with the velocity of a point.
+/// Adds the derivatives of the law's outputs by the velocity of a point.
 #[inline(always)]
 fn by_velocity(
     derivatives: &PointDerivatives,
@@ -37,8 +37,9 @@ fn by_velocity(
 }
 
 impl Points {
-    /// Returns the tangent of a face where its law was differentiated. `rates` receives the derivatives of the rates of internal states, of four
-    /// points at a time: those of the first state of each, and of the second; it is empty where there are none.
+    /// Returns the tangent of a face where its law was differentiated. `rates` receives the derivatives of
+    /// the rates of internal states, of four points at a time: those of the first state of each, and of the
+    /// second; it is empty where there are none.
     #[inline(always)]
     pub fn tangent(&self, relative: &RelativeMotion<f64>, rates: &mut [TangentColumns]) -> Tangent {
         let mut tangent = Tangent::NONE;
@@ -65,7 +66,7 @@ impl Points {
                     Lanes::sums([m0, m1, m2, out[4]]),
                 ]
             };
-            // Where internal states have none, what is written for them goes nowhere.
+            // Without internal states the derivatives of their rates are discarded.
             let mut nowhere = TangentColumns::NONE;
             let rate = rates.get_mut(number).unwrap_or(&mut nowhere);
             let add = |to: &mut TangentColumn, rate: &mut TangentColumn, out: &[Lanes; OUTPUTS], carried| {

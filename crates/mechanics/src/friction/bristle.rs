@@ -4,20 +4,21 @@
 //! - stick, while `|T| ≤ μN`: `F_t = -T`, `ė = v`;
 //! - slip: `F_t = -μN d`, `d = T/|T|`, `ė = (μN d - K e)/C`.
 //!
-//! Both forms agree where `|T| = μN`, so the right-hand side is continuous; it has a kink there. Losses: the
-//! dashpot's `C |ė|²` always, and in slip the slider's `μN d·(v - ė) = μN (|T| - μN)/C`; both are never negative.
-//! The stored energy `K e²/2` is recoverable. An open contact (N = 0) lets its bristle relax: `ė = -K e/C`.
+//! Both forms agree where `|T| = μN`, so the right-hand side is continuous; its derivative is discontinuous
+//! there. Losses: the dashpot's `C |ė|²` always, and in slip the slider's `μN d·(v - ė) = μN (|T| - μN)/C`;
+//! both are never negative. The stored energy `K e²/2` is recoverable. An open contact (N = 0) lets its
+//! bristle relax: `ė = -K e/C`.
 //!
-//! Source: the force accumulators (stiffness and damping) of the industry's wedge elements, in the rate form of a
-//! Maxwell-slip element. Units: N, m, s. Defect: under a held load the contact deflects elastically by
+//! Source: the force accumulators (stiffness and damping) of the industry's wedge elements, in the rate form
+//! of a Maxwell-slip element. Units: N, m, s. Defect: under a held load the contact deflects elastically by
 //! F/K (no creep); limit: one bristle a point, no Stribeck effect, no rate dependence.
 
 use integrate::scalar::{Number, choose};
 
 use super::{Friction, dot};
 
-/// Returns the friction of a point with the friction limit `limit` = μN (N, not negative), tangential velocity (m/s) and
-/// bristle deflection (m); `stiffness` in N/m, `damping` in N·s/m.
+/// Returns the friction of a point with the friction limit `limit` = μN (N, not negative), tangential
+/// velocity (m/s) and bristle deflection (m); `stiffness` in N/m, `damping` in N·s/m.
 #[inline(always)]
 #[must_use]
 pub fn friction<S: Number>(

@@ -1,4 +1,5 @@
-//! Friction of a contact point: a tangential force that depends on the normal force and the tangential velocity.
+//! Friction of a contact point: a tangential force that depends on the normal force and the tangential
+//! velocity.
 
 pub mod bristle;
 pub mod tanh;
@@ -6,7 +7,7 @@ pub mod tanh;
 use integrate::scalar::{Blend, Number};
 use serde::{Deserialize, Serialize};
 
-/// The friction laws. Which one is active is part of every result.
+/// The friction laws. Every result states the active one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", tag = "law")]
 pub enum FrictionLaw {
@@ -34,7 +35,8 @@ impl FrictionLaw {
         }
     }
 
-    /// Returns the speed at which the point creeps when it holds the fraction `load` (0..1) of the friction limit, m/s.
+    /// Returns the speed at which the point creeps when it holds the fraction `load` (0..1) of the friction
+    /// limit, m/s.
     #[must_use]
     pub fn creep_speed(&self, load: f64) -> f64 {
         match self {
@@ -44,7 +46,7 @@ impl FrictionLaw {
     }
 }
 
-/// What friction does at one contact point (or at four in lanes), in two tangential directions.
+/// Friction of one contact point (or of four in lanes), in two tangential directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Friction<S: Number> {
     /// Force on the moving body, N.
@@ -53,7 +55,7 @@ pub struct Friction<S: Number> {
     pub rate: [S; 2],
     /// Power lost, W: never negative.
     pub loss: S,
-    /// How far the law is from its own change between stick and slip: |T| / (μN) with the bristle,
+    /// Load of the law, which decides between stick and slip: |T| / (μN) with the bristle,
     /// |v| / v0 with tanh.
     pub load: S::Plain,
 }

@@ -5,13 +5,14 @@
 //!
 //! Defect: at zero velocity the force is zero, so that a held load never truly sticks but creeps with
 //! `v = v0 atanh(|F_t| / μN)`; the law is a stiff dashpot of μN/v0 there. Remedy: [`super::bristle`].
-//! What remains: with v0 = 0.001 in/s a load of half the limit creeps by 0.00055 in/s.
+//! Example: with v0 = 0.001 in/s a load of half the limit creeps by 0.00055 in/s.
 
 use integrate::scalar::Number;
 
 use super::{Friction, dot};
 
-/// Returns the friction of a point with the friction limit `limit` = μN (N) and tangential velocity `velocity` (m/s).
+/// Returns the friction of a point with the friction limit `limit` = μN (N) and tangential velocity
+/// `velocity` (m/s).
 #[inline(always)]
 #[must_use]
 pub fn friction<S: Number>(limit: S, reference_speed: f64, velocity: [S; 2]) -> Friction<S> {

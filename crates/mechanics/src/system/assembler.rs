@@ -1,4 +1,4 @@
-//! Elements put in their places: what is known of each once the model is.
+//! Assembly of elements between bodies.
 
 use integrate::lanes::LANES;
 use integrate::partitioned::Partitioned;
@@ -11,7 +11,7 @@ use crate::contact::Points;
 use crate::link::{Marker, RelativeFrame, Translation};
 use crate::tangent::{Tangent, TangentColumns};
 
-/// Puts elements in their places.
+/// Assembles elements between bodies.
 pub(super) struct ElementAssembler<'m> {
     pub bodies: &'m [Body],
     pub frames: &'m [FrameState],
@@ -122,7 +122,7 @@ impl ElementAssembler<'_> {
 }
 
 impl<E> Mounted<E> {
-    /// Returns the free bodies that it touches, by their numbers among the free ones.
+    /// Returns the numbers (among the free bodies) of the free bodies at its ends.
     pub(super) fn touches(&self, free_number: &[Option<usize>]) -> impl Iterator<Item = usize> + use<E> {
         [self.body, self.on]
             .map(|body| free_number[body])

@@ -1,10 +1,11 @@
-//! What the coordinates of a body do to the relative motion at an element, and what becomes of its wrench at both bodies: the part of the
-//! Jacobian that all elements share.
+//! The chain rule of an element: derivatives of the relative motion by the coordinates of the bodies at both
+//! ends, and the generalized forces of its wrench there. This part of the Jacobian is the same for all
+//! elements.
 //!
-//! Marker A is on body a at `arm` from its origin, D leads from the origin of body b to it, everything along the axes of marker B (the
-//! mount). c are the axes of a body's reference frame, α and β those of the angles of a and b, and δω is what an angular velocity changes
-//! by at fixed rates of the angles. v and ω are the relative velocities, s the angular velocity of b in its frame, Ω that of the frame of
-//! a relative to b:
+//! Marker A is on body a at `arm` from its origin, D leads from the origin of body b to it, all in the axes
+//! of marker B. c are the axes of a body's reference frame, α and β those of the angles of a and b, and δω is
+//! the change of an angular velocity at fixed rates of the angles. v and ω are the relative velocities, s the
+//! angular velocity of b in its frame, Ω that of the frame of a relative to b:
 //!
 //! ```text
 //!                     δd        φ    δv                          δω
@@ -16,8 +17,8 @@
 //! rate of b                          -c; -β × D                  0; -β
 //! ```
 //!
-//! The wrench (F, M) acts on a as the force F and the moment `M + arm × F` about its origin, on b as -F and `-(M + D × F)`; with b the
-//! axes turn along which it is given.
+//! The wrench (F, M) acts on a as the force F and the moment `M + arm × F` about its origin, on b as -F and
+//! `-(M + D × F)`; the axes in which it is given rotate with b.
 
 use integrate::lanes::Lanes;
 
@@ -27,7 +28,8 @@ use crate::link::{RelativeMotion, RotationAxes};
 use crate::tangent::{Change, Tangent, TangentColumn, TangentColumns, combined, force_of, moment_of, sum};
 use crate::vector::{Matrix, Vector};
 
-/// The rows of a generalized force at a body: of its translations (axes of its reference frame), and of its free angles.
+/// The rows of a generalized force at a body: of its translations (axes of its reference frame), and of its
+/// free angles.
 pub(super) type Rows = [Lanes; 2];
 
 /// The derivatives of the load on a body by coordinates (first) and by their rates.
@@ -72,7 +74,7 @@ impl FreeBody {
     }
 }
 
-/// What becomes of a vector along the axes of a marker: up to four components along others.
+/// Components of a vector (marker axes) along up to four other directions.
 #[derive(Clone, Copy)]
 struct Projection([Lanes; 3]);
 
@@ -91,13 +93,13 @@ impl Projection {
     }
 }
 
-/// What the coordinates of the body at one end do to the relative motion.
+/// Derivatives of the relative motion by the coordinates of the body at one end.
 struct End {
-    /// Positions change d by this, and their rates v.
+    /// Derivatives of d by positions, and of v by their rates.
     ways: [Vector<f64>; 3],
-    /// What positions change v by, if anything.
+    /// Derivatives of v by positions, unless zero.
     carried: Option<[Vector<f64>; 3]>,
-    /// What the angles change; their rates change v and ω by what they change d and φ by.
+    /// Derivatives by the angles. Those of v and ω by their rates equal those of d and φ by the angles.
     angles: [Change; 3],
     /// Whether the angles change d.
     swing: bool,
@@ -161,8 +163,8 @@ fn cross(a: Vector<f64>, b: Vector<f64>) -> Vector<f64> {
 }
 
 impl<'c> Chain<'c> {
-    /// Returns the chain of an element; `arm` leads from the origin of body a to marker A in the axes of the marker, `relative` is the motion of
-    /// marker A.
+    /// Returns the chain of an element; `arm` leads from the origin of body a to marker A in the axes of the
+    /// marker, `relative` is the motion of marker A.
     #[inline(always)]
     pub fn new<E>(
         mounted: &'c Mounted<E>,
@@ -264,8 +266,8 @@ impl<'c> Chain<'c> {
         -(self.tangent.moment + cross(self.reach, self.tangent.force))
     }
 
-    /// The derivatives by the coordinates of body a: of the load on it, added to `own`; of that on body b, added to `other`; and of the
-    /// powers of the element and of a marker that translates.
+    /// The derivatives by the coordinates of body a: of the load on it, added to `own`; of that on body b,
+    /// added to `other`; and of the powers of the element and of a marker that translates.
     #[inline(always)]
     pub fn by_a(&self, free: &FreeBody, own: &mut Block, other: &mut Block, powers: &mut Powers) {
         let (force, moment) = (self.tangent.force, self.moment_on_a());
@@ -304,8 +306,8 @@ impl<'c> Chain<'c> {
         }
     }
 
-    /// The derivatives by the coordinates of body b: of the load on it, added to `own`; of that on body a, added to `other`; and of the
-    /// powers.
+    /// The derivatives by the coordinates of body b: of the load on it, added to `own`; of that on body a,
+    /// added to `other`; and of the powers.
     #[inline(always)]
     pub fn by_b(&self, free: &FreeBody, own: &mut Block, other: &mut Block, powers: &mut Powers) {
         let Some(b) = &self.b else {
@@ -319,7 +321,7 @@ impl<'c> Chain<'c> {
             let moved = match free.row(j) {
                 (0, k) => b.ways[k],
                 (_, l) => {
-                    // The axes turn the other way than what is seen from them.
+                    // Vectors of body a rotate against the axes of b.
                     let change = &b.angles[l];
                     turned_force = turned_force - cross(change.rotation, force);
                     turned_moment = turned_moment - cross(change.rotation, moment);
@@ -338,7 +340,8 @@ impl<'c> Chain<'c> {
         }
     }
 
-    /// Returns the derivatives of other quantities by position and rate of coordinate `index` of the body at an end.
+    /// Returns the derivatives of other quantities by position and rate of coordinate `index` of the body at
+    /// an end.
     #[inline(always)]
     pub fn others(
         &self,
@@ -367,7 +370,8 @@ impl<'c> Chain<'c> {
     }
 }
 
-/// Derivatives of the powers of an element and of the motion that drives its marker, by coordinates (first) and rates.
+/// Derivatives of the powers of an element and of the prescribed motion of its marker, by coordinates (first)
+/// and rates.
 pub(super) struct Powers([[[f64; 6]; 3]; 2]);
 
 impl Powers {

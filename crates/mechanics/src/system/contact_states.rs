@@ -1,10 +1,10 @@
-//! Contact and friction modes of every point: open, stick, slip; when they change.
+//! Contact states of every point: open, stick, slip; when they change.
 //!
-//! Modes are recorded, they do not change the forces. Thresholds with hysteresis keep rounding from counting as
-//! events:
+//! Contact states are recorded. They do not change the forces. Thresholds with hysteresis keep rounding from
+//! counting as events:
 //! - a point closes where its gap falls to [`CLOSING_GAP`], and opens where it grows to [`OPENING_GAP`];
-//! - it starts to slip where the load of its friction law rises to [`SLIP_LOAD`], and sticks again where it falls to
-//!   [`STICK_LOAD`]. The load is |v|/v0 with tanh and |T|/(μN) with the bristle.
+//! - it starts to slip where the load of its friction law rises to [`SLIP_LOAD`], and sticks again where it
+//!   falls to [`STICK_LOAD`]. The load is |v|/v0 with tanh and |T|/(μN) with the bristle.
 
 use std::ops::Range;
 
@@ -26,7 +26,7 @@ pub const SLIP_LOAD: [f64; 2] = [2.0, 1.0];
 /// Load at which stick begins: tanh (|v|/v0; the force is 0.76 of its limit), bristle (|T|/(μN)).
 pub const STICK_LOAD: [f64; 2] = [1.0, 0.999];
 
-/// What a contact point does.
+/// State of a contact point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum ContactState {
@@ -39,7 +39,7 @@ pub enum ContactState {
 }
 
 impl ContactState {
-    /// Returns the mode with this number; other numbers mean slip.
+    /// Returns the contact state with this number; other numbers mean slip.
     #[must_use]
     pub fn from_number(number: u8) -> Self {
         match number {
@@ -69,7 +69,7 @@ struct PointVariables {
 }
 
 impl PointVariables {
-    /// Returns the mode that follows one that must be left.
+    /// Returns the contact state after the event function has become zero.
     fn next(self, contact_state: ContactState) -> ContactState {
         match contact_state {
             ContactState::Open => self.closed(),
@@ -89,7 +89,7 @@ impl PointVariables {
     }
 }
 
-/// Returns a law's place in [`SLIP_LOAD`] and [`STICK_LOAD`].
+/// Returns a law's index in [`SLIP_LOAD`] and [`STICK_LOAD`].
 #[inline(always)]
 fn threshold(law: &FrictionLaw) -> usize {
     usize::from(matches!(law, FrictionLaw::Bristle { .. }))
@@ -114,7 +114,8 @@ fn put(target: &mut [f64], numbers: Lanes) {
     }
 }
 
-/// Positive where the mode of a point lasts, for up to four points: see [`PointVariables::next`].
+/// Returns the event functions of up to four points: positive while the contact state lasts. See
+/// [`PointVariables::next`].
 #[inline(always)]
 fn margins_of(contact_states: &[u8], gap: Lanes, load: Lanes, law: usize) -> Lanes {
     let stays_open = gap - CLOSING_GAP;
@@ -134,14 +135,15 @@ fn margins_of(contact_states: &[u8], gap: Lanes, load: Lanes, law: usize) -> Lan
     } else {
         Lanes::blend(which(ContactState::Stick), stays_stuck, keeps_slipping)
     };
-    // A closed point in the band of hysteresis carries no force: its friction says nothing. Nor does what is not a number.
+    // A closed point in the band of hysteresis carries no force, so its load has no meaning; nor has NaN.
     let bears = gap.below(Lanes::zero()).and(friction.below(stays_closed));
     let stays = Lanes::blend(bears, friction, stays_closed);
     Lanes::blend(which(ContactState::Open), stays_open, stays)
 }
 
 impl System {
-    /// Sees where all points are and how they move at the state that [`System::update_kinematics`] was called with: before what follows.
+    /// Updates the contact kinematics of all points at the state of the last [`System::update_kinematics`].
+    /// The functions below need it.
     #[inline(always)]
     pub(super) fn update_points(&mut self) {
         if self.points_updated {
@@ -153,7 +155,7 @@ impl System {
         }
     }
 
-    /// The same of one face.
+    /// The same for one face.
     #[inline(always)]
     fn update_face_points(&mut self, number: usize) {
         let face = &mut self.faces[number];
@@ -169,8 +171,8 @@ impl System {
         face.points.update(&plane);
     }
 
-    /// Gap and load of the points of a face, up to four at a time by their numbers among all points, and the law's place in
-    /// [`SLIP_LOAD`]; once it has seen its points.
+    /// Calls `each` with the numbers (among all points) of up to four points of a face, their gaps and loads,
+    /// and the law's index in [`SLIP_LOAD`]. The contact kinematics must be up to date.
     #[inline(always)]
     fn face_blocks(&self, number: usize, x: &[f64], mut each: impl FnMut(Range<usize>, Lanes, Lanes, usize)) {
         let [_, _, internal, _] = self.layout.split(x);
@@ -184,7 +186,7 @@ impl System {
             });
     }
 
-    /// Writes gaps and loads of the points of a face, once it has seen them.
+    /// Writes gaps and loads of the points of a face, whose contact kinematics must be up to date.
     #[inline(always)]
     fn write_face_event_variables(&self, number: usize, x: &[f64], variables: &mut [f64]) {
         let first = self.first_points[number];
@@ -202,8 +204,8 @@ impl System {
         first..first + self.faces[face].element.points.len()
     }
 
-    /// What predicts discontinuities: the gap of every point (m), and the slip of closed points over the reference speed of their law
-    /// (open points and bristles: not a number).
+    /// Writes the functions that predict discontinuities: the gap of every point (m), and the slip of closed
+    /// points over the reference speed of their law (NaN for open points and bristles).
     pub(super) fn discontinuity_functions(
         &mut self,
         time: f64,
@@ -242,7 +244,8 @@ impl System {
         }
     }
 
-    /// Gaps of the points of the first face, their loads, and so on.
+    /// Writes the event variables of all points: gaps of the points of the first face, their loads, and so
+    /// on.
     pub(super) fn point_event_variables(&mut self, x: &[f64], variables: &mut [f64]) {
         self.update_points();
         for number in 0..self.faces.len() {
@@ -250,13 +253,13 @@ impl System {
         }
     }
 
-    /// Where the signs of a face stand among all signs.
+    /// Returns the range of a face's event variables among all.
     fn event_variable_range(&self, face: usize) -> Range<usize> {
         let points = self.points_of(face);
         2 * points.start..2 * points.end
     }
 
-    /// The signs of one face, which depend on nothing but the bodies it touches.
+    /// Writes the event variables of one face, which depend only on the bodies at its ends.
     pub(super) fn face_event_variables(
         &mut self,
         number: usize,
@@ -270,7 +273,7 @@ impl System {
         self.write_face_event_variables(number, x, variables);
     }
 
-    /// The margins of the points of one face by its signs.
+    /// Writes the event functions of the points of one face from its event variables.
     pub(super) fn face_margins(
         &self,
         number: usize,
@@ -287,7 +290,7 @@ impl System {
         }
     }
 
-    /// Returns the mode that follows at one point of a face, by the face's signs.
+    /// Returns the next contact state of one point of a face, from the face's event variables.
     pub(super) fn next_contact_state(
         &self,
         number: usize,
@@ -304,7 +307,7 @@ impl System {
         variables.next(ContactState::from_number(contact_state)) as u8
     }
 
-    /// Returns the points of each face, with the states that they depend on.
+    /// Returns the event groups: the points of each face, with the states that they depend on.
     pub(super) fn point_groups(&self) -> Vec<EventGroup> {
         let group = |number: usize| {
             let face = &self.faces[number];
@@ -328,7 +331,8 @@ impl System {
 }
 
 impl System {
-    /// How fast each contact point creeps at a state, m/s: the speed of irrecoverable sliding, whatever the mode.
+    /// Writes the creep speed of each contact point at a state, m/s: the speed of irrecoverable sliding, in
+    /// any contact state.
     ///
     /// With tanh this is the slip speed, with the bristle the slip speed less the rate of the bristle.
     pub fn creep_speeds(&mut self, time: f64, x: &[f64], speeds: &mut [f64]) {
@@ -355,7 +359,7 @@ impl System {
 mod tests {
     use super::*;
 
-    /// Each lane by the words of the module: what has changed least before the mode ends.
+    /// Each lane against the definition at the head of the module.
     #[test]
     fn limits_margins_of_four_points_are_those_of_each() {
         let contact_states = [
@@ -377,14 +381,17 @@ mod tests {
                         margins_of(&contact_states, Lanes::new(gaps), Lanes::from(load), law).to_array();
                     for ((contact_state, gap), found) in contact_states.iter().zip(gaps).zip(found) {
                         let opens = (OPENING_GAP - gap) / OPENING_GAP;
-                        // In the band of hysteresis nothing is pressed: no friction.
+                        // In the band of hysteresis there is no normal force, hence no friction.
                         let expected = match ContactState::from_number(*contact_state) {
                             ContactState::Open => gap - CLOSING_GAP,
                             _ if gap >= 0.0 || load.is_nan() => opens,
                             ContactState::Stick => opens.min(SLIP_LOAD[law] - load),
                             ContactState::Slip => opens.min(load - STICK_LOAD[law]),
                         };
-                        assert_eq!(found, expected, "mode {contact_state}, gap {gap}, load {load}");
+                        assert_eq!(
+                            found, expected,
+                            "contact state {contact_state}, gap {gap}, load {load}"
+                        );
                     }
                 }
             }

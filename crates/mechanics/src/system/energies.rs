@@ -1,11 +1,11 @@
-//! The stored energies of a state, where they are all that is wanted of many states.
+//! The stored energies of a state, without other derived quantities.
 
 use super::{Energies, Linear, System};
 use crate::link::RelativeMotion;
 
 impl System {
-    /// Returns the stored energies at `time` (s) and state `x`, J: the same bits as in [`System::observe`], without all the rest, and
-    /// without allocation if there are no connections.
+    /// Returns the stored energies at `time` (s) and state `x`, J: the same bits as in [`System::observe`],
+    /// without all the rest, and without allocation if there are no connections.
     #[must_use]
     pub fn energies(&mut self, time: f64, x: &[f64]) -> Energies {
         self.update_kinematics(time, x);
@@ -58,7 +58,8 @@ impl System {
 }
 
 impl Linear {
-    /// Adds the kinetic energy of a body with linearized kinematics, and that in the gravity field, which is zero in the drawn layout.
+    /// Adds the kinetic energy of a body with linearized kinematics, and that in the gravity field, which is
+    /// zero in the drawn layout.
     pub(super) fn add_energies(
         &self,
         free: &[usize],

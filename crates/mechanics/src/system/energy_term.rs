@@ -34,9 +34,11 @@ pub enum EnergyTermKind {
     SurfaceDamping,
     /// Energy lost in the friction of massless wedges on their columns.
     ColumnFriction,
-    /// Work of massless wedges' friction on their slopes; over a cycle a loss, while the friction force rebounds it gives back.
+    /// Work of massless wedges' friction on their slopes; over a cycle a loss, while the friction force
+    /// rebounds it gives back.
     SlopeFriction,
-    /// Work that goes into the simplified kinematics of massless wedges (see [`crate::connection::Wedge`]); small, of either sign.
+    /// Work that goes into the simplified kinematics of massless wedges (see [`crate::connection::Wedge`]);
+    /// small, of either sign.
     WedgeKinematics,
 }
 

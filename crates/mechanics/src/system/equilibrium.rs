@@ -28,12 +28,12 @@ pub struct NoEquilibrium {
 /// What friction does in a static equilibrium, where its force is not determined by the positions alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StaticFriction {
-    /// None: accumulators and bristles are relaxed to zero. The result depends on positions only, and is what a vehicle settles
-    /// to after much shaking. Directions that friction alone holds stay where they are.
+    /// None: accumulators and bristles are relaxed to zero. The result depends on positions only, and is what
+    /// a vehicle settles to after much shaking. Directions that friction alone holds stay where they are.
     #[default]
     Without,
-    /// Accumulators and bristles follow the displacements from their present deflections, sticking up to their limits: the
-    /// result depends on the start.
+    /// Accumulators and bristles follow the displacements from their present deflections, sticking up to
+    /// their limits: the result depends on the start.
     Following,
 }
 
@@ -44,11 +44,12 @@ const SETTLING: f64 = 1e-3;
 const ITERATIONS: usize = 2000;
 
 impl System {
-    /// Returns the state of rest near `x` at `time`, with all prescribed bodies where they are then. Quadratures stay as they are.
+    /// Returns the state of rest near `x` at `time`, with all prescribed bodies where they are then.
+    /// Quadratures stay as they are.
     ///
-    /// Implicit Euler steps from rest, of a length that grows as the accelerations fall: with long steps this is
-    /// Newton's method with the Jacobian of the integration. Prescribed bodies with linearized kinematics are taken at rest; others should
-    /// not move (their velocity would drag on the friction).
+    /// Implicit Euler steps from rest, of a length that grows as the accelerations fall: with long steps this
+    /// is Newton's method with the Jacobian of the integration. Prescribed bodies with linearized kinematics
+    /// are taken at rest; others should not move (their velocity would drag on the friction).
     ///
     /// # Errors
     /// The accelerations do not fall below 1e-7 (m/s², rad/s²).
@@ -60,7 +61,7 @@ impl System {
     ) -> Result<Vec<f64>, NoEquilibrium> {
         let before = self.connections.grips;
         let moving: Vec<_> = self.moved.iter().map(|m| m.motions.clone()).collect();
-        // Motions have smooth pieces: the place at `time` is that of its own piece.
+        // Motions are smooth in pieces: the position at `time` is that of the piece which begins there.
         let reference = self.reference;
         self.next_time_discontinuity(time);
         // the prescribed bodies held where they are

@@ -7,10 +7,11 @@ use crate::contact::ContactFace;
 use crate::friction::FrictionLaw;
 use crate::surface::Plane;
 
-/// A normal whose part along a coordinate is smaller than this is perpendicular to it: by rounding alone it has one.
+/// A normal whose part along a coordinate is smaller than this is taken as perpendicular to it: the part is
+/// due to rounding.
 const ALONG: f64 = 1e-12;
 
-/// Of each coordinate of a free body, whether gaps change with it: not along faces that it cannot turn on.
+/// Returns for each coordinate of a free body whether gaps change with it.
 pub(super) fn presses<'f>(
     free: &'f FreeBody,
     faces: &'f [Mounted<ContactFace<Plane>>],
@@ -28,7 +29,8 @@ pub(super) fn presses<'f>(
         .map(move |&coordinate| own.clone().any(|face| may(coordinate, face)))
 }
 
-/// Returns the widest admissible errors of positions and speeds, and those of speeds where a point sticks: see [`scales::WIDEST_TOLERANCE`].
+/// Returns the widest admissible errors of positions and speeds, and those of speeds where a point sticks:
+/// see [`scales::WIDEST_TOLERANCE`].
 pub(super) fn error_bounds(
     error_scales: &[f64],
     layout: Layout,

@@ -1,4 +1,5 @@
-//! What elements do and feel at a state, generic over the scalar: values, and with dual numbers their derivatives.
+//! Evaluation of elements at a state, generic over the scalar: values, and with dual numbers their
+//! derivatives.
 //!
 //! Nothing is allocated after the first use of a [`ElementEvaluation`].
 
@@ -44,18 +45,18 @@ pub struct CoilEvaluation<S> {
     pub spring: S,
 }
 
-/// What elements do and feel.
+/// Forces, contact kinematics, rates and powers of all elements.
 #[derive(Clone, Debug)]
 pub struct ElementEvaluation<S> {
     /// By body.
     pub loads: Vec<Load<S>>,
-    /// By face and point, in the order of the switches.
+    /// By face and point, in the order of the discrete states.
     pub points: Vec<PointEvaluation<S>>,
     /// By coil.
     pub coils: Vec<CoilEvaluation<S>>,
     /// Rates of the internal states.
     pub internal_rates: Vec<S>,
-    /// Powers of the channels, W.
+    /// Powers of the energy terms, W.
     pub powers: Vec<S>,
 }
 
@@ -71,17 +72,17 @@ impl<S> Default for ElementEvaluation<S> {
     }
 }
 
-/// Where everything is that elements see.
+/// Inputs of the elements: frames, kinematics and internal states.
 pub(super) struct EvaluationInputs<'s, S, D> {
     pub frames: &'s dyn Fn(usize) -> FrameMotion<S>,
     pub kinematics: &'s [Kinematics<S>],
     pub internal: &'s [D],
-    /// What is added to the spring force of each coil, by coil: value 0, with a derivative where the law changes.
+    /// Addend of the spring force of each coil: value 0, with a derivative if the law changes.
     pub coil_change: &'s dyn Fn(usize) -> S,
 }
 
 impl System {
-    /// What all elements do and feel at `time` and state `x`.
+    /// Evaluates all elements at `time` and state `x`.
     pub fn evaluate_elements(&mut self, time: f64, x: &[f64], out: &mut ElementEvaluation<f64>) {
         self.update_kinematics(time, x);
         let [_, _, internal, _] = self.layout.split(x);
@@ -164,7 +165,8 @@ impl System {
     }
 }
 
-/// An element seen on a stage: the frames of the bodies at its ends, and the motion of body a as its mount sees it.
+/// Kinematics of one element: the frames of the bodies at its ends, and the motion of body a relative to
+/// marker B.
 struct ElementKinematics<S> {
     frames: [FrameMotion<S>; 2],
     relative_frame: RelativeFrame<S>,
@@ -191,7 +193,7 @@ where
         }
     }
 
-    /// Adds what one element does to the bodies at its ends, and its powers.
+    /// Adds the wrench of one element to the bodies at its ends, and its powers.
     fn add<E>(
         &self,
         mounted: &Mounted<E>,

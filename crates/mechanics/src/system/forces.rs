@@ -18,9 +18,9 @@ use crate::surface::Plane;
 use crate::tangent::{Tangent, TangentColumns};
 use crate::vector::Vector;
 
-/// An element in its place between two bodies.
+/// An element between two bodies.
 pub(super) trait Mountable: Sized {
-    /// Returns what it does to the body that it carries; `rates` receives the rates of the internal states.
+    /// Returns the wrench on the body with marker A; `rates` receives the rates of the internal states.
     fn body_wrench(
         &self,
         points: &mut Points,
@@ -29,7 +29,7 @@ pub(super) trait Mountable: Sized {
         rates: &mut [f64],
     ) -> BodyWrench;
 
-    /// Returns the same seen from a mount that does not turn; none if it is nothing.
+    /// Returns the same if marker B does not rotate; `None` if the wrench is zero.
     fn body_wrench_of_frame(
         &self,
         points: &mut Points,
@@ -38,12 +38,13 @@ pub(super) trait Mountable: Sized {
         rates: &mut [f64],
     ) -> Option<BodyWrench>;
 
-    /// Where its marker A is, from the origin of the body that it carries, body axes, m.
+    /// Returns the position of marker A from the origin of its body, body axes, m.
     fn marker(&self) -> Vector<f64> {
         Vector::zero()
     }
 
-    /// Returns the tangent by the motion of marker A; `rates` receives the derivatives of the rates of internal states, four pairs at a time.
+    /// Returns the tangent by the motion of marker A; `rates` receives the derivatives of the rates of
+    /// internal states, four pairs at a time.
     fn tangent(
         &self,
         points: &Points,
@@ -189,7 +190,7 @@ impl Mountable for Marked {
 }
 
 impl<S: Real> Wrench<S> {
-    /// Returns that of a face.
+    /// Returns the wrench of a face.
     #[inline(always)]
     pub fn of_face(face: &FaceResultant<S>) -> Self {
         Self {
@@ -199,7 +200,7 @@ impl<S: Real> Wrench<S> {
         }
     }
 
-    /// Returns that of a coil.
+    /// Returns the wrench of a coil.
     #[inline(always)]
     pub fn of_coil(coil: &CoilForce<S>) -> Self {
         Self {
@@ -209,7 +210,8 @@ impl<S: Real> Wrench<S> {
         }
     }
 
-    /// Returns the force on the carried body (axes of its reference frame) and moment about its origin (body axes).
+    /// Returns the force on the carried body (axes of its reference frame) and moment about its origin (body
+    /// axes).
     #[inline(always)]
     pub fn on_body<T, K>(
         &self,
@@ -227,13 +229,14 @@ impl<S: Real> Wrench<S> {
         )
     }
 
-    /// Returns the moment about the mount's origin, mount axes.
+    /// Returns the moment about the marker's origin, marker axes.
     #[inline(always)]
     pub fn moment_at_marker(&self, relative: &RelativeMotion<S>) -> Vector<S> {
         self.moment + relative.position.cross::<S, S>(self.force)
     }
 
-    /// Returns the force on the body that the element stands on (axes of its reference frame) and moment about its origin (body axes).
+    /// Returns the force on the body that the element stands on (axes of its reference frame) and moment
+    /// about its origin (body axes).
     #[inline(always)]
     pub fn reaction<T: Real + Mul<S, Output = S>>(
         &self,
@@ -268,13 +271,14 @@ impl<S: Real> Wrench<S> {
 }
 
 impl System {
-    /// Accelerations, rates and powers at the state that [`System::update_kinematics`] was called with.
+    /// Writes accelerations, rates and powers at the state of the last [`System::update_kinematics`].
     #[inline]
     pub(super) fn forces(&mut self, x: &[f64], dx: &mut [f64]) {
         let layout = self.layout;
         let [_, speeds, internal, _] = layout.split(x);
         let [d_positions, d_speeds, d_internal, d_quadratures] = layout.split_mut(dx);
-        // Powers are written, not added to what was zero, and rates copied body by body: calls of the system's functions for a few numbers take longer.
+        // Powers are written instead of added, and rates are copied body by body: calls of library functions
+        // for a few numbers take longer.
         let mut work = 0.0;
         for free in &self.free {
             let kinematics = &self.kinematics[free.body];
@@ -362,8 +366,8 @@ impl System {
     }
 }
 
-/// Adds what a plain element does to its body to force and moment, and writes the powers of its channels; a neighbour that is driven does
-/// work.
+/// Adds the wrench of a plain element on its body to force and moment, and writes the powers of its energy
+/// terms; a prescribed neighbor does work.
 #[inline(always)]
 fn push<E: Mountable>(
     mounted: &mut Mounted<E>,
@@ -391,7 +395,7 @@ fn push<E: Mountable>(
     }
 }
 
-/// The powers of the channels of one element, which are its own.
+/// Writes the powers of one element's energy terms.
 #[inline(always)]
 fn write_powers(energy_terms: &[Option<usize>; 2], own: [f64; 2], powers: &mut [f64]) {
     for (energy_term, power) in energy_terms.iter().zip(own) {
@@ -401,7 +405,8 @@ fn write_powers(energy_terms: &[Option<usize>; 2], own: [f64; 2], powers: &mut [
     }
 }
 
-/// Returns the accelerations of a body's coordinates under force and moment, in a reference frame that may move.
+/// Returns the accelerations of a body's coordinates under force and moment, in a reference frame that may
+/// move.
 #[inline(always)]
 fn accelerate(
     kinematics: &Kinematics<f64>,
@@ -420,7 +425,7 @@ fn accelerate(
     kinematics.accelerations(body, &force, kinematics.about_axes(&moment))
 }
 
-/// Adds what an element does that is not plain.
+/// Adds the wrenches and powers of an element that is not plain.
 #[inline(always)]
 fn apply<E: Mountable>(
     mounted: &mut Mounted<E>,

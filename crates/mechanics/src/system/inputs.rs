@@ -1,6 +1,8 @@
-//! What a caller may change in a system between two steps: motions of prescribed bodies, coils, friction.
+//! Inputs of a system, which a caller may change between two steps: prescribed motions, coils, friction,
+//! loads.
 //!
-//! After a change the right-hand side is another one: [`integrate::Integrator::reevaluate`] tells the integrator so.
+//! A change makes the right-hand side discontinuous: the caller must call
+//! [`integrate::Integrator::reevaluate`].
 
 use thiserror::Error;
 
@@ -8,13 +10,13 @@ use super::System;
 use crate::coil::CoilLaw;
 use crate::motion::Motion;
 
-/// Why a system cannot be driven so.
+/// Why an input is refused.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum InputError {
     /// There is no such body, coil or face.
     #[error("there is no {what} {number}; there are {count} (counted from 0)")]
     NoSuch {
-        /// What was asked for.
+        /// The kind of object.
         what: &'static str,
         /// Its number.
         number: usize,
@@ -44,7 +46,7 @@ impl System {
     /// memory is allocated for polynomials. The work of the motions stays in the energy ledger.
     ///
     /// # Errors
-    /// There is no such body, or it was not built to be driven.
+    /// There is no such body, or it was not built with prescribed motions.
     pub fn set_motions(&mut self, body: usize, motions: [Motion; 6]) -> Result<(), InputError> {
         let count = self.bodies.len();
         let Some(prescribed) = self.bodies.get_mut(body) else {
@@ -73,8 +75,9 @@ impl System {
         Ok(())
     }
 
-    /// Sets a force (N) and a moment (N·m, about the centre of gravity) on a body with linearized kinematics, constant until the next call. Their
-    /// work is no term of the energy ledger: with constant loads it is the load times the displacement.
+    /// Sets a force (N) and a moment (N·m, about the center of gravity) on a body with linearized kinematics,
+    /// constant until the next call. Their work is no term of the energy ledger: with constant loads it is
+    /// the load times the displacement.
     ///
     /// # Errors
     /// There is no such body, or its kinematics are not linearized.

@@ -1,9 +1,9 @@
 //! The Jacobian, element by element.
 //!
-//! What enters the speed rows is the residual `Q(q, u) - M(q) u˙ - b(q, u)` at fixed accelerations, so that the change of M with the
-//! coordinates is included. Every element gives its tangent ([`crate::tangent`]), and [`super::chain`] what the coordinates of the bodies
-//! at its two ends make of it. Inertia is differentiated by numbers with derivatives, by what it depends on: angles and their rates where
-//! the reference frame stands still.
+//! The speed rows hold the residual `Q(q, u) - M(q) u˙ - b(q, u)` at fixed accelerations, so that the change
+//! of M with the coordinates is included. Every element gives its tangent ([`crate::tangent`]), and
+//! [`super::chain`] applies the chain rule for the coordinates of the bodies at its two ends. Inertia is
+//! differentiated by dual numbers: by angles and their rates only, if the reference frame stands still.
 
 use integrate::lanes::LANES;
 use integrate::partitioned::Partitioned;
@@ -20,7 +20,7 @@ use crate::surface::Plane;
 use crate::tangent::{Change, TangentColumns};
 use crate::vector::Vector;
 
-/// What is gathered for a free body while the elements are differentiated.
+/// Derivatives that are summed for a free body while the elements are differentiated.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gathered {
     rotation_axes: RotationAxes,
@@ -37,7 +37,7 @@ impl Gathered {
     };
 }
 
-/// What all elements see.
+/// The bodies, for all elements.
 struct Bodies<'s> {
     kinematics: &'s [Kinematics<f64>],
     free: &'s [FreeBody],
@@ -45,8 +45,9 @@ struct Bodies<'s> {
 }
 
 impl System {
-    /// The Jacobian (if `whole`; else without what inertia adds by the angles, some thousandth of what contacts add) at the state that
-    /// [`System::update_kinematics`] was called with, where the rates are `dx`.
+    /// Computes the Jacobian at the state of the last [`System::update_kinematics`], where the rates are
+    /// `dx`. Unless `whole`, the derivatives of inertia by the angles are left out; they are some thousandth
+    /// of those of contacts.
     pub(super) fn differentiate(&mut self, x: &[f64], dx: &[f64], whole: bool) {
         let layout = self.layout;
         let [_, _, internal, _] = layout.split(x);
@@ -140,8 +141,9 @@ impl System {
         }
     }
 
-    /// The inertia of a body by its angles (half of the `D` derivatives) and their rates, with the moment of its elements, the axes of
-    /// which turn; with 12 derivatives by all coordinates and rates, which count in a reference frame that moves.
+    /// The inertia of a body by its angles (half of the `D` derivatives) and their rates, with the moment of
+    /// its elements, the axes of which turn; with 12 derivatives by all coordinates and rates, which count in
+    /// a reference frame that moves.
     fn inertia<const D: usize>(&mut self, number: usize, x: &[f64]) {
         let free = &self.free[number];
         let body = &self.bodies[free.body];
@@ -230,7 +232,8 @@ fn differentiate_element<E: Mountable>(
     }
 }
 
-/// Keeps the derivatives of the powers of an element's dissipation terms, and of the motion that drives it, by one body.
+/// Keeps the derivatives of the powers of an element's dissipation terms, and of the prescribed motion, by
+/// one body.
 #[inline(always)]
 fn keep_powers(rows: &[Option<usize>; 3], powers: &Powers, n: usize, jacobian: &mut Partitioned) {
     for (power, row) in rows.iter().enumerate() {
@@ -304,7 +307,8 @@ pub(super) fn differentiate_internal(
 }
 
 impl<E> Mounted<E> {
-    /// Returns the power that the prescribed motion of the body under the element delivers against a force and a moment about marker A, W.
+    /// Returns the power that the prescribed motion of the body under the element delivers against a force
+    /// and a moment about marker A, W.
     #[inline(always)]
     pub(super) fn prescribed_power(
         &self,

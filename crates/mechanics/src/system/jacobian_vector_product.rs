@@ -1,5 +1,6 @@
-//! Directional derivatives: how rates and everything that elements feel change when states, the places of driven bodies and coils
-//! change together. They come from the lines that compute the values, with one derivative each.
+//! Jacobian-vector products: derivatives of the rates and of the element evaluation along a direction of
+//! states, prescribed motions and coil forces. They come from the functions that compute the values, with
+//! dual numbers of one derivative.
 
 use integrate::Problem;
 use integrate::scalar::Dual;
@@ -12,7 +13,7 @@ use crate::frame::FrameMotion;
 use crate::motion::Jet;
 use crate::vector::Vector;
 
-/// How a driven body changes its place.
+/// A change of a body's prescribed motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MotionChange {
     /// The body's number.
@@ -28,7 +29,7 @@ pub struct MotionChange {
 pub struct Direction<'d> {
     /// Changes of the states; empty: none of them changes.
     pub state: &'d [f64],
-    /// Changes of driven bodies.
+    /// Changes of prescribed motions.
     pub motions: &'d [MotionChange],
     /// Changes of the spring force of each coil at its present length, N; empty: none.
     pub coil_forces: &'d [f64],
@@ -39,7 +40,7 @@ pub struct Direction<'d> {
 pub struct JacobianVectorProduct {
     /// Of the rates of all states.
     pub rates: Vec<f64>,
-    /// Values, and derivatives as the only component, of what elements do and feel.
+    /// Element evaluation: values and derivatives.
     pub evaluation: ElementEvaluation<Dual<1>>,
 }
 
@@ -51,10 +52,11 @@ fn dual(value: f64, change: f64) -> Dual<1> {
 }
 
 impl System {
-    /// Returns the derivatives along a direction at `time` and state `x`; `None` if the direction does not have the state's length, or if there are bodies with
-    /// linearized kinematics, for which they are not made.
+    /// Returns the derivatives along a direction at `time` and state `x`; `None` if the direction does not
+    /// have the state's length, or if there are bodies with linearized kinematics, which are not supported.
     ///
-    /// At a kink (a corner that just touches, a bristle at its limit) they are those of the side that the state counts for.
+    /// At a discontinuity of the derivative (a corner that just touches, a bristle at its limit) they are
+    /// one-sided, on the side to which the state is assigned.
     pub fn jacobian_vector_product(
         &mut self,
         time: f64,

@@ -1,4 +1,5 @@
-//! Brings what is known of frames, sights and bodies to a time and a state: of all, or of what one face sees.
+//! Updates the kinematics of frames, markers and bodies at a time and a state: of all, or of those at one
+//! face.
 
 use super::model::Mounted;
 use super::{FrameState, System};
@@ -8,7 +9,7 @@ use crate::link::RelativeFrame;
 use crate::vector::Vector;
 
 impl System {
-    /// Brings frames, sights and the kinematics of all free bodies to `time` and state `x`.
+    /// Updates frames, relative frames and the kinematics of all free bodies at `time` and state `x`.
     #[inline]
     pub(super) fn update_kinematics(&mut self, time: f64, x: &[f64]) {
         let again = time != self.frames_at;
@@ -45,11 +46,11 @@ impl System {
         }
     }
 
-    /// Brings what one face sees to `time` and state `x`, and nothing else; whether it saw something else before.
+    /// Updates the kinematics at one face alone, at `time` and state `x`. Returns whether they changed.
     #[inline]
     pub(super) fn update_face(&mut self, number: usize, time: f64, x: &[f64]) -> bool {
         let ends = [self.faces[number].body, self.faces[number].on];
-        // the next one to place everything does so anew
+        // the next update of everything is complete
         let all_current = !self.frames_at.is_nan();
         self.frames_at = f64::NAN;
         let mut changed = all_current || self.current_face != (number, time);
@@ -74,12 +75,12 @@ impl System {
         true
     }
 
-    /// Everything is placed anew when it is asked for next: a motion has changed.
+    /// Marks all kinematics as outdated: a motion has changed.
     pub(super) fn invalidate_kinematics(&mut self) {
         (self.frames_at, self.current_face.1) = (f64::NAN, f64::NAN);
     }
 
-    /// Brings a body's reference frame to `time`.
+    /// Updates a body's reference frame at `time`.
     #[inline(always)]
     pub(super) fn update_frame(&mut self, number: usize, time: f64) {
         let (body, state) = (&self.bodies[number], &mut self.frames[number]);
@@ -93,7 +94,7 @@ impl System {
         }
     }
 
-    /// Brings the kinematics of a free body to state `x`.
+    /// Updates the kinematics of a free body at state `x`.
     #[inline(always)]
     pub(super) fn update_free_body(&mut self, number: usize, x: &[f64]) {
         let free = &self.free[number];
@@ -112,7 +113,8 @@ impl System {
     }
 }
 
-/// Writes the first of `new` over all that is `kept`; whether a bit changed. (In one loop: a call of the system's copy takes longer.)
+/// Overwrites `kept` with the beginning of `new`. Returns whether a bit changed. (In one loop: a call of the
+/// library's copy takes longer.)
 #[inline(always)]
 fn renew(kept: &mut [f64], new: &[f64]) -> bool {
     let mut changes = 0;
@@ -124,7 +126,7 @@ fn renew(kept: &mut [f64], new: &[f64]) -> bool {
 }
 
 impl FrameState {
-    /// Brings a frame that only translates to `time`.
+    /// Updates a frame that only translates at `time`.
     #[inline(always)]
     pub(super) fn translate(&mut self, frame: &Frame, time: f64, reference: f64) {
         let (mut position, mut velocity, mut acceleration) = (self.rest, Vector::zero(), Vector::zero());
@@ -147,7 +149,7 @@ impl FrameState {
     }
 }
 
-/// Brings an element's sight up to date, where it can have changed.
+/// Updates an element's relative frame, if it can have changed.
 #[inline(always)]
 fn relative_frame<E>(
     mounted: &mut Mounted<E>,

@@ -1,8 +1,7 @@
-//! What the elements do to the bodies that they carry, along fixed axes: the forces of the right-hand side, where these are all that is
-//! wanted of many states.
+//! Wrenches of the elements on the bodies with marker A, along fixed axes, without other derived quantities.
 //!
-//! [`System::observe`] says the same of every point, and all energies, at four times the cost. Nothing is allocated after the first use of
-//! [`Loads`].
+//! [`System::observe`] gives the same for every point, and all energies, at four times the cost. Nothing is
+//! allocated after the first use of [`Loads`].
 
 use super::forces::Mountable;
 use super::observe::{BodyState, CoilState, FaceState};
@@ -10,20 +9,20 @@ use super::{Mounted, System};
 use crate::link::{BodyWrench, RelativeMotion};
 use crate::vector::Vector;
 
-/// What a face does to the body that it carries (SI, fixed axes).
+/// Wrench of a face on the body with its points (SI, fixed axes).
 #[derive(Clone, Copy, Debug)]
 pub struct FaceLoad {
     /// Normal force.
     pub normal: Vector<f64>,
     /// Friction force.
     pub friction: Vector<f64>,
-    /// Moment of both about the body's centre of gravity.
+    /// Moment of both about the body's center of gravity.
     pub moment: Vector<f64>,
     /// Position of the face's origin.
     pub origin: Vector<f64>,
 }
 
-/// What a coil does to the body that it carries (SI, fixed axes).
+/// Wrench of a coil on the body with its end (SI, fixed axes).
 #[derive(Clone, Copy, Debug)]
 pub struct CoilLoad {
     /// The spring's part of the force.
@@ -34,7 +33,7 @@ pub struct CoilLoad {
     pub moment: Vector<f64>,
 }
 
-/// Where all bodies are, and what acts on those that elements carry.
+/// States of all bodies, and the wrenches on those with marker A.
 #[derive(Clone, Debug, Default)]
 pub struct Loads {
     /// All bodies.
@@ -43,12 +42,13 @@ pub struct Loads {
     pub faces: Vec<FaceLoad>,
     /// All coils.
     pub coils: Vec<CoilLoad>,
-    /// Rates of the internal states of a face, which nobody wants.
+    /// Rates of the internal states of a face, which are discarded.
     rates: Vec<f64>,
 }
 
 impl FaceState {
-    /// Returns the same as [`System::loads`] says, by sums over the points; `center` is the centre of gravity of the carried body.
+    /// Returns the same as [`System::loads`], by sums over the points; `center` is the center of gravity of
+    /// the carried body.
     #[must_use]
     pub fn load(&self, center: Vector<f64>) -> FaceLoad {
         let mut load = FaceLoad {
@@ -69,7 +69,7 @@ impl FaceState {
 }
 
 impl CoilState {
-    /// Returns the same as [`System::loads`] says.
+    /// Returns the same as [`System::loads`].
     #[must_use]
     pub fn load(&self) -> CoilLoad {
         CoilLoad {
@@ -81,7 +81,7 @@ impl CoilState {
 }
 
 impl System {
-    /// What all elements do to the bodies that they carry at `time` and state `x`.
+    /// Computes the wrenches of all elements on the bodies with marker A at `time` and state `x`.
     pub fn loads(&mut self, time: f64, x: &[f64], out: &mut Loads) {
         self.update_kinematics(time, x);
         self.body_states(x, &mut out.bodies);
@@ -138,7 +138,7 @@ impl System {
         }
     }
 
-    /// Returns a vector from the axes of an element's mount to fixed axes.
+    /// Returns a vector in fixed axes, given in the axes of an element's marker B.
     #[inline(always)]
     fn along_fixed_axes<E>(&self, mounted: &Mounted<E>, vector: Vector<f64>) -> Vector<f64> {
         let own: Vector<f64> = mounted.relative_frame.rotation.apply_transposed(vector);

@@ -1,7 +1,8 @@
 //! Bodies and elements put together: the equations of motion as a problem for the integrator.
 //!
-//! State vector `(q, u, s, w)`: free coordinates of all free bodies, their rates, internal states of the elements
-//! (bristle deflections), and quadratures (work of the prescribed motions, every dissipation). SI units.
+//! State vector `(q, u, s, w)`: free coordinates of all free bodies, their rates, internal states of the
+//! elements (bristle deflections), and quadratures (work of the prescribed motions, every dissipation). SI
+//! units.
 
 mod assembler;
 mod chain;
@@ -54,12 +55,14 @@ pub use model::{Model, ModelError, Mounted};
 pub use observe::{BodyState, CoilState, ElementState, Energies, FaceState, Observation};
 pub use vibration::{Held, NoVibration, Vibration, Vibrations};
 
-/// Fixed error scales, by kind of state: the error of a step is measured against `relative tolerance × scale`.
+/// Fixed error scales, by kind of state: the error of a step is measured against
+/// `relative tolerance × scale`.
 ///
-/// They are fixed, not the size of the state, because the contacts turn a relative error of an absolute position into
-/// a force. Rotations are weighted with a lever of 0.1 m, velocities with the frequency of ringing contacts
-/// (100 rad/s). Work and losses are controlled too: they see what the contacts do within a step, and with them the energy
-/// ledger of the thesis's runs closes to 1e-6 of the work done, and better, at a relative tolerance of 1e-6.
+/// They are fixed, not the size of the state, because the contacts turn a relative error of an absolute
+/// position into a force. Rotations are weighted with a lever of 0.1 m, velocities with the frequency of
+/// ringing contacts (100 rad/s). Work and losses are controlled too: they resolve the contacts within a step,
+/// and with them the energy ledger of the thesis's runs closes to 1e-6 of the work done, and better, at a
+/// relative tolerance of 1e-6.
 pub mod scales {
     /// Displacements, m.
     pub const DISPLACEMENT: f64 = 0.1;
@@ -73,20 +76,22 @@ pub mod scales {
     pub const DEFLECTION: f64 = 0.1;
     /// Work of the motions and losses, J.
     pub const ENERGY: f64 = 10.0;
-    /// Energy lost in contact damping, J: smaller, because it goes on while a point that carries no force any more
-    /// springs back, which no other state sees.
+    /// Energy lost in contact damping, J. The scale is smaller, because the loss continues while an unloaded
+    /// point springs back, which changes no other state.
     pub const CONTACT_DAMPING_LOSS: f64 = 1.0;
-    /// The widest tolerance that positions and speeds are held to, whatever is asked for: 1e-6 m and 1e-4 m/s. Where all friction is
-    /// by tanh, speeds are held to its reference speed instead (of a point 0.1 m from the axis, if they are angular) while a point sticks
-    /// or is about to; while all of them slide, to a twentieth of the slowest slip. With more a wedge slides to and fro by the integrator's own
-    /// errors, each of them admissible: steps follow the reversals, and the run is slower and wrong.
+    /// The largest tolerance for positions and speeds, whatever is requested: 1e-6 m and 1e-4 m/s. Where all
+    /// friction is by tanh, speeds are held to its reference speed instead (of a point 0.1 m from the axis,
+    /// if they are angular) while a point sticks or is about to; while all of them slide, to a twentieth of
+    /// the slowest slip. With a larger tolerance a wedge slides to and fro by admissible errors of the
+    /// integrator: steps follow the reversals, and the run is slower and wrong.
     ///
-    /// Not held to it are coordinates along which no gap changes, those of a mass that can only slide along its plane, say: there an error
-    /// does not press on a stiff contact. (Speeds are held to the reference speed there too.)
+    /// Not held to it are coordinates along which no gap changes, those of a mass that can only slide along
+    /// its plane, say: there an error does not press on a stiff contact. (Speeds are held to the reference
+    /// speed there too.)
     pub const WIDEST_TOLERANCE: f64 = 1e-5;
 }
 
-/// A free body's place in the state vector.
+/// A free body and its position in the state vector.
 #[derive(Clone, Debug)]
 struct FreeBody {
     /// Its number among all bodies.
@@ -95,17 +100,17 @@ struct FreeBody {
     free: Vec<usize>,
     /// How many of them are translations; the others are angles.
     translations: usize,
-    /// What its motion depends on.
+    /// Mass properties and free coordinates.
     rigid: Rigid,
     /// Its first position among q, and its first speed among u.
     offset: usize,
     /// Its diagonal block in the Jacobian.
     pair: usize,
-    /// The faces that touch it, in their order.
+    /// The faces at it, in their order.
     faces: Vec<usize>,
-    /// The coils that touch it, in their order.
+    /// The coils at it, in their order.
     coils: Vec<usize>,
-    /// What its motion depends on if its kinematics are linearized.
+    /// Inertia and weight, if its kinematics are linearized.
     linear: Option<Linear>,
 }
 
@@ -164,7 +169,7 @@ pub struct System {
     /// For each body its number among the free ones.
     free_number: Vec<Option<usize>>,
     frames: Vec<FrameState>,
-    /// The time at which `frames` and the sights that depend on time alone were evaluated.
+    /// The time at which `frames` and the relative frames that depend on time alone were evaluated.
     frames_at: f64,
     /// Start of the smooth piece of the motions, and a time inside it.
     reference: f64,
@@ -181,11 +186,12 @@ pub struct System {
     internal_ends: Vec<Vec<usize>>,
     /// The quadratures that connections share.
     added: Range<usize>,
-    /// Accelerations of free bodies where they are differentiated, and of prescribed ones with linearized kinematics.
+    /// Accelerations of free bodies where they are differentiated, and of prescribed ones with linearized
+    /// kinematics.
     accelerations: Vec<[f64; 6]>,
     force: Vec<Vector<f64>>,
     moment: Vec<Vector<f64>>,
-    /// What differentiation gathers for each free body.
+    /// Derivatives summed for each free body.
     gathered: Vec<Gathered>,
     /// Derivative by time of the force on each body and of the moments about the axes of its angles.
     load_rate: Vec<(Vector<f64>, [f64; 3])>,
@@ -194,15 +200,15 @@ pub struct System {
     moves: bool,
     /// Whether all elements are plain.
     plain: bool,
-    /// Whether the speed of the system's answers can be bounded.
+    /// Whether the spectral radius can be bounded.
     bounded: bool,
-    /// Whether all points have a law that tells where it bends.
+    /// Whether the laws of all points report their discontinuities.
     discontinuities_complete: bool,
-    /// Positions and speeds for which all this was evaluated.
+    /// Positions and speeds of the last evaluation.
     current_state: Vec<f64>,
-    /// The face that alone was brought to them, and to this time, where `frames_at` is not a number.
+    /// The face that alone was updated, and the time, if `frames_at` is NaN.
     current_face: (usize, f64),
-    /// Whether the faces have seen their points there.
+    /// Whether the contact kinematics of the points are up to date.
     points_updated: bool,
 }
 
@@ -231,7 +237,7 @@ impl System {
     pub fn coils(&self) -> &[Mounted<Coil>] {
         &self.coils
     }
-    /// Returns the quadratures: what each of them integrates.
+    /// Returns the energy terms that the quadratures integrate.
     #[must_use]
     pub fn energy_terms(&self) -> &[EnergyTerm] {
         &self.energy_terms
@@ -246,17 +252,19 @@ impl System {
     pub fn connections(&self) -> &[Connection] {
         self.connections.all()
     }
-    /// Returns the connection of each contact state beyond those of the points: connections with friction, in their order.
+    /// Returns the connection of each contact state beyond those of the points: connections with friction, in
+    /// their order.
     #[must_use]
     pub fn frictional_connections(&self) -> &[usize] {
         &self.connections.discrete_states
     }
-    /// Returns the first of the two accumulator deflections of a connection in the state vector, if it has any.
+    /// Returns the first of the two accumulator deflections of a connection in the state vector, if it has
+    /// any.
     #[must_use]
     pub fn deflection_of(&self, connection: usize) -> Option<usize> {
         Some(2 * self.layout.speeds + self.connections.deflection_of(connection)?)
     }
-    /// Returns the number of contact points, each a switch with the modes of [`ContactState`].
+    /// Returns the number of contact points, each a discrete state with the values of [`ContactState`].
     #[must_use]
     pub fn point_count(&self) -> usize {
         self.faces.iter().map(|face| face.element.points.len()).sum()
@@ -273,8 +281,8 @@ impl System {
         x
     }
 
-    /// Takes the smooth piece of the motions from another copy of the same system, so that a copy kept for
-    /// observation sees the same side of a break as the one that is being integrated.
+    /// Takes the smooth piece of the motions from another copy of the same system, so that a copy for
+    /// observation is on the same side of a break as the integrated one.
     pub fn segment_like(&mut self, other: &Self) {
         if self.reference != other.reference {
             self.reference = other.reference;
@@ -282,7 +290,7 @@ impl System {
         }
     }
 
-    /// Returns the place of a body's coordinate (0..6) among the positions, if it is free.
+    /// Returns the index of a body's coordinate (0..6) among the positions, if it is free.
     #[must_use]
     pub fn position_of(&self, body: usize, coordinate: usize) -> Option<usize> {
         let free = &self.free[self.free_number[body]?];
@@ -480,7 +488,7 @@ fn is_bristle(law: &FrictionLaw) -> bool {
     law.states_per_point() == 2
 }
 
-/// Returns the identity mount, for tests and simple models.
+/// Returns the identity marker, for tests and simple models.
 #[must_use]
 pub fn marker_at(origin: [f64; 3]) -> Marker {
     Marker::new(origin, [0.0; 3])

@@ -29,20 +29,20 @@ pub struct Model {
     /// Gravity in the fixed frame, m/s².
     pub gravity: [f64; 3],
     /// Contact faces: number of the body that carries the points (free), number of the body that carries the
-    /// surface, mount of the surface.
+    /// surface, marker of the surface.
     pub faces: Vec<(usize, usize, Marker, ContactFace<Plane>)>,
-    /// Coils: number of the carried body (free), number of the body with the seat, mount of the seat.
+    /// Coils: number of the carried body (free), number of the body with the seat, marker of the seat.
     pub coils: Vec<(usize, usize, Marker, Coil)>,
     /// Other force elements.
     pub elements: Vec<Placement>,
     /// Connections of bodies with linearized kinematics.
     pub connections: Vec<Connection>,
-    /// What the laws of connections leave open.
+    /// Choices that the laws of connections leave open.
     pub options: Options,
 }
 
 impl Model {
-    /// Bodies without elements, in a field of gravity (m/s²).
+    /// Returns a model of bodies without elements, in a field of gravity (m/s²).
     #[must_use]
     pub fn new(bodies: Vec<Body>, gravity: [f64; 3]) -> Self {
         Self {
@@ -52,13 +52,14 @@ impl Model {
         }
     }
 
-    /// Adds a force element between marker A on one body (its number), which must have free coordinates, and marker B on another.
+    /// Adds a force element between marker A on one body (its number), which must have free coordinates, and
+    /// marker B on another.
     pub fn add(&mut self, element: impl Element, a: (usize, Marker), b: (usize, Marker)) {
         self.elements.push(Placement::new(element, a, b));
     }
 }
 
-/// Why a model makes no system.
+/// Why a model cannot be assembled.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ModelError {
     /// An element names a body that does not exist.
@@ -90,7 +91,8 @@ pub enum ModelError {
         /// The body's name.
         body: String,
     },
-    /// A free body with linearized kinematics has a frame that moves or is turned, or does not start in the drawn layout.
+    /// A free body with linearized kinematics has a frame that moves or is turned, or does not start in the
+    /// drawn layout.
     #[error(
         "{body} has linearized kinematics; its reference frame must stand still along the fixed axes, and all coordinates start at zero"
     )]
@@ -98,7 +100,7 @@ pub enum ModelError {
         /// The body's name.
         body: String,
     },
-    /// A connection, or what connections leave open, is not admissible.
+    /// A connection, or a choice that connections leave open, is not admissible.
     #[error(transparent)]
     Connection(#[from] ConnectionError),
     /// A mass or moment of inertia of a body with linearized kinematics is not positive.
@@ -124,7 +126,7 @@ pub enum ModelError {
     },
 }
 
-/// An element in its place.
+/// An element between two bodies of a system.
 #[derive(Clone, Debug)]
 pub struct Mounted<E> {
     /// The element.
@@ -133,41 +135,42 @@ pub struct Mounted<E> {
     pub body: usize,
     /// The body that it stands on.
     pub on: usize,
-    /// Where it is mounted there.
+    /// Marker B, on the body that it stands on.
     pub marker: Marker,
     /// Its first internal state (relative to the internal states), and its first pair of them.
     pub first_internal: usize,
     /// Number of its internal states.
     pub internal_count: usize,
-    /// Its losses' quadratures.
+    /// The quadratures of its energy terms.
     pub energy_terms: [Option<usize>; 2],
     /// Whether the body that it stands on has free coordinates.
     pub(super) on_free: bool,
-    /// Whether its sight changes with time alone.
+    /// Whether its relative frame changes with time alone.
     pub(super) moves: bool,
     /// Whether the body that it stands on is prescribed and moves.
     pub(super) prescribed: bool,
     pub(super) relative_frame: RelativeFrame<f64>,
     /// The points of a face, for evaluation; none for other elements.
     pub(super) points: Points,
-    /// What is constant of the sight where the body under the element only translates.
+    /// The constant part of the relative frame if the body under the element only translates.
     pub(super) translation: Option<Translation>,
-    /// Whether its neighbour is prescribed and does not turn, nor does the frame of its body.
+    /// Whether the body under it is prescribed and does not rotate, nor does the frame of its body.
     pub(super) plain: bool,
-    /// Its tangent where it was differentiated last, and that of the rates of its internal states, by four pairs.
+    /// Its tangent where it was differentiated last, and that of the rates of its internal states, by four
+    /// pairs.
     pub(super) tangent: Tangent,
     pub(super) rate_tangents: Vec<TangentColumns>,
     /// Bounds of how much a force at each of its points accelerates the point, 1/kg.
     pub(super) mobilities: Vec<f64>,
     /// Coupling blocks (body, on) and (on, body).
     pub(super) pairs: [usize; 2],
-    /// Rows of the quadratures (channels, work) by `body` and by `on`.
+    /// Rows of the quadratures (energy terms, work) by `body` and by `on`.
     pub(super) rows: [[Option<usize>; 3]; 2],
     /// First row of the quadratures by pairs of internal states.
     pub(super) first_internal_row: usize,
 }
 
-/// What is gathered while elements are put in place.
+/// Energy terms and couplings that are collected during assembly.
 pub(crate) struct Parts {
     pub energy_terms: Vec<EnergyTerm>,
     pub internal_pairs: Vec<Vec<usize>>,
@@ -444,7 +447,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     })
 }
 
-/// Inertia and weight of a body with linearized kinematics.
+/// Returns the inertia and weight of a body with linearized kinematics.
 fn linear(body: &Body, free: &[usize], gravity: [f64; 3]) -> Result<Linear, ModelError> {
     let still = body.frame.is_fixed() && body.frame.orientation == [0.0; 3];
     if !still || body.initial != [0.0; 6] || body.center_of_gravity != [0.0; 3] {
@@ -473,7 +476,7 @@ fn linear(body: &Body, free: &[usize], gravity: [f64; 3]) -> Result<Linear, Mode
     })
 }
 
-/// Returns a frame at time zero, and what of it moves.
+/// Returns a frame at time zero, and its moving translations.
 fn frame_state(frame: &Frame) -> FrameState {
     let base = crate::orientation::fixed(frame.orientation);
     let (mut moves, mut rest) = (Vec::new(), Vector(frame.origin));
@@ -507,8 +510,8 @@ mod tests {
     use crate::friction::FrictionLaw;
     use crate::vector::Vector;
 
-    /// The lists from which the Jacobian is made hold each element at each free body that it touches, once and in order, so that
-    /// its cost grows in proportion to the elements.
+    /// The lists from which the Jacobian is made hold each element at each free body that it touches, once
+    /// and in order, so that its cost grows in proportion to the elements.
     #[test]
     fn limits_each_body_lists_the_elements_that_touch_it_once() {
         let frame = || Frame::fixed([0.0; 3], [0.0; 3]);

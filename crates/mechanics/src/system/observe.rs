@@ -1,4 +1,4 @@
-//! Derived quantities: everything that a state says, for outputs.
+//! Derived quantities of a state, for outputs.
 
 use integrate::Problem;
 
@@ -10,18 +10,18 @@ use crate::element::Marked;
 use crate::link::RelativeMotion;
 use crate::vector::{Matrix, Vector};
 
-/// Where a body is and how it moves, in the fixed frame (SI).
+/// Pose and motion of a body, in the fixed frame (SI).
 #[derive(Clone, Copy, Debug)]
 pub struct BodyState {
     /// All six coordinates, relative to the body's reference frame.
     pub coordinates: [f64; 6],
     /// Their rates.
     pub speeds: [f64; 6],
-    /// Accelerations of the coordinates of a body with linearized kinematics; of others they are not told.
+    /// Accelerations of the coordinates of a body with linearized kinematics; zero for others.
     pub accelerations: [f64; 6],
     /// Position of the body's origin.
     pub origin: Vector<f64>,
-    /// Displacement of the body's origin from its place at zero motion and zero coordinates.
+    /// Displacement of the body's origin from its position at zero motion and zero coordinates.
     pub travel: Vector<f64>,
     /// From body axes to fixed axes.
     pub rotation: Matrix<f64>,
@@ -29,12 +29,13 @@ pub struct BodyState {
     pub velocity: Vector<f64>,
     /// Angular velocity.
     pub angular_velocity: Vector<f64>,
-    /// Position of the centre of gravity.
+    /// Position of the center of gravity.
     pub center_of_gravity: Vector<f64>,
 }
 
 impl BodyState {
-    /// Of a body with linearized kinematics: its centre of gravity in the drawn layout, coordinates and rates.
+    /// Returns the state of a body with linearized kinematics from its center of gravity in the drawn layout,
+    /// coordinates and rates.
     fn linearized(layout: Vector<f64>, coordinates: [f64; 6], speeds: [f64; 6]) -> Self {
         let [x, y, z, roll, pitch, yaw] = coordinates;
         let travel = Vector([x, y, z]);
@@ -55,11 +56,11 @@ impl BodyState {
 /// A contact face in the fixed frame's axes (SI).
 #[derive(Clone, Debug)]
 pub struct FaceState {
-    /// Its points, in mount axes.
+    /// Its points, in marker axes.
     pub points: Vec<PointContact<f64>>,
-    /// From mount axes to fixed axes.
+    /// From marker axes to fixed axes.
     pub axes: Matrix<f64>,
-    /// Position of the mount's origin.
+    /// Position of the marker's origin.
     pub origin: Vector<f64>,
     /// Position of each point.
     pub point_positions: Vec<Vector<f64>>,
@@ -80,7 +81,7 @@ pub struct FaceState {
 /// A coil.
 #[derive(Clone, Copy, Debug)]
 pub struct CoilState {
-    /// What it does, mount axes.
+    /// Its force and moment, marker axes.
     pub coil: CoilForce<f64>,
     /// Force on the carried body, fixed axes, N.
     pub force: Vector<f64>,
@@ -130,7 +131,7 @@ impl Energies {
     }
 }
 
-/// Everything that a state says.
+/// All derived quantities of a state.
 #[derive(Clone, Debug)]
 pub struct Observation {
     /// Time, s.
@@ -149,15 +150,16 @@ pub struct Observation {
     pub energies: Energies,
     /// Values of the quadratures, J, in the order of [`System::energy_terms`].
     pub quadratures: Vec<f64>,
-    /// What of them is work put in, J: that of prescribed motions, and of the coils' guiding couples.
+    /// Work put in, J: of prescribed motions and of the coils' guiding couples.
     pub work: f64,
-    /// What of them is lost, J.
+    /// Losses, J.
     pub losses: f64,
 }
 
 impl Observation {
-    /// Returns the energy that came from nowhere since a start with the stored energy `start` (J) and quadratures at zero: work of the
-    /// motions less what is stored and lost. Zero but for the errors of the integration.
+    /// Returns the energy that came from nowhere since a start with the stored energy `start` (J) and
+    /// quadratures at zero: work of the motions less stored and lost energy. Zero but for the errors of the
+    /// integration.
     #[must_use]
     pub fn residual(&self, start: f64) -> f64 {
         self.energies.total() - start - self.work + self.losses
@@ -165,7 +167,7 @@ impl Observation {
 }
 
 impl System {
-    /// Returns everything that the state `x` at `time` says.
+    /// Returns all derived quantities of the state `x` at `time`.
     #[must_use]
     pub fn observe(&mut self, time: f64, x: &[f64]) -> Observation {
         self.update_kinematics(time, x);
@@ -233,8 +235,8 @@ impl System {
         }
     }
 
-    /// The accelerations of bodies with linearized kinematics, and their kinetic energy and that in the gravity field, which is zero in the
-    /// drawn layout.
+    /// The accelerations of bodies with linearized kinematics, and their kinetic energy and that in the
+    /// gravity field, which is zero in the drawn layout.
     fn observe_linearized(
         &mut self,
         time: f64,
@@ -263,8 +265,8 @@ impl System {
         }
     }
 
-    /// The power of each massless wedge's friction on its column at `time` and state `x`, W, with the number of its connection: what
-    /// [`System::observe`] says of it, without all the rest.
+    /// Calls `each` with the number of each massless wedge's connection and the power of its friction on the
+    /// column at `time` and state `x`, W, as in [`System::observe`].
     pub fn column_powers(&mut self, time: f64, x: &[f64], each: impl FnMut(usize, f64)) {
         self.update_kinematics(time, x);
         let coordinates = (&self.positions[..], &self.rates[..]);
@@ -272,7 +274,7 @@ impl System {
             .column_powers(coordinates, self.internal(x), each);
     }
 
-    /// Where all bodies are, once they are placed at state `x`.
+    /// Writes the states of all bodies; the kinematics must be up to date at state `x`.
     pub(super) fn body_states(&self, x: &[f64], out: &mut Vec<BodyState>) {
         out.clear();
         for (number, body) in self.bodies.iter().enumerate() {
@@ -367,7 +369,7 @@ impl System {
         state
     }
 
-    /// Axes and origin of a mount in the fixed frame.
+    /// Returns the axes and origin of a marker in the fixed frame.
     fn marker_pose(&self, on: usize, marker: &crate::link::Marker) -> (Matrix<f64>, Vector<f64>) {
         let (frame, kinematics) = (&self.frames[on].motion, &self.kinematics[on]);
         let orientation: Matrix<f64> = kinematics.orientation(frame);
@@ -377,7 +379,8 @@ impl System {
         )
     }
 
-    /// Returns the reaction of an element on the body that it stands on: force and moment about `point` (fixed frame).
+    /// Returns the reaction of an element on the body that it stands on: force and moment about `point`
+    /// (fixed frame).
     #[must_use]
     pub fn reaction_about(
         force: Vector<f64>,

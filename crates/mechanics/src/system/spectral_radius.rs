@@ -1,8 +1,9 @@
-//! An upper bound of the spectral radius of the Jacobian matrix, so that the integrator knows where nothing is stiff.
+//! An upper bound of the spectral radius of the Jacobian matrix, by which the integrator detects stiffness.
 //!
-//! With b the mobility of a point (how much a force there accelerates it), the springs' part of the eigenvalues is at most
-//! `√(Σ k (1 + μ) b)`, since friction feeds the normal force's stiffness into the tangents; that of dampers at most `Σ c b`, where friction
-//! counts as the steepest damper of its law, `μN/max(|v|, v0)`. Sums over all points: an upper bound, some times too large.
+//! With b the mobility of a point (how much a force there accelerates it), the springs' part of the
+//! eigenvalues is at most `√(Σ k (1 + μ) b)`, since friction feeds the normal force's stiffness into the
+//! tangents; that of dampers at most `Σ c b`, where friction counts as the steepest damper of its law,
+//! `μN/max(|v|, v0)`. Sums over all points: an upper bound, some times too large.
 
 use integrate::scalar::Dual;
 
@@ -12,10 +13,12 @@ use crate::friction::FrictionLaw;
 use crate::link::RelativeMotion;
 use crate::vector::Vector;
 
-/// From here on (1/s) no step that is worth making is explicit; explicit steps of no length would only hide that a run cannot go on.
+/// From here on (1/s) no step that is worth making is explicit; explicit steps of no length would only hide
+/// that a run cannot go on.
 const LARGEST_RADIUS: f64 = 1e9;
 
-/// Returns a bound of the mobility of a point of a body (body axes), 1/kg: `1/m + |r|²/I` with the least inertia of the free angles.
+/// Returns a bound of the mobility of a point of a body (body axes), 1/kg: `1/m + |r|²/I` with the least
+/// inertia of the free angles.
 pub(super) fn mobility(body: &Body, point: Vector<f64>) -> f64 {
     let arm = point - Vector(body.center_of_gravity);
     let least = (0..3)
@@ -26,7 +29,8 @@ pub(super) fn mobility(body: &Body, point: Vector<f64>) -> f64 {
 }
 
 impl System {
-    /// Returns the bound at the state that [`System::update_kinematics`] was called with, 1/s; infinite if it is not known.
+    /// Returns the bound at the state of the last [`System::update_kinematics`], 1/s. Returns infinity if it
+    /// is unknown.
     pub(super) fn spectral_radius(&mut self) -> f64 {
         self.update_points();
         let (mut springs, mut dampers) = (0.0, 0.0);

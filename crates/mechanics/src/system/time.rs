@@ -1,4 +1,5 @@
-//! The explicit dependence of the rates on time, through the motions of prescribed bodies and reference frames.
+//! The explicit dependence of the rates on time, through the motions of prescribed bodies and reference
+//! frames.
 
 use integrate::scalar::Dual;
 
@@ -74,7 +75,7 @@ impl System {
     }
 }
 
-/// The derivative by time of what one element does.
+/// Adds the derivatives by time of one element's wrenches and powers.
 #[inline(always)]
 fn element_in_time<E: Mountable>(
     mounted: &Mounted<E>,
@@ -132,7 +133,7 @@ fn element_in_time<E: Mountable>(
     }
 }
 
-/// The same where the mount translates with this acceleration of the body's frame, as seen from it.
+/// The same if marker B translates; `acceleration` is that of the body's frame relative to it.
 #[inline(always)]
 fn translating_in_time<E: Mountable>(
     mounted: &Mounted<E>,

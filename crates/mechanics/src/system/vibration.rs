@@ -1,7 +1,8 @@
 //! Natural vibrations about a state: undamped frequencies and shapes.
 //!
-//! `M q¨ + K q = 0` with K the derivative of all forces by the coordinates; which friction elements stick (their accumulators
-//! then are springs) is a question ([`Held`]). On a kink of a curve the piece of the larger strokes counts. K is symmetric but for the wedges, whose friction ties forces to normal forces: then
+//! `M q¨ + K q = 0` with K the derivative of all forces by the coordinates; which friction elements stick
+//! (their accumulators then are springs) is a choice ([`Held`]). At a corner of a curve the piece of larger
+//! abscissae is taken. K is symmetric but for the wedges, whose friction ties forces to normal forces: then
 //! eigenvalues may be complex in principle (flutter), and are taken from the general matrix.
 
 use integrate::Problem;
@@ -11,8 +12,8 @@ use thiserror::Error;
 use super::System;
 use crate::connection::{Grip, Grips};
 
-/// Which closed connections with friction stick in a vibration; the others have no friction. Contact points are taken as their law and
-/// their state say: bristles at rest stick, tanh has no stiffness.
+/// Which closed connections with friction stick in a vibration; the others have no friction. Contact points
+/// follow their law and state: bristles at rest stick, tanh has no stiffness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Held {
     /// All: small vibrations about a state of rest.
@@ -39,10 +40,11 @@ impl Held {
 pub struct Vibration {
     /// Frequency, Hz; zero where the eigenvalue is not positive.
     pub frequency: f64,
-    /// The eigenvalue λ of M⁻¹K, 1/s²: ω² of a vibration, negative where the state is unstable; real and imaginary part.
+    /// The eigenvalue λ of M⁻¹K, 1/s²: ω² of a vibration, negative where the state is unstable; real and
+    /// imaginary part.
     pub eigenvalue: [f64; 2],
-    /// Its shape q in all free coordinates, in the order of the positions in the state vector (m, rad; real part), the
-    /// largest entry of `Lᵀ q` being 1, with the mass matrix `M = L Lᵀ`.
+    /// Its shape q in all free coordinates, in the order of the positions in the state vector (m, rad; real
+    /// part), the largest entry of `Lᵀ q` being 1, with the mass matrix `M = L Lᵀ`.
     pub shape: Vec<f64>,
 }
 
@@ -181,7 +183,7 @@ fn symmetric(matrix: &DMatrix<f64>) -> Vec<(Complex<f64>, DVector<f64>)> {
         .collect()
 }
 
-/// Eigenvalues by the real Schur form, vectors by inverse iteration.
+/// Returns the eigenvalues (by the real Schur form) with their vectors (by inverse iteration).
 fn general(matrix: &DMatrix<f64>) -> Option<Vec<(Complex<f64>, DVector<f64>)>> {
     let n = matrix.nrows();
     let schur = nalgebra::linalg::Schur::try_new(matrix.clone(), f64::EPSILON, 10_000)?;

@@ -82,7 +82,8 @@ fn coil_forces_in_numbers() {
     let mut slack_table = table.clone();
     slack_table.pulls = false;
     close(push(&slack_table, 0.32), 0.0, 0.0);
-    // The force comes to zero at a compression of -1/150; what it stores up to zero compression is 5²/(2·750).
+    // The force comes to zero at a compression of -1/150; what it stores up to zero compression is
+    // 5²/(2·750).
     close(slack_table.stored_energy(0.4), -25.0 / 1500.0, 1e-12);
 }
 

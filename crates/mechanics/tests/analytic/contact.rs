@@ -100,8 +100,8 @@ fn moment_of_a_contact_about_the_body() {
     }
 }
 
-/// A plate that turns at a constant rate about an arbitrary axis, under a body that turns and moves: place, gap rate and
-/// slip of a point.
+/// A plate that turns at a constant rate about an arbitrary axis, under a body that turns and moves: place,
+/// gap rate and slip of a point.
 #[test]
 fn surface_velocity_of_a_turning_plate() {
     let mut random = Random(8);

@@ -1,4 +1,5 @@
-//! Motions, friction laws, contacts, coils and the massless wedge against closed forms, differences and second derivations.
+//! Motions, friction laws, contacts, coils and the massless wedge against closed forms, differences and
+//! second derivations.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 #[path = "../common/mod.rs"]

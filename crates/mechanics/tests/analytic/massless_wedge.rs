@@ -99,7 +99,8 @@ fn branches_and_jam() {
     }
 }
 
-/// Force balance of the wedge, with the contact forces along normals and tangents, solved as two linear equations.
+/// Force balance of the wedge, with the contact forces along normals and tangents, solved as two linear
+/// equations.
 #[test]
 fn massless_wedge_in_force_balance() {
     let mut random = Random(10);
@@ -123,8 +124,8 @@ fn massless_wedge_in_force_balance() {
                 } else {
                     -1.0
                 };
-                // Columns: force per normal force on the column (normal (cos φ, -sin φ), upwards (sin φ, cos φ))
-                // and on the slope (normal (-cos θ, -sin θ), upwards (-sin θ, cos θ)).
+                // Columns: force per normal force on the column (normal (cos φ, -sin φ), upwards (sin φ, cos
+                // φ)) and on the slope (normal (-cos θ, -sin θ), upwards (-sin θ, cos θ)).
                 let (mc, ms) = (up * one.column_friction, along * one.slope_friction);
                 let column = [cp + mc * sp, -sp + mc * cp];
                 let incline = [-ct - ms * st, -st + ms * ct];

@@ -321,7 +321,8 @@ fn spline_is_twice_continuously_differentiable() {
             close(left[order], right[order], 1e-9);
         }
         let jump = (third(times[i] + 0.1) - third(times[i] - 0.1)).abs();
-        // Not a knot: the third derivative does not jump at the second and the last but one; elsewhere it does.
+        // Not a knot: the third derivative does not jump at the second and the last but one; elsewhere it
+        // does.
         if i == 1 || i == 10 {
             assert!(jump < 1e-9, "{jump} at point {i}");
         } else {

@@ -1,5 +1,6 @@
-//! A half-truck made up for tests and for measuring: a heavy body (bolster and half a car) and two side frames, six coordinates
-//! each; three prescribed bodies that drive the bolster; 50 connections, of them 4 wedges and 8 surfaces.
+//! A half-truck made up for tests and for measuring: a heavy body (bolster and half a car) and two side
+//! frames, six coordinates each; three prescribed bodies that drive the bolster; 50 connections, of them 4
+//! wedges and 8 surfaces.
 #![allow(dead_code, missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use mechanics::body::Body;
@@ -22,8 +23,8 @@ pub fn curve(points: &[[f64; 2]]) -> Curve {
     Curve::mirrored_from_origin(points).unwrap()
 }
 
-/// A wedge with the published numbers: 32 degrees and 3000 lbf/in on the side frame, or 37.5 degrees and 3702.2 lbf in the
-/// bolster.
+/// A wedge with the published numbers: 32 degrees and 3000 lbf/in on the side frame, or 37.5 degrees and
+/// 3702.2 lbf in the bolster.
 pub fn wedge(constant: bool, column: ColumnFace) -> Wedge {
     let plain = matches!(column, ColumnFace::Plain { .. });
     let (angle, coil, preload) = match (constant, plain) {

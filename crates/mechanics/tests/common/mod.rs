@@ -94,7 +94,7 @@ pub fn coil(end: [f64; 3], acts_at: [f64; 3], stiffness: f64, free_length: f64) 
     }
 }
 
-/// Angles of a mount whose normal (its x axis) points up (+z of the body).
+/// Angles of a marker whose normal (its x axis) points up (+z of the body).
 pub const UP: [f64; 3] = [0.0, -std::f64::consts::FRAC_PI_2, 0.0];
 
 pub fn rates(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
@@ -103,8 +103,8 @@ pub fn rates(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
     dx
 }
 
-/// Derivative at zero of a function of one variable: central differences of fourth order with two steps, extrapolated to
-/// sixth order.
+/// Derivative at zero of a function of one variable: central differences of fourth order with two steps,
+/// extrapolated to sixth order.
 pub fn difference(h: f64, mut f: impl FnMut(f64) -> Vec<f64>) -> Vec<f64> {
     let [a, b, c, d, e, g] = [0.5 * h, -0.5 * h, h, -h, 2.0 * h, -2.0 * h].map(&mut f);
     (0..a.len())

@@ -144,7 +144,7 @@ fn strokes_follow_the_levers() {
     for (value, expected) in observation.connections[0].extensions.iter().zip(extensions) {
         close(*value, expected, 1e-15);
     }
-    // the moment of a force about the centre of gravity is l × F
+    // the moment of a force about the center of gravity is l × F
     let f = extensions.map(|s| -s);
     let moment = [
         f[3] + ly * f[2] - lz * f[1],

@@ -143,7 +143,8 @@ fn the_half_trucks_ledger_closes() {
     }
 }
 
-/// By its own slip slope friction never gives energy back; by the toe it may, where the bolster also moves longitudinally.
+/// By its own slip slope friction never gives energy back; by the toe it may, where the bolster also moves
+/// longitudinally.
 #[test]
 fn slope_friction_by_its_own_slip_only_loses() {
     let own = Options {

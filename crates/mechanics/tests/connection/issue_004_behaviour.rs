@@ -1,5 +1,5 @@
-//! The equilibrium at a time beyond a break of the motions once took the piece of the motions at time zero, so that a
-//! ramp that had long ended had not begun.
+//! The equilibrium at a time beyond a break of the motions once took the piece of the motions at time zero,
+//! so that a ramp that had long ended had not begun.
 
 use mechanics::body::Body;
 use mechanics::connection::{Connection, Law, SpringDamper};

@@ -1,4 +1,5 @@
-//! Every entry of the Jacobian matrix, and the derivative by time, against differences of the right-hand side.
+//! Every entry of the Jacobian matrix, and the derivative by time, against differences of the right-hand
+//! side.
 
 use integrate::Problem;
 use mechanics::body::Body;
@@ -18,7 +19,8 @@ fn norm(v: &[f64]) -> f64 {
     v.iter().fold(0.0, |m, v| m.max(v.abs()))
 }
 
-/// Two bodies (one of them not free in all coordinates), one that moves, the ground, and every law between them, in numbers near one.
+/// Two bodies (one of them not free in all coordinates), one that moves, the ground, and every law between
+/// them, in numbers near one.
 fn everything(options: Options, accumulator: Accumulator) -> Model {
     let mut motions: [Motion; 6] = std::array::from_fn(|k| Motion::Sine {
         amplitude: 0.1 + 0.02 * k as f64,

@@ -60,8 +60,8 @@ fn four_wedges_carry_a_body() {
     assert!(wedge.column_friction <= most * wedge.coil_force * (1.0 + 1e-9));
 }
 
-/// Equal and opposite longitudinal forces of leading and trailing wedges: the weight is carried by coils on inclined columns.
-/// With the coil in the bolster nothing but the column's inclination lifts it.
+/// Equal and opposite longitudinal forces of leading and trailing wedges: the weight is carried by coils on
+/// inclined columns. With the coil in the bolster nothing but the column's inclination lifts it.
 #[test]
 fn a_toe_lifts_or_drags_the_bolster() {
     for toe in [0.2, -0.2] {
@@ -94,8 +94,8 @@ fn a_toe_lifts_or_drags_the_bolster() {
     }
 }
 
-/// The half-truck with variable damping hangs on its input springs: 3 springs of 1e6 lbf/in against 36 000 lbf/in of nests and
-/// coils, and bearings that the side frames nearly leave.
+/// The half-truck with variable damping hangs on its input springs: 3 springs of 1e6 lbf/in against 36 000
+/// lbf/in of nests and coils, and bearings that the side frames nearly leave.
 #[test]
 fn the_half_truck_settles() {
     let mut system = System::new(half_truck::model(false, false)).unwrap();
@@ -137,8 +137,8 @@ fn the_half_truck_settles() {
     assert!((observation.bodies[4].speeds[2] - 2.0 * INCH).abs() < 1e-12);
 }
 
-/// With constant damping the preloads balance the drawn layout, but for the columns' normal forces where a toe inclines them:
-/// 4 · 3702.2 lbf · cos θ sin φ / sin(θ+φ) = 67 lbf down.
+/// With constant damping the preloads balance the drawn layout, but for the columns' normal forces where a
+/// toe inclines them: 4 · 3702.2 lbf · cos θ sin φ / sin(θ+φ) = 67 lbf down.
 #[test]
 fn the_half_truck_with_constant_damping_is_balanced_as_drawn() {
     for (spatial, expected) in [(false, 0.0), (true, -67.07)] {

@@ -51,8 +51,8 @@ fn rigid(constant: bool, column: ColumnFace) -> Wedge {
     law
 }
 
-/// Loops of the element alone without a toe angle: 1656 lbf·in with the coil on the side frame, 6655 lbf·in with the coil in the
-/// bolster. Sum of both branches' friction: μ Σ N/F_s = μ · 2 cot θ/(1 + μ²).
+/// Loops of the element alone without a toe angle: 1656 lbf·in with the coil on the side frame, 6655 lbf·in
+/// with the coil in the bolster. Sum of both branches' friction: μ Σ N/F_s = μ · 2 cot θ/(1 + μ²).
 #[test]
 fn loops_without_an_angle() {
     let ratio = |angle: f64| 0.4 * 2.0 / f64::to_radians(angle).tan() / 1.16;
@@ -82,9 +82,9 @@ fn an_elastic_accumulator_narrows_the_loop() {
     close(column, expected, 2e-5 * expected);
 }
 
-/// Loops at 0.2 degrees toe out: both branches' normal forces fall by sin θ / sin(θ+φ), to 1646 and 6625 lbf·in if the coil follows the
-/// bolster's travel alone. The wedge's rise takes the fraction tan φ / tan θ away from the coil on the side frame; with the coil in the
-/// bolster it cancels over a whole stroke.
+/// Loops at 0.2 degrees toe out: both branches' normal forces fall by sin θ / sin(θ+φ), to 1646 and 6625
+/// lbf·in if the coil follows the bolster's travel alone. The wedge's rise takes the fraction tan φ / tan θ
+/// away from the coil on the side frame; with the coil in the bolster it cancels over a whole stroke.
 #[test]
 fn loops_with_a_toe_angle() {
     let angles = |angle: f64| (f64::to_radians(angle), f64::to_radians(0.2));

@@ -1,4 +1,5 @@
-//! Systems with small displacements and the industry's element laws: closed forms, derivatives, energy, limits.
+//! Systems with small displacements and the industry's element laws: closed forms, derivatives, energy,
+//! limits.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 #[path = "../common/mod.rs"]

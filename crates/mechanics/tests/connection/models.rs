@@ -31,7 +31,7 @@ pub fn one(coordinate: usize, law: SpringDamper) -> Law {
     Law::Springs(vec![(coordinate, law)])
 }
 
-/// One law between a free unit body (A) and the ground (B), at the body's centre.
+/// One law between a free unit body (A) and the ground (B), at the body's center.
 pub fn against_ground(law: Law, options: Options) -> System {
     let body = Body::linearized("body", [0.0; 3], ALL, 1.0, [1.0; 3]);
     let mut model = model(vec![body, Body::ground()], vec![connection(0, 1, [0.0; 3], law)]);

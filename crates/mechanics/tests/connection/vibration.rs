@@ -43,7 +43,8 @@ fn a_chain_of_two_masses() {
     }
 }
 
-/// A body on four springs: heave, and roll and pitch through the levers; yaw and longitudinal through a stuck surface.
+/// A body on four springs: heave, and roll and pitch through the levers; yaw and longitudinal through a stuck
+/// surface.
 #[test]
 fn a_body_on_four_springs() {
     let (k, m, inertia, lever) = (1000.0, 50.0, [3.0, 5.0, 7.0], [0.6, 0.4]);
@@ -93,8 +94,8 @@ fn a_body_on_four_springs() {
     }
 }
 
-/// A stuck plain wedge is its coil and its accumulator side by side. One with a toe has a stiffness without symmetry: eigenvalues
-/// and shapes then solve the general problem.
+/// A stuck plain wedge is its coil and its accumulator side by side. One with a toe has a stiffness without
+/// symmetry: eigenvalues and shapes then solve the general problem.
 #[test]
 fn a_body_on_wedges() {
     let (mass, inertia) = (2000.0, [300.0, 400.0, 500.0]);
@@ -202,8 +203,8 @@ fn stiffness_is_minus_the_derivative_of_forces() {
     }
 }
 
-/// The half-truck's heave while its wedges slide: bolster and side frames in phase across, two masses on inputs, nests with coils,
-/// bearings. With stuck wedges their accumulators stiffen it.
+/// The half-truck's heave while its wedges slide: bolster and side frames in phase across, two masses on
+/// inputs, nests with coils, bearings. With stuck wedges their accumulators stiffen it.
 #[test]
 fn heave_of_the_half_truck() {
     let mut system = System::new(crate::half_truck::model(false, false)).unwrap();

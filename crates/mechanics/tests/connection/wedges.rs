@@ -228,8 +228,8 @@ fn sticking_and_slipping_meet_at_the_limit() {
     assert!(jams > 10, "{jams}");
 }
 
-/// With slope friction by its own slip: the branches of vertical sliding are those of the toe; while it sticks the wedge is
-/// balanced with the slope's full friction.
+/// With slope friction by its own slip: the branches of vertical sliding are those of the toe; while it
+/// sticks the wedge is balanced with the slope's full friction.
 #[test]
 fn slope_friction_by_its_own_slip() {
     let options = Options {
@@ -316,7 +316,8 @@ fn a_viscous_wedge_creeps_and_slips() {
     );
 }
 
-/// By velocity instead of by force: the branch changes with the sign of the velocity, whatever the accumulator holds.
+/// By velocity instead of by force: the branch changes with the sign of the velocity, whatever the
+/// accumulator holds.
 #[test]
 fn the_branch_by_velocity() {
     let options = Options {

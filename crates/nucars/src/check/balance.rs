@@ -6,7 +6,8 @@ use super::shown;
 use crate::finding::{Findings, Severity};
 use crate::tree::{DofKind, Element, Law, PiecewiseLinear, SystemFile};
 
-/// Standard gravity in the files' units, in/s²; the static loads in the printed files were calculated with 386.09.
+/// Standard gravity in the files' units, in/s²; the static loads in the printed files were calculated with
+/// 386.09.
 pub const GRAVITY: f64 = 386.0886;
 
 /// A body's weight and what carries it when nothing is deformed.
@@ -16,8 +17,8 @@ pub struct Balance {
     pub body: u32,
     /// Its weight, lb.
     pub weight: f64,
-    /// The vertical force of all connections on it at stroke 0, lb, up. Without friction; a wedge whose coil's force is
-    /// constant keeps that force inside the bolster.
+    /// The vertical force of all connections on it at stroke 0, lb, up. Without friction; a wedge whose
+    /// coil's force is constant keeps that force inside the bolster.
     pub carried: f64,
 }
 
@@ -56,7 +57,8 @@ pub fn vertical_balance(file: &SystemFile) -> Vec<Balance> {
         .collect()
 }
 
-/// The vertical force with which a connection draws A down and B up at stroke 0; what pushes them apart is negative.
+/// The vertical force with which a connection draws A down and B up at stroke 0; what pushes them apart is
+/// negative.
 fn pull(element: &Element, laws: &HashMap<u32, &Law>, functions: &HashMap<u32, &PiecewiseLinear>) -> f64 {
     let at_rest = |function: u32| {
         functions

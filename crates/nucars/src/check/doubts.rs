@@ -61,8 +61,8 @@ fn shared_by_turns(file: &SystemFile, findings: &mut Findings) {
     }
 }
 
-/// Two functions that rise to the same stop at the same abscissa although their free ways differ: the abscissa was
-/// probably copied. The slope of the stop tells.
+/// Two functions that rise to the same stop at the same abscissa although their free ways differ: the
+/// abscissa was probably copied. The slope of the stop tells.
 fn copied_stops(file: &SystemFile, findings: &mut Findings) {
     let last_three = |function: &PiecewiseLinear| -> Option<[(f64, f64); 2]> {
         let mut points = function.points().rev();
@@ -121,9 +121,10 @@ fn copied_stops(file: &SystemFile, findings: &mut Findings) {
     }
 }
 
-/// Wedges that jam when the bolster goes down: with toe in, friction alone holds them. The massless wedge in steady
-/// sliding has N = F (cos θ + b μ₁ sin θ) / D with D = (sin θ - b μ₁ cos θ)(cos φ + a μ₂ sin φ) + (sin φ - a μ₂ cos φ)
-/// (cos θ + b μ₁ sin θ), a = 1 going down, b = 1 for toe in; where D is not positive there is no such N.
+/// Wedges that jam when the bolster goes down: with toe in, friction alone holds them. The massless wedge in
+/// steady sliding has N = F (cos θ + b μ₁ sin θ) / D with D = (sin θ - b μ₁ cos θ)(cos φ + a μ₂ sin φ) + (sin
+/// φ - a μ₂ cos φ) (cos θ + b μ₁ sin θ), a = 1 going down, b = 1 for toe in; where D is not positive there is
+/// no such N.
 fn jamming(file: &SystemFile, findings: &mut Findings) {
     let faces: HashMap<u32, &PiecewiseLinear> = file
         .piecewise_linear

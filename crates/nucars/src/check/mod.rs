@@ -1,7 +1,7 @@
 //! What trees lack or contradict: in themselves, and together with the files they belong to.
 //!
-//! Errors are what NUCARS, or any program, could not make sense of. Warnings are what can be computed and is probably not
-//! meant: each of them is in one of the files printed with the thesis.
+//! Errors are what NUCARS, or any program, could not make sense of. Warnings are what can be computed and is
+//! probably not meant: each of them is in one of the files printed with the thesis.
 
 mod balance;
 mod data;
@@ -34,8 +34,8 @@ impl<T> Read<T> {
         self
     }
 
-    /// Adds findings about the same file, without those that are known already or follow from an error in the same
-    /// value.
+    /// Adds findings about the same file, without those that are known already or follow from an error in the
+    /// same value.
     pub fn add(&mut self, more: Findings) {
         self.findings.join(more);
         self.findings.sort();

@@ -53,7 +53,8 @@ pub fn run(read: &Read<RunFile>) -> Findings {
     findings
 }
 
-/// Checks a run file with its input file: whether the histories last, and whether they can be followed without a speed.
+/// Checks a run file with its input file: whether the histories last, and whether they can be followed
+/// without a speed.
 pub fn run_with_input(read: &Read<RunFile>, input: &InputFile) -> Findings {
     let mut findings = Findings::new(&read.source);
     let Some(stepping) = &read.tree.stepping else {

@@ -27,8 +27,8 @@ pub const KEYWORDS: &[&str] = &[
     "CONNECTION VELOCITY",
 ];
 
-/// Reads a data file. Sections that are switched off are read as far as they can be; what is wrong with them is noted
-/// only.
+/// Reads a data file. Sections that are switched off are read as far as they can be; what is wrong with them
+/// is noted only.
 pub fn read_data(source: &Arc<SourceText>) -> Read<DataFile> {
     let mut findings = Findings::new(source);
     let all = sections::split(source);

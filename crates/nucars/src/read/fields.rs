@@ -185,8 +185,8 @@ impl<'a, 'f> Fields<'a, 'f> {
         self.lacking = self.lacking.saturating_sub(1);
     }
 
-    /// The next value as `read` understands it. A word it does not understand is a mistake and stands for `instead`; a
-    /// quoted text ends the record.
+    /// The next value as `read` understands it. A word it does not understand is a mistake and stands for
+    /// `instead`; a quoted text ends the record.
     fn value<T>(
         &mut self,
         what: &str,
@@ -342,7 +342,8 @@ impl<'a, 'f> Fields<'a, 'f> {
         }
     }
 
-    /// What is left of the record's last line: numbers there are a mistake or superfluous, words are a remark.
+    /// What is left of the record's last line: numbers there are a mistake or superfluous, words are a
+    /// remark.
     pub fn end_of_record(&mut self, severity: Severity, help: &str) -> bool {
         let Some(token) = self.cursor.peek().filter(|token| !token.begins_line) else {
             return true;

@@ -62,7 +62,8 @@ pub fn split(source: &SourceText) -> Vec<Section> {
     sections
 }
 
-/// The keyword whose `\` is at `start`, and where its section begins: at a value in its line, or with the next line.
+/// The keyword whose `\` is at `start`, and where its section begins: at a value in its line, or with the
+/// next line.
 fn keyword(text: &str, start: usize, end: usize) -> (Spanned<String>, usize) {
     let line = &text[start + 1..end];
     let values = |(_, letter): &(usize, char)| matches!(letter, '\'' | '"' | '0'..='9' | '+' | '.' | '!');

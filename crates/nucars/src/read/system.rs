@@ -202,8 +202,8 @@ fn open_list<T>(
     (list, lost)
 }
 
-/// The section ends at the first line that does not begin with a number. If records follow, that line was probably
-/// meant to be one, or a comment.
+/// The section ends at the first line that does not begin with a number. If records follow, that line was
+/// probably meant to be one, or a comment.
 fn remark_after(fields: &mut Fields<'_, '_>, nothing_read: bool) -> bool {
     let Some(token) = fields.cursor.peek() else {
         return false;

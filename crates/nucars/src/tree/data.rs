@@ -27,14 +27,15 @@ impl DataFile {
 pub struct DataSection {
     /// The keyword's place.
     pub keyword: At,
-    /// Switched off by `$` before the `\`: NUCARS does not read it. What it says is kept as far as it can be read.
+    /// Switched off by `$` before the `\`: NUCARS does not read it. What it says is kept as far as it can be
+    /// read.
     pub off: bool,
     /// What it asks for.
     pub request: DataRequest,
 }
 
-/// What a section asks for. Counts are as typed and may disagree with the lists in sections that are switched off;
-/// `None`: there is none.
+/// What a section asks for. Counts are as typed and may disagree with the lists in sections that are switched
+/// off; `None`: there is none.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DataRequest {
     /// `\EQUILIBRIUM`.

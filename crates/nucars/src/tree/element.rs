@@ -162,7 +162,8 @@ pub enum Law {
         face: Spanned<u32>,
         /// Wedge angle from the vertical, degrees.
         angle: Spanned<f64>,
-        /// V/C: whether damping is variable (`.T.`, coil on the side frame) or constant (coil in the bolster).
+        /// V/C: whether damping is variable (`.T.`, coil on the side frame) or constant (coil in the
+        /// bolster).
         variable: Spanned<bool>,
         /// Ka, lb/in.
         stiffness: Spanned<f64>,

@@ -90,7 +90,8 @@ pub struct Segment {
     pub end: Spanned<f64>,
     /// The base line at its start and its end, in or rad.
     pub base: [Spanned<f64>; 2],
-    /// The two coefficients of the shape: SIN and SSIN: first and last frequency, Hz; BEND: rise and repetition, s or ft.
+    /// The two coefficients of the shape: SIN and SSIN: first and last frequency, Hz; BEND: rise and
+    /// repetition, s or ft.
     pub coefficients: [Spanned<f64>; 2],
     /// Amplitude, in or rad.
     pub amplitude: Spanned<f64>,

@@ -312,7 +312,8 @@ pub struct PiecewiseLinear {
 }
 
 impl PiecewiseLinear {
-    /// Whether it is mirrored, f(-s) = -f(s): its first point is (0, 0). A first abscissa of 0 alone does not do it.
+    /// Whether it is mirrored, f(-s) = -f(s): its first point is (0, 0). A first abscissa of 0 alone does not
+    /// do it.
     pub fn is_mirrored(&self) -> bool {
         let zero = |list: &[Spanned<f64>]| list.first().is_some_and(|first| **first == 0.0);
         zero(&self.ordinates) && zero(&self.abscissae)

@@ -21,7 +21,8 @@ use crate::tree::{self, Dof, Element, InputFile, SystemFile, Toe};
 /// Standard gravity, m/s², which is the files' 386.09 in/s².
 const GRAVITY: f64 = 9.806_65;
 
-/// Why files make no model. Checking the files ([`check`](crate::check)) tells most of these with their places.
+/// Why files make no model. Checking the files ([`check`](crate::check)) tells most of these with their
+/// places.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum BuildError {
     /// A reference leads nowhere.
@@ -355,8 +356,8 @@ impl Laws<'_> {
         }))
     }
 
-    /// A wedge whose toe is only a direction. Without a function for its coil the coil's force is constant: it stands in
-    /// the bolster.
+    /// A wedge whose toe is only a direction. Without a function for its coil the coil's force is constant:
+    /// it stands in the bolster.
     fn plain_wedge(
         &self,
         coil: u32,

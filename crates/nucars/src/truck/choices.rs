@@ -21,8 +21,8 @@ pub enum Yaw {
     /// As the files say.
     #[default]
     AsPrinted,
-    /// As they mean it: the longitudinal springs to the outer input bodies are left out, and the yaw spring is made stiff
-    /// and without limit.
+    /// As they mean it: the longitudinal springs to the outer input bodies are left out, and the yaw spring
+    /// is made stiff and without limit.
     Dropped,
     /// As they mean it: the outer input bodies move along by -y ψ, and the yaw spring stays.
     Driven,

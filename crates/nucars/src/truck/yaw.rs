@@ -1,7 +1,8 @@
 //! The bolster's yaw as the files mean it.
 //!
-//! Printed: a rotation spring of 1e6 in-lb/rad is to yaw the bolster against two longitudinal springs of 1e6 lb/in at
-//! y = ±39.5 in, that is 3.12e9 in-lb/rad, and reaches 2e-6 of 0.012 rad. A translation's stiffness was copied to a rotation.
+//! Printed: a rotation spring of 1e6 in-lb/rad is to yaw the bolster against two longitudinal springs of 1e6
+//! lb/in at y = ±39.5 in, that is 3.12e9 in-lb/rad, and reaches 2e-6 of 0.012 rad. A translation's stiffness
+//! was copied to a rotation.
 
 use std::ops::Range;
 
@@ -18,8 +19,8 @@ pub(super) const PRINTED_UNITS_STIFFNESS: f64 = 1e10;
 /// The same, N·m/rad.
 pub const DRIVEN_YAW_STIFFNESS: f64 = PRINTED_UNITS_STIFFNESS * MOMENT;
 
-/// Changes a model so that its input bodies yaw what they drive. Gives the numbers of the connections that were left out,
-/// counted before.
+/// Changes a model so that its input bodies yaw what they drive. Gives the numbers of the connections that
+/// were left out, counted before.
 ///
 /// `inputs` are the input bodies.
 pub fn intended_yaw(model: &mut Model, inputs: Range<usize>, yaw: Yaw) -> Vec<usize> {

@@ -1,5 +1,5 @@
-//! Writing trees as files. Reading what was written gives an equal tree; comments and free text outside the titles'
-//! sections are not written.
+//! Writing trees as files. Reading what was written gives an equal tree; comments and free text outside the
+//! titles' sections are not written.
 
 mod system;
 

@@ -54,7 +54,7 @@ pub struct Answer {
     pub friction_loss: [f64; 2],
     pub contact_damping_loss: f64,
     pub coil_damping_loss: f64,
-    /// Power of the couple that moves the coil's force to the centre of gravity.
+    /// Power of the couple that moves the coil's force to the center of gravity.
     pub guide: f64,
     /// How many of the eight corners are closed.
     pub closed: usize,
@@ -95,8 +95,8 @@ impl Plain {
         self.weight / G
     }
 
-    /// Twice the kinetic energy at rates `u`, from the velocities of the mass: the rotational part by the second
-    /// moments of the mass distribution, Σ S_k |Ṙ e_k|² with S_k = (I_i + I_j - I_k)/2.
+    /// Twice the kinetic energy at rates `u`, from the velocities of the mass: the rotational part by the
+    /// second moments of the mass distribution, Σ S_k |Ṙ e_k|² with S_k = (I_i + I_j - I_k)/2.
     fn twice_kinetic(&self, q: &[f64; 4], u: &[f64; 4]) -> f64 {
         let r = Turn::at(q[2], q[3]);
         let rate = combine(&r.by_pitch, u[2], &r.by_yaw, u[3]);
