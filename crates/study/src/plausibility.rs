@@ -22,6 +22,16 @@ pub fn among(warnings: &[String]) -> impl Iterator<Item = &str> {
     own.filter(|warning| warning.starts_with(BEGINNING))
 }
 
+/// Returns the warning about a fitted parameter that ends at a bound; `path` is its key, `value` the bound with
+/// its unit.
+#[must_use]
+pub fn at_bound(path: &str, value: &str) -> String {
+    format!(
+        "{BEGINNING}the fitted {path} ends at its bound, {value}, so that the best value lies beyond or the data do not determine it; \
+         widen its bounds, or do not fit it"
+    )
+}
+
 /// Returns the warnings about what is implausible in a run.
 #[must_use]
 pub fn warnings<C: RunCase>(run: &Run<C>) -> Vec<String> {

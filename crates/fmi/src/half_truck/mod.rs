@@ -187,8 +187,8 @@ fn check(settings: &Settings) -> Result<(), Error> {
 
 fn of_texts(texts: &Texts, settings: &Settings) -> Result<TruckCase, Error> {
     let files = RunFiles::of_texts(texts).map_err(|error| Error::new(error.to_string()))?;
-    let errors = files.findings().flat_map(|findings| findings.list());
-    let first = errors.filter(|one| one.severity() == Severity::Error).next();
+    let mut all = files.findings().flat_map(|findings| findings.list());
+    let first = all.find(|one| one.severity() == Severity::Error);
     if let Some(first) = first {
         let count = files.count(Severity::Error);
         return Err(Error::new(format!(

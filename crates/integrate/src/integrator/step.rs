@@ -352,7 +352,11 @@ impl<P: Problem> Integrator<P> {
     /// Plans the step after a discontinuity; the error of the step across it says nothing.
     fn plan_after_discontinuity(&mut self, planned: f64, radius_before: f64) {
         self.proposed_step = self.proposed_step.max(tuning::AFTER_DISCONTINUITY * planned);
-        if self.last_method.family == Family::Explicit && self.spectral_radius > radius_before {
+        if self.last_method.family == Family::Explicit
+            && self.spectral_radius > radius_before
+            // A bound that is not known (infinite) would say that no step is short enough.
+            && self.spectral_radius.is_finite()
+        {
             // A contact closed: the explicit steps that follow are as long as its vibration asks for.
             self.proposed_step = self
                 .proposed_step

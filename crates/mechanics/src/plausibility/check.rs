@@ -28,6 +28,8 @@ pub(super) struct FaceStart {
     pub place: Vector<f64>,
     /// Estimated frequency at which the body vibrates on all points of the face, Hz.
     pub frequency: f64,
+    /// Weight of the body, N: smaller normal forces do not matter.
+    pub weight: f64,
 }
 
 /// All that is looked at, in the order in which [`super::Plausibility::note`] finds the values.
@@ -134,6 +136,7 @@ impl Checks {
                 .apply_transposed::<f64, f64>(Vector([1.0, 0.0, 0.0])),
             middle,
             place: relative.at(middle).position,
+            weight: system.weight(mounted.body),
             frequency: (stiffness * inverse_mass).sqrt() / std::f64::consts::TAU,
         });
     }

@@ -251,7 +251,7 @@ impl Finding {
             }
             FindingKind::CoarseOutput { frequency, scatter } => {
                 return format!(
-                    "the normal force at {place} scatters by {} % of its mean from output time to output time: the contact vibrates at \
+                    "the normal force at {place} scatters by {} % of its mean (or of the body's weight) from output time to output time: the contact vibrates at \
                      about {} Hz, which the output interval of {value} does not resolve (at most {limit}, a {}th of the period)",
                     percent(scatter),
                     rounded(frequency),

@@ -41,7 +41,7 @@ pub const LARGEST_COMPRESSION_SHARE: f64 = 2.0 / 3.0;
 pub const LIFTED_SHARE: f64 = 0.02;
 
 /// Largest scatter of the normal force of a face between output times: the mean absolute second difference of successive values over
-/// their mean. Smooth motion at a hundred output times a period has 0.003; independent random values that deviate from their
+/// their mean, or over the weight of the body if that is larger. Smooth motion at a hundred output times a period has 0.003; independent random values that deviate from their
 /// mean by 10 % have 0.2.
 pub const LARGEST_SCATTER: f64 = 0.2;
 

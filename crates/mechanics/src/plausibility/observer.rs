@@ -1,5 +1,6 @@
 //! The observer that a run shows its output times to.
 
+use integrate::MAXIMUM_COUNT;
 use serde::{Deserialize, Serialize};
 
 use super::check::Checks;
@@ -12,6 +13,9 @@ use crate::energy_balance::EnergyBalance;
 use crate::link::RelativeMotion;
 use crate::system::System;
 use crate::vector::Vector;
+
+/// No value of a saved record is larger: sums of such values are finite.
+const LARGEST: f64 = 1e300;
 
 /// The worst value of one quantity at one place so far (SI).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -53,20 +57,19 @@ pub struct PlausibilityRecord {
 }
 
 impl PlausibilityRecord {
-    /// Returns what of it cannot be: a value that is negative or not finite.
+    /// Returns whether it can be the record of a run: no value is negative or out of all bounds.
     fn is_sound(&self) -> bool {
-        let size = |value: f64| value >= 0.0 && value.is_finite();
+        let size = |value: f64| (0.0..LARGEST).contains(&value);
         let worst = |worst: &Worst| {
-            size(worst.value)
-                && size(worst.time)
-                && worst.since.is_none_or(size)
-                && worst.point < u32::MAX as usize
+            let times = size(worst.time) && worst.since.is_none_or(size);
+            times && size(worst.value) && worst.point as u64 <= MAXIMUM_COUNT
         };
         let face = |face: &FaceRecord| {
             let values = [face.start_energy, face.largest_energy, face.changes, face.sum];
             values.into_iter().chain(face.forces).all(size)
         };
-        self.worst.iter().all(worst) && self.faces.iter().all(face)
+        let counted = (1..=MAXIMUM_COUNT).contains(&self.rows);
+        counted && self.worst.iter().all(worst) && self.faces.iter().all(face)
     }
 }
 
@@ -100,7 +103,7 @@ impl Plausibility {
         system.place_at(time, x);
         let checks = Checks::new(system);
         let fits = record.worst.len() == checks.all.len() && record.faces.len() == checks.faces.len();
-        (fits && record.rows > 0 && record.is_sound()).then_some(Self { checks, record })
+        (fits && record.is_sound()).then_some(Self { checks, record })
     }
 
     /// Returns what was seen so far.
@@ -208,11 +211,13 @@ impl Plausibility {
                 limit,
             };
             let (released, limit) = (face.start_energy - face.largest_energy, RELEASED_SHARE * scale);
-            if self.record.rows > 1 && released > limit {
+            // Without a scale nothing has happened but rounding.
+            if self.record.rows > 1 && scale > 0.0 && released > limit {
                 findings.push(finding(FindingKind::StoredAtStart, released, limit));
             }
-            let frequency = self.checks.faces[number].frequency;
-            let (scatter, limit) = (face.scatter(self.record.rows), 1.0 / (ROWS_A_PERIOD * frequency));
+            let start = &self.checks.faces[number];
+            let (frequency, scatter) = (start.frequency, face.scatter(self.record.rows, start.weight));
+            let limit = 1.0 / (ROWS_A_PERIOD * frequency);
             if scatter > LARGEST_SCATTER && interval > limit {
                 let kind = FindingKind::CoarseOutput { frequency, scatter };
                 findings.push(finding(kind, interval, limit));
@@ -240,12 +245,14 @@ impl FaceRecord {
         self.forces = [force, last];
     }
 
-    /// Returns the scatter of the normal force ([`LARGEST_SCATTER`]); zero where there is not enough to judge.
-    fn scatter(&self, rows: u64) -> f64 {
-        if rows < FEWEST_ROWS || self.sum <= 0.0 {
+    /// Returns the scatter of the normal force ([`LARGEST_SCATTER`]) of a body of this weight (N); zero where there is not enough to
+    /// judge.
+    fn scatter(&self, rows: u64, weight: f64) -> f64 {
+        let scale = self.sum.max(weight * rows as f64);
+        if rows < FEWEST_ROWS || scale <= 0.0 {
             return 0.0;
         }
-        self.changes / self.sum
+        self.changes / scale
     }
 }
 

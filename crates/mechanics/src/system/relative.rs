@@ -23,6 +23,11 @@ impl System {
         place.dot::<f64, f64>(place).sqrt()
     }
 
+    /// Returns the weight of a body, N.
+    pub(crate) fn weight(&self, body: usize) -> f64 {
+        self.bodies[body].mass * self.gravity.dot::<f64, f64>(self.gravity).sqrt()
+    }
+
     /// Returns how many force elements of other kinds there are.
     pub(crate) fn element_count(&self) -> usize {
         self.elements.len()

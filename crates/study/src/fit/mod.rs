@@ -16,6 +16,7 @@ use crate::any_case::AnyCase;
 use crate::case::CaseError;
 use crate::design::Value;
 use crate::energy;
+use crate::plausibility::{self, at_bound};
 use least_squares::{Evaluate, Settings, minimize};
 
 pub use student::two_sided;
@@ -190,7 +191,7 @@ pub struct Fit {
     pub settled: bool,
     /// The relative residual of the energy ledger of the run with the parameters found.
     pub largest_relative_residual: f64,
-    /// The warnings about that ledger.
+    /// The warnings about that ledger, about what is implausible in that run, and about parameters at a bound.
     pub warnings: Vec<String>,
     /// Why the fit has failed: that ledger does not close to 1e-2.
     pub failed: Option<String>,
@@ -282,12 +283,26 @@ pub fn fit(
     let result = case(&values)?
         .run()
         .map_err(|error| FitError::Model(error.to_string()))?;
+    let warnings = result.warnings();
+    let of_run = energy::among(warnings).chain(plausibility::among(warnings));
+    let at_bound = fit.parameters.iter().filter(|found| found.at_bound);
     Ok(Fit {
         largest_relative_residual: result.largest_relative_residual(),
-        warnings: energy::among(result.warnings()).map(str::to_owned).collect(),
+        warnings: of_run
+            .map(str::to_owned)
+            .chain(at_bound.map(bound_warning))
+            .collect(),
         failed: result.failed().map(str::to_owned),
         ..fit
     })
+}
+
+fn bound_warning(found: &Found) -> String {
+    let value = Value::Number {
+        value: found.value,
+        unit: found.free.unit.clone(),
+    };
+    at_bound(&found.free.path, &value.shown())
 }
 
 /// Where the case stands, as far as it lies well within the bounds; the middle otherwise.

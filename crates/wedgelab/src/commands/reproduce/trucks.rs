@@ -11,6 +11,7 @@ use report::page::Viewer;
 use report::truck_files;
 use report::view::run::{Detail, Recording};
 use study::energy;
+use study::plausibility;
 use study::truck::TruckCase;
 use study::truck::catalog::{self, Entry};
 
@@ -81,7 +82,8 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<ReproducedTruck>,
     }
     write_truck(&done, &case, &folder, catalog::OUTPUT_INTERVAL, progress)?;
     let result = done.result;
-    for warning in energy::among(&result.summary.warnings) {
+    let warnings = &result.summary.warnings;
+    for warning in energy::among(warnings).chain(plausibility::among(warnings)) {
         say(&format!("warning: {}: {warning}", case.name));
     }
     let recording = Viewer::embedded().map(|_| Recording::of_truck(&case, &result, Detail::Thinned));
