@@ -132,13 +132,17 @@ fn issue_029_members_of_a_run_that_led_astray_are_refused_by_name() {
         ),
         ("/pace/time", json!(1e300), "pace.time"),
         ("/pace/attempts", json!(MAXIMUM_COUNT + 1), "pace.attempts"),
-        ("/integrator/modes/7", json!(3), "integrator.modes"),
+        (
+            "/integrator/discrete_states/7",
+            json!(3),
+            "integrator.discrete_states",
+        ),
         ("/integrator/time", json!(-1e-9), "integrator.time"),
         ("/integrator/time", json!(1e308), "integrator.time"),
         (
-            "/integrator/segment_start",
+            "/integrator/interval_start",
             json!(-1.0),
-            "integrator.segment_start",
+            "integrator.interval_start",
         ),
         (
             "/integrator/statistics/steps",
@@ -239,7 +243,7 @@ fn issue_029_members_of_a_driven_wedge_that_led_astray_are_refused_by_name() {
         ),
         (
             |state| state.integrator.interval_start = 1.0,
-            "`segment_start` is 1",
+            "`interval_start` is 1",
         ),
         (|state| state.integrator.time = f64::INFINITY, "start time is inf"),
         (

@@ -11,7 +11,7 @@ use study::design::Study;
 use study::plausibility;
 use study::records::{self, Status};
 use study::result::RunResult;
-use study::run::{Run, RunError, RunState};
+use study::run::{Counts, Run, RunError, RunState};
 
 /// The run of a thesis's case, not yawed, with settings.
 fn case(damping: &str, settings: &[&str]) -> Case {
@@ -129,7 +129,7 @@ fn limits_a_run_that_was_saved_and_goes_on_says_the_same() {
         run.advance().unwrap();
     }
     let text = serde_json::to_string(&run.state()).unwrap();
-    let state: RunState = serde_json::from_str(&text).unwrap();
+    let state: RunState<Counts> = serde_json::from_str(&text).unwrap();
     let continued = Run::resume(&case, state.clone()).unwrap().finish(|_| ());
     assert!(
         straight.summary.warnings.len() >= 3,
@@ -169,7 +169,12 @@ fn limits_a_variant_that_is_nonsense_has_failed_and_says_why() {
         "{}",
         all[0].reason
     );
-    assert!(all[0].measures.get("ledger_residual").is_some());
+    assert!(
+        study
+            .measures()
+            .get(&all[0].measures, "ledger_residual")
+            .is_some()
+    );
     let bytes = records::run_all(&study, [0, 1]);
     assert_eq!(records::read(study.fingerprint(), &bytes).records, all);
 }

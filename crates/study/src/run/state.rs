@@ -52,7 +52,7 @@ impl<N> RunState<N> {
         }
         if self.integrator.interval_start < 0.0 {
             return damaged(
-                "integrator.segment_start",
+                "integrator.interval_start",
                 self.integrator.interval_start,
                 "zero or positive",
             );
@@ -60,7 +60,7 @@ impl<N> RunState<N> {
         let states = &self.integrator.discrete_states;
         if let Some(state) = states.iter().find(|state| **state > ContactState::Slip as u8) {
             return damaged(
-                "integrator.modes",
+                "integrator.discrete_states",
                 state,
                 "0 (open), 1 (stick) or 2 (slip) at every contact",
             );
