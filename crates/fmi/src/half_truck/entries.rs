@@ -84,17 +84,20 @@ fn options(case: &TruckCase) -> Vec<Entry> {
             "start",
             Some(start_option(case.start)),
             [0, 1],
-            "the half-truck at the start: 0 at rest in the drawn layout, 1 at rest in static equilibrium without friction",
+            "the half-truck at the start: 0 at rest in the drawn layout, 1 at rest in static \
+             equilibrium without friction",
         ),
         Entry::boolean(
             "derive_rates",
             false,
-            "co-simulation: rates of the input bodies are found from their positions, the inputs *_rate are not read",
+            "co-simulation: rates of the input bodies are found from their positions, the inputs *_rate are \
+             not read",
         ),
         Entry::boolean(
             "inputs_at_end",
             false,
-            "co-simulation: inputs are those of the end of a communication step (else of its beginning, and continued)",
+            "co-simulation: inputs are those of the end of a communication step (else of its beginning, and \
+             continued)",
         ),
     ]
 }

@@ -1,7 +1,8 @@
-//! A half-truck from files of NUCARS, as data of [`crate::system`]: the run of a run file, or one of the built-in runs.
+//! A half-truck from files of NUCARS, as data of [`crate::system`]: the run of a run file, or one of the
+//! built-in runs.
 //!
-//! Its input bodies move as the inputs say, or as the files say. The FMU holds the texts of the files and the settings of the run
-//! ([`RESOURCE`]); names of files are kept without their folders.
+//! Its input bodies move as the inputs say, or as the files say. The FMU holds the texts of the files and the
+//! settings of the run ([`RESOURCE`]); names of files are kept without their folders.
 
 mod entries;
 
@@ -188,11 +189,11 @@ fn check(settings: &Settings) -> Result<(), Error> {
 fn of_texts(texts: &Texts, settings: &Settings) -> Result<TruckCase, Error> {
     let files = RunFiles::of_texts(texts).map_err(|error| Error::new(error.to_string()))?;
     let mut all = files.findings().flat_map(|findings| findings.list());
-    let first = all.find(|one| one.severity() == Severity::Error);
-    if let Some(first) = first {
+    if let Some(first) = all.find(|one| one.severity() == Severity::Error) {
         let count = files.count(Severity::Error);
         return Err(Error::new(format!(
-            "its files have {count} error(s), the first of which is: {first}; `wedgelab nucars check` tells all with their places"
+            "its files have {count} error(s), the first of which is: {first}; `wedgelab nucars check` \
+             tells all with their places"
         )));
     }
     let name = texts.run.as_ref().map_or("", |run| &*run.name);

@@ -54,7 +54,9 @@ pub(crate) fn motions(system: &System, name: impl Fn(usize) -> String) -> Vec<En
             let text = if rate {
                 "rate of the position of the same name".to_owned()
             } else {
-                "displacement of the center of gravity, or angle, from the drawn position, in the truck's axes".to_owned()
+                "displacement of the center of gravity, or angle, from the drawn position, in the truck's \
+                 axes"
+                    .to_owned()
             };
             states.push(with_nominal(Entry::real(name, unit(kind), None, text), nominal));
         }

@@ -61,7 +61,8 @@ impl Loads {
     }
 }
 
-/// Replaces the motions of all bodies that inputs move; `motion` gives that of a coordinate by the numbers of its two inputs.
+/// Replaces the motions of all bodies that inputs move; `motion` gives that of a coordinate by the numbers of
+/// its two inputs.
 fn drive(system: &mut System, ports: &Ports, motion: impl Fn(usize, usize) -> Motion) -> Result<(), Error> {
     let mut rest = &ports.motions[..];
     while let Some(first) = rest.first() {
@@ -86,8 +87,8 @@ pub(super) fn place(system: &mut System, ports: &Ports, inputs: &[f64], time: f6
     })
 }
 
-/// Lets all bodies that inputs move go from one place to another within a step that begins at `start` (s): cubics through values
-/// and rates at both ends.
+/// Lets all bodies that inputs move go from one place to another within a step that begins at `start` (s):
+/// cubics through values and rates at both ends.
 pub(super) fn lead(
     system: &mut System,
     ports: &Ports,

@@ -1,9 +1,10 @@
 //! Any system of bodies and elements behind the variables, through named ports.
 //!
-//! A [`Plant`] is the data: a system, its quantities, and what its inputs do and its outputs read. Loads are constant within a
-//! communication step; prescribed bodies follow cubics through values and rates at both ends of it, and the integrator is not
-//! restarted (`docs/decisions/0014-driven-motions.md`). With constant loads Q the work that comes in is `Q · Δq`, exactly: it is the last
-//! state. The work of the prescribed motions is in the system's own ledger.
+//! A [`Plant`] is the data: a system, its quantities, and what its inputs do and its outputs read. Loads are
+//! constant within a communication step; prescribed bodies follow cubics through values and rates at both
+//! ends of it, and the integrator is not restarted (`docs/decisions/0014-driven-motions.md`). With constant
+//! loads Q the work that comes in is `Q · Δq`, exactly: it is the last state. The work of the prescribed
+//! motions is in the system's own ledger.
 
 mod contacts;
 mod entries;
@@ -27,8 +28,9 @@ pub use state::SystemState;
 /// Tolerances that an importer may ask for.
 const TOLERANCES: [f64; 2] = [1e-12, 1e-3];
 
-/// A communication point this near to a discontinuity of a prescribed motion, as a share of the time or of the step, is taken for it:
-/// sums of steps and times in files differ by rounding, and a step of that size is lost.
+/// A communication point this near to a discontinuity of a prescribed motion, as a share of the time or of
+/// the step, is taken for it: sums of steps and times in files differ by rounding, and a step of that size is
+/// lost.
 const SAME_TIME: f64 = 1e-12;
 
 /// How a system starts.
@@ -62,7 +64,8 @@ pub struct SystemElement {
 }
 
 impl SystemElement {
-    /// Returns the system of a plant under these settings, at its start; `driven` says whether inputs move prescribed bodies.
+    /// Returns the system of a plant under these settings, at its start; `driven` says whether inputs move
+    /// prescribed bodies.
     ///
     /// # Errors
     /// Values that are not finite, no equilibrium, or the integrator refuses the start.
@@ -167,7 +170,8 @@ impl SystemElement {
             }
             pace.check(integrator, length).map_err(|stalled| {
                 Error::new(format!(
-                    "the step of {length} s to {time} s cannot be finished: {}; make it shorter, or look for inputs that are far out",
+                    "the step of {length} s to {time} s cannot be finished: {}; make it shorter, or \
+                     look for inputs that are far out",
                     stalled.describe(name)
                 ))
             })?;
@@ -196,8 +200,8 @@ impl SystemElement {
     }
 }
 
-/// Returns the discontinuity of the prescribed motions that a communication point at the end of a step of this length (s) is taken
-/// for, if there is one.
+/// Returns the discontinuity of the prescribed motions that a communication point at the end of a step of
+/// this length (s) is taken for, if there is one.
 fn discontinuity_at(system: &System, driven: bool, point: f64, length: f64) -> Option<f64> {
     if driven {
         return None;

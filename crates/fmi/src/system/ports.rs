@@ -7,8 +7,9 @@ use crate::element::Entries;
 /// Values of x, y, z (m), roll, pitch, yaw (rad); their rates; or forces (N) and moments (N·m).
 pub type Six = [f64; 6];
 
-/// A displacement of a point of a body with linearized kinematics: a linear function of the body's six coordinates. The same row
-/// gives its rate from the rates of the coordinates, and the generalized forces of a force along it.
+/// A displacement of a point of a body with linearized kinematics: a linear function of the body's six
+/// coordinates. The same row gives its rate from the rates of the coordinates, and the generalized forces of
+/// a force along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Direction {
     /// The number of the body.
@@ -18,7 +19,8 @@ pub struct Direction {
 }
 
 impl Direction {
-    /// Returns the coordinate (0 to 5) of a body itself: a displacement of its center of gravity, or an angle.
+    /// Returns the coordinate (0 to 5) of a body itself: a displacement of its center of gravity, or an
+    /// angle.
     #[must_use]
     pub fn coordinate(body: usize, coordinate: usize) -> Self {
         Self {
@@ -27,8 +29,9 @@ impl Direction {
         }
     }
 
-    /// Returns the six displacements of a point of a body that lies at `lever` (m) from its center of gravity: x, y, z of the
-    /// point, and the angles of the body. In axes that are `turned` by 180° about z, x, y, roll and pitch change their signs.
+    /// Returns the six displacements of a point of a body that lies at `lever` (m) from its center of
+    /// gravity: x, y, z of the point, and the angles of the body. In axes that are `turned` by 180° about z,
+    /// x, y, roll and pitch change their signs.
     #[must_use]
     pub fn of_point(body: usize, lever: [f64; 3], turned: bool) -> [Self; 6] {
         let [x, y, z] = lever;
@@ -106,7 +109,8 @@ pub enum Reading {
 /// Appends the values of a table's columns (SI) at an instant.
 pub type Table = Box<dyn FnMut(&Observation, &mut Vec<f64>) + Send>;
 
-/// The ports of a system, by the numbers of its inputs, outputs, parameters and columns among its [`Entries`].
+/// The ports of a system, by the numbers of its inputs, outputs, parameters and columns among its
+/// [`Entries`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ports {
     /// Inputs that are loads.
@@ -125,8 +129,8 @@ pub struct Ports {
 pub struct Plant {
     /// The system.
     pub system: System,
-    /// Its quantities. Its columns end with stored change, residual and relative residual of the energy ledger; modes and
-    /// indicators are those of all contact states, or none.
+    /// Its quantities. Its columns end with stored change, residual and relative residual of the energy
+    /// ledger; modes and indicators are those of all contact states, or none.
     pub entries: Entries,
     /// Its ports.
     pub ports: Ports,

@@ -102,7 +102,8 @@ impl SystemElement {
             _ => {
                 self.loads.set(&self.plant.ports, &self.inputs);
                 return Err(Error::new(
-                    "the saved state belongs to the other kind of interface (model exchange or co-simulation)",
+                    "the saved state belongs to the other kind of interface (model exchange or \
+                     co-simulation)",
                 ));
             }
         }

@@ -33,7 +33,8 @@ fn inputs() -> Vec<Entry> {
     for wedge in WEDGES {
         for on in NEIGHBOURS {
             let text = format!(
-                "the {} from the wedge at the {}, in that wedge's axes, about the point whose displacements are given",
+                "the {} from the wedge at the {}, in that wedge's axes, about the point whose \
+                 displacements are given",
                 on.replace('_', " "),
                 wedge.replace('_', " ")
             );
@@ -113,7 +114,8 @@ pub(super) fn entries(system: &System) -> Entries {
         kinematic: (0..layout.speeds).map(|q| (q, q + layout.speeds)).collect(),
         states: states(system),
         columns: ledger(
-            "energy that came from nowhere: what is stored and lost since the start less the work of the loads",
+            "energy that came from nowhere: what is stored and lost since the start less the work of the \
+             loads",
         ),
         ..Entries::default()
     }

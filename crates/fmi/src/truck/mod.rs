@@ -1,14 +1,15 @@
 //! The half-truck without its wedges, as data of [`crate::system`]: with four FMUs of wedges it is the truck.
 //!
-//! Bodies, springs, bearing adapters and stops are those of the built-in system file of the constantly damped half-truck
-//! ([`FILE`]), with small displacements ([`mechanics::connection`]); its friction wedges and the springs that drive its bolster are
-//! left out. The forces of wedges are inputs; the motions of the points where the wedges are, are outputs. These depend on states
-//! alone, so that truck and wedges make no algebraic loop.
+//! Bodies, springs, bearing adapters and stops are those of the built-in system file of the constantly damped
+//! half-truck ([`FILE`]), with small displacements ([`mechanics::connection`]); its friction wedges and the
+//! springs that drive its bolster are left out. The forces of wedges are inputs; the motions of the points
+//! where the wedges are, are outputs. These depend on states alone, so that truck and wedges make no
+//! algebraic loop.
 //!
-//! Where wedges are: a wedge has x from the column towards the bolster. Trailing wedges (columns behind the bolster) have the
-//! axes of the truck; leading ones are turned by 180° about z: x, y, roll and pitch change their signs, z and yaw do not. The points
-//! that the neighbours of a wedge turn about lie half the length of the wedge apart, as in the wedge itself, around the point of
-//! the connection in the file.
+//! Where wedges are: a wedge has x from the column towards the bolster. Trailing wedges (columns behind the
+//! bolster) have the axes of the truck; leading ones are turned by 180° about z: x, y, roll and pitch change
+//! their signs, z and yaw do not. The points that the neighbours of a wedge turn about lie half the length of
+//! the wedge apart, as in the wedge itself, around the point of the connection in the file.
 
 mod entries;
 
@@ -101,8 +102,8 @@ fn system(wedge: &Parameters) -> Result<(System, Points), Error> {
     Ok((system, points))
 }
 
-/// For each wedge and neighbour, force and moment are inputs, displacements and their rates outputs; the last six inputs are the
-/// load on the body.
+/// For each wedge and neighbour, force and moment are inputs, displacements and their rates outputs; the last
+/// six inputs are the load on the body.
 fn ports(points: &Points) -> Ports {
     let wedges = || points.iter().flatten();
     let body: [Direction; 6] = std::array::from_fn(|k| Direction::coordinate(BODY, k));
@@ -196,7 +197,8 @@ mod tests {
             .equilibrium(0.0, &start, mechanics::system::StaticFriction::Without)
             .unwrap();
         let height = rest[system.position_of(BODY, 2).unwrap()];
-        // 319.175 lb s²/in · 386.09 in/s² on springs of about 51,000 lb/in, preloaded by eight times 15,403.78 lb.
+        // 319.175 lb s²/in · 386.09 in/s² on springs of about 51,000 lb/in, preloaded by eight times
+        // 15,403.78 lb.
         assert!(height.abs() < 0.5e-3, "{height} m");
     }
 

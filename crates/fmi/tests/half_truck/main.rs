@@ -1,4 +1,5 @@
-//! The half-truck behind the variables: the columns of its run, inputs that move it, loads, saved states, the energy ledger.
+//! The half-truck behind the variables: the columns of its run, inputs that move it, loads, saved states, the
+//! energy ledger.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 mod input;

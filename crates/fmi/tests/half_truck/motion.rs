@@ -14,8 +14,8 @@ use super::{NAME, Part, half_truck, settings};
 const DURATION: f64 = 1.0;
 const INTERVAL: f64 = 0.01;
 const TOLERANCE: f64 = 1e-7;
-/// The largest difference from a run, over the largest value of the same kind: two integrations whose steps end elsewhere differ by
-/// their errors, which friction and stiff springs make this many times larger.
+/// The largest difference from a run, over the largest value of the same kind: two integrations whose steps
+/// end elsewhere differ by their errors, which friction and stiff springs make this many times larger.
 const BOUND: f64 = 500.0 * TOLERANCE;
 
 fn with_tolerance(name: &str) -> HalfTruck {
@@ -30,9 +30,9 @@ fn the_run(name: &str) -> TruckResult {
     run(with_tolerance(name).case(), |_| {}).unwrap()
 }
 
-/// Returns for each output and each displacement the largest difference from the column of the run, over the largest value of all
-/// columns of the same kind (of angles at least 1 mrad: in a straight run they are zero). `before_step` receives the time at the end
-/// of a step.
+/// Returns for each output and each displacement the largest difference from the column of the run, over the
+/// largest value of all columns of the same kind (of angles at least 1 mrad: in a straight run they are
+/// zero). `before_step` receives the time at the end of a step.
 fn differences(
     part: &mut Part,
     result: &TruckResult,
@@ -106,7 +106,8 @@ fn the_motions_of_the_files_give_the_columns_of_the_run() {
     assert!(relative < 1e-5, "{relative}");
 }
 
-/// The yaw rises from 0 to 0.1 s; its side frames rattle sideways, so that only what holds the truck up is the same.
+/// The yaw rises from 0 to 0.1 s; its side frames rattle sideways, so that only what holds the truck up is
+/// the same.
 #[test]
 fn motions_with_discontinuities_give_the_forces_of_the_run() {
     let name = "nucars_68_variable_toe_in_yaw";

@@ -31,8 +31,8 @@ pub enum InputError {
     },
     /// The body was built with motions that do not move, or has free coordinates.
     #[error(
-        "{body} cannot be driven: it must be prescribed, and its motions must be able to move from the start on (all of them, where \
-         its kinematics are not linearized)"
+        "{body} cannot be driven: it must be prescribed, and its motions must be able to move from the start on (all of \
+         them, where its kinematics are not linearized)"
     )]
     NotPrescribed {
         /// Its name.
@@ -41,9 +41,10 @@ pub enum InputError {
 }
 
 impl System {
-    /// Replaces the motions of a prescribed body that was built with motions which can move, such as [`Motion::line`]: at least one
-    /// of a body with linearized kinematics; of another body one that moves and one that turns it. States stay what they are; no
-    /// memory is allocated for polynomials. The work of the motions stays in the energy ledger.
+    /// Replaces the motions of a prescribed body that was built with motions which can move, such as
+    /// [`Motion::line`]: at least one of a body with linearized kinematics; of another body one that moves
+    /// and one that turns it. States stay what they are; no memory is allocated for polynomials. The work of
+    /// the motions stays in the energy ledger.
     ///
     /// # Errors
     /// There is no such body, or it was not built with prescribed motions.

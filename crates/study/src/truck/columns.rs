@@ -10,8 +10,8 @@ use super::table::Table;
 pub struct Columns(Table);
 
 impl Columns {
-    /// Returns the columns that a run of the case writes; `system` is that of its model. The residual of the energy ledger is not
-    /// meaningful among them: it counts from a start with no stored energy.
+    /// Returns the columns that a run of the case writes; `system` is that of its model. The residual of the
+    /// energy ledger is not meaningful among them: it counts from a start with no stored energy.
     #[must_use]
     pub fn new(case: &TruckCase, system: &System) -> Self {
         Self(Table::new(&case.truck, system, &case.requests))

@@ -56,6 +56,29 @@ def test_cross_code_the_motions_of_the_files_give_the_forces_of_the_run(half_tru
     assert result["ledger_relative_residual"].max() < 1e-3
 
 
+def test_cross_code_model_exchange_and_co_simulation_agree(half_truck):
+    """Integrated by CVode, and by itself."""
+    name = "wedge_127_column_friction"
+    results = [
+        simulate_fmu(
+            half_truck,
+            fmi_type=kind,
+            stop_time=0.3,
+            output_interval=1e-3,
+            relative_tolerance=1e-8,
+            start_values={"motion": 1},
+            output=[name, "body_1_z", "ledger_relative_residual"],
+            record_events=False,
+        )
+        for kind in ["ModelExchange", "CoSimulation"]
+    ]
+    exchange, simulation = results
+    for column, bound in [(name, 1e-3), ("body_1_z", 1e-5)]:
+        there = simulation[column]
+        assert np.abs(exchange[column] - there).max() < bound * np.abs(there).max(), column
+    assert max(result["ledger_relative_residual"].max() for result in results) < 1e-4
+
+
 def test_analytic_loads_do_work_and_saved_states_go_on(tmp_path):
     path = tmp_path / "half.fmu"
     wedgelab("fmu", "export", RUN, "-o", path)

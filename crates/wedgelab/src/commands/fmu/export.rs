@@ -16,8 +16,9 @@ use crate::failure::{Failure, Message};
 
 /// Write the wedge of a case, or the half-truck of a run, as an FMU
 ///
-/// The file holds the model for model exchange and for co-simulation, the case or the files of the run, a page that documents all
-/// variables, and the library for the platform that this program runs on. It needs nothing else.
+/// The file holds the model for model exchange and for co-simulation, the case or the files of the run, a
+/// page that documents all variables, and the library for the platform that this program runs on. It needs
+/// nothing else.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -27,7 +28,8 @@ Examples:
   wedgelab fmu export half_truck.run -o half.fmu
   wedgelab fmu export nucars_69_constant_toe_out -o half.fmu")]
 pub struct Arguments {
-    /// Case file, or run file of a half-truck (.RUN), or, if there is no such file, the name of a built-in case or run
+    /// Case file, or run file of a half-truck (.RUN), or, if there is no such file, the name of a built-in
+    /// case or run
     case: PathBuf,
     /// File to write
     #[arg(long, short, value_name = "FILE")]
@@ -38,7 +40,8 @@ pub struct Arguments {
     /// The quasi-static wedge: without mass, contact stiffness and moments
     #[arg(long)]
     quasi_static: bool,
-    /// The truck without its wedges: half a car on a bolster, side frames, springs; with room for four wedges of the case
+    /// The truck without its wedges: half a car on a bolster, side frames, springs; with room for four wedges
+    /// of the case
     #[arg(long, conflicts_with = "quasi_static")]
     truck: bool,
     /// Set one value over those of the case; VALUE is TOML (quotes around text may be left out)
@@ -72,7 +75,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     write(&arguments.out, arguments.force, &bytes)?;
     writeln!(
         io::stdout().lock(),
-        "Written {}: {} of the {} {}, FMI {}, model exchange and co-simulation, {} variables, {} states, for {}.",
+        "Written {}: {} of the {} {}, FMI {}, model exchange and co-simulation, {} variables, \
+         {} states, for {}.",
         arguments.out.display(),
         description.model.name(),
         match description.model {
@@ -126,7 +130,8 @@ impl Arguments {
 const BUILD: &str = "`cargo build --release -p wedgelab-fmu` makes it, in the folder target/release; `--library FILE` names it where it lies \
      elsewhere";
 
-/// The platform of this program, and the library for it: the one that is named, or the one beside the program.
+/// The platform of this program, and the library for it: the one that is named, or the one beside the
+/// program.
 pub(super) fn parts(library: Option<&Path>) -> Result<(Platform, PathBuf), Failure> {
     let Some(platform) = Platform::here() else {
         let message = format!(

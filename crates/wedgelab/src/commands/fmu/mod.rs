@@ -16,8 +16,9 @@ use crate::interrupt;
 
 /// Write wedges and half-trucks as functional mock-up units (FMI 2.0 and 3.0)
 ///
-/// A functional mock-up unit is a file that a vehicle dynamics program loads as an element of its own: bolster and side frame move
-/// there, forces and moments come from the wedge; or loads on a half-truck come from there, its motions go back.
+/// A functional mock-up unit is a file that a vehicle dynamics program loads as an element of its own:
+/// bolster and side frame move there, forces and moments come from the wedge; or loads on a half-truck come
+/// from there, its motions go back.
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(subcommand)]
