@@ -179,7 +179,7 @@ impl Carried {
         let (guide, place) = self.guide(time);
         let turning: Vector<S> = Vector::lift(Vector([0.0, 0.0, HEADING_RATE]));
         let position = Vector([x[0], x[1], x[2]]);
-        // The circle's centre is the origin: the guide turns about it.
+        // The circle's center is the origin: the guide turns about it.
         let carried = turning.cross::<S, S>(position);
         let velocity = Vector([x[6], x[7], x[8]]) - carried;
         let offset: Vector<S> = guide.apply_transposed(position - place);

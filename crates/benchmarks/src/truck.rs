@@ -1,7 +1,7 @@
 //! The three-piece truck on one core: six free bodies, built from the library alone, to see what a truck asks
 //! of the assembly and of the integrator.
 //!
-//! Axes: x forward, y left, z up from the top of rail, origin at the truck's centre. Two side frames and four
+//! Axes: x forward, y left, z up from the top of rail, origin at the truck's center. Two side frames and four
 //! wedges have six free coordinates each; the bolster's motion is prescribed, the wheelsets stand still. A
 //! side frame stands on each axle by two points with bristle friction (the adapter). Wedges meet a column and
 //! the bolster's slope by four corners a face, with bristle friction.
@@ -36,10 +36,10 @@ const POUND_PER_INCH: f64 = POUND_FORCE / INCH;
 const POUND_INCH: f64 = POUND_FORCE * INCH;
 const GRAVITY: f64 = 9.806_65;
 
-/// Height (in) of a bolster's centre of gravity, and of those of side frames and wedges.
+/// Height (in) of a bolster's center of gravity, and of those of side frames and wedges.
 const BOLSTER_HEIGHT: f64 = 22.0;
 const HEIGHT: f64 = 18.0;
-/// From the truck's centre to side frames (y), wedges (x) and axles (x), in.
+/// From the truck's center to side frames (y), wedges (x) and axles (x), in.
 const SIDE: f64 = 39.5;
 const WEDGE_PLACE: f64 = 8.5;
 const AXLE: f64 = 35.0;
@@ -64,7 +64,7 @@ pub enum BolsterMotion {
     Vertical,
     /// Sideways by 0.4 in, 0.5 Hz.
     Lateral,
-    /// About its centre of gravity by 0.01 rad, 0.5 Hz.
+    /// About its center of gravity by 0.01 rad, 0.5 Hz.
     Roll,
 }
 

@@ -29,7 +29,7 @@ pub enum Arrangement {
     /// Each between a column and a bolster of its own, whose motions are prescribed.
     Uncoupled,
     /// Column, wedge, bolster, wedge, column, wedge ...: all but the first column are free bodies on stiff
-    /// supports, so that every body is coupled to its two neighbours.
+    /// supports, so that every body is coupled to its two neighbors.
     Chained,
     /// The free bodies of the chain on their supports, without wedges: what of the chain's cost is not that
     /// of wedges between free bodies.
@@ -54,7 +54,7 @@ impl WedgePose {
         [p[0] + self.shift, p[1], p[2]]
     }
 
-    /// A mount on a body of one wedge, as a mount on a body with this origin.
+    /// Returns a marker on a body of one wedge as a marker on a body with this origin.
     fn marker(&self, marker: &Marker, from: [f64; 3], on: [f64; 3]) -> Marker {
         let pose = self.point(std::array::from_fn(|k| from[k] + marker.origin.0[k]));
         let rotation: Matrix<f64> = if self.turned {
@@ -113,7 +113,7 @@ fn chained(one: &Wedge, count: usize, with_wedges: bool) -> Model {
     let system = &one.system;
     let bodies = system.bodies();
     let (column, pocket) = (bodies[SIDE_FRAME].frame.origin, bodies[BOLSTER].frame.origin);
-    // The first bolster's centre, and the way from one column to the next but one wedge.
+    // The first bolster's center, and the way from one column to the next but one wedge.
     let center = pocket[0] + HALF_THICKNESS;
     let period = 2.0 * (center - column[0]) + 2.0 * HALF_THICKNESS;
     let mut model = empty(one);

@@ -33,7 +33,7 @@ fn analytic_each_uncoupled_wedge_does_what_one_does() {
     }
 }
 
-/// A push on one body of the chain is felt by it and its neighbours, and by nobody else: no two bodies
+/// A force on one body of the chain changes the accelerations of it and its neighbors alone: no two bodies
 /// further apart are coupled.
 #[test]
 fn limits_bodies_of_the_chain_feel_their_neighbours_alone() {
@@ -63,7 +63,7 @@ fn limits_bodies_of_the_chain_feel_their_neighbours_alone() {
         };
         (0..count / 4).filter(feels).collect()
     };
-    // Neighbour ahead of wedge k: free body 2k; wedge k: 2k + 1; the neighbour behind it: 2k - 2.
+    // Neighbor ahead of wedge k: free body 2k; wedge k: 2k + 1; the neighbor behind it: 2k - 2.
     assert_eq!(count / 4, 10);
     assert_eq!(felt(&mut chain, 5), [2, 4, 5]);
     assert_eq!(felt(&mut chain, 4), [4, 5, 7]);

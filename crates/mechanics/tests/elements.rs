@@ -105,7 +105,7 @@ fn moving(random: &mut Random) -> Frame {
     frame
 }
 
-/// Two free bodies and a driven one, bushings between all of them, a coil; frames at rest or moving.
+/// Two free bodies and a prescribed one, bushings between all of them, a coil; frames at rest or moving.
 fn chain(random: &mut Random, frames: [Frame; 2]) -> System {
     let [first, second] = frames;
     let bodies = vec![

@@ -400,7 +400,7 @@ fn in_a_frame_that_moves_without_turning() {
 }
 
 /// Two bodies (one of them in a frame that moves and turns) between which a damped coil and a frictionless
-/// face act, and which stand on a driven third one: elements as a potential and a dissipation function.
+/// face act, and which stand on a prescribed third one: elements as a potential and a dissipation function.
 #[test]
 fn elements_between_bodies() {
     let mut random = Random(5);

@@ -438,7 +438,7 @@ fn on_a_base_at_rest() {
     assert!(counts.open > 5 && counts.closed > 5);
 }
 
-/// Two free bodies, faces and coils in both directions, all on a driven base.
+/// Two free bodies, faces and coils in both directions, all on a prescribed base.
 fn two_free(free: [[bool; 6]; 2], frames: [Frame; 2]) -> Model {
     let [frame_a, frame_b] = frames;
     let mut a = body("a", 2.0, [0.3, 0.5, 0.7], [-0.1, 0.05, 0.1], free[0], [0.0; 6]);

@@ -104,7 +104,8 @@ fn state(system: &System, random: &mut Random) -> Vec<f64> {
     x
 }
 
-/// Margins of all switches, and the modes that follow, by the signs of all at once.
+/// Event functions of all contact points, and the next contact states, from the event variables of all at
+/// once.
 fn margins(system: &mut System, time: f64, x: &[f64], contact_states: &[u8]) -> (Vec<f64>, Vec<u8>) {
     let mut variables = vec![f64::NAN; system.structure().event_variables()];
     system.event_variables(None, time, x, &mut variables);
@@ -270,7 +271,7 @@ fn limits_a_mode_is_left_where_its_margin_is_used_up() {
         let count = system.structure().discrete_states();
         for _ in 0..200 {
             let (x, time) = (state(&system, &mut random), random.between(0.0, 1.0));
-            // All of one mode, and mixed.
+            // All in one contact state, and mixed.
             let one = random.between(0.0, 3.0) as u8;
             let mixed = random.between(0.0, 1.0) < 0.5;
             let contact_states: Vec<u8> = (0..count)

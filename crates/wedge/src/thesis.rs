@@ -13,8 +13,8 @@ const INCH: f64 = 0.0254;
 const POUND: f64 = 0.453_592_37;
 const POUND_FORCE: f64 = POUND * STANDARD_GRAVITY;
 
-/// Returns the thesis's wedge with this damping, toe angle (rad, positive out) and bolster yaw (rad), driven
-/// by `1 in · sin(2 rad/s · t)`.
+/// Returns the thesis's wedge with this damping, toe angle (rad, positive out) and bolster yaw (rad), the
+/// bolster moving by `1 in · sin(2 rad/s · t)`.
 #[must_use]
 pub fn parameters(damping: Damping, toe: f64, yaw: f64) -> Parameters {
     let (angle, stiffness, free_length, nominal_length): (f64, f64, f64, f64) = match damping {

@@ -30,7 +30,8 @@ fn equal(a: f64, b: f64) -> bool {
     a == b || a.is_nan() && b.is_nan()
 }
 
-/// Margins of all switches, and the modes that follow, by the signs of all at once.
+/// Event functions of all contact points, and the next contact states, from the event variables of all at
+/// once.
 fn margins(system: &mut System, time: f64, x: &[f64], contact_states: &[u8]) -> (Vec<f64>, Vec<u8>) {
     let mut variables = vec![f64::NAN; system.structure().event_variables()];
     system.event_variables(None, time, x, &mut variables);

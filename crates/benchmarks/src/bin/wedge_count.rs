@@ -1,10 +1,10 @@
 //! `wedge_count [MOST]`: how the cost of a step grows with the number of wedges in one system, uncoupled and
 //! in a chain, and of the free bodies that the chain has beside its wedges: the chain less these is what a
 //! wedge between two free bodies costs. `wedge_count uncoupled|chained|supports COUNT STEPS [recorded]`:
-//! these steps of one system alone, contact modes recorded or not, to count instructions.
+//! these steps of one system alone, contact states recorded or not, to count instructions.
 //!
 //! CPU times. A step is one of Rodas5P of a fixed length (10 µs) of the first 4 ms, the least of several
-//! runs: with and without the recording of contact modes. Pieces: right-hand side, Jacobian matrix,
+//! runs: with and without the recording of contact states. Pieces: right-hand side, Jacobian matrix,
 //! factorization, solution, in the state that the last step ended in.
 
 use std::process::ExitCode;

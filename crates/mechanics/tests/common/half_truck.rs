@@ -76,7 +76,7 @@ pub const LEFT: usize = 1;
 pub const RIGHT: usize = 2;
 pub const GROUND: usize = 3;
 
-/// The half-truck; its bolster is driven up and down by an inch at 2 rad/s.
+/// The half-truck; its bolster is moved up and down by an inch at 2 rad/s.
 pub fn model(constant: bool, spatial: bool) -> Model {
     let at = |x: f64, y: f64, z: f64| [x * INCH, y * INCH, z * INCH];
     let mass = LBF / INCH;

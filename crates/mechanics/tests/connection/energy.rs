@@ -22,7 +22,7 @@ fn residual(system: &System, tolerance: f64, end: f64) -> (f64, mechanics::syste
     (observation.residual(start) / size, observation)
 }
 
-/// A body on springs and two wedges with a toe, driven through a spring; bearings with friction below.
+/// A body on springs and two wedges with a toe, excited through a spring; bearings with friction below.
 fn body_on_wedges(constant: bool, toe: f64, options: Options) -> Model {
     let motion = Motion::Sine {
         amplitude: INCH,

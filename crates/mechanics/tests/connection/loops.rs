@@ -84,7 +84,8 @@ fn an_elastic_accumulator_narrows_the_loop() {
 
 /// Loops at 0.2 degrees toe out: both branches' normal forces fall by sin θ / sin(θ+φ), to 1646 and 6625
 /// lbf·in if the coil follows the bolster's travel alone. The wedge's rise takes the fraction tan φ / tan θ
-/// away from the coil on the side frame; with the coil in the bolster it cancels over a whole stroke.
+/// away from the coil on the side frame; with the coil in the bolster it cancels over a whole cycle of the
+/// extension.
 #[test]
 fn loops_with_a_toe_angle() {
     let angles = |angle: f64| (f64::to_radians(angle), f64::to_radians(0.2));

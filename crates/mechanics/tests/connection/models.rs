@@ -59,7 +59,7 @@ pub fn at_deflection(
     system.observe(0.0, &x)
 }
 
-/// A wedge's inside at a stroke and velocity.
+/// Internal forces of a wedge at an extension and its rate.
 pub fn wedge_at(wedge: &Wedge, options: &Options, z: f64, velocity: f64) -> WedgeState {
     let mut system = against_ground(Law::Wedge(wedge.clone()), options.clone());
     at(&mut system, [0.0, 0.0, z], [0.0, 0.0, velocity]).connections[0]
