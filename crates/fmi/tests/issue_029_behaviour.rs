@@ -150,7 +150,7 @@ fn issue_029_members_of_an_instance_that_led_astray_are_refused_by_name() {
         ("/tolerance".to_owned(), json!(0.0), "tolerance is 0"),
         ("/stop".to_owned(), json!(0.25), "stop time is 0.25"),
         (
-            format!("{integrator}/modes/0"),
+            format!("{integrator}/discrete_states/0"),
             json!(9),
             "contact state of corner 0",
         ),

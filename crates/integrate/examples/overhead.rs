@@ -5,22 +5,26 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use integrate::{BlockLu, Integrator, Method, Options, Problem, Singular};
+use integrate::{BlockLu, EventGroup, Integrator, Method, Options, Problem, ProblemStructure, Singular};
 
 /// 14 linear states: 10 that decay by themselves, 4 that are coupled.
 struct Trivial {
-    scales: Vec<f64>,
     lu: BlockLu,
     shift: f64,
     discrete_states: usize,
 }
 
 impl Problem for Trivial {
-    fn dimension(&self) -> usize {
-        14
-    }
-    fn scales(&self) -> &[f64] {
-        &self.scales
+    fn structure(&self) -> ProblemStructure {
+        let group = EventGroup {
+            discrete_states: 0..self.discrete_states,
+            variables: 0..self.discrete_states,
+            states: std::iter::once(0..14).collect(),
+        };
+        ProblemStructure {
+            event_groups: vec![group],
+            ..ProblemStructure::new(vec![1.0; 14])
+        }
     }
     #[inline]
     fn derivative(&mut self, _: f64, x: &[f64], dx: &mut [f64]) {
@@ -48,16 +52,10 @@ impl Problem for Trivial {
         }
         self.lu.solve(coupled);
     }
-    fn discrete_state_count(&self) -> usize {
-        self.discrete_states
-    }
-    fn event_variable_count(&self) -> usize {
-        self.discrete_states
-    }
-    fn event_variables(&mut self, _: f64, x: &[f64], variables: &mut [f64]) {
+    fn event_variables(&mut self, _: Option<usize>, _: f64, x: &[f64], variables: &mut [f64]) {
         variables.copy_from_slice(&x[..self.discrete_states]);
     }
-    fn group_event_functions(&mut self, _: usize, variables: &[f64], _: &[u8], functions: &mut [f64]) {
+    fn event_functions(&mut self, _: usize, variables: &[f64], _: &[u8], functions: &mut [f64]) {
         for (function, variable) in functions.iter_mut().zip(variables) {
             *function = variable.abs() + 1.0;
         }
@@ -66,7 +64,6 @@ impl Problem for Trivial {
 
 fn problem(discrete_states: usize) -> Trivial {
     Trivial {
-        scales: vec![1.0; 14],
         lu: BlockLu::new(&[4], &[]),
         shift: 0.0,
         discrete_states,

@@ -63,11 +63,7 @@ impl Controller {
             divisor = divisor.max(root * root / (self.root * options.safety) * (self.step / step));
         }
         let growth = limited_growth(1.0 / divisor, family);
-        let maximum = if self.step == 0.0 && family == Family::Explicit {
-            tuning::FIRST_STEP_GROWTH * options.maximum_factor
-        } else {
-            options.maximum_factor
-        };
+        let maximum = options.maximum_factor;
         let mut factor = growth.max(options.minimum_factor).min(maximum);
         if self.rejections > 0 {
             factor = factor.min(1.0);
@@ -114,26 +110,6 @@ fn limited_growth(allowed: f64, family: Family) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The factors after two steps with hardly an error, the second as long as the first allows.
-    fn factors(family: Family) -> [f64; 2] {
-        let (options, mut controller) = (Options::default(), Controller::default());
-        let (first, _) = controller.accept(&options, 1.0, 1e-3, true, family);
-        let (second, _) = controller.accept(&options, first, 1e-3, true, family);
-        [first, second]
-    }
-
-    #[test]
-    fn only_the_first_explicit_step_may_be_followed_by_a_much_longer_one() {
-        let maximum = Options::default().maximum_factor;
-        assert_eq!(
-            factors(Family::Explicit),
-            [tuning::FIRST_STEP_GROWTH * maximum, maximum]
-        );
-        for family in [Family::LinearlyImplicit, Family::DiagonallyImplicit] {
-            assert_eq!(factors(family), [maximum; 2]);
-        }
-    }
 
     #[test]
     fn rosenbrock_steps_grow_by_the_root_of_what_the_error_allows() {

@@ -20,7 +20,7 @@ pub struct DiscontinuityFunctions {
 
 impl DiscontinuityFunctions {
     /// Returns zeros, so many values and slips.
-    pub(crate) fn zeros((values, slips): (usize, usize)) -> Self {
+    pub(crate) fn zeros(values: usize, slips: usize) -> Self {
         Self {
             values: vec![0.0; values],
             slips: vec![[0.0; 2]; slips],
@@ -28,81 +28,21 @@ impl DiscontinuityFunctions {
     }
 }
 
-/// A regularization zone in which a slip is predicted to reverse, or to come to stick.
+/// Where the next step should end: shortly after a discontinuity, or before a regularization zone in which a
+/// slip is predicted to reverse or to come to stick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct RegularizationZone {
-    /// Length of the first step in the zone.
-    #[serde(rename = "length")]
-    pub first_step: f64,
-    /// Component of the slip along [`RegularizationZone::direction`] at the edge of the zone.
-    #[serde(rename = "size")]
-    pub edge_slip: f64,
-    /// Index of the slip.
-    #[serde(rename = "direction")]
-    pub slip: usize,
-    /// Unit vector of the slip before the zone.
-    #[serde(rename = "from")]
-    pub direction: [f64; 2],
-}
-
-/// What is predicted for the next step.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) enum Prediction {
-    /// A discontinuity: the next step should end at this time, shortly after it.
-    #[serde(rename = "Kink")]
-    Discontinuity(f64),
-    /// A regularization zone: the next step should end at this time, before it.
-    #[serde(rename = "Layer")]
-    Zone(f64, RegularizationZone),
-    /// A regularization zone so near that the next step starts in it.
-    #[serde(rename = "InLayer")]
-    InZone(RegularizationZone),
-}
-
-/// A regularization zone that is being crossed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct ZoneCrossing {
-    #[serde(rename = "layer")]
-    pub zone: RegularizationZone,
-    /// Length of the steps before the zone.
-    #[serde(rename = "planned")]
-    pub planned_step: f64,
+pub(crate) struct Prediction {
+    pub time: f64,
+    /// Length of the first step in the zone; none: it is a discontinuity.
+    pub zone_step: Option<f64>,
 }
 
 impl Prediction {
-    /// Checks a saved prediction for a problem with so many slips.
-    pub fn check(&self, slips: usize) -> Result<(), SetupError> {
-        let (time, zone) = match self {
-            Self::Discontinuity(time) => (*time, None),
-            Self::Zone(time, zone) => (*time, Some(zone)),
-            Self::InZone(zone) => (0.0, Some(zone)),
-        };
-        check_finite("ahead", time)?;
-        zone.map_or(Ok(()), |zone| zone.check(slips))
-    }
-}
-
-impl RegularizationZone {
-    fn check(&self, slips: usize) -> Result<(), SetupError> {
-        if self.slip >= slips {
-            return Err(SetupError::Dimension {
-                what: "slips, of which a regularization zone names one by its index,",
-                expected: slips,
-                found: self.slip,
-            });
-        }
-        check_positive("layer.length", self.first_step)?;
-        check_finite("layer.size", self.edge_slip)?;
-        check_finite("layer.from", self.direction[0])?;
-        check_finite("layer.from", self.direction[1])
-    }
-}
-
-impl ZoneCrossing {
-    /// Checks a saved crossing for a problem with so many slips.
-    pub fn check(&self, slips: usize) -> Result<(), SetupError> {
-        check_positive("passage.planned", self.planned_step)?;
-        self.zone.check(slips)
+    /// Checks a saved prediction.
+    pub fn check(&self) -> Result<(), SetupError> {
+        check_finite("prediction.time", self.time)?;
+        self.zone_step
+            .map_or(Ok(()), |step| check_positive("prediction.zone_step", step))
     }
 }
 

@@ -7,13 +7,11 @@
 //! step; the error is controlled as in any other. Decision 0012.
 
 use crate::dense_output::DenseOutput;
-use crate::discontinuity::{DiscontinuityFunctions, Prediction, RegularizationZone, square};
+use crate::discontinuity::{DiscontinuityFunctions, Prediction, square};
 use crate::lanes::LANES;
-use crate::methods::tableau::Family;
-use crate::problem::{Problem, padded_dynamic_states};
+use crate::problem::{Problem, ProblemStructure};
 use crate::root_search::RootSearch;
 use crate::tuning::discontinuity as tuning;
-use crate::tuning::step::WHOLE_APPROACH;
 
 /// Evaluates the discontinuity functions of a problem and predicts their zeros.
 ///
@@ -48,9 +46,9 @@ struct Located {
 }
 
 impl DiscontinuityPredictor {
-    pub fn new<P: Problem>(problem: &P) -> Self {
-        let (values, slips) = problem.discontinuity_counts();
-        let zeros = DiscontinuityFunctions::zeros((values, slips));
+    pub fn new(structure: &ProblemStructure) -> Self {
+        let (values, slips) = (structure.discontinuity_values, structure.slips);
+        let zeros = DiscontinuityFunctions::zeros(values, slips);
         let functions = values + 2 * slips;
         Self {
             here: zeros.clone(),
@@ -60,9 +58,9 @@ impl DiscontinuityPredictor {
             directions: vec![[0.0; 2]; slips],
             functions: vec![0.0; functions],
             search: RootSearch::new(functions),
-            x: vec![0.0; problem.dimension().next_multiple_of(LANES)],
-            dimension: problem.dimension(),
-            leading: padded_dynamic_states(problem),
+            x: vec![0.0; structure.dimension().next_multiple_of(LANES)],
+            dimension: structure.dimension(),
+            leading: structure.padded_dynamic_states(),
         }
     }
 
@@ -78,17 +76,6 @@ impl DiscontinuityPredictor {
         }
         std::mem::swap(&mut self.here, &mut self.before);
         problem.discontinuities(time, x, &mut self.here);
-        self.update_directions();
-    }
-
-    /// As [`DiscontinuityPredictor::evaluate`], if the last [`DiscontinuityPredictor::evaluate_trial`] was at
-    /// the same point.
-    pub fn accept_trial(&mut self) {
-        if !self.is_active() {
-            return;
-        }
-        std::mem::swap(&mut self.here, &mut self.before);
-        std::mem::swap(&mut self.here, &mut self.trial);
         self.update_directions();
     }
 
@@ -116,11 +103,6 @@ impl DiscontinuityPredictor {
         }
     }
 
-    /// Returns whether a discontinuity or the edge of a zone lies between here and the trial.
-    pub fn trial_crosses(&mut self) -> bool {
-        self.is_active() && self.changes_sign()
-    }
-
     /// Returns whether a stick-to-slip transition lies between here and the trial.
     ///
     /// The Jacobian matrix at the start of the step knows only the sticking friction, which damps the slip
@@ -140,30 +122,9 @@ impl DiscontinuityPredictor {
         self.here.slips.is_empty() || all.any(|slip| square(slip) < tuning::TAIL * tuning::TAIL)
     }
 
-    /// Returns the factor by which error bounds in zones widen here, see [`Problem::zone_error_bounds`].
+    /// Returns the factor by which error bounds in zones widen here, see [`ProblemStructure::zone_error_bounds`].
     pub fn bound_widening(&self) -> f64 {
         (self.smallest_slip * tuning::BOUND_WIDENING).max(1.0)
-    }
-
-    /// Returns whether a predicted zone has been reached. (An extrapolation too far predicts zones that are
-    /// not there.)
-    pub fn has_reached(&self, zone: &RegularizationZone) -> bool {
-        square(&self.here.slips[zone.slip]).sqrt()
-            < tuning::REVERSAL_WIDTH.max(tuning::ZONE_REACHED * zone.edge_slip)
-    }
-
-    /// Returns whether the slip of a zone still changed in the last step.
-    pub fn still_changes(&self, zone: &RegularizationZone) -> bool {
-        let [here, before] = [&self.here, &self.before].map(|functions| functions.slips[zone.slip]);
-        square(&[here[0] - before[0], here[1] - before[1]]) > tuning::STILL_CHANGING * tuning::STILL_CHANGING
-    }
-
-    /// Returns whether a zone has been crossed: its slip is large again and points elsewhere.
-    pub fn has_crossed(&self, zone: &RegularizationZone) -> bool {
-        let slip = &self.here.slips[zone.slip];
-        let size = square(slip).sqrt();
-        size > tuning::CROSSED_SIZE
-            && slip[0] * zone.direction[0] + slip[1] * zone.direction[1] < tuning::CROSSED_COSINE * size
     }
 
     /// Returns the first discontinuity within `length` of the end of a step whose scaled error was `error`.
@@ -177,26 +138,20 @@ impl DiscontinuityPredictor {
         if !self.is_active() || dense.step <= 0.0 {
             return None;
         }
-        let explicit = dense.tableau.family == Family::Explicit;
-        let longest = if explicit {
-            tuning::EXPLICIT_HORIZON
-        } else {
-            tuning::HORIZON
-        };
-        let mut horizon = (length / dense.step).min(longest);
+        let mut horizon = (length / dense.step).min(tuning::HORIZON);
         if error * fifth_power(1.0 + horizon) > tuning::MAXIMUM_ERROR {
             horizon = libm::pow(tuning::MAXIMUM_ERROR / error, 0.2) - 1.0;
         }
-        if explicit && self.all_far(horizon) {
-            return None;
-        }
-        let far = 1.0 + WHOLE_APPROACH * (length / dense.step);
         loop {
-            let Located { low, high, index } = self.locate(problem, dense, 1.0 + horizon, far, error)?;
+            let Located { low, high, index } = self.locate(problem, dense, 1.0 + horizon, error)?;
             let values = self.here.values.len();
+            let at = |theta: f64| dense.start + theta * dense.step;
             let Some(slip) = index.checked_sub(values) else {
                 let end = (high + overshoot(error, fifth_power(high))).max(1.0 + tuning::NEAREST);
-                return Some(Prediction::Discontinuity(dense.start + end * dense.step));
+                return Some(Prediction {
+                    time: at(end),
+                    zone_step: None,
+                });
             };
             if !self.reverses(slip) {
                 // It only turns.
@@ -207,19 +162,21 @@ impl DiscontinuityPredictor {
             let (at_low, at_high) = (self.search.low()[index], self.search.high()[index]);
             let fall = (at_low - at_high) / (high - low);
             let to_zero = (at_low + tuning::ZONE_EDGE) / fall * dense.step;
-            let zone = |first_step| RegularizationZone {
-                first_step,
-                edge_slip: at_low + tuning::ZONE_EDGE,
-                slip,
-                direction: self.directions[slip],
-            };
-            return if !(to_zero > tuning::NEAREST * dense.step && to_zero.is_finite()) {
-                None
-            } else if low < 1.0 + tuning::NEAREST_ZONE {
-                Some(Prediction::InZone(zone((low - 1.0) * dense.step + to_zero)))
-            } else {
-                Some(Prediction::Zone(dense.start + low * dense.step, zone(to_zero)))
-            };
+            return (to_zero > tuning::NEAREST * dense.step && to_zero.is_finite()).then(|| {
+                if low < 1.0 + tuning::NEAREST_ZONE {
+                    // The next step starts in the zone.
+                    let first = (low - 1.0) * dense.step + to_zero;
+                    Prediction {
+                        time: dense.end,
+                        zone_step: Some(first),
+                    }
+                } else {
+                    Prediction {
+                        time: at(low),
+                        zone_step: Some(to_zero),
+                    }
+                }
+            });
         }
     }
 
@@ -235,45 +192,23 @@ impl DiscontinuityPredictor {
         largest < tuning::REVERSAL_WIDTH * tuning::REVERSAL_WIDTH
     }
 
-    /// Returns whether no function can reach zero within `horizon` lengths of the last step, if none changes
-    /// more than a few times as fast as in that step.
-    fn all_far(&self, horizon: f64) -> bool {
-        let growth = tuning::RATE_GROWTH * horizon;
-        let mut values = self.here.values.iter().zip(&self.before.values);
-        let slips = self.here.slips.iter().zip(&self.before.slips);
-        // What is not a number is not far.
-        values.all(|(now, before)| now.abs() > growth * (now - before).abs())
-            && slips.zip(&self.directions).all(|((now, before), direction)| {
-                let change = direction[0] * (now[0] - before[0]) + direction[1] * (now[1] - before[1]);
-                let along = direction[0] * now[0] + direction[1] * now[1] - tuning::ZONE_EDGE;
-                *direction == [0.0; 2] || along > growth * change.abs()
-            })
-    }
-
     /// Evaluates the functions on the extrapolation, for the search; returns whether one has changed its
     /// sign.
     fn evaluate_at<P: Problem>(&mut self, problem: &mut P, dense: &DenseOutput<'_>, theta: f64) -> bool {
         dense.evaluate(theta, &mut self.x[..self.leading]);
         let time = dense.start + theta * dense.step;
         problem.discontinuities(time, &self.x[..self.dimension], &mut self.trial);
-        self.changes_sign()
-    }
-
-    /// Writes the functions at the trial, for the search; returns whether one has changed its sign.
-    fn changes_sign(&mut self) -> bool {
         combine(&self.trial, &self.directions, self.search.values_mut());
         let functions = self.trial.values.len() + self.trial.slips.len();
         any_sign_change(&self.functions[..functions], self.search.values_mut())
     }
 
-    /// Returns a short bracket around the first zero up to `high`; without width if it is certain to lie
-    /// beyond `far`.
+    /// Returns a short bracket around the first zero up to `high`.
     fn locate<P: Problem>(
         &mut self,
         problem: &mut P,
         dense: &DenseOutput<'_>,
         high: f64,
-        far: f64,
         error: f64,
     ) -> Option<Located> {
         self.search.clear();
@@ -285,23 +220,13 @@ impl DiscontinuityPredictor {
         self.search.set_low(1.0);
         combine(&self.before, &self.directions, self.search.values_mut());
         self.search.set_outside(0.0);
-        let mut last = f64::INFINITY;
         for _ in 0..tuning::MAXIMUM_ITERATIONS {
             let (low, high) = self.search.ends();
             let width = overshoot(error, fifth_power(high));
             if high - low <= width {
                 break;
             }
-            let (index, expected) = self.first_zero(|index| self.search.zero(index))?;
-            let distance = expected - 1.0;
-            if expected > far
-                && (expected - last).abs() < tuning::ROUGH * distance
-                && !self.slip_changes_sign()
-            {
-                let high = expected;
-                return Some(Located { low, high, index });
-            }
-            last = expected;
+            let (_, expected) = self.first_zero(|index| self.search.zero(index))?;
             let theta = self.search.next_point(expected, width);
             if self.evaluate_at(problem, dense, theta) {
                 self.search.set_high(theta);
@@ -333,12 +258,6 @@ impl DiscontinuityPredictor {
             }
         }
         first
-    }
-
-    /// Returns whether the component of a slip changes its sign in the bracket.
-    fn slip_changes_sign(&self) -> bool {
-        let values = self.here.values.len();
-        any_sign_change(&self.functions[values..], &self.search.high()[values..])
     }
 }
 

@@ -5,8 +5,7 @@ use std::ops::Range;
 use crate::dense_output::DenseOutput;
 use crate::event::{Event, EventGroup};
 use crate::lanes::LANES;
-use crate::methods::tableau::Family;
-use crate::problem::{Problem, padded_dynamic_states};
+use crate::problem::{Problem, ProblemStructure};
 use crate::root_search::RootSearch;
 use crate::statistics::Statistics;
 use crate::tuning::events as tuning;
@@ -60,13 +59,13 @@ struct Group {
 struct TooManyEvents;
 
 impl EventDetector {
-    pub fn new<P: Problem>(problem: &P, discrete_states: Vec<u8>, capacity: usize) -> Self {
-        let (dimension, leading) = (problem.dimension(), padded_dynamic_states(problem));
+    pub fn new(structure: &ProblemStructure, discrete_states: Vec<u8>, capacity: usize) -> Self {
+        let (dimension, leading) = (structure.dimension(), structure.padded_dynamic_states());
         let count = discrete_states.len();
         let capacity = if count == 0 { 0 } else { capacity };
         let groups: Vec<Group> = match count {
             0 => Vec::new(),
-            _ => problem.event_groups().into_iter().map(Group::new).collect(),
+            _ => structure.event_groups.iter().map(Group::new).collect(),
         };
         let largest = groups.iter().map(|group| group.discrete_states.len()).max();
         let variables = vec![0.0; groups.last().map_or(0, |group| group.variables.end)];
@@ -99,7 +98,7 @@ impl EventDetector {
     /// Evaluates the event variables at the end of a step, before [`EventDetector::detect`]. A separate call:
     /// right after other functions were evaluated at the same state it may cost the problem little.
     pub fn evaluate_end<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
-        problem.event_variables(time, x, &mut self.at_end);
+        problem.event_variables(None, time, x, &mut self.at_end);
     }
 
     /// Locates all events in a step, after [`EventDetector::evaluate_end`].
@@ -133,14 +132,10 @@ impl EventDetector {
         dense: &DenseOutput<'_>,
         maximum: usize,
     ) -> Result<(), TooManyEvents> {
-        let intermediate: &[f64] = match dense.tableau.family {
-            Family::Explicit => &[],
-            Family::LinearlyImplicit | Family::DiagonallyImplicit => tuning::INTERMEDIATE,
-        };
-        for &to in intermediate {
+        for &to in tuning::INTERMEDIATE {
             dense.evaluate(to, &mut self.x[..self.leading]);
             let x = &self.x[..self.dimension];
-            problem.event_variables(dense.time(to), x, &mut self.at_target);
+            problem.event_variables(None, dense.time(to), x, &mut self.at_target);
             self.detect_up_to(problem, dense, to, maximum)?;
         }
         self.at_target.copy_from_slice(&self.at_end);
@@ -188,7 +183,7 @@ impl EventDetector {
         dense.evaluate_ranges(theta, &group.states, &mut self.x);
         let x = &self.x[..self.dimension];
         let own = &mut self.variables[group.variables.clone()];
-        problem.group_event_variables(number, dense.time(theta), x, own);
+        problem.event_variables(Some(number), dense.time(theta), x, own);
         group.event_functions(problem, number, own, &self.discrete_states, &mut self.functions);
     }
 
@@ -256,17 +251,12 @@ impl EventDetector {
             if high - low <= resolution {
                 break;
             }
-            let (expected, doubt) = self.first_zero(number);
-            let after = self.search.point_after(expected, doubt, resolution);
-            let theta = after.unwrap_or_else(|| self.search.next_point(expected, resolution));
+            let theta = self.search.next_point(self.first_zero(number), resolution);
             self.evaluate(problem, dense, number, theta);
             self.search.values_mut()[..count].copy_from_slice(&self.functions[states.clone()]);
             if self.must_change(number) {
                 self.search.set_high(theta);
                 self.at_high[own.clone()].copy_from_slice(&self.variables[own.clone()]);
-                if after.is_some() && self.is_confirmed(number, resolution) {
-                    break;
-                }
             } else {
                 self.search.set_low(theta);
             }
@@ -275,30 +265,13 @@ impl EventDetector {
         self.search.ends().1
     }
 
-    /// Returns the discrete states of a group that must change at the high end of the bracket, by their index
-    /// in the group.
-    #[inline]
-    fn crossing(&self, number: usize) -> impl Iterator<Item = usize> {
+    /// Returns where the first event function of a group is expected to reach zero.
+    fn first_zero(&self, number: usize) -> f64 {
         let muted = &self.muted[self.groups[number].discrete_states.clone()];
         let all = self.search.high().iter().zip(muted).enumerate();
         all.filter(|(_, (function, muted))| **function <= 0.0 && !**muted)
-            .map(|(index, _)| index)
-    }
-
-    /// Returns where the first event function of a group is expected to reach zero, and the uncertainty of
-    /// that.
-    fn first_zero(&self, number: usize) -> (f64, f64) {
-        self.crossing(number)
-            .map(|index| self.search.zero_and_doubt(index))
-            .fold((f64::INFINITY, f64::INFINITY), |first, next| {
-                if next.0 < first.0 { next } else { first }
-            })
-    }
-
-    /// Returns whether an event function confirms the zero before the high end of the bracket.
-    fn is_confirmed(&self, number: usize, resolution: f64) -> bool {
-        self.crossing(number)
-            .any(|index| self.search.confirms(index, resolution))
+            .map(|(index, _)| self.search.zero(index))
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Changes all discrete states of a group that must change at an instant, each once, by the event
@@ -349,9 +322,9 @@ impl EventDetector {
 }
 
 impl Group {
-    fn new(group: EventGroup) -> Self {
+    fn new(group: &EventGroup) -> Self {
         let mut states: Vec<Range<usize>> = Vec::with_capacity(group.states.len());
-        for range in group.states {
+        for range in &group.states {
             let start = range.start / LANES * LANES;
             let end = range.end.next_multiple_of(LANES);
             match states.last_mut() {
@@ -360,8 +333,8 @@ impl Group {
             }
         }
         Self {
-            discrete_states: group.discrete_states,
-            variables: group.variables,
+            discrete_states: group.discrete_states.clone(),
+            variables: group.variables.clone(),
             states,
             from: 0.0,
         }
@@ -378,7 +351,7 @@ impl Group {
         functions: &mut [f64],
     ) {
         let own = self.discrete_states.clone();
-        problem.group_event_functions(
+        problem.event_functions(
             number,
             variables,
             &discrete_states[own.clone()],

@@ -3,7 +3,8 @@
 use crate::block_lu::BlockLu;
 use crate::discontinuity::DiscontinuityFunctions;
 use crate::error::Singular;
-use crate::problem::Problem;
+use crate::event::EventGroup;
+use crate::problem::{Problem, ProblemStructure};
 
 type VectorFunction<'a> = Box<dyn FnMut(f64, &[f64], &mut [f64]) + Send + 'a>;
 type ScalarFunction<'a> = Box<dyn FnMut(f64, &[f64]) -> f64 + Send + 'a>;
@@ -14,7 +15,6 @@ type NextState<'a> = Box<dyn FnMut(f64, &[f64], usize, u8) -> u8 + Send + 'a>;
 
 /// Discrete states made of functions.
 struct Events<'a> {
-    count: usize,
     initial: InitialStates<'a>,
     functions: EventFunctions<'a>,
     next: NextState<'a>,
@@ -47,26 +47,22 @@ struct Events<'a> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct FunctionProblem<'a> {
-    scales: Vec<f64>,
+    structure: ProblemStructure,
     derivative: VectorFunction<'a>,
     jacobian: VectorFunction<'a>,
     time_derivative: Option<VectorFunction<'a>>,
     events: Option<Events<'a>>,
-    zone_error_bounds: Vec<f64>,
     spectral_radius_bound: Option<ScalarFunction<'a>>,
-    /// The numbers of values and slips, and the function that writes them.
-    discontinuities: Option<((usize, usize), Discontinuities<'a>)>,
-    discontinuities_complete: bool,
+    discontinuities: Option<Discontinuities<'a>>,
     /// In ascending order.
     time_discontinuities: Vec<f64>,
-    displacements: usize,
     matrix: BlockLu,
 }
 
 impl std::fmt::Debug for FunctionProblem<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("FunctionProblem")
-            .field("scales", &self.scales)
+            .field("structure", &self.structure)
             .finish_non_exhaustive()
     }
 }
@@ -82,16 +78,13 @@ impl<'a> FunctionProblem<'a> {
     ) -> Self {
         let matrix = BlockLu::new(&[scales.len()], &[]);
         Self {
-            displacements: scales.len(),
-            scales,
+            structure: ProblemStructure::new(scales),
             derivative: Box::new(derivative),
             jacobian: Box::new(jacobian),
             time_derivative: None,
             events: None,
-            zone_error_bounds: Vec::new(),
             spectral_radius_bound: None,
             discontinuities: None,
-            discontinuities_complete: false,
             time_discontinuities: Vec::new(),
             matrix,
         }
@@ -121,14 +114,15 @@ impl<'a> FunctionProblem<'a> {
         slips: usize,
         function: impl FnMut(f64, &[f64], &mut DiscontinuityFunctions) + Send + 'a,
     ) -> Self {
-        self.discontinuities = Some(((values, slips), Box::new(function)));
+        (self.structure.discontinuity_values, self.structure.slips) = (values, slips);
+        self.discontinuities = Some(Box::new(function));
         self
     }
 
-    /// States that there are no other discontinuities, see [`Problem::discontinuities_complete`].
+    /// States that there are no other discontinuities, see [`ProblemStructure::discontinuities_complete`].
     #[must_use]
     pub fn discontinuities_complete(mut self) -> Self {
-        self.discontinuities_complete = true;
+        self.structure.discontinuities_complete = true;
         self
     }
 
@@ -139,24 +133,24 @@ impl<'a> FunctionProblem<'a> {
         self
     }
 
-    /// Sets the number of leading states that are displacements, see [`Problem::displacements`]; by default
+    /// Sets the number of leading states that are displacements, see [`ProblemStructure::displacements`]; by default
     /// all are.
     #[must_use]
     pub fn displacements(mut self, count: usize) -> Self {
-        self.displacements = count;
+        self.structure.displacements = count;
         self
     }
 
-    /// Adds error bounds in regularization zones, see [`Problem::zone_error_bounds`].
+    /// Adds error bounds in regularization zones, see [`ProblemStructure::zone_error_bounds`].
     #[must_use]
     pub fn zone_error_bounds(mut self, bounds: Vec<f64>) -> Self {
-        self.zone_error_bounds = bounds;
+        self.structure.zone_error_bounds = bounds;
         self
     }
 
     /// Adds so many discrete states: `initial(t, x, states)` writes them at the start, `functions(t, x,
     /// states, functions)` their event functions, `next(t, x, index, state)` returns the successor of one.
-    /// See [`Problem::group_event_functions`] and [`Problem::next_discrete_state`].
+    /// See [`Problem::event_functions`] and [`Problem::next_discrete_state`].
     #[must_use]
     pub fn events(
         mut self,
@@ -165,8 +159,14 @@ impl<'a> FunctionProblem<'a> {
         functions: impl FnMut(f64, &[f64], &[u8], &mut [f64]) + Send + 'a,
         next: impl FnMut(f64, &[f64], usize, u8) -> u8 + Send + 'a,
     ) -> Self {
+        let states = self.structure.dimension();
+        // The event variables are the time and all states.
+        self.structure.event_groups = vec![EventGroup {
+            discrete_states: 0..count,
+            variables: 0..1 + states,
+            states: std::iter::once(0..states).collect(),
+        }];
         self.events = Some(Events {
-            count,
             initial: Box::new(initial),
             functions: Box::new(functions),
             next: Box::new(next),
@@ -176,20 +176,8 @@ impl<'a> FunctionProblem<'a> {
 }
 
 impl Problem for FunctionProblem<'_> {
-    fn dimension(&self) -> usize {
-        self.scales.len()
-    }
-
-    fn displacements(&self) -> usize {
-        self.displacements
-    }
-
-    fn scales(&self) -> &[f64] {
-        &self.scales
-    }
-
-    fn zone_error_bounds(&self) -> &[f64] {
-        &self.zone_error_bounds
+    fn structure(&self) -> ProblemStructure {
+        self.structure.clone()
     }
 
     fn next_time_discontinuity(&mut self, start: f64) -> f64 {
@@ -229,24 +217,10 @@ impl Problem for FunctionProblem<'_> {
         self.matrix.solve(b);
     }
 
-    fn discontinuity_counts(&self) -> (usize, usize) {
-        self.discontinuities
-            .as_ref()
-            .map_or((0, 0), |(counts, _)| *counts)
-    }
-
     fn discontinuities(&mut self, time: f64, x: &[f64], functions: &mut DiscontinuityFunctions) {
-        if let Some((_, function)) = &mut self.discontinuities {
+        if let Some(function) = &mut self.discontinuities {
             function(time, x, functions);
         }
-    }
-
-    fn discontinuities_complete(&self) -> bool {
-        self.discontinuities_complete
-    }
-
-    fn discrete_state_count(&self) -> usize {
-        self.events.as_ref().map_or(0, |events| events.count)
     }
 
     fn initial_discrete_states(&mut self, time: f64, x: &[f64], discrete_states: &mut [u8]) {
@@ -255,17 +229,12 @@ impl Problem for FunctionProblem<'_> {
         }
     }
 
-    /// The time and all states.
-    fn event_variable_count(&self) -> usize {
-        1 + self.dimension()
-    }
-
-    fn event_variables(&mut self, time: f64, x: &[f64], variables: &mut [f64]) {
+    fn event_variables(&mut self, _: Option<usize>, time: f64, x: &[f64], variables: &mut [f64]) {
         variables[0] = time;
         variables[1..].copy_from_slice(x);
     }
 
-    fn group_event_functions(
+    fn event_functions(
         &mut self,
         _: usize,
         variables: &[f64],

@@ -4,15 +4,11 @@
 //! The lanes are explicit (`wide`): nothing is left to the compiler's vectorizer. Every lane gives the same
 //! bits wherever it stands; elementary functions agree with those of single numbers to rounding.
 
-mod dual;
-
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use wide::f64x4;
 
-pub use dual::LaneDual;
-
-use crate::scalar::{Blend, EIGHTH_TURN, Mask, Number, SERIES, series, small_sin_cos};
+use crate::scalar::{Blend, Component, DualOf, EIGHTH_TURN, Mask, Number, SERIES, series, small_sin_cos};
 
 /// Number of lanes.
 pub const LANES: usize = 4;
@@ -50,6 +46,9 @@ macro_rules! lane_by_lane {
 /// Four numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes(f64x4);
+
+/// Four numbers with their `N` partial derivatives.
+pub type LaneDual<const N: usize> = DualOf<Lanes, N>;
 
 /// Four results of a comparison.
 #[derive(Clone, Copy, Debug)]
@@ -164,6 +163,30 @@ impl From<f64> for Lanes {
     #[inline(always)]
     fn from(value: f64) -> Self {
         Self(f64x4::splat(value))
+    }
+}
+
+impl Component for Lanes {
+    #[inline(always)]
+    fn tanh_ratio_and_slope(self) -> (Self, Self) {
+        self.tanh_ratio_with::<true>()
+    }
+    // Written out: `array::map` is not always inlined.
+    #[inline(always)]
+    fn combine<const N: usize>(a: &[Self; N], s: Self, b: &[Self; N], t: Self) -> [Self; N] {
+        let mut out = [Self::ZERO; N];
+        for i in 0..N {
+            out[i] = a[i] * s + b[i] * t;
+        }
+        out
+    }
+    #[inline(always)]
+    fn scale<const N: usize>(a: &[Self; N], s: Self) -> [Self; N] {
+        let mut out = [Self::ZERO; N];
+        for i in 0..N {
+            out[i] = a[i] * s;
+        }
+        out
     }
 }
 

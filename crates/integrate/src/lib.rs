@@ -1,5 +1,5 @@
 //! Integration of stiff, piecewise smooth ordinary differential equations `x' = f(t, x)` by implicit one-step
-//! methods: Rosenbrock methods (RODAS, Rodas5P), which need one linear system per stage, and ESDIRK methods
+//! methods: a Rosenbrock method (Rodas5P), which needs one linear system per stage, and ESDIRK methods
 //! (TR-BDF2, ESDIRK3), whose stages are solved by Newton's method. The crate knows no physics, but it is made
 //! for mechanical systems with contact and regularized dry friction.
 //!
@@ -43,13 +43,13 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | the problem: required and optional functions | [`Problem`] (`problem.rs`), [`FunctionProblem`] |
+//! | the problem: required and optional functions | [`Problem`], [`ProblemStructure`] (`problem.rs`), [`FunctionProblem`] |
 //! | a step: attempt, error test, acceptance | [`Integrator::step_to`] (`integrator/step.rs`) |
 //! | stages of Rosenbrock, explicit and ESDIRK methods | `integrator/{rosenbrock,explicit,esdirk}.rs` |
 //! | coefficients of the methods, with citations | [`Method::tableau`] (`methods/`) |
-//! | error norm and tolerances | [`Problem::scales`], [`Problem::error_bounds`], [`Options`] |
+//! | error norm and tolerances | [`ProblemStructure::scales`], [`ProblemStructure::error_bounds`], [`Options`] |
 //! | step-size controller (PI, Gustafsson) | `controller.rs` |
-//! | modified Newton: Jacobian cache, stage predictor, line search | `newton/` |
+//! | modified Newton: Jacobian cache, line search | `newton/` |
 //! | switching to a nonstiff method | [`Problem::spectral_radius_bound`] (`integrator/explicit.rs`) |
 //! | discontinuities in time | [`Problem::next_time_discontinuity`] |
 //! | predicted discontinuities in state; slip reversal | [`Problem::discontinuities`] (`discontinuity*.rs`) |
@@ -129,6 +129,6 @@ pub use limits::{MAXIMUM_COUNT, STATE_VERSION};
 pub use methods::tableau::{Family, MAXIMUM_STAGES, Tableau};
 pub use methods::{Method, UnknownMethod};
 pub use options::Options;
-pub use problem::Problem;
+pub use problem::{Problem, ProblemStructure};
 pub use state::State;
 pub use statistics::Statistics;

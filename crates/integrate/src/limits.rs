@@ -1,7 +1,7 @@
 //! Version and limits of saved states.
 
 /// Version of the layout of [`crate::State`]. States of other versions are refused.
-pub const STATE_VERSION: u32 = 13;
+pub const STATE_VERSION: u32 = 14;
 
 /// Largest admissible counter in a saved state. A run of a million steps per second reaches it in thirty
 /// years, and no counter below it can overflow in a run.

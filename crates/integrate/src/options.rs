@@ -23,10 +23,10 @@ pub struct Options {
     /// ([`crate::Problem::spectral_radius_bound`]).
     pub explicit_steps: bool,
     /// Whether events, the changes of the problem's discrete states, are located and recorded
-    /// ([`crate::Problem::discrete_state_count`]). Steps and states are the same without.
+    /// ([`crate::ProblemStructure::event_groups`]). Steps and states are the same without.
     #[serde(rename = "record_switches")]
     pub record_events: bool,
-    /// Admissible local error of each state, relative to its scale ([`crate::Problem::scales`]).
+    /// Admissible local error of each state, relative to its scale ([`crate::ProblemStructure::scales`]).
     pub relative_tolerance: f64,
     /// First step; none: it is estimated.
     pub initial_step: Option<f64>,
@@ -45,8 +45,7 @@ pub struct Options {
     pub safety: f64,
     /// Smallest factor by which a step changes because of its error.
     pub minimum_factor: f64,
-    /// Largest factor by which a step grows; ten times that after the first step after a restart or a
-    /// discontinuity, if that step was explicit.
+    /// Largest factor by which a step grows.
     pub maximum_factor: f64,
     /// Largest number of events in one step.
     pub maximum_events: usize,

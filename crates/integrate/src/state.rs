@@ -3,18 +3,17 @@
 use serde::{Deserialize, Serialize};
 
 use crate::controller::Controller;
-use crate::discontinuity::{Prediction, ZoneCrossing};
+use crate::discontinuity::Prediction;
 use crate::error::SetupError;
 use crate::limits::STATE_VERSION;
-use crate::newton::{LinearizationPoint, StepHistory};
+use crate::newton::LinearizationPoint;
 use crate::statistics::Statistics;
-use crate::validation::{check_not_negative, check_positive, first_not_finite};
+use crate::validation::{check_positive, first_not_finite};
 
 /// All that is needed to continue an integration with the same bits.
 ///
 /// The problem and the options are not part of it. Text formats must write floating-point numbers such that
-/// they read back exactly. The names of the members in such formats are those of version 13 and differ from
-/// the names of some fields here.
+/// they read back exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Version of the layout, [`STATE_VERSION`].
@@ -24,72 +23,45 @@ pub struct State {
     /// States.
     pub x: Vec<f64>,
     /// Discrete states.
-    #[serde(rename = "modes")]
     pub discrete_states: Vec<u8>,
     /// Start of the smooth interval of the explicit time dependence in which the last step was made.
-    #[serde(rename = "segment_start")]
     pub interval_start: f64,
     /// Length of the next attempt.
     pub proposed_step: f64,
     /// Discontinuity predicted for the next step.
-    #[serde(rename = "ahead")]
     pub(crate) prediction: Option<Prediction>,
-    /// Regularization zone that is being crossed.
-    #[serde(rename = "passage")]
-    pub(crate) zone_crossing: Option<ZoneCrossing>,
     /// Memory of the step-size controller.
     pub(crate) controller: Controller,
-    /// h·ρ of the last explicit step that was limited by its error; zero: there was none.
-    #[serde(rename = "reach")]
-    pub(crate) explicit_h_rho: f64,
     /// Derivative in the last stage of an ESDIRK method, the first stage of the next step; empty for other
     /// methods.
-    #[serde(rename = "slope")]
     pub(crate) last_stage_derivative: Vec<f64>,
-    /// Last step, for the stage predictor; none: it extrapolates linearly.
-    #[serde(rename = "behind")]
-    pub(crate) step_history: Option<StepHistory>,
     /// Where the Jacobian matrix of Newton's method was evaluated; none: there is no matrix.
-    #[serde(rename = "matrix")]
     pub(crate) linearization_point: Option<LinearizationPoint>,
     /// Counters.
     pub statistics: Statistics,
 }
 
 impl State {
-    /// Checks the state for a problem with so many states, discrete states and slips. Nothing is checked
-    /// later.
-    pub(crate) fn check(
-        &self,
-        dimension: usize,
-        discrete_states: usize,
-        slips: usize,
-    ) -> Result<(), SetupError> {
+    /// Checks the state for a problem with so many states and discrete states. Nothing is checked later.
+    pub(crate) fn check(&self, dimension: usize, discrete_states: usize) -> Result<(), SetupError> {
         if self.version != STATE_VERSION {
             return Err(SetupError::Version { found: self.version });
         }
         self.statistics.check()?;
         self.controller.check()?;
-        self.prediction
-            .map_or(Ok(()), |prediction| prediction.check(slips))?;
-        self.zone_crossing
-            .map_or(Ok(()), |crossing| crossing.check(slips))?;
+        self.prediction.map_or(Ok(()), |prediction| prediction.check())?;
         self.check_lengths(dimension, discrete_states)?;
         let damaged = |name, value| Err(SetupError::Damaged { name, value });
         if !self.interval_start.is_finite() || self.interval_start > self.time {
-            return damaged("segment_start", self.interval_start);
+            return damaged("interval_start", self.interval_start);
         }
         if let Some(value) = first_not_finite(&self.last_stage_derivative) {
-            return damaged("slope", value);
+            return damaged("last_stage_derivative", value);
         }
         let point = self.linearization_point.as_ref();
         if let Some(value) = point.and_then(|point| point.damage(self.interval_start)) {
-            return damaged("matrix", value);
+            return damaged("linearization_point", value);
         }
-        if let Some(value) = self.step_history.as_ref().and_then(StepHistory::damage) {
-            return damaged("behind", value);
-        }
-        check_not_negative("reach", self.explicit_h_rho)?;
         check_positive("proposed_step", self.proposed_step)
     }
 
@@ -103,14 +75,8 @@ impl State {
             .linearization_point
             .as_ref()
             .map_or(dimension, |point| point.x.len());
-        let [start, change] = self
-            .step_history
-            .as_ref()
-            .map_or([dimension; 2], |history| [history.x.len(), history.first.len()]);
         let lengths = [
             ("states of the matrix", dimension, point),
-            ("states of the last step", dimension, start),
-            ("changes of the last step", dimension, change),
             ("states", dimension, self.x.len()),
             ("discrete states", discrete_states, self.discrete_states.len()),
             ("stage derivatives", derivatives, self.last_stage_derivative.len()),

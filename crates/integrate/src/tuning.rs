@@ -1,7 +1,8 @@
 //! All tuning constants of the integrator, by the part that uses them.
 //!
 //! Each constant states its unit, what it does, and what its value rests on: a citation, a decision record
-//! (`docs/decisions/NNNN-*.md`), a row of the table in `docs/decisions/0045-what-was-tried.md`, or "chosen, not measured".
+//! (`docs/decisions/NNNN-*.md`), a row of the table in `docs/decisions/0045-what-was-tried.md`, or "chosen, not
+//! measured".
 //! Constants without a unit are ratios. "Tolerances" are multiples of the admissible error of a step.
 //!
 //! Terms: h is the step, ρ a bound of the spectral radius of the Jacobian matrix (1/s), so h·ρ is the scaled
@@ -38,10 +39,6 @@ pub mod options {
 
 /// Step-size controller.
 pub mod controller {
-    /// Extra growth allowed after the first step after a restart, if that step was explicit: the length of
-    /// the first step was a guess. Growth to 6 · 10: 2 to 4 % fewer right-hand sides (decision 0045). CVODE
-    /// allows 10,000 (SUNDIALS, `ETAMX1`).
-    pub const FIRST_STEP_GROWTH: f64 = 10.0;
     /// The smallest error root that enters the trend (integral part). It is the root of an error of 0.01,
     /// below which errors do not count: 0.01 as in Hairer & Wanner's RADAU5 and RODAS (`ERRACC = max(0.01,
     /// ERR)`).
@@ -93,26 +90,11 @@ pub mod step {
     /// First step after a discontinuity, as a part of the step planned before it. The error across it says
     /// nothing. With the step through a regularization zone: 23,100 to 18,800 rejections (decision 0045).
     pub const AFTER_DISCONTINUITY: f64 = 0.5;
+    /// Largest h·ρ of the first step after an explicit step to a discontinuity where ρ grows: a contact closed.
+    /// Without it yawed runs have 60 % more rejections (decision 0046).
+    pub const AFTER_CLOSING_H_RHO: f64 = 0.5;
     /// After a step to a discontinuity crossed it, this part of the distance is tried. Decision 0028.
     pub const RETRY_BEFORE_DISCONTINUITY: f64 = 0.8;
-    /// If ρ grows by this factor across a discontinuity, a contact closed; if it falls by this factor, a
-    /// contact opened. Decision 0028.
-    pub const CONTACT_CHANGE: f64 = 1.5;
-    /// First step after a contact opened, as a part of the longest explicit step: it may close again soon.
-    /// 2 to 4 % fewer right-hand sides (decision 0045).
-    pub const AFTER_OPENING: f64 = 0.1;
-    /// Explicit steps with a larger error (in tolerances) were limited by their error; h·ρ of the last such
-    /// step is remembered (decision 0028). The number: chosen, not measured.
-    pub const ERROR_LIMITED: f64 = 0.1;
-    /// A zone crossing without slip reversal (slip that comes to stick) ends when the error falls below this,
-    /// in tolerances, and the slip has stopped changing (decision 0028). The number: chosen, not measured.
-    pub const CROSSING_SETTLED: f64 = 0.001;
-    /// Largest part of the planned step that a Rosenbrock step to a discontinuity may take in one go: stages
-    /// are less exact than the end of the step and would cross it. Beyond, half of the distance is taken
-    /// first. Decision 0012.
-    pub const WHOLE_APPROACH: f64 = 0.7;
-    /// The part of the distance taken first. Decision 0012.
-    pub const PART_APPROACH: f64 = 0.5;
 }
 
 /// Attempts of Rosenbrock and explicit steps.
@@ -138,10 +120,7 @@ pub mod dense_output {
     /// Nothing is corrected in a step whose correction at its midpoint is below this, in tolerances.
     /// Decision 0029.
     pub const NEGLIGIBLE: f64 = 0.002;
-    /// A correction by the matrix of the step is accepted if it is below this, in tolerances. Decision
-    /// 0029.
-    pub const ACCEPT_STEP_MATRIX: f64 = 0.05;
-    /// The iteration with a matrix at the point itself ends at corrections below this, in tolerances.
+    /// The iteration ends at corrections below this, in tolerances.
     /// Chosen, not measured.
     pub const CONVERGED: f64 = 0.002;
     /// The matrix is evaluated again if a correction shrinks by less than this factor. Chosen, not measured.
@@ -150,15 +129,6 @@ pub mod dense_output {
     pub const DIVERGED: f64 = 0.7;
     /// Largest number of iterations. Chosen, not measured.
     pub const MAXIMUM_ITERATIONS: u32 = 8;
-}
-
-/// Stage predictor of the ESDIRK methods. Both values: decision 0035.
-pub mod predictor {
-    /// The cubic is used if its third-order term is below this, in admissible last corrections; 100 was
-    /// compared.
-    pub const MAXIMUM_CUBIC_TERM: f64 = 10.0;
-    /// The straight line is used if the cubic lies within this of it, in admissible last corrections.
-    pub const LINE_SUFFICES: f64 = 1.0;
 }
 
 /// Newton's method of the ESDIRK methods.
@@ -183,19 +153,6 @@ pub mod newton {
     pub const MAXIMUM_MATRICES: u32 = 8;
     /// Largest number of evaluations in a line search. Chosen, not measured.
     pub const MAXIMUM_LINE_SEARCH: u32 = 12;
-    /// The first evaluations of a line search are placed by the model of slip reversal; they suffice after
-    /// 1.2 on average (decision 0033). The number itself: chosen, not measured.
-    pub const MODEL_EVALUATIONS: u32 = 4;
-}
-
-/// Line search at slip reversal: zero of the one-dimensional model.
-pub mod slip_reversal {
-    /// A slip larger than this is taken to be outside of its zone: tanh(4) = 0.9993. Chosen, not measured.
-    pub const OUTSIDE_ZONE: f64 = 4.0;
-    /// Largest number of iterations for the zero of the model; halving alone takes ten (decision 0034).
-    pub const MAXIMUM_ITERATIONS: u32 = 10;
-    /// Size of the last change of the slip, in units of the zone. Chosen, not measured.
-    pub const CONVERGED: f64 = 0.002;
 }
 
 /// Contact state (active set) for which a Jacobian matrix is valid.
@@ -212,9 +169,6 @@ pub mod discontinuity {
     /// Longest extrapolation, in lengths of the last step: the largest growth of a step, as
     /// [`super::options::MAXIMUM_FACTOR`].
     pub const HORIZON: f64 = 6.0;
-    /// The same after an explicit step: [`super::options::MAXIMUM_FACTOR`] times
-    /// [`super::controller::FIRST_STEP_GROWTH`]. As there.
-    pub const EXPLICIT_HORIZON: f64 = 60.0;
     /// The extrapolation ends where its error, that of the step times the fifth power of the extrapolated
     /// length, reaches this, in tolerances. Chosen, not measured.
     pub const MAXIMUM_ERROR: f64 = 100.0;
@@ -231,15 +185,8 @@ pub mod discontinuity {
     pub const NEAREST: f64 = 1e-4;
     /// The same for the edge of a zone: the next step starts in the zone. Chosen, not measured.
     pub const NEAREST_ZONE: f64 = 0.05;
-    /// After an explicit step, functions that would not reach zero even at this multiple of their last rate
-    /// are not evaluated on the extrapolation: 20,800 to 17,200 evaluations (decision 0045). The number: chosen,
-    /// not measured.
-    pub const RATE_GROWTH: f64 = 4.0;
     /// Largest number of evaluations of a search. Chosen, not measured.
     pub const MAXIMUM_ITERATIONS: usize = 15;
-    /// A discontinuity beyond [`super::step::WHOLE_APPROACH`] is located only until its distance changes by
-    /// less than this part from one iteration to the next. Chosen, not measured.
-    pub const ROUGH: f64 = 0.01;
 
     /// Edge of a regularization zone: the slip at which the step should end before a reversal. The force is
     /// then saturated, tanh(4) = 0.9993. Chosen, not measured.
@@ -250,15 +197,6 @@ pub mod discontinuity {
     /// otherwise the slip only turns. Decision 0012 ("within a few reference speeds"); the number: chosen,
     /// not measured.
     pub const REVERSAL_WIDTH: f64 = 5.0 * ZONE_EDGE;
-    /// A predicted zone is reached if the slip is below this multiple of its size at the predicted edge.
-    /// Decision 0028; the number: chosen, not measured.
-    pub const ZONE_REACHED: f64 = 2.0;
-    /// A zone is crossed when the slip is larger than this ...
-    pub const CROSSED_SIZE: f64 = 3.0;
-    /// ... and the cosine of its angle to the direction before is below this. Both: chosen, not measured.
-    pub const CROSSED_COSINE: f64 = 0.5;
-    /// A slip that changed by more than this in a step is still crossing its zone. Decision 0028.
-    pub const STILL_CHANGING: f64 = 0.5;
 
     /// Error bounds in zones widen in proportion to the smallest slip: an error may be this part of it.
     /// Decision 0012.
@@ -297,11 +235,6 @@ pub mod root_search {
     pub const NUDGE_GROWTH_BITS: i32 = 2;
     /// The growth of the nudge stops after this many times. Chosen, not measured.
     pub const MAXIMUM_NUDGE_GROWTH: i32 = 10;
-    /// A zero is certain if two polynomials agree on it to this part of the resolution. Decision 0040.
-    pub const CERTAIN: f64 = 0.1;
-    /// A certain zero is confirmed if the function fell by this part of what it was expected to fall.
-    /// Decision 0040.
-    pub const CONFIRMED: f64 = 0.1;
     /// Every this many iterations the bracket must have shrunk ...
     pub const CHECK_INTERVAL: u32 = 3;
     /// ... to this part, which bisection would have reached, or it is halved: the idea of R. P. Brent,

@@ -80,6 +80,14 @@ pub(crate) fn add(target: &mut [f64], factor: f64, term: &[f64]) {
     }
 }
 
+/// Adds `factor · (target - start)` to `target`.
+#[inline(always)]
+pub(crate) fn extrapolate(target: &mut [f64], factor: f64, start: &[f64]) {
+    for (value, start) in target.iter_mut().zip(start) {
+        *value += factor * (*value - start);
+    }
+}
+
 /// Writes `target = factor · a - factor · b`.
 #[inline(always)]
 pub(crate) fn scale_difference(target: &mut [f64], factor: f64, a: &[f64], b: &[f64]) {

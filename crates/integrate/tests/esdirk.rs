@@ -196,8 +196,8 @@ fn analytic_a_sliding_mass_stops_and_sticks() {
     }
 }
 
-/// If the problem tells its slips, Newton's method uses its matrix again in the same contact state and places
-/// its line searches by the slip: the same motion for fewer matrices.
+/// If the problem tells its slips, Newton's method uses its matrix again in the same contact state:
+/// the same motion for fewer matrices.
 #[test]
 fn convergence_a_reused_matrix_changes_nothing_but_the_cost() {
     let reference = Options {
@@ -218,49 +218,9 @@ fn convergence_a_reused_matrix_changes_nothing_but_the_cost() {
             assert!((x[1] - exact[1]).abs() < 1e-3, "{method}: {x:?}, {exact:?}");
         }
         assert!(4 * reused.1.jacobians < 3 * alone.1.jacobians, "{method}");
-        // where a matrix costs as much as two right-hand sides
-        let [one, other] = [&reused.1, &alone.1].map(|s| s.derivatives + 2 * s.jacobians);
+        // Where a matrix costs as much as four right-hand sides, as for half-trucks (trucks: eight).
+        let [one, other] = [&reused.1, &alone.1].map(|s| s.derivatives + 4 * s.jacobians);
         assert!(one < other, "{method}: {one}, {other}");
-    }
-}
-
-/// For a smooth solution, if the problem tells so, a stage takes one right-hand side: its prediction is
-/// within the tolerance.
-#[test]
-fn convergence_smooth_stages_are_predicted() {
-    let follower = |complete: bool| {
-        let problem = FunctionProblem::new(
-            vec![1.0],
-            |t, x, dx| dx[0] = 50.0 * (libm::sin(5.0 * t) - x[0]),
-            |_, _, j| j[0] = -50.0,
-        )
-        .displacements(1);
-        if complete {
-            problem
-                .discontinuities(1, 0, |_, _, functions| functions.values[0] = 1.0)
-                .discontinuities_complete()
-        } else {
-            problem
-        }
-    };
-    // x = (sin 5t - cos 5t/10 + exp(-50t)/10)/1.01
-    let exact = (libm::sin(10.0) - 0.1 * libm::cos(10.0)) / 1.01;
-    for method in ESDIRK {
-        let options = Options {
-            maximum_step: 0.01,
-            ..options_of(method, 1e-3)
-        };
-        let [straight, predicted] =
-            [false, true].map(|complete| run(follower(complete), options.clone(), &[0.0], 2.0));
-        println!("{method}: {:?}\n{:?}", straight.1, predicted.1);
-        for (x, _) in [&straight, &predicted] {
-            assert!((x[0] - exact).abs() < 1e-4, "{method}: {x:?}, {exact}");
-        }
-        assert_eq!(straight.1.steps, predicted.1.steps, "{method}");
-        assert!(
-            5 * predicted.1.derivatives < 3 * straight.1.derivatives,
-            "{method}"
-        );
     }
 }
 
@@ -373,7 +333,7 @@ fn input_a_damaged_stage_derivative_or_matrix_is_refused() {
         expected: 2,
         found: 1,
     };
-    assert_eq!(resume("slope", vec![1.0].into()), Err(slopes));
+    assert_eq!(resume("last_stage_derivative", vec![1.0].into()), Err(slopes));
     let places = SetupError::Dimension {
         what: "states of the matrix",
         expected: 2,
@@ -381,35 +341,22 @@ fn input_a_damaged_stage_derivative_or_matrix_is_refused() {
     };
     assert_eq!(
         resume(
-            "matrix",
+            "linearization_point",
             serde_json::json!({ "time": 0.1, "x": [1.0], "shift": 0.0 })
         ),
         Err(places)
     );
     let early = SetupError::Damaged {
-        name: "matrix",
+        name: "linearization_point",
         value: -1.0,
     };
     assert_eq!(
         resume(
-            "matrix",
+            "linearization_point",
             serde_json::json!({ "time": -1.0, "x": [1.0, 1.0], "shift": 0.0 })
         ),
         Err(early)
     );
-    assert_eq!(resume("matrix", serde_json::Value::Null), Ok(()));
-    let behind = |step: f64, x: &[f64]| serde_json::json!({ "step": step, "x": x, "first": [0.0, 0.1] });
-    let short = SetupError::Dimension {
-        what: "states of the last step",
-        expected: 2,
-        found: 1,
-    };
-    assert_eq!(resume("behind", behind(0.1, &[1.0])), Err(short));
-    let still = SetupError::Damaged {
-        name: "behind",
-        value: 0.0,
-    };
-    assert_eq!(resume("behind", behind(0.0, &[1.0, 1.0])), Err(still));
-    assert_eq!(resume("behind", behind(0.1, &[1.0, 1.0])), Ok(()));
-    assert!(resume("slope", integrator.derivative().to_vec().into()).is_ok());
+    assert_eq!(resume("linearization_point", serde_json::Value::Null), Ok(()));
+    assert!(resume("last_stage_derivative", integrator.derivative().to_vec().into()).is_ok());
 }

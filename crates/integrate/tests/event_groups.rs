@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-use integrate::{Event, EventGroup, Integrator, Options, Problem, Singular};
+use integrate::{Event, EventGroup, Integrator, Options, Problem, ProblemStructure, Singular};
 
 /// x_i = sin(ω_i t), each a state of its own, with a discrete state that goes to 1 above a half and back
 /// below its negative.
@@ -54,11 +54,21 @@ fn event_function(state: u8, x: f64) -> f64 {
 }
 
 impl Problem for Waves {
-    fn dimension(&self) -> usize {
-        self.frequencies.len()
-    }
-    fn scales(&self) -> &[f64] {
-        &self.scales
+    fn structure(&self) -> ProblemStructure {
+        let count = self.frequencies.len();
+        let group = |range: std::ops::Range<usize>| EventGroup {
+            discrete_states: range.clone(),
+            variables: range.clone(),
+            states: vec![range],
+        };
+        ProblemStructure {
+            event_groups: if self.grouped {
+                (0..count).map(|i| group(i..i + 1)).collect()
+            } else {
+                vec![group(0..count)]
+            },
+            ..ProblemStructure::new(vec![1.0; count])
+        }
     }
     fn derivative(&mut self, time: f64, _: &[f64], dx: &mut [f64]) {
         for (dx, frequency) in dx.iter_mut().zip(&self.frequencies) {
@@ -79,38 +89,19 @@ impl Problem for Waves {
             *value /= shift;
         }
     }
-    fn discrete_state_count(&self) -> usize {
-        self.dimension()
-    }
-    fn event_variable_count(&self) -> usize {
-        self.dimension()
-    }
-    fn event_variables(&mut self, _: f64, x: &[f64], variables: &mut [f64]) {
-        self.together += variables.len();
-        variables.copy_from_slice(x);
-    }
-    fn event_groups(&self) -> Vec<EventGroup> {
-        let count = self.dimension();
-        let group = |range: std::ops::Range<usize>| EventGroup {
-            discrete_states: range.clone(),
-            variables: range.clone(),
-            states: vec![range],
-        };
-        if self.grouped {
-            (0..count).map(|i| group(i..i + 1)).collect()
-        } else {
-            vec![group(0..count)]
+    fn event_variables(&mut self, group: Option<usize>, _: f64, x: &[f64], variables: &mut [f64]) {
+        match group {
+            Some(group) if self.grouped => {
+                self.alone += 1;
+                variables[0] = x[group];
+            }
+            _ => {
+                self.together += variables.len();
+                variables.copy_from_slice(x);
+            }
         }
     }
-    fn group_event_variables(&mut self, group: usize, time: f64, x: &[f64], variables: &mut [f64]) {
-        if self.grouped {
-            self.alone += 1;
-            variables[0] = x[group];
-        } else {
-            self.event_variables(time, x, variables);
-        }
-    }
-    fn group_event_functions(&mut self, _: usize, variables: &[f64], states: &[u8], functions: &mut [f64]) {
+    fn event_functions(&mut self, _: usize, variables: &[f64], states: &[u8], functions: &mut [f64]) {
         for ((function, state), variable) in functions.iter_mut().zip(states).zip(variables) {
             *function = event_function(*state, *variable);
         }

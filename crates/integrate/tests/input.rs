@@ -184,7 +184,7 @@ fn wrong_states_are_refused() {
     assert!(matches!(
         resume(state),
         Err(SetupError::Damaged {
-            name: "segment_start",
+            name: "interval_start",
             ..
         })
     ));
@@ -279,10 +279,16 @@ fn the_number_of_steps_is_bounded() {
 
 #[test]
 fn a_singular_matrix_shortens_the_step_or_is_reported() {
-    // J = 4/h for a first step of h and γ = 1/4: the matrix is zero
-    let problem = || FunctionProblem::new(vec![1.0], |_, x, dx| dx[0] = 40.0 * x[0], |_, _, j| j[0] = 40.0);
+    // J = 1/(γh) for a first step of h: the matrix is zero.
+    let rate = 1.0 / 0.1 / Method::Rodas5P.tableau().gamma;
+    let problem = || {
+        FunctionProblem::new(
+            vec![1.0],
+            move |_, x, dx| dx[0] = rate * x[0],
+            move |_, _, j| j[0] = rate,
+        )
+    };
     let options = Options {
-        method: Method::Rodas4,
         initial_step: Some(0.1),
         ..Options::default()
     };
@@ -290,7 +296,6 @@ fn a_singular_matrix_shortens_the_step_or_is_reported() {
     integrator.step_to(f64::INFINITY).unwrap();
     assert_eq!(integrator.statistics().rejected_singular, 1);
     let options = Options {
-        method: Method::Rodas4,
         fixed_step: Some(0.1),
         ..Options::default()
     };
@@ -307,11 +312,8 @@ fn a_singular_matrix_shortens_the_step_or_is_reported() {
 fn a_time_discontinuity_must_be_later_than_the_start() {
     struct Backwards(FunctionProblem<'static>);
     impl integrate::Problem for Backwards {
-        fn dimension(&self) -> usize {
-            self.0.dimension()
-        }
-        fn scales(&self) -> &[f64] {
-            self.0.scales()
+        fn structure(&self) -> integrate::ProblemStructure {
+            self.0.structure()
         }
         fn next_time_discontinuity(&mut self, start: f64) -> f64 {
             1.0 - start
@@ -352,4 +354,11 @@ fn options_pass_through_text() {
         serde_json::from_str(r#"{"method": "rodas5p", "relative_tolerance": 1e-7}"#).unwrap();
     assert_eq!(short.method, integrate::Method::Rodas5P);
     assert!(serde_json::from_str::<Options>(r#"{"tolerance": 1e-7}"#).is_err());
+    let error = serde_json::from_str::<Options>(r#"{"method": "rodas4"}"#).unwrap_err();
+    assert!(error.to_string().contains("`rodas5p`"), "{error}");
+    let error = "rodas4".parse::<Method>().unwrap_err().to_string();
+    assert!(
+        error.contains("`rodas4`") && error.contains("Rodas5P, TR-BDF2 or ESDIRK3"),
+        "{error}"
+    );
 }

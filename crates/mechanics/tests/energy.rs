@@ -204,7 +204,7 @@ fn ledgers(model: &Model, tolerance: f64) -> (Ledger, Ledger, f64) {
     let mut twin = system.clone();
     twin.next_time_discontinuity(0.0);
     let start = Ledger::at(&mut twin, 0.0, &x);
-    let done = integrate(system, options(Method::Rodas4, tolerance), &x, 0.6, |_| {});
+    let done = integrate(system, options(Method::Rodas5P, tolerance), &x, 0.6, |_| {});
     twin.segment_like(done.problem());
     let end = Ledger::at(&mut twin, 0.6, done.x());
     let size = start.stored.abs() + end.losses.iter().map(|(_, v)| v).sum::<f64>();
@@ -222,14 +222,16 @@ fn cases(damping: f64) -> Vec<(Model, bool)> {
     out
 }
 
+/// The residual is below 1e-5, 1e-7 and 1e-9 of the energies, at a five hundredth of that as the tolerance.
 fn closes(damping: f64) {
     for (i, (model, prescribed)) in cases(damping).into_iter().enumerate() {
-        for tolerance in [1e-6, 1e-8, 1e-10] {
-            let (start, end, size) = ledgers(&model, tolerance);
+        for most in [1e-5, 1e-7, 1e-9] {
+            // Contacts ring: the errors of some thousand steps add up.
+            let (start, end, size) = ledgers(&model, 2e-3 * most);
             let residual = end.residual(&start, |_| true).abs();
             assert!(
-                residual < 10.0 * tolerance * size,
-                "case {i}, tolerance {tolerance:e}: {residual:e} of {size}"
+                residual < most * size,
+                "case {i}: {residual:e} of {size}, at most {most:e}"
             );
             assert_eq!(end.work != 0.0, prescribed);
             assert!(end.guide.abs() > 1e-4 * size);

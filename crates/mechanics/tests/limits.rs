@@ -74,7 +74,7 @@ fn friction_stops_a_mass_on_a_spring_for_ever() {
     assert!(bound < 2e-6, "the bound {bound} must tell something");
     let mut turns = Vec::new();
     let mut settled = f64::NAN;
-    let end = integrate(system, options(Method::Rodas4, 1e-7), &x, 20.0, |integrator| {
+    let end = integrate(system, options(Method::Rodas5P, 1e-7), &x, 20.0, |integrator| {
         let [before, after] = [integrator.previous_x()[2], integrator.x()[2]];
         if before * after < 0.0 && integrator.time() < 2.3 {
             // Where the velocity passes zero.
@@ -130,7 +130,7 @@ fn tanh_creeps_where_the_bristle_holds() {
     // them, 1e-10 m/s: the tolerance is 1e-11 m/s.
     let options = Options {
         maximum_step: 0.25,
-        ..options(Method::Rodas4, 1e-12)
+        ..options(Method::Rodas5P, 1e-12)
     };
     integrate(system, options, &x, 20.0, |integrator| {
         if integrator.time() > 0.5 {
@@ -471,7 +471,7 @@ fn record(integrator: &mut Integrator<System>, limits: &[f64]) -> (Vec<u64>, Sta
 
 #[test]
 fn the_same_bits_again_and_after_saving() {
-    for method in [Method::Rodas4, Method::Rodas5P] {
+    for method in Method::ALL {
         let options: Options = options(method, 1e-6);
         let start = || {
             let system = shaken();
@@ -518,7 +518,7 @@ fn evaluation_leaves_no_trace() {
     let dx = rates(&mut system, 0.37, &other);
     system.linearize(0.37, &other, &dx, &mut df_dt);
     let _ = system.observe(0.9, &other);
-    let mut contact_states = vec![0; system.discrete_state_count()];
+    let mut contact_states = vec![0; system.structure().discrete_states()];
     system.initial_discrete_states(0.1, &other, &mut contact_states);
     assert_eq!(rates(&mut system, 0.31, &x), fresh);
 }

@@ -106,12 +106,12 @@ fn state(system: &System, random: &mut Random) -> Vec<f64> {
 
 /// Margins of all switches, and the modes that follow, by the signs of all at once.
 fn margins(system: &mut System, time: f64, x: &[f64], contact_states: &[u8]) -> (Vec<f64>, Vec<u8>) {
-    let mut variables = vec![f64::NAN; system.event_variable_count()];
-    system.event_variables(time, x, &mut variables);
+    let mut variables = vec![f64::NAN; system.structure().event_variables()];
+    system.event_variables(None, time, x, &mut variables);
     let (mut margins, mut next) = (vec![f64::NAN; contact_states.len()], contact_states.to_vec());
-    for (number, group) in system.event_groups().into_iter().enumerate() {
+    for (number, group) in system.structure().event_groups.into_iter().enumerate() {
         let (own, variables) = (group.discrete_states, &variables[group.variables]);
-        system.group_event_functions(
+        system.event_functions(
             number,
             variables,
             &contact_states[own.clone()],
@@ -129,8 +129,8 @@ fn limits_signs_of_a_face_depend_on_the_states_of_its_group_alone() {
     let mut random = Random(5);
     let mut closed = [0, 0];
     for mut system in models() {
-        let groups = system.event_groups();
-        let count = system.discrete_state_count();
+        let groups = system.structure().event_groups;
+        let count = system.structure().discrete_states();
         assert!(
             groups
                 .iter()
@@ -139,8 +139,8 @@ fn limits_signs_of_a_face_depend_on_the_states_of_its_group_alone() {
         );
         for _ in 0..60 {
             let (x, time) = (state(&system, &mut random), random.between(0.0, 1.0));
-            let mut expected = vec![0.0; system.event_variable_count()];
-            system.clone().event_variables(time, &x, &mut expected);
+            let mut expected = vec![0.0; system.structure().event_variables()];
+            system.clone().event_variables(None, time, &x, &mut expected);
             for (number, group) in groups.iter().enumerate() {
                 // What it does not depend on is not even a number.
                 let mut own = vec![f64::NAN; x.len()];
@@ -148,16 +148,16 @@ fn limits_signs_of_a_face_depend_on_the_states_of_its_group_alone() {
                     own[part.clone()].copy_from_slice(&x[part.clone()]);
                 }
                 let mut found = vec![7.0; group.variables.len()];
-                system.group_event_variables(number, time, &own, &mut found);
+                system.event_variables(Some(number), time, &own, &mut found);
                 let expected = &expected[group.variables.clone()];
                 for (found, expected) in found.iter().zip(expected) {
                     assert_eq!(found.to_bits(), expected.to_bits(), "group {number}");
                 }
             }
             // What follows does not see what was asked before, not even at another time and place.
-            let mut again = vec![0.0; system.event_variable_count()];
+            let mut again = vec![0.0; system.structure().event_variables()];
             for _ in 0..2 {
-                system.event_variables(time, &x, &mut again);
+                system.event_variables(None, time, &x, &mut again);
                 assert!(
                     again
                         .iter()
@@ -166,7 +166,7 @@ fn limits_signs_of_a_face_depend_on_the_states_of_its_group_alone() {
                 );
                 let elsewhere = state(&system, &mut random);
                 let own = groups[0].variables.clone();
-                system.group_event_variables(0, time + 0.1, &elsewhere, &mut again[own]);
+                system.event_variables(Some(0), time + 0.1, &elsewhere, &mut again[own]);
             }
             for gap in margins(&mut system, time, &x, &vec![0; count]).0 {
                 closed[usize::from(gap < 0.0)] += 1;
@@ -233,13 +233,17 @@ fn input_what_presses_on_a_contact_is_held_to_a_bound() {
         let floor = face("floor", &CORNERS, 1e5, 0.0, 0.3, law);
         model.faces.push((0, 1, Marker::new([0.0; 3], UP), floor));
         let system = System::new(model).unwrap();
-        let held: Vec<bool> = system
-            .error_bounds()
-            .iter()
-            .map(|bound| bound.is_finite())
-            .collect();
-        let in_layers = system.zone_error_bounds().iter().map(|bound| bound.is_finite());
-        (held, in_layers.collect::<Vec<bool>>())
+        let structure = system.structure();
+        let are_held = |bounds: &[f64]| {
+            bounds
+                .iter()
+                .map(|bound| bound.is_finite())
+                .collect::<Vec<bool>>()
+        };
+        (
+            are_held(&structure.error_bounds),
+            are_held(&structure.zone_error_bounds),
+        )
     };
     let (along, up) = (
         [true, false, false, false, false, false],
@@ -263,7 +267,7 @@ fn limits_a_mode_is_left_where_its_margin_is_used_up() {
     let mut random = Random(11);
     let mut left = [[0; 2]; 3];
     for mut system in models() {
-        let count = system.discrete_state_count();
+        let count = system.structure().discrete_states();
         for _ in 0..200 {
             let (x, time) = (state(&system, &mut random), random.between(0.0, 1.0));
             // All of one mode, and mixed.
@@ -303,10 +307,10 @@ fn limits_a_face_is_placed_anew_when_a_motion_changes() {
     let mut random = Random(3);
     let system = System::new(tower(true, TANH)).unwrap();
     let (x, time) = (state(&system, &mut random), 0.3);
-    let (group, own) = (2, system.event_groups()[2].variables.clone()); // upper body on the base
+    let (group, own) = (2, system.structure().event_groups[2].variables.clone()); // upper body on the base
     let variables = |system: &mut System| {
         let mut variables = vec![0.0; own.len()];
-        system.group_event_variables(group, time, &x, &mut variables);
+        system.event_variables(Some(group), time, &x, &mut variables);
         variables
     };
     let mut motions = system.bodies()[2].frame.motions.clone();
@@ -326,8 +330,8 @@ fn limits_a_face_is_placed_anew_when_a_motion_changes() {
     assert_ne!(before, expected);
     assert_eq!(variables(&mut asked_before), expected);
     // Nor does it keep what it saw when all else has moved on.
-    let mut signs_elsewhere = vec![0.0; system.event_variable_count()];
+    let mut signs_elsewhere = vec![0.0; system.structure().event_variables()];
     let elsewhere = state(&system, &mut random);
-    asked_before.event_variables(time, &elsewhere, &mut signs_elsewhere);
+    asked_before.event_variables(None, time, &elsewhere, &mut signs_elsewhere);
     assert_eq!(variables(&mut asked_before), expected);
 }

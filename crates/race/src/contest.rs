@@ -76,14 +76,6 @@ pub const SOLVERS: &[Solver] = &[
                   scales where a wider tolerance is asked for), but contact modes not recorded",
     },
     Solver {
-        name: "wedgelab Rodas4",
-        program: Program::Own,
-        method: "rodas4",
-        ours: true,
-        span: 10.0,
-        options: "the same, method Rodas4",
-    },
-    Solver {
         name: "wedgelab TR-BDF2",
         program: Program::Own,
         method: "own_tr_bdf2",

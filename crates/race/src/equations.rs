@@ -50,7 +50,7 @@ impl Equations {
             .iter()
             .position(|energy_term| energy_term.kind == EnergyTermKind::FrictionLoss)
             .unwrap_or(0);
-        let full_scales = system.scales().to_vec();
+        let full_scales = system.structure().scales;
         // No problem of the race has a motion with breaks: one smooth piece.
         system.next_time_discontinuity(0.0);
         let reduce = |full: &[f64]| {

@@ -10,7 +10,6 @@ use crate::standings::Standing;
 fn look(name: &str) -> (Colour, Line) {
     match name {
         "wedgelab Rodas5P" => (Colour::Black, Line::Solid),
-        "wedgelab Rodas4" => (Colour::Black, Line::Dashed),
         "wedgelab TR-BDF2" => (Colour::Black, Line::Dotted),
         "wedgelab ESDIRK3" => (Colour::Black, Line::DashDot),
         "CVODE BDF" => (Colour::Vermillion, Line::Solid),

@@ -60,7 +60,6 @@ fn solve(solver: &str, words: &[&str]) -> Result<(), String> {
     let (outcome, states) = match solver {
         "rodas5p" => own(Method::Rodas5P, false),
         "rodas5p_recorded" => own(Method::Rodas5P, true),
-        "rodas4" => own(Method::Rodas4, false),
         "own_tr_bdf2" => own(Method::TrBdf2, false),
         "own_esdirk3" => own(Method::Esdirk3, false),
         "bdf" => other(diffsol::Method::Bdf, false),

@@ -16,7 +16,7 @@ fn the_jacobian_is_the_derivative_of_the_rates() {
         let n = equations.dimension();
         // A little way in, so that nothing is at rest or just touching.
         let (_, states) =
-            race::own::run(&name, integrate::Method::Rodas4, false, 1e-7, 10.0, 40).expect("our own run");
+            race::own::run(&name, integrate::Method::Rodas5P, false, 1e-7, 10.0, 40).expect("our own run");
         let mut z = states[states.len() - n..].to_vec();
         // A wedge that hangs free may hang at a face without touching it: a thousand differences away from there.
         for (value, scale) in z.iter_mut().zip(equations.scales()) {

@@ -78,12 +78,12 @@ impl Tally {
 #[test]
 fn issue_029_every_member_of_a_run_edited_by_hand_is_refused_or_goes_on() {
     let tanh: &[fn(&Value) -> bool] = &[
-        |state| is_late(state) && state["integrator"]["ahead"].get("Layer").is_some(),
-        |state| state["integrator"]["passage"].is_object(),
+        |state| is_late(state) && state["integrator"]["prediction"]["zone_step"].is_number(),
+        |state| is_late(state) && state["integrator"]["prediction"]["zone_step"].is_null(),
     ];
     let damping: &[fn(&Value) -> bool] = &[|state| {
         let integrator = &state["integrator"];
-        is_late(state) && integrator["behind"].is_object() && integrator["matrix"].is_object()
+        is_late(state) && integrator["linearization_point"].is_object()
     }];
     for (overrides, wanted) in [(&[][..], tanh), (&["simulation.method=\"tr-bdf2\""][..], damping)] {
         let case = case(overrides);
@@ -136,13 +136,17 @@ fn issue_029_members_of_a_run_that_led_astray_are_refused_by_name() {
             json!(MAXIMUM_COUNT + 1),
             "counts.pace.attempts",
         ),
-        ("/integrator/modes/7", json!(3), "integrator.modes"),
+        (
+            "/integrator/discrete_states/7",
+            json!(3),
+            "integrator.discrete_states",
+        ),
         ("/integrator/time", json!(-1e-9), "integrator.time"),
         ("/integrator/time", json!(1e308), "integrator.time"),
         (
-            "/integrator/segment_start",
+            "/integrator/interval_start",
             json!(-1.0),
-            "integrator.segment_start",
+            "integrator.interval_start",
         ),
         (
             "/integrator/statistics/steps",
@@ -243,7 +247,7 @@ fn issue_029_members_of_a_driven_wedge_that_led_astray_are_refused_by_name() {
         ),
         (
             |state| state.integrator.interval_start = 1.0,
-            "`segment_start` is 1",
+            "`interval_start` is 1",
         ),
         (|state| state.integrator.time = f64::INFINITY, "start time is inf"),
         (

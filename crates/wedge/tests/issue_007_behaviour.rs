@@ -35,15 +35,11 @@ fn wide_tolerances_neither_crawl_nor_lose_the_energy() {
     for damping in [Damping::Variable, Damping::Constant] {
         for toe in [0.2, 0.0, -0.2] {
             let (exact, _) = lost(damping, toe, Method::Rodas5P, 1e-6);
-            for method in [Method::Rodas5P, Method::Rodas4P] {
-                for tolerance in [1e-3, 1e-4] {
-                    let (found, steps) = lost(damping, toe, method, tolerance);
-                    let case = format!(
-                        "{damping:?}, toe {toe}, {method} at {tolerance:e}: {found} J, {exact} J at 1e-6"
-                    );
-                    assert!(steps < 20_000, "{case}: {steps} steps");
-                    assert!((found - exact).abs() < 0.05 * exact, "{case}");
-                }
+            for tolerance in [1e-3, 1e-4] {
+                let (found, steps) = lost(damping, toe, Method::Rodas5P, tolerance);
+                let case = format!("{damping:?}, toe {toe}, at {tolerance:e}: {found} J, {exact} J at 1e-6");
+                assert!(steps < 20_000, "{case}: {steps} steps");
+                assert!((found - exact).abs() < 0.05 * exact, "{case}");
             }
         }
     }
@@ -91,7 +87,7 @@ fn errors_of_steps(
             exact.step_to(integrator.time()).unwrap();
         }
         let both = integrator.x().iter().zip(exact.x());
-        for ((found, exact), scale) in both.zip(system.scales()) {
+        for ((found, exact), scale) in both.zip(&system.structure().scales) {
             worst = worst.max((found - exact).abs() / (tolerance * scale));
         }
     }

@@ -16,10 +16,10 @@ fn system(parameters: &Parameters) -> System {
 }
 
 fn discontinuities(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
-    let (values, slips) = system.discontinuity_counts();
+    let structure = system.structure();
     let mut functions = DiscontinuityFunctions {
-        values: vec![0.0; values],
-        slips: vec![[0.0; 2]; slips],
+        values: vec![0.0; structure.discontinuity_values],
+        slips: vec![[0.0; 2]; structure.slips],
     };
     system.discontinuities(time, x, &mut functions);
     [&functions.values[..], functions.slips.as_flattened()].concat()
@@ -32,12 +32,12 @@ fn equal(a: f64, b: f64) -> bool {
 
 /// Margins of all switches, and the modes that follow, by the signs of all at once.
 fn margins(system: &mut System, time: f64, x: &[f64], contact_states: &[u8]) -> (Vec<f64>, Vec<u8>) {
-    let mut variables = vec![f64::NAN; system.event_variable_count()];
-    system.event_variables(time, x, &mut variables);
+    let mut variables = vec![f64::NAN; system.structure().event_variables()];
+    system.event_variables(None, time, x, &mut variables);
     let (mut margins, mut next) = (vec![f64::NAN; contact_states.len()], contact_states.to_vec());
-    for (number, group) in system.event_groups().into_iter().enumerate() {
+    for (number, group) in system.structure().event_groups.into_iter().enumerate() {
         let (own, variables) = (group.discrete_states, &variables[group.variables]);
-        system.group_event_functions(
+        system.event_functions(
             number,
             variables,
             &contact_states[own.clone()],
@@ -52,9 +52,9 @@ fn margins(system: &mut System, time: f64, x: &[f64], contact_states: &[u8]) -> 
 
 /// The signs of all groups, one after the other.
 fn face_signs(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
-    let mut variables = vec![f64::NAN; system.event_variable_count()];
-    for (number, group) in system.event_groups().into_iter().enumerate() {
-        system.group_event_variables(number, time, x, &mut variables[group.variables]);
+    let mut variables = vec![f64::NAN; system.structure().event_variables()];
+    for (number, group) in system.structure().event_groups.into_iter().enumerate() {
+        system.event_variables(Some(number), time, x, &mut variables[group.variables]);
     }
     variables
 }
@@ -103,7 +103,7 @@ fn what_was_asked_before_changes_nothing() {
         let untouched = system(&parameters);
         let mut asked = untouched.clone();
         let speeds = asked.layout().speeds;
-        let mut contact_states = vec![0u8; asked.discrete_state_count()];
+        let mut contact_states = vec![0u8; asked.structure().discrete_states()];
         let mut x = asked.initial_state();
         for _ in 0..3000 {
             // Now and then the same place is asked again.

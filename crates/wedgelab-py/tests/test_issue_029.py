@@ -87,7 +87,7 @@ def test_states_of_wedges_edited_by_hand() -> None:
             wedge.restore(json.dumps(state).encode())
 
     refuse("statistics.steps", lambda state: state["integrator"]["statistics"].update(steps=2**64 - 1))
-    refuse("contact state of corner 1", lambda state: state["integrator"]["modes"].__setitem__(1, 3))
+    refuse("contact state of corner 1", lambda state: state["integrator"]["discrete_states"].__setitem__(1, 3))
     refuse("time of the saved state is -1", lambda state: state["integrator"].update(time=-1.0))
     refuse("proposed_step", lambda state: state["integrator"].update(proposed_step=0.0))
     with pytest.raises(wl.StepError, match=f"more than the {MOST} that are read"):

@@ -106,7 +106,7 @@ impl TruckElement {
     }
 
     fn dimension(&self) -> usize {
-        self.truck.system.dimension()
+        self.truck.system.layout().len()
     }
 }
 

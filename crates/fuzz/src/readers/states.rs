@@ -48,9 +48,9 @@ const DICTIONARY: &[&[u8]] = &[
     b"\"version\":1",
     b"\"time\":",
     b"\"x\":",
-    b"\"modes\":",
+    b"\"discrete_states\":",
     b"\"proposed_step\":",
-    b"\"segment_start\":",
+    b"\"interval_start\":",
     b"\"next_row\":",
     b"\"statistics\":",
     b"18446744073709551615",
@@ -59,7 +59,7 @@ const DICTIONARY: &[&[u8]] = &[
     b"5e-324",
     b"0.0",
     b"255",
-    b"\"Passage\"",
+    b"\"zone_step\"",
     b"\\ud800",
 ];
 

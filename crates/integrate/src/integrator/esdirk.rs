@@ -1,32 +1,23 @@
 //! An attempt by an ESDIRK method: its stages are solved by Newton's method with a Jacobian cache and a line
 //! search.
 //!
-//! A stage begins at the prediction of [`crate::newton::Extrapolation`], with the cached matrix if it is
+//! A stage begins on the straight line through what is known before it, with the cached matrix if it is
 //! valid there, otherwise with a matrix evaluated there (if the contact state is unknown: in the
 //! first stage). The matrix is used while corrections shrink by [`tuning::CONTRACTION`]. Where a correction
 //! crosses a discontinuity, a line search finds the point at which the next matrix is evaluated, see
-//! [`crate::newton::LineSearch`]. Decisions 0026, 0033, 0035.
+//! [`crate::newton::LineSearch`]. Decisions 0026, 0033.
 
 use super::Integrator;
 use super::attempt::{not_finite, stage_time};
 use super::memory::{Attempt, Failure, Outcome};
 use crate::error::Reason;
-use crate::newton::{CacheValidity, Extrapolation, LineSearch, LinearizationPoint, Newton, SlipReversal};
-use crate::problem::{Problem, padded_dynamic_states};
+use crate::newton::{CacheValidity, LineSearch, LinearizationPoint, Newton};
+use crate::problem::Problem;
 use crate::tuning::newton as tuning;
 use crate::vector::{
-    add, add_difference, all_finite, combine, max_norm, max_norm_if_finite, scale, scale_difference,
+    add, add_difference, all_finite, combine, extrapolate, max_norm, max_norm_if_finite, scale,
+    scale_difference,
 };
-
-/// Result of the first correction with a matrix.
-enum FirstCorrection {
-    /// The argument is the stage.
-    Converged,
-    /// The prediction by the cubic was given up; the argument is that by the straight line.
-    OtherPrediction,
-    /// The argument is where the correction leads.
-    Corrected,
-}
 
 impl<P: Problem> Integrator<P> {
     /// Makes an attempt by the ESDIRK method; returns its error in units of the tolerance.
@@ -52,55 +43,31 @@ impl<P: Problem> Integrator<P> {
         Ok(max_norm(self.last_trial_stage(), &self.newton.error_weights))
     }
 
-    /// Starts a stage: computes its base and its time, and its prediction as argument.
+    /// Starts a stage: computes its base, its time, and its prediction as argument: on the tangent at the start
+    /// of the step, or on the chord from there to the stage before, which is the argument.
     fn predict_stage(&mut self, i: usize) {
         let Attempt {
             step: length, target, ..
         } = self.attempt;
         let (stride, tableau) = (self.stride, self.tableau);
         let newton = &mut self.newton;
-        let smooth = newton.was_smooth();
         (newton.stage, newton.matrices) = (i, 0);
         newton.time = stage_time(tableau.alpha[i], self.time, length, target);
         let done = &self.trial_stages[..i * stride];
         combine(&mut newton.base, &self.x, 1.0, tableau.a[i], done, stride);
-        // From the last step to the first implicit stage, then from the stages before, the last of which is
-        // the argument. Without a last step only the derivative at its end is known, and the tangent is used.
-        let (way, cubic) = if i == 1 {
-            self.argument.copy_from_slice(&self.x);
-            let history = &newton.history;
-            let step = if newton.history_valid {
-                history.step
-            } else {
-                length
-            };
-            let way = Extrapolation {
-                start: &history.x,
-                first: (&history.first, 1.0),
-                last: (&self.dx, step),
-                distance: tableau.alpha[1] * length / step,
-                tangent: true,
-            };
-            (way, newton.history_valid)
-        } else {
-            let reached = tableau.alpha[i - 1];
-            let way = Extrapolation {
-                start: &self.x,
-                first: (&done[..stride], reached),
-                last: (&done[(i - 1) * stride..], reached),
-                distance: (tableau.alpha[i] - reached) / reached,
-                tangent: false,
-            };
-            (way, smooth)
-        };
         // Quadratures need no prediction.
-        let dynamic = ..padded_dynamic_states(&self.problem);
-        newton.predicted_by_cubic = way.evaluate(
-            cubic,
-            &newton.correction_weights,
-            &mut self.argument[dynamic],
-            &mut newton.next[dynamic],
-        );
+        let dynamic = ..self.structure.padded_dynamic_states();
+        if i == 1 {
+            self.argument.copy_from_slice(&self.x);
+            add(
+                &mut self.argument[dynamic],
+                tableau.alpha[1] * length,
+                &self.dx[dynamic],
+            );
+        } else {
+            let distance = tableau.alpha[i] / tableau.alpha[i - 1] - 1.0;
+            extrapolate(&mut self.argument[dynamic], distance, &self.x[dynamic]);
+        }
     }
 
     /// Evaluates the derivative at the argument.
@@ -116,25 +83,15 @@ impl<P: Problem> Integrator<P> {
     #[inline(never)]
     fn solve_nonlinear_stage(&mut self) -> Result<(), Failure> {
         self.evaluate_stage();
-        loop {
-            match self.first_correction()? {
-                FirstCorrection::Converged => return Ok(()),
-                FirstCorrection::OtherPrediction => self.evaluate_stage(),
-                FirstCorrection::Corrected => {
-                    if self.iterate() {
-                        return Ok(());
-                    }
-                }
-            }
-        }
+        while !self.first_correction()? && !self.iterate() {}
+        Ok(())
     }
 
-    /// Makes the first correction with a matrix, from the argument, where the derivative is known.
-    fn first_correction(&mut self) -> Result<FirstCorrection, Failure> {
+    /// Makes the first correction with a matrix, from the argument, where the derivative is known; returns
+    /// whether the stage is solved.
+    fn first_correction(&mut self) -> Result<bool, Failure> {
         let n = self.dimension;
-        let finite = all_finite(&self.stage_derivative);
-        let by_cubic = std::mem::take(&mut self.newton.predicted_by_cubic);
-        if !finite && !by_cubic {
+        if !all_finite(&self.stage_derivative) {
             return Err(not_finite(&self.stage_derivative[..n]));
         }
         let matrices = self.newton.matrices + 1;
@@ -153,12 +110,6 @@ impl<P: Problem> Integrator<P> {
             cache.set_contact_state(&mut self.problem, *time, x);
             CacheValidity::Invalid
         };
-        if by_cubic && (!finite || validity != CacheValidity::Valid) {
-            let newton = &self.newton;
-            let dynamic = ..padded_dynamic_states(&self.problem);
-            self.argument[dynamic].copy_from_slice(&newton.next[dynamic]);
-            return Ok(FirstCorrection::OtherPrediction);
-        }
         self.newton.matrices = matrices;
         let reliable = self.prepare_matrix(validity)?;
         let size = self.compute_correction();
@@ -168,10 +119,10 @@ impl<P: Problem> Integrator<P> {
         }
         if size <= 1.0 && reliable {
             add(&mut self.argument, 1.0, &newton.next);
-            return Ok(FirstCorrection::Converged);
+            return Ok(true);
         }
         self.apply_correction(size);
-        Ok(FirstCorrection::Corrected)
+        Ok(false)
     }
 
     /// Applies further corrections with the same matrix while they shrink; returns whether the stage is
@@ -205,34 +156,20 @@ impl<P: Problem> Integrator<P> {
     }
 
     /// Searches along the last correction, at whose end the next one has the component `component` along it.
-    fn search_along(&mut self, mut component: f64) {
-        let reversal = self.slip_reversal();
-        self.newton.line_search = LineSearch::new(component, reversal);
+    fn search_along(&mut self, component: f64) {
+        self.newton.line_search = LineSearch::new(component);
         loop {
             let newton = &mut self.newton;
-            let fraction = newton.line_search.next_fraction(component);
+            let fraction = newton.line_search.next_fraction();
             self.argument.copy_from_slice(&newton.from);
             add(&mut self.argument, fraction, &newton.correction);
             self.evaluate_stage();
             let size = self.compute_correction();
-            component = self.newton.component_along(size);
+            let component = self.newton.component_along(size);
             if self.newton.line_search.update(component) {
                 return;
             }
         }
-    }
-
-    /// Returns the slip reversal that the last correction, whose end is the argument, crosses.
-    fn slip_reversal(&mut self) -> Option<SlipReversal> {
-        let (n, time) = (self.dimension, self.newton.time);
-        let Newton { ends, from, .. } = &mut self.newton;
-        let [start, end] = ends;
-        if end.slips.is_empty() {
-            return None;
-        }
-        self.problem.discontinuities(time, &self.argument[..n], end);
-        self.problem.discontinuities(time, &from[..n], start);
-        SlipReversal::first(start, end)
     }
 
     /// Returns the shift 1/(hγ).

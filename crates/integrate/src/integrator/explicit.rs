@@ -2,9 +2,9 @@
 
 use super::Integrator;
 use super::attempt::{not_finite, stage_time};
-use super::memory::{Attempt, Failure, Outcome};
+use super::memory::{Attempt, Outcome};
 use crate::methods::explicit::TSITOURAS;
-use crate::problem::{Problem, padded_dynamic_states};
+use crate::problem::Problem;
 use crate::tuning::attempt as tuning;
 use crate::vector::{all_finite, combine, max_norm, scale};
 
@@ -19,8 +19,7 @@ impl<P: Problem> Integrator<P> {
         self.options.explicit_steps && step * self.spectral_radius <= tuning::EXPLICIT_H_RHO
     }
 
-    /// Makes an attempt by the explicit method; returns its error in units of the tolerance. An attempt that
-    /// crosses a discontinuity is made again by the Rosenbrock method.
+    /// Makes an attempt by the explicit method; returns its error in units of the tolerance.
     #[inline(never)]
     pub(super) fn attempt_explicit(&mut self) -> Outcome {
         let (n, stride) = (self.dimension, self.stride);
@@ -28,7 +27,6 @@ impl<P: Problem> Integrator<P> {
             step,
             target,
             diagnostic,
-            prediction,
             ..
         } = self.attempt;
         self.trial_method = &TSITOURAS;
@@ -37,7 +35,7 @@ impl<P: Problem> Integrator<P> {
             let (argument, derivative) = if i == LAST_STAGE {
                 (&mut self.trial_x[..], &mut self.trial_dx)
             } else {
-                let leading = padded_dynamic_states(&self.problem);
+                let leading = self.structure.padded_dynamic_states();
                 (&mut self.argument[..leading], &mut self.stage_derivative)
             };
             let (done, rest) = self.trial_stages.split_at_mut(i * stride);
@@ -55,26 +53,9 @@ impl<P: Problem> Integrator<P> {
             }
             scale(&mut rest[..stride], step, derivative);
         }
-        let error = self.explicit_error()?;
-        // Across a discontinuity the error estimate of an explicit method can be small by chance, and steps
-        // are tried until it is; that of a Rosenbrock method, whose Jacobian matrix is that of the wrong
-        // side, is large.
-        if prediction.is_some() || error > 1.0 {
-            return Ok(error);
-        }
-        self.evaluate_trial_discontinuities();
-        if !self.predictor.trial_crosses() {
-            return Ok(error);
-        }
-        self.spectral_radius = f64::INFINITY;
-        self.attempt_rosenbrock()
-    }
-
-    /// Computes the error from the stages.
-    fn explicit_error(&mut self) -> Result<f64, Failure> {
         for values in [&self.trial_x, &self.trial_dx] {
             if !all_finite(values) {
-                return Err(not_finite(&values[..self.dimension]));
+                return Err(not_finite(&values[..n]));
             }
         }
         self.write_error();

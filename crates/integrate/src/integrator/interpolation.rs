@@ -16,7 +16,7 @@
 //! more than the error of the dense output. Decision 0029.
 
 use super::Integrator;
-use super::memory::{CorrectionMatrix, DenseCorrection};
+use super::memory::{CorrectionState, DenseCorrection};
 use crate::dense_output::DenseOutput;
 use crate::methods::tableau::Family;
 use crate::problem::Problem;
@@ -49,14 +49,14 @@ impl<P: Problem> Integrator<P> {
         if time <= self.previous_time || time >= self.time {
             return;
         }
-        if self.correction.matrix == CorrectionMatrix::Undecided {
-            self.correction.matrix = if self.needs_correction() {
-                CorrectionMatrix::OfStep
+        if self.correction.state == CorrectionState::Undecided {
+            self.correction.state = if self.needs_correction() {
+                CorrectionState::Enabled
             } else {
-                CorrectionMatrix::None
+                CorrectionState::Disabled
             };
         }
-        if self.correction.matrix != CorrectionMatrix::None {
+        if self.correction.state == CorrectionState::Enabled {
             self.correct(time, out);
         }
     }
@@ -87,14 +87,14 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
-    /// Returns whether the dense output of the last step needs a correction in its middle, by the matrix of
-    /// the step. Where everything slides fast friction hardly depends on the slip.
+    /// Returns whether the dense output of the last step needs a correction in its middle, by the factored
+    /// matrix of the step, which the problem holds. Where everything slides fast, friction hardly depends on
+    /// the slip.
     fn needs_correction(&mut self) -> bool {
-        let shift = self.correction_shift();
         let middle = 0.5 * (self.previous_time + self.time);
         self.predictor.any_slip_held()
             && self.start_correction(middle)
-            && self.correct_once(shift) > tuning::NEGLIGIBLE
+            && self.correct_once(self.correction_shift()) > tuning::NEGLIGIBLE
     }
 
     /// Returns 1/(γh).
@@ -126,59 +126,40 @@ impl<P: Problem> Integrator<P> {
         all_finite(rate)
     }
 
-    /// Corrects the states of the dense output at a time, if Newton's method converges.
+    /// Corrects the states of the dense output at a time, if the problem is stiff there and Newton's method
+    /// converges.
     fn correct(&mut self, time: f64, out: &mut [f64]) {
-        let (dynamic, shift) = (self.problem.dynamic_states(), self.correction_shift());
-        if !self.start_correction(time) || !self.provide_step_matrix(shift) {
+        let dynamic = self.structure.dynamic_states;
+        let shift = self.correction_shift();
+        if !self.start_correction(time) {
             return;
         }
-        // First by the matrix of the step, which costs little.
-        let mut size = self.correct_once(shift);
-        let (mut admissible, mut outdated) = (tuning::ACCEPT_STEP_MATRIX, true);
-        for iteration in 0..tuning::MAXIMUM_ITERATIONS {
-            if size <= admissible {
+        let (mut before, mut outdated) = (f64::INFINITY, true);
+        for _ in 0..tuning::MAXIMUM_ITERATIONS {
+            if outdated && !self.evaluate_correction_matrix(time, shift) {
+                return;
+            }
+            let size = self.correct_once(shift);
+            if size <= tuning::CONVERGED {
                 out[..dynamic].copy_from_slice(&self.correction.x[..dynamic]);
                 return;
             }
-            if iteration == 0 {
-                let DenseCorrection { x, start, .. } = &mut self.correction;
-                x.copy_from_slice(start);
-            }
-            if !self.evaluate_corrected(time) || (outdated && !self.replace_matrix(time, shift)) {
+            if size > tuning::DIVERGED * before || !self.evaluate_corrected(time) {
                 return;
             }
-            let before = size;
-            size = self.correct_once(shift);
-            if iteration > 0 && size > tuning::DIVERGED * before {
-                return;
-            }
-            (admissible, outdated) = (tuning::CONVERGED, iteration > 0 && size > tuning::SLOW * before);
+            outdated = size > tuning::SLOW * before;
+            before = size;
         }
-    }
-
-    /// Provides the matrix of the last step; returns whether it could be factored.
-    fn provide_step_matrix(&mut self, shift: f64) -> bool {
-        if self.correction.matrix == CorrectionMatrix::OfStep {
-            return true;
-        }
-        let n = self.dimension;
-        // The derivative at the start is in `trial_dx` since the step was accepted.
-        let (x, dx) = (&self.previous_x[..n], &self.trial_dx[..n]);
-        self.df_dt.fill(0.0);
-        self.problem
-            .linearize(self.previous_time, x, dx, &mut self.df_dt[..n]);
-        (self.correction.matrix, self.linearized) = (CorrectionMatrix::OfStep, false);
-        self.problem.factor(shift).is_ok()
     }
 
     /// Evaluates a matrix at the corrected states, where the right-hand side is known; returns whether it
     /// could be factored.
-    fn replace_matrix(&mut self, time: f64, shift: f64) -> bool {
+    fn evaluate_correction_matrix(&mut self, time: f64, shift: f64) -> bool {
         let n = self.dimension;
         let DenseCorrection { x, rate, .. } = &self.correction;
         self.problem
             .linearize_for_newton(time, &x[..n], &rate[..n], &mut self.df_dt[..n]);
-        (self.correction.matrix, self.linearized) = (CorrectionMatrix::Replaced, false);
+        self.linearized = false;
         self.problem.factor(shift).is_ok()
     }
 
@@ -202,7 +183,7 @@ impl<P: Problem> Integrator<P> {
         }
         let mut most = 0.0_f64;
         let corrections = rate.iter().zip(&self.weights);
-        let dynamic = self.problem.dynamic_states();
+        let dynamic = self.structure.dynamic_states;
         for (x, (correction, weight)) in x.iter_mut().zip(corrections).take(dynamic) {
             *x += correction;
             most = most.max(correction.abs() * weight);

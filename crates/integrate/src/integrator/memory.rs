@@ -2,7 +2,6 @@
 
 use crate::discontinuity::Prediction;
 use crate::error::Reason;
-use crate::methods::tableau::Family;
 
 /// Why an attempt failed, and the index of the state to blame.
 pub(super) struct Failure {
@@ -49,24 +48,22 @@ impl Attempt {
     };
 }
 
-/// The matrix for the correction of the dense output of the last step.
+/// Whether states of the dense output of the last step are corrected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum CorrectionMatrix {
-    /// Nothing is corrected in this step.
+pub(super) enum CorrectionState {
+    /// They are not.
     #[default]
-    None,
-    /// The problem holds the matrix of the step; the first correction decides whether any is needed.
+    Disabled,
+    /// The first correction will tell, with the matrix of the step.
     Undecided,
-    /// The problem holds the matrix of the step.
-    OfStep,
-    /// The problem holds another matrix; that of the step can be evaluated again.
-    Replaced,
+    /// They are.
+    Enabled,
 }
 
 /// Memory of the dense-output correction.
 #[derive(Debug, Default)]
 pub(super) struct DenseCorrection {
-    pub matrix: CorrectionMatrix,
+    pub state: CorrectionState,
     /// States of the dense output, and the corrected ones.
     pub start: Vec<f64>,
     pub x: Vec<f64>,
@@ -80,24 +77,11 @@ impl DenseCorrection {
     /// Returns the memory for vectors of `stride` entries.
     pub fn new(stride: usize) -> Self {
         Self {
-            matrix: CorrectionMatrix::None,
+            state: CorrectionState::Disabled,
             start: vec![0.0; stride],
             x: vec![0.0; stride],
             derivative: vec![0.0; stride],
             rate: vec![0.0; stride],
         }
-    }
-
-    /// Allows corrections in a step just accepted, if it was made by a Rosenbrock method.
-    pub fn start_step(&mut self, family: Family) {
-        self.matrix = match family {
-            Family::LinearlyImplicit => CorrectionMatrix::Undecided,
-            Family::DiagonallyImplicit | Family::Explicit => CorrectionMatrix::None,
-        };
-    }
-
-    /// Disables corrections in the last step: its matrix or the right-hand side may have changed.
-    pub fn disable(&mut self) {
-        self.matrix = CorrectionMatrix::None;
     }
 }

@@ -11,14 +11,14 @@
 //! | `memory.rs` | plain data |
 
 use crate::controller::Controller;
-use crate::discontinuity::{Prediction, ZoneCrossing};
+use crate::discontinuity::Prediction;
 use crate::discontinuity_prediction::DiscontinuityPredictor;
 use crate::event::Event;
 use crate::event_detection::EventDetector;
 use crate::methods::tableau::Tableau;
 use crate::newton::Newton;
 use crate::options::Options;
-use crate::problem::Problem;
+use crate::problem::{Problem, ProblemStructure};
 use crate::statistics::Statistics;
 
 mod attempt;
@@ -54,6 +54,7 @@ use memory::{Attempt, DenseCorrection};
 /// ```
 pub struct Integrator<P: Problem> {
     problem: P,
+    structure: ProblemStructure,
     options: Options,
     tableau: &'static Tableau,
     /// Methods of the last accepted step, and of the current attempt.
@@ -61,11 +62,6 @@ pub struct Integrator<P: Problem> {
     trial_method: &'static Tableau,
     /// Bound of the spectral radius at the state reached, 1/s; infinite where it is not needed.
     spectral_radius: f64,
-    /// For each stage whether its argument is that of the stage before plus the `U` of that stage.
-    extends: Vec<bool>,
-    /// For each stage the length of its argument: the dynamic states, but all states where the argument
-    /// becomes the new state.
-    widths: Vec<usize>,
     dimension: usize,
     /// Length of a padded vector.
     stride: usize,
@@ -83,7 +79,6 @@ pub struct Integrator<P: Problem> {
     interval_end: f64,
     proposed_step: f64,
     prediction: Option<Prediction>,
-    zone_crossing: Option<ZoneCrossing>,
     predictor: DiscontinuityPredictor,
     controller: Controller,
     statistics: Statistics,
@@ -110,8 +105,6 @@ pub struct Integrator<P: Problem> {
     stage_derivative: Vec<f64>,
     newton: Newton,
     correction: DenseCorrection,
-    /// h·ρ of the last explicit step that was limited by its error; zero: there was none.
-    explicit_h_rho: f64,
 }
 
 impl<P: Problem> std::fmt::Debug for Integrator<P> {

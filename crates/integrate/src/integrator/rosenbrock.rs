@@ -24,14 +24,19 @@ impl<P: Problem> Integrator<P> {
         self.factor(inverse / tableau.gamma)?;
         self.trial_stages[..stride].copy_from_slice(&self.dx);
         self.solve_stage(0);
-        for i in 1..tableau.stages() {
+        let (last, leading) = (tableau.stages() - 1, self.structure.padded_dynamic_states());
+        for i in 1..=last {
             let (done, rest) = self.trial_stages.split_at_mut(i * stride);
-            if self.extends[i] {
-                add(&mut self.argument, 1.0, &done[(i - 1) * stride..]);
-            } else {
-                let argument = &mut self.argument[..self.widths[i]];
-                combine(argument, &self.x, 1.0, tableau.a[i], done, stride);
-            }
+            // Only the argument of the last stage, to which the new state is close, needs the quadratures.
+            let width = if i == last { stride } else { leading };
+            combine(
+                &mut self.argument[..width],
+                &self.x,
+                1.0,
+                tableau.a[i],
+                done,
+                stride,
+            );
             let time = stage_time(tableau.alpha[i], self.time, step, target);
             self.problem
                 .derivative(time, &self.argument[..n], &mut self.stage_derivative[..n]);

@@ -8,10 +8,10 @@ use crate::error::SetupError;
 use crate::event_detection::EventDetector;
 use crate::lanes::LANES;
 use crate::limits::STATE_VERSION;
-use crate::methods::tableau::{Family, MAXIMUM_STAGES, Tableau};
-use crate::newton::{LinearizationPoint, Newton, StepHistory};
+use crate::methods::tableau::{Family, MAXIMUM_STAGES};
+use crate::newton::Newton;
 use crate::options::Options;
-use crate::problem::{Problem, padded_dynamic_states};
+use crate::problem::{Problem, ProblemStructure};
 use crate::state::State;
 use crate::statistics::Statistics;
 use crate::tuning::first_step as tuning;
@@ -26,15 +26,12 @@ impl<P: Problem> Integrator<P> {
             version: STATE_VERSION,
             time,
             x: x.to_vec(),
-            discrete_states: vec![0; recorded_states(&problem, &options)],
+            discrete_states: vec![0; recorded_states(&problem.structure(), &options)],
             interval_start: time,
             proposed_step: 1.0,
             prediction: None,
-            zone_crossing: None,
             controller: Controller::default(),
-            explicit_h_rho: 0.0,
             last_stage_derivative: Vec::new(),
-            step_history: None,
             linearization_point: None,
             statistics: Statistics::default(),
         };
@@ -59,38 +56,32 @@ impl<P: Problem> Integrator<P> {
     /// If the state does not fit to this program or to the problem, and as [`Integrator::new`].
     pub fn resume(mut problem: P, options: Options, state: State) -> Result<Self, SetupError> {
         options.check()?;
-        let n = problem.dimension();
+        let structure = problem.structure();
+        let n = structure.dimension();
         let stride = n.next_multiple_of(LANES);
-        check_state(&state, &problem, recorded_states(&problem, &options))?;
-        check_scales(problem.scales(), n, options.fixed_step.is_none())?;
-        let (weights, zone_weights) = weights(&problem, options.relative_tolerance, stride);
+        check_state(&state, n, recorded_states(&structure, &options))?;
+        check_scales(&structure.scales, options.fixed_step.is_none())?;
+        let (weights, zone_weights) = weights(&structure, options.relative_tolerance, stride);
         let interval_end = start_interval(&mut problem, &state)?;
         let tableau = options.method.tableau();
-        let extends = extending_stages(tableau);
-        let whole = extends.iter().rposition(|extends| !extends).unwrap_or(0);
-        let leading = padded_dynamic_states(&problem);
-        let widths = (0..tableau.stages())
-            .map(|i| if i < whole { leading } else { stride })
-            .collect();
         let zero = || vec![0.0; stride];
         let mut x = zero();
         x[..n].copy_from_slice(&state.x);
         let all_stages = vec![0.0; stride * MAXIMUM_STAGES];
         let newton = match tableau.family {
-            Family::DiagonallyImplicit => Newton::new(&problem, options.relative_tolerance, stride),
+            Family::DiagonallyImplicit => Newton::new(&structure, options.relative_tolerance, stride),
             _ => Newton::default(),
         };
         let mut this = Self {
-            events: EventDetector::new(&problem, state.discrete_states, options.maximum_events),
-            predictor: DiscontinuityPredictor::new(&problem),
+            events: EventDetector::new(&structure, state.discrete_states.clone(), options.maximum_events),
+            predictor: DiscontinuityPredictor::new(&structure),
+            structure,
             problem,
             options,
             tableau,
             last_method: tableau,
             trial_method: tableau,
             spectral_radius: f64::INFINITY,
-            extends,
-            widths,
             dimension: n,
             stride,
             plain_weights: weights.clone(),
@@ -102,9 +93,8 @@ impl<P: Problem> Integrator<P> {
             interval_end,
             proposed_step: state.proposed_step,
             prediction: state.prediction,
-            zone_crossing: state.zone_crossing,
-            controller: state.controller,
-            statistics: state.statistics,
+            controller: state.controller.clone(),
+            statistics: state.statistics.clone(),
             previous_x: x.clone(),
             x,
             dx: zero(),
@@ -120,7 +110,6 @@ impl<P: Problem> Integrator<P> {
             stage_derivative: zero(),
             newton,
             correction: DenseCorrection::new(stride),
-            explicit_h_rho: state.explicit_h_rho,
         };
         this.evaluate_uncounted();
         if let Some(index) = this.first_not_finite() {
@@ -131,11 +120,7 @@ impl<P: Problem> Integrator<P> {
                 value,
             });
         }
-        this.restore_esdirk(
-            &state.last_stage_derivative,
-            state.step_history.as_ref(),
-            state.linearization_point.as_ref(),
-        );
+        this.restore_esdirk(&state);
         Ok(this)
     }
 
@@ -150,14 +135,11 @@ impl<P: Problem> Integrator<P> {
             interval_start: self.interval_start,
             proposed_step: self.proposed_step,
             prediction: self.prediction,
-            zone_crossing: self.zone_crossing,
             controller: self.controller.clone(),
-            explicit_h_rho: self.explicit_h_rho,
             last_stage_derivative: match self.tableau.family {
                 Family::DiagonallyImplicit => self.derivative().to_vec(),
                 _ => Vec::new(),
             },
-            step_history: self.newton.saved_history(self.dimension),
             linearization_point: self.newton.cache.saved_point(self.dimension),
             statistics: self.statistics.clone(),
         }
@@ -168,7 +150,7 @@ impl<P: Problem> Integrator<P> {
     /// # Errors
     /// If the state does not fit to this program or to the problem.
     pub fn check_state(&self, state: &State) -> Result<(), SetupError> {
-        check_state(state, &self.problem, self.events.discrete_states.len())
+        check_state(state, self.dimension, self.events.discrete_states.len())
     }
 
     /// Returns to a saved state of the same problem and options, with the same bits as
@@ -191,16 +173,10 @@ impl<P: Problem> Integrator<P> {
         (self.interval_start, self.interval_end) = (state.interval_start, interval_end);
         self.proposed_step = state.proposed_step;
         self.prediction = state.prediction;
-        self.zone_crossing = state.zone_crossing;
         self.controller.clone_from(&state.controller);
-        self.explicit_h_rho = state.explicit_h_rho;
         self.statistics.clone_from(&state.statistics);
         self.evaluate_uncounted();
-        self.restore_esdirk(
-            &state.last_stage_derivative,
-            state.step_history.as_ref(),
-            state.linearization_point.as_ref(),
-        );
+        self.restore_esdirk(state);
         Ok(())
     }
 
@@ -212,18 +188,12 @@ impl<P: Problem> Integrator<P> {
     }
 
     /// Restores what ESDIRK methods carry from step to step.
-    fn restore_esdirk(
-        &mut self,
-        last_stage_derivative: &[f64],
-        history: Option<&StepHistory>,
-        point: Option<&LinearizationPoint>,
-    ) {
+    fn restore_esdirk(&mut self, state: &State) {
         if self.tableau.family == Family::DiagonallyImplicit {
-            for (dx, saved) in self.dx.iter_mut().zip(last_stage_derivative) {
+            for (dx, saved) in self.dx.iter_mut().zip(&state.last_stage_derivative) {
                 *dx = *saved;
             }
-            self.restore_matrix(point);
-            self.newton.restore_history(history);
+            self.restore_matrix(state.linearization_point.as_ref());
         }
     }
 
@@ -233,7 +203,6 @@ impl<P: Problem> Integrator<P> {
     pub fn reevaluate(&mut self) {
         self.evaluate_derivative();
         self.prediction = None;
-        self.zone_crossing = None;
     }
 
     /// Continues after a jump of the right-hand side: it is evaluated again, the memory of the step-size
@@ -287,72 +256,50 @@ impl<P: Problem> Integrator<P> {
 }
 
 /// Returns the number of discrete states that are recorded.
-fn recorded_states<P: Problem>(problem: &P, options: &Options) -> usize {
+fn recorded_states(structure: &ProblemStructure, options: &Options) -> usize {
     if options.record_events {
-        problem.discrete_state_count()
+        structure.discrete_states()
     } else {
         0
     }
 }
 
-/// Checks whether a state can belong to a problem of which so many discrete states are recorded.
-fn check_state<P: Problem>(state: &State, problem: &P, discrete_states: usize) -> Result<(), SetupError> {
+/// Checks whether a state can belong to a problem with so many states and recorded discrete states.
+fn check_state(state: &State, dimension: usize, discrete_states: usize) -> Result<(), SetupError> {
     if !state.time.is_finite() {
         return Err(SetupError::Time(state.time));
     }
-    let (_, slips) = problem.discontinuity_counts();
-    state.check(problem.dimension(), discrete_states, slips)?;
+    state.check(dimension, discrete_states)?;
     match state.x.iter().enumerate().find(|(_, v)| !v.is_finite()) {
         Some((index, &value)) => Err(SetupError::NotFiniteState { index, value }),
         None => Ok(()),
     }
 }
 
-/// Checks the error scales of a problem with `n` states.
-fn check_scales(scales: &[f64], n: usize, controlled: bool) -> Result<(), SetupError> {
-    if scales.len() != n {
-        return Err(SetupError::Dimension {
-            what: "error scales",
-            expected: n,
-            found: scales.len(),
-        });
-    }
+/// Checks the error scales of a problem.
+fn check_scales(scales: &[f64], controlled: bool) -> Result<(), SetupError> {
     if let Some((index, &value)) = scales.iter().enumerate().find(|(_, s)| s.is_nan() || **s <= 0.0) {
         return Err(SetupError::Scale { index, value });
     }
-    if n > 0 && controlled && scales.iter().all(|scale| scale.is_infinite()) {
+    if !scales.is_empty() && controlled && scales.iter().all(|scale| scale.is_infinite()) {
         return Err(SetupError::NothingControlled);
     }
     Ok(())
 }
 
 /// Returns the reciprocals of admissible errors outside of regularization zones, and of the bounds in zones.
-fn weights<P: Problem>(problem: &P, tolerance: f64, stride: usize) -> (Vec<f64>, Vec<f64>) {
+fn weights(structure: &ProblemStructure, tolerance: f64, stride: usize) -> (Vec<f64>, Vec<f64>) {
     let (mut weights, mut zone_weights) = (vec![0.0; stride], vec![0.0; stride]);
-    for (weight, scale) in weights.iter_mut().zip(problem.scales()) {
+    for (weight, scale) in weights.iter_mut().zip(&structure.scales) {
         *weight = 1.0 / (tolerance * scale);
     }
-    for (weight, bound) in weights.iter_mut().zip(problem.error_bounds()) {
+    for (weight, bound) in weights.iter_mut().zip(&structure.error_bounds) {
         *weight = weight.max(1.0 / bound);
     }
-    for (weight, bound) in zone_weights.iter_mut().zip(problem.zone_error_bounds()) {
+    for (weight, bound) in zone_weights.iter_mut().zip(&structure.zone_error_bounds) {
         *weight = 1.0 / bound;
     }
     (weights, zone_weights)
-}
-
-/// Returns for each stage of a Rosenbrock method whether its argument is that of the stage before plus the
-/// `U` of that stage.
-fn extending_stages(tableau: &Tableau) -> Vec<bool> {
-    let linearly_implicit = tableau.family == Family::LinearlyImplicit;
-    (0..tableau.stages())
-        .map(|i| {
-            linearly_implicit
-                && i > 1
-                && tableau.a[i][..i - 1] == *tableau.a[i - 1]
-                && tableau.a[i][i - 1] == 1.0
-        })
-        .collect()
 }
 
 /// Brings a problem to the smooth interval of the time dependence in which a state lies; returns its end.

@@ -1,9 +1,9 @@
 //! A step: attempts are planned and made until one passes the error test.
 
 use super::Integrator;
-use super::memory::{Attempt, Failure, Outcome};
+use super::memory::{Attempt, CorrectionState, Failure, Outcome};
 use crate::dense_output::DenseOutput;
-use crate::discontinuity::{Prediction, RegularizationZone, ZoneCrossing};
+use crate::discontinuity::Prediction;
 use crate::error::{Reason, StepError};
 use crate::methods::tableau::Family;
 use crate::problem::Problem;
@@ -38,7 +38,7 @@ impl<P: Problem> Integrator<P> {
     /// Plans the first attempt at a step.
     #[inline]
     fn plan(&mut self, limit: f64) -> Result<(), StepError> {
-        self.correction.disable();
+        self.correction.state = CorrectionState::Disabled;
         if limit.is_nan() || limit <= self.time {
             return Err(self.error(Reason::Limit { limit }, 0.0, None, 0.0));
         }
@@ -49,17 +49,12 @@ impl<P: Problem> Integrator<P> {
         let proposed = self.proposed_step.min(self.options.maximum_step);
         let (mut step, mut target) = self.fit(proposed, end);
         let mut reached = None;
-        if let Some(prediction @ (Prediction::Discontinuity(time) | Prediction::Zone(time, _))) =
-            self.prediction
-            && time > self.time
-            && time < target
+        if let Some(prediction) = self.prediction
+            && prediction.time > self.time
+            && prediction.time < target
         {
-            let distance = time - self.time;
-            if distance > tuning::WHOLE_APPROACH * step && !self.is_explicit(step) {
-                (step, target) = self.fit(tuning::PART_APPROACH * distance, end);
-            } else {
-                (step, target, reached) = (distance, time, Some(prediction));
-            }
+            target = prediction.time;
+            (step, reached) = (target - self.time, Some(prediction));
         }
         // Otherwise the time would not advance.
         if target <= self.time {
@@ -240,17 +235,17 @@ impl<P: Problem> Integrator<P> {
 
     /// Evaluates the derivative at the state reached, after a change of the right-hand side.
     pub(super) fn evaluate_derivative(&mut self) {
-        self.correction.disable();
+        self.correction.state = CorrectionState::Disabled;
         let n = self.dimension;
         self.problem
             .derivative(self.time, &self.x[..n], &mut self.dx[..n]);
         self.statistics.derivatives += 1;
         self.linearized = false;
-        self.newton.forget();
+        self.newton.cache.clear();
         self.events.forget();
         self.update_spectral_radius();
         if self.predicts() {
-            self.update_discontinuities(false);
+            self.update_discontinuities();
         }
     }
 
@@ -267,16 +262,11 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
-    /// Evaluates the discontinuity functions at the state reached (`known`: they were evaluated for the
-    /// attempt), and the admissible errors there.
+    /// Evaluates the discontinuity functions at the state reached, and the admissible errors there.
     #[inline]
-    fn update_discontinuities(&mut self, known: bool) {
-        if known {
-            self.predictor.accept_trial();
-        } else {
-            let x = &self.x[..self.dimension];
-            self.predictor.evaluate(&mut self.problem, self.time, x);
-        }
+    fn update_discontinuities(&mut self) {
+        let x = &self.x[..self.dimension];
+        self.predictor.evaluate(&mut self.problem, self.time, x);
         let share = 1.0 / self.predictor.bound_widening();
         let bounds = self.plain_weights.iter().zip(&self.zone_weights);
         for (weight, (plain, zone)) in self.weights.iter_mut().zip(bounds) {
@@ -292,13 +282,7 @@ impl<P: Problem> Integrator<P> {
     /// Accepts the attempt and plans the next step.
     #[inline]
     fn accept(&mut self, error: f64) {
-        let Attempt {
-            step,
-            target,
-            truncated,
-            prediction,
-            ..
-        } = self.attempt;
+        let Attempt { step, target, .. } = self.attempt;
         self.prediction = None;
         std::mem::swap(&mut self.previous_x, &mut self.x);
         std::mem::swap(&mut self.x, &mut self.trial_x);
@@ -310,23 +294,18 @@ impl<P: Problem> Integrator<P> {
         self.last_method = self.trial_method;
         self.statistics.accept(step);
         let family = self.last_method.family;
-        self.correction.start_step(family);
-        if family == Family::DiagonallyImplicit {
-            let first = &self.stages[..self.stride];
-            self.newton
-                .store_step(self.time - self.previous_time, &self.previous_x, first);
-        }
+        self.correction.state = if family == Family::LinearlyImplicit {
+            CorrectionState::Undecided
+        } else {
+            CorrectionState::Disabled
+        };
         self.statistics.explicit_steps += u64::from(family == Family::Explicit);
         // All functions are evaluated at the end of the step one after the other: what the problem computes
         // for one serves the others.
         let radius_before = self.spectral_radius;
         self.update_spectral_radius();
-        if family == Family::Explicit && !truncated && prediction.is_none() && error > tuning::ERROR_LIMITED {
-            self.explicit_h_rho = step * radius_before;
-        }
         if self.predicts() {
-            // For an explicit step that did not end at a discontinuity they were evaluated in the attempt.
-            self.update_discontinuities(family == Family::Explicit && prediction.is_none());
+            self.update_discontinuities();
         }
         if !self.events.discrete_states.is_empty() {
             let x = &self.x[..self.dimension];
@@ -360,45 +339,31 @@ impl<P: Problem> Integrator<P> {
             next
         };
         match prediction {
-            Some(Prediction::Zone(_, zone)) if self.predictor.has_reached(&zone) => {
-                self.start_crossing(zone, proposed);
-            }
-            Some(Prediction::Discontinuity(_) | Prediction::Zone(..)) => {
-                self.plan_after_discontinuity(proposed, radius_before);
-            }
-            _ => {}
+            Some(Prediction {
+                zone_step: Some(first),
+                ..
+            }) => self.start_in_zone(first),
+            Some(_) => self.plan_after_discontinuity(proposed, radius_before),
+            None => {}
         }
         self.proposed_step = self.proposed_step.min(self.options.maximum_step).min(f64::MAX);
-        if let Some(ZoneCrossing { zone, planned_step }) = self.zone_crossing
-            && ((error < tuning::CROSSING_SETTLED && !self.predictor.still_changes(&zone))
-                || self.proposed_step >= planned_step
-                || self.predictor.has_crossed(&zone))
-        {
-            self.zone_crossing = None;
-            self.proposed_step = self.proposed_step.max(tuning::AFTER_DISCONTINUITY * planned_step);
-            self.controller.restart();
-        }
     }
 
     /// Plans the step after a discontinuity; the error of the step across it says nothing.
     fn plan_after_discontinuity(&mut self, planned: f64, radius_before: f64) {
         self.proposed_step = self.proposed_step.max(tuning::AFTER_DISCONTINUITY * planned);
-        if self.explicit_h_rho > 0.0 {
-            // In units of 1/ρ steps are about as long as before.
-            let usual = self.explicit_h_rho / self.spectral_radius;
-            if self.spectral_radius > tuning::CONTACT_CHANGE * radius_before {
-                self.proposed_step = self.proposed_step.min(usual);
-            } else if tuning::CONTACT_CHANGE * self.spectral_radius < radius_before {
-                self.proposed_step = self.proposed_step.max(tuning::AFTER_OPENING * usual);
-            }
+        if self.last_method.family == Family::Explicit && self.spectral_radius > radius_before {
+            // A contact closed: the explicit steps that follow are as long as its vibration asks for.
+            self.proposed_step = self
+                .proposed_step
+                .min(tuning::AFTER_CLOSING_H_RHO / self.spectral_radius);
         }
         self.controller.restart();
     }
 
-    /// Starts to cross a regularization zone, after which steps may be as long as `planned_step`.
-    fn start_crossing(&mut self, zone: RegularizationZone, planned_step: f64) {
-        self.zone_crossing = Some(ZoneCrossing { zone, planned_step });
-        self.proposed_step = self.proposed_step.min(zone.first_step);
+    /// Plans the first step in a regularization zone.
+    fn start_in_zone(&mut self, first_step: f64) {
+        self.proposed_step = self.proposed_step.min(first_step);
         self.controller.restart();
     }
 
@@ -425,8 +390,14 @@ impl<P: Problem> Integrator<P> {
             self.events
                 .detect(&mut self.problem, &dense, maximum, &mut self.statistics);
         }
-        if let Some(Prediction::InZone(zone)) = self.prediction {
-            self.start_crossing(zone, self.proposed_step);
+        if let Some(Prediction {
+            time,
+            zone_step: Some(first),
+        }) = self.prediction
+            && time <= self.time
+        {
+            self.prediction = None;
+            self.start_in_zone(first);
         }
     }
 

@@ -1,13 +1,11 @@
-//! The integration methods, one file each (pairs of sister methods share one).
+//! The integration methods, one file each.
 //!
-//! All methods that can be chosen are stiffly accurate and L-stable: five Rosenbrock methods and two ESDIRK
+//! All methods that can be chosen are stiffly accurate and L-stable: a Rosenbrock method and two ESDIRK
 //! methods. The explicit method of [`explicit`] is not chosen; it takes over from a Rosenbrock method while
 //! steps are short against 1/(spectral radius), see [`crate::Options::explicit_steps`].
 
 pub(crate) mod esdirk3;
 pub(crate) mod explicit;
-pub(crate) mod rodas4;
-pub(crate) mod rodas4p;
 pub(crate) mod rodas5p;
 pub(crate) mod tableau;
 pub(crate) mod tr_bdf2;
@@ -15,8 +13,6 @@ pub(crate) mod tr_bdf2;
 use serde::{Deserialize, Serialize};
 
 use esdirk3::ESDIRK3;
-use rodas4::{RODAS4, RODAS42};
-use rodas4p::{RODAS4P, RODAS4P2};
 use rodas5p::RODAS5P;
 use tableau::Tableau;
 use tr_bdf2::TR_BDF2;
@@ -26,26 +22,17 @@ use tr_bdf2::TR_BDF2;
 /// ```
 /// use integrate::Method;
 /// assert_eq!(Method::Rodas5P.tableau().order, 5);
-/// assert_eq!("rodas4p".parse(), Ok(Method::Rodas4P));
+/// assert_eq!("tr-bdf2".parse(), Ok(Method::TrBdf2));
+/// assert!("rodas4".parse::<Method>().is_err());
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
-    /// Rosenbrock, order 4(3), 6 stages: the cheapest step.
-    Rodas4,
-    /// Rosenbrock, order 4(3), 6 stages, another choice of the free parameters.
-    Rodas42,
-    /// Rosenbrock, order 4(3), 6 stages; no order reduction for stiff time dependence (Prothero-Robinson,
-    /// parabolic problems).
-    Rodas4P,
-    /// Rosenbrock, order 4(3), 6 stages; as [`Method::Rodas4P`], with smaller errors from an inexact
-    /// Jacobian.
-    Rodas4P2,
     /// Rosenbrock, order 5(4), 8 stages; little order reduction; dense output of order 4.
     #[default]
     Rodas5P,
     /// ESDIRK, order 2, two implicit stages: damps fast vibrations instead of following them. The tolerance
-    /// holds for [`crate::Problem::displacements`] alone. For averages, not for time series of what vibrates.
+    /// holds for [`crate::ProblemStructure::displacements`] alone. For averages, not for time series of what vibrates.
     TrBdf2,
     /// ESDIRK, order 3(2), four implicit stages: as [`Method::TrBdf2`], with a fraction of its error at tight
     /// tolerances.
@@ -54,24 +41,12 @@ pub enum Method {
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 7] = [
-        Self::Rodas4,
-        Self::Rodas42,
-        Self::Rodas4P,
-        Self::Rodas4P2,
-        Self::Rodas5P,
-        Self::TrBdf2,
-        Self::Esdirk3,
-    ];
+    pub const ALL: [Self; 3] = [Self::Rodas5P, Self::TrBdf2, Self::Esdirk3];
 
     /// Returns the coefficients.
     #[must_use]
     pub fn tableau(self) -> &'static Tableau {
         match self {
-            Self::Rodas4 => &RODAS4,
-            Self::Rodas42 => &RODAS42,
-            Self::Rodas4P => &RODAS4P,
-            Self::Rodas4P2 => &RODAS4P2,
             Self::Rodas5P => &RODAS5P,
             Self::TrBdf2 => &TR_BDF2,
             Self::Esdirk3 => &ESDIRK3,
@@ -87,7 +62,7 @@ impl std::fmt::Display for Method {
 
 /// There is no method of this name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no method `{0}`; choose Rodas4, Rodas42, Rodas4P, Rodas4P2, Rodas5P, TR-BDF2 or ESDIRK3")]
+#[error("there is no method `{0}`; choose Rodas5P, TR-BDF2 or ESDIRK3")]
 pub struct UnknownMethod(pub String);
 
 impl std::str::FromStr for Method {

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::contact_state::ActiveSet;
 use crate::discontinuity::DiscontinuityFunctions;
-use crate::problem::Problem;
+use crate::problem::{Problem, ProblemStructure};
 
 /// Where a Jacobian matrix was evaluated.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -37,6 +37,8 @@ impl LinearizationPoint {
 pub(crate) struct JacobianCache {
     /// Whether there is a matrix.
     filled: bool,
+    /// Whether the problem reports all its discontinuities.
+    complete: bool,
     point: LinearizationPoint,
     /// Contact state at that point, and at the point of the last [`JacobianCache::set_contact_state`].
     contact_state: ActiveSet,
@@ -59,11 +61,12 @@ pub(crate) enum CacheValidity {
 
 impl JacobianCache {
     /// Returns an empty cache for a problem.
-    pub fn new<P: Problem>(problem: &P, stride: usize) -> Self {
-        let functions = DiscontinuityFunctions::zeros(problem.discontinuity_counts());
+    pub fn new(structure: &ProblemStructure, stride: usize) -> Self {
+        let functions = DiscontinuityFunctions::zeros(structure.discontinuity_values, structure.slips);
         let current = ActiveSet::new(&functions);
         Self {
             filled: false,
+            complete: structure.discontinuities_complete,
             point: LinearizationPoint {
                 x: vec![0.0; stride],
                 ..LinearizationPoint::default()
@@ -81,7 +84,7 @@ impl JacobianCache {
 
     /// Computes the contact state at a point, if the problem reports all its discontinuities.
     pub fn set_contact_state<P: Problem>(&mut self, problem: &mut P, time: f64, x: &[f64]) {
-        if problem.discontinuities_complete() {
+        if self.complete {
             problem.discontinuities(time, x, &mut self.functions);
             self.current.set(&self.functions);
         }
@@ -92,7 +95,7 @@ impl JacobianCache {
         self.set_contact_state(problem, time, x);
         if !self.filled {
             CacheValidity::Invalid
-        } else if !problem.discontinuities_complete() {
+        } else if !self.complete {
             CacheValidity::Unknown
         } else if self.contact_state.is_near(&self.current) {
             CacheValidity::Valid

@@ -4,11 +4,9 @@
 //! back. The zero of its component along the first correction is then located between both ends, and the
 //! Jacobian matrix is evaluated there. Without this search Newton's method alternates between both sides of a
 //! slip reversal, and steps have to be as short as the regularization zone is thin. Regula falsi with the
-//! Illinois modification (M. Dowell, P. Jarratt, BIT 11 (1971) 168), started by the model of
-//! [`SlipReversal`]. Natural corrections: P. Deuflhard, *Newton Methods for Nonlinear Problems*, Springer
+//! Illinois modification (M. Dowell, P. Jarratt, BIT 11 (1971) 168). Natural corrections: P. Deuflhard, *Newton Methods for Nonlinear Problems*, Springer
 //! 2004, section 3.
 
-use super::slip_reversal::SlipReversal;
 use crate::tuning::newton as tuning;
 
 /// A search along a correction: fractions of it, with the component of the next correction along it there.
@@ -20,35 +18,24 @@ pub(crate) struct LineSearch {
     /// Whether the low end was moved last; the component of an end that stays twice is halved.
     moved_low: Option<bool>,
     evaluations: u32,
-    /// Model of the slip reversal that the correction crosses.
-    reversal: Option<SlipReversal>,
 }
 
 impl LineSearch {
     /// Starts a search between the start of a correction and its end, where the component is `component`.
-    pub fn new(component: f64, reversal: Option<SlipReversal>) -> Self {
+    pub fn new(component: f64) -> Self {
         Self {
             low: (0.0, 1.0),
             high: (1.0, component),
             fraction: 1.0,
-            reversal,
             ..Self::default()
         }
     }
 
-    /// Returns the next fraction, after `component` was found at the last one.
-    pub fn next_fraction(&mut self, component: f64) -> f64 {
+    /// Returns the next fraction.
+    pub fn next_fraction(&mut self) -> f64 {
         let ((a, fa), (b, fb)) = (self.low, self.high);
-        let by_model = match &self.reversal {
-            Some(reversal) if self.evaluations < tuning::MODEL_EVALUATIONS => {
-                reversal.zero(self.fraction, component)
-            }
-            _ => None,
-        };
         self.evaluations += 1;
-        self.fraction = by_model
-            .filter(|fraction| a < *fraction && *fraction < b)
-            .unwrap_or((a * fb - b * fa) / (fb - fa));
+        self.fraction = (a * fb - b * fa) / (fb - fa);
         self.fraction
     }
 
@@ -82,12 +69,10 @@ mod tests {
     #[test]
     fn a_jump_is_located() {
         let component = |fraction: f64| (10.0 * (0.3 - fraction)).clamp(-10.0, 1.0);
-        let mut search = LineSearch::new(component(1.0), None);
-        let mut found = component(1.0);
+        let mut search = LineSearch::new(component(1.0));
         for evaluations in 1.. {
-            let fraction = search.next_fraction(found);
-            found = component(fraction);
-            if search.update(found) {
+            let fraction = search.next_fraction();
+            if search.update(component(fraction)) {
                 assert!((fraction - 0.3).abs() < 0.01, "{fraction}");
                 assert!(evaluations < tuning::MAXIMUM_LINE_SEARCH, "{evaluations}");
                 break;

@@ -16,7 +16,6 @@
 //! and what is factored is one block row a body,
 //! `W = σ M - D - K/σ - F Z (G_u + G_q/σ)`, with `K = ∂(f - M u˙)/∂q`, `D = ∂f/∂u`, `F = ∂f/∂s`, `A = ∂g/∂s`.
 
-mod single_body;
 mod solve;
 mod structure;
 
@@ -26,7 +25,6 @@ use structure::QuadratureOfBody;
 
 use crate::block_lu::BlockLu;
 use crate::error::Singular;
-use single_body::{Blocks, SingleBody};
 
 /// The structured Jacobian of a second-order system, and its factors.
 #[derive(Clone, Debug)]
@@ -50,8 +48,6 @@ pub struct Partitioned {
     lu: BlockLu,
     /// Number of coordinates of every body; 0: they differ.
     uniform: usize,
-    /// Replaces all factors if there is one small body and no internal state.
-    single_body: Option<SingleBody>,
     shift: f64,
     work: Vec<f64>,
 }
@@ -179,10 +175,6 @@ impl Partitioned {
             damping: vec![0.0; entries],
             coupling_data: vec![0.0; side_entries],
             row_data: vec![0.0; row_entries],
-            single_body: match sizes[..] {
-                [size] if groups.is_empty() => SingleBody::new(size, structure.quadratures),
-                _ => None,
-            },
             internals: 2 * groups.len(),
             quadratures: structure.quadratures,
             work: vec![0.0; speeds],
@@ -312,10 +304,6 @@ impl Partitioned {
     /// If the matrix is singular.
     pub fn factor(&mut self, shift: f64) -> Result<(), Singular> {
         self.shift = shift;
-        if let Some((single, source)) = self.single() {
-            let regular = single.factor(shift, source);
-            return regular.then_some(()).ok_or(Singular { block: 0 });
-        }
         let inverse = 1.0 / shift;
         self.lu.clear();
         for &CouplingBlock {
@@ -379,17 +367,5 @@ impl Partitioned {
             }
         }
         Ok(())
-    }
-
-    /// Returns the replacement for one small body, and the matrices that it factors.
-    fn single(&mut self) -> Option<(&mut SingleBody, Blocks<'_>)> {
-        let source = Blocks {
-            mass: &self.mass,
-            stiffness: &self.stiffness,
-            damping: &self.damping,
-            rows: &self.quadratures_of_bodies,
-            row_data: &self.row_data,
-        };
-        self.single_body.as_mut().map(|single| (single, source))
     }
 }

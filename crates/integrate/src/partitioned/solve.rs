@@ -5,16 +5,7 @@ use crate::dense_block::{dot_of, multiply_add, rectangle_add};
 
 impl Partitioned {
     /// Solves `(shift · I - J) y = b` in place.
-    #[inline]
     pub fn solve(&mut self, b: &mut [f64]) {
-        if let Some(single) = &self.single_body {
-            single.solve(b);
-            return;
-        }
-        self.solve_any(b);
-    }
-
-    fn solve_any(&mut self, b: &mut [f64]) {
         // Loops of a known length are unrolled.
         match self.uniform {
             1 => self.solve_sized::<1>(b),

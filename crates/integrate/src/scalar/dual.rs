@@ -6,7 +6,27 @@ use wide::f64x2;
 
 use super::{Blend, Number, Real, tanh_ratio};
 
-/// A value with its `N` partial derivatives.
+/// What values and derivatives are made of: real numbers, or lanes of them.
+pub trait Component: Number<Plain = Self> + Mul<Self, Output = Self> {
+    /// Returns [`Number::tanh_ratio`] and its derivative.
+    fn tanh_ratio_and_slope(self) -> (Self, Self);
+    /// Returns `a_i s + b_i t`.
+    fn combine<const N: usize>(a: &[Self; N], s: Self, b: &[Self; N], t: Self) -> [Self; N];
+    /// Returns `a_i s`.
+    fn scale<const N: usize>(a: &[Self; N], s: Self) -> [Self; N];
+}
+
+/// A value with its `N` partial derivatives, over real numbers ([`Dual`]) or lanes
+/// ([`crate::lanes::LaneDual`]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DualOf<S, const N: usize> {
+    /// The value.
+    pub value: S,
+    /// The partial derivatives.
+    pub derivative: [S; N],
+}
+
+/// A real number with its `N` partial derivatives.
 ///
 /// ```
 /// use integrate::scalar::{Dual, Number};
@@ -14,182 +34,184 @@ use super::{Blend, Number, Real, tanh_ratio};
 /// let y = x * x + x.sin_cos().0;
 /// assert_eq!(y.derivative[0], 2.0 * 0.5 + libm::cos(0.5));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dual<const N: usize> {
-    /// The value.
-    pub value: f64,
-    /// The partial derivatives.
-    pub derivative: [f64; N],
+pub type Dual<const N: usize> = DualOf<f64, N>;
+
+impl Component for f64 {
+    #[inline(always)]
+    fn tanh_ratio_and_slope(self) -> (f64, f64) {
+        tanh_ratio(self)
+    }
+    /// Two derivatives at a time.
+    #[inline(always)]
+    fn combine<const N: usize>(a: &[f64; N], s: f64, b: &[f64; N], t: f64) -> [f64; N] {
+        let (s, t) = (f64x2::splat(s), f64x2::splat(t));
+        let mut out = [0.0; N];
+        for i in 0..N / 2 {
+            let (a, b) = ([a[2 * i], a[2 * i + 1]], [b[2 * i], b[2 * i + 1]]);
+            let [x, y] = (f64x2::new(a) * s + f64x2::new(b) * t).to_array();
+            (out[2 * i], out[2 * i + 1]) = (x, y);
+        }
+        if N % 2 == 1 {
+            out[N - 1] = (f64x2::splat(a[N - 1]) * s + f64x2::splat(b[N - 1]) * t).to_array()[0];
+        }
+        out
+    }
+    #[inline(always)]
+    fn scale<const N: usize>(a: &[f64; N], s: f64) -> [f64; N] {
+        let s = f64x2::splat(s);
+        let mut out = [0.0; N];
+        for i in 0..N / 2 {
+            let [x, y] = (f64x2::new([a[2 * i], a[2 * i + 1]]) * s).to_array();
+            (out[2 * i], out[2 * i + 1]) = (x, y);
+        }
+        if N % 2 == 1 {
+            out[N - 1] = (f64x2::splat(a[N - 1]) * s).to_array()[0];
+        }
+        out
+    }
 }
 
-impl<const N: usize> Dual<N> {
+impl<S: Component, const N: usize> DualOf<S, N> {
     /// Returns the independent variable number `index`.
     #[inline(always)]
     #[must_use]
-    pub fn variable(value: f64, index: usize) -> Self {
-        let mut derivative = [0.0; N];
-        derivative[index] = 1.0;
+    pub fn variable(value: S, index: usize) -> Self {
+        let mut derivative = [S::zero(); N];
+        derivative[index] = S::from(1.0);
         Self { value, derivative }
     }
 }
 
-impl<const N: usize> From<f64> for Dual<N> {
+impl<S: Component, const N: usize> From<f64> for DualOf<S, N> {
     #[inline(always)]
     fn from(value: f64) -> Self {
+        Self::lift(S::from(value))
+    }
+}
+
+impl<M: Copy, S: Component + Blend<M>, const N: usize> Blend<M> for DualOf<S, N> {
+    #[inline(always)]
+    fn blend(mask: M, yes: Self, no: Self) -> Self {
+        let mut derivative = no.derivative;
+        for i in 0..N {
+            derivative[i] = S::blend(mask, yes.derivative[i], no.derivative[i]);
+        }
         Self {
-            value,
-            derivative: [0.0; N],
+            value: S::blend(mask, yes.value, no.value),
+            derivative,
         }
     }
 }
 
-impl<const N: usize> Blend<bool> for Dual<N> {
+impl<S: Component, const N: usize> Number for DualOf<S, N> {
+    type Mask = S::Mask;
+    type Plain = S;
     #[inline(always)]
-    fn blend(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
-    }
-}
-
-impl<const N: usize> Number for Dual<N> {
-    type Mask = bool;
-    type Plain = f64;
-    #[inline(always)]
-    fn plain(self) -> f64 {
+    fn plain(self) -> S {
         self.value
     }
     #[inline(always)]
-    fn lift(value: f64) -> Self {
-        Self::from(value)
-    }
-    #[inline(always)]
-    fn by(self, factor: f64) -> Self {
-        self * factor
-    }
-    #[inline(always)]
-    fn below(self, bound: f64) -> bool {
-        self.value < bound
-    }
-    #[inline(always)]
-    fn at_most(self, bound: f64) -> bool {
-        self.value <= bound
-    }
-    #[inline(always)]
-    fn chain(self, value: f64, slope: f64) -> Self {
+    fn lift(value: S) -> Self {
         Self {
             value,
-            derivative: lane(&self.derivative, |d| d * slope),
+            derivative: [S::zero(); N],
+        }
+    }
+    #[inline(always)]
+    fn by(self, factor: S) -> Self {
+        self.chain(self.value * factor, factor)
+    }
+    #[inline(always)]
+    fn below(self, bound: S) -> S::Mask {
+        self.value.below(bound)
+    }
+    #[inline(always)]
+    fn at_most(self, bound: S) -> S::Mask {
+        self.value.at_most(bound)
+    }
+    #[inline(always)]
+    fn chain(self, value: S, slope: S) -> Self {
+        Self {
+            value,
+            derivative: S::scale(&self.derivative, slope),
         }
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
-        self.chain(root, 0.5 / root)
+        self.chain(root, S::from(0.5) / root)
     }
     #[inline(always)]
     fn tanh_ratio(self) -> Self {
-        let (value, slope) = tanh_ratio(self.value);
+        let (value, slope) = self.value.tanh_ratio_and_slope();
         self.chain(value, slope)
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let (s, c) = libm::sincos(self.value);
+        let (s, c) = self.value.sin_cos();
         (self.chain(s, c), self.chain(c, -s))
     }
 }
 
 impl<const N: usize> Real for Dual<N> {}
 
-/// Applies a function to the derivatives of a number, two lanes at a time.
-#[inline(always)]
-fn lane<const N: usize>(a: &[f64; N], f: impl Fn(f64x2) -> f64x2) -> [f64; N] {
-    let mut out = [0.0; N];
-    for i in 0..N / 2 {
-        let [x, y] = f(f64x2::new([a[2 * i], a[2 * i + 1]])).to_array();
-        (out[2 * i], out[2 * i + 1]) = (x, y);
-    }
-    if N % 2 == 1 {
-        out[N - 1] = f(f64x2::splat(a[N - 1])).to_array()[0];
-    }
-    out
-}
-
-/// Applies a function to the derivatives of two numbers, two lanes at a time.
-#[inline(always)]
-fn lanes<const N: usize>(a: &[f64; N], b: &[f64; N], f: impl Fn(f64x2, f64x2) -> f64x2) -> [f64; N] {
-    let mut out = [0.0; N];
-    for i in 0..N / 2 {
-        let (a, b) = ([a[2 * i], a[2 * i + 1]], [b[2 * i], b[2 * i + 1]]);
-        let [x, y] = f(f64x2::new(a), f64x2::new(b)).to_array();
-        (out[2 * i], out[2 * i + 1]) = (x, y);
-    }
-    if N % 2 == 1 {
-        out[N - 1] = f(f64x2::splat(a[N - 1]), f64x2::splat(b[N - 1])).to_array()[0];
-    }
-    out
-}
-
-impl<const N: usize> Add for Dual<N> {
+impl<S: Component, const N: usize> Add for DualOf<S, N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Self) -> Self {
+        let one = S::from(1.0);
         Self {
             value: self.value + o.value,
-            derivative: lanes(&self.derivative, &o.derivative, |a, b| a + b),
+            derivative: S::combine(&self.derivative, one, &o.derivative, one),
         }
     }
 }
 
-impl<const N: usize> Sub for Dual<N> {
+impl<S: Component, const N: usize> Sub for DualOf<S, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Self) -> Self {
         Self {
             value: self.value - o.value,
-            derivative: lanes(&self.derivative, &o.derivative, |a, b| a - b),
+            derivative: S::combine(&self.derivative, S::from(1.0), &o.derivative, S::from(-1.0)),
         }
     }
 }
 
-impl<const N: usize> Mul for Dual<N> {
+impl<S: Component, const N: usize> Mul for DualOf<S, N> {
     type Output = Self;
     #[inline(always)]
-    // The product rule is a sum.
-    #[allow(clippy::suspicious_arithmetic_impl)]
     fn mul(self, o: Self) -> Self {
         Self {
             value: self.value * o.value,
-            derivative: lanes(&self.derivative, &o.derivative, |a, b| {
-                a * o.value + self.value * b
-            }),
+            derivative: S::combine(&self.derivative, o.value, &o.derivative, self.value),
         }
     }
 }
 
-impl<const N: usize> Div for Dual<N> {
+impl<S: Component, const N: usize> Div for DualOf<S, N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, o: Self) -> Self {
-        let r = 1.0 / o.value;
+        let r = S::from(1.0) / o.value;
         let q = self.value * r;
+        let change = S::combine(&self.derivative, S::from(1.0), &o.derivative, -q);
         Self {
             value: q,
-            derivative: lanes(&self.derivative, &o.derivative, |a, b| (a - q * b) * r),
+            derivative: S::scale(&change, r),
         }
     }
 }
 
-impl<const N: usize> Neg for Dual<N> {
+impl<S: Component, const N: usize> Neg for DualOf<S, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self {
-            value: -self.value,
-            derivative: lane(&self.derivative, |d| -d),
-        }
+        self.chain(-self.value, S::from(-1.0))
     }
 }
 
-impl<const N: usize> Add<f64> for Dual<N> {
+impl<S: Component, const N: usize> Add<f64> for DualOf<S, N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: f64) -> Self {
@@ -200,7 +222,7 @@ impl<const N: usize> Add<f64> for Dual<N> {
     }
 }
 
-impl<const N: usize> Sub<f64> for Dual<N> {
+impl<S: Component, const N: usize> Sub<f64> for DualOf<S, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: f64) -> Self {
@@ -211,14 +233,11 @@ impl<const N: usize> Sub<f64> for Dual<N> {
     }
 }
 
-impl<const N: usize> Mul<f64> for Dual<N> {
+impl<S: Component, const N: usize> Mul<f64> for DualOf<S, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, o: f64) -> Self {
-        Self {
-            value: self.value * o,
-            derivative: lane(&self.derivative, |d| d * o),
-        }
+        self.by(S::from(o))
     }
 }
 
@@ -246,14 +265,14 @@ impl<const N: usize> Sub<Dual<N>> for f64 {
     }
 }
 
-impl<const N: usize> AddAssign for Dual<N> {
+impl<S: Component, const N: usize> AddAssign for DualOf<S, N> {
     #[inline(always)]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 
-impl<const N: usize> SubAssign for Dual<N> {
+impl<S: Component, const N: usize> SubAssign for DualOf<S, N> {
     #[inline(always)]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;

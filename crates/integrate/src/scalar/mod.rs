@@ -14,7 +14,7 @@ mod dual;
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-pub use dual::Dual;
+pub use dual::{Component, Dual, DualOf};
 
 /// The result of a comparison: one for a number, one for each lane.
 pub trait Mask: Copy + std::fmt::Debug {

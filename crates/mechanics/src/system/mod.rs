@@ -26,7 +26,7 @@ mod vibration;
 use std::ops::Range;
 
 use integrate::partitioned::{Layout, Partitioned, Structure};
-use integrate::{DiscontinuityFunctions, EventGroup, Problem, Singular};
+use integrate::{DiscontinuityFunctions, EventGroup, Problem, ProblemStructure, Singular};
 
 use self::jacobian::Gathered;
 use crate::body::{Body, Kinematics, Rigid};
@@ -297,6 +297,13 @@ impl System {
         internal
     }
 
+    /// Writes the event variables of the connections.
+    fn connection_signs(&mut self, x: &[f64], variables: &mut [f64]) {
+        let [_, _, internal, _] = self.layout.split(x);
+        let coordinates = (&self.positions[..], &self.rates[..]);
+        self.connections.event_variables(coordinates, internal, variables);
+    }
+
     /// Coordinates and rates of a body from the state vector.
     #[inline(always)]
     fn coordinates(&self, free: &FreeBody, x: &[f64]) -> ([f64; 6], [f64; 6]) {
@@ -315,28 +322,36 @@ impl System {
 }
 
 impl Problem for System {
-    fn dimension(&self) -> usize {
-        self.layout.len()
-    }
-
-    fn dynamic_states(&self) -> usize {
-        self.layout.len() - self.layout.quadratures
-    }
-
-    fn displacements(&self) -> usize {
-        self.layout.speeds
-    }
-
-    fn scales(&self) -> &[f64] {
-        &self.scales
-    }
-
-    fn error_bounds(&self) -> &[f64] {
-        &self.error_bounds
-    }
-
-    fn zone_error_bounds(&self) -> &[f64] {
-        &self.layer_bounds
+    /// A discrete state is the contact mode of a point, or of a connection with friction.
+    ///
+    /// Event variables: gap (m) and load of each point: the gaps of a face's points, their loads, and so on face by face; then of each
+    /// connection with friction what presses it (N) and the load of its accumulator. The points of each face are a group, and all
+    /// connections together.
+    ///
+    /// Bristles come to slip without a discontinuity function. (So do coils that go solid, but they change no more than their own
+    /// stiffness.)
+    fn structure(&self) -> ProblemStructure {
+        let (points, others) = (self.point_count(), self.connections.discrete_states.len());
+        let dynamic_states = self.layout.len() - self.layout.quadratures;
+        let mut event_groups = self.point_groups();
+        if others > 0 {
+            event_groups.push(EventGroup {
+                discrete_states: points..points + others,
+                variables: 2 * points..2 * points + FRICTION_VARIABLES * others,
+                states: std::iter::once(0..dynamic_states).collect(),
+            });
+        }
+        ProblemStructure {
+            dynamic_states,
+            displacements: self.layout.speeds,
+            scales: self.scales.clone(),
+            error_bounds: self.error_bounds.clone(),
+            zone_error_bounds: self.layer_bounds.clone(),
+            discontinuity_values: points,
+            slips: points,
+            discontinuities_complete: self.discontinuities_complete,
+            event_groups,
+        }
     }
 
     fn next_time_discontinuity(&mut self, start: f64) -> f64 {
@@ -391,21 +406,8 @@ impl Problem for System {
         self.jacobian.solve(b);
     }
 
-    fn discontinuity_counts(&self) -> (usize, usize) {
-        (self.point_count(), self.point_count())
-    }
-
     fn discontinuities(&mut self, time: f64, x: &[f64], functions: &mut DiscontinuityFunctions) {
         self.discontinuity_functions(time, x, functions);
-    }
-
-    /// Bristles come to slip without telling. (So do coils that go solid, but they change no more than their own stiffness.)
-    fn discontinuities_complete(&self) -> bool {
-        self.discontinuities_complete
-    }
-
-    fn discrete_state_count(&self) -> usize {
-        self.point_count() + self.connections.discrete_states.len()
     }
 
     fn initial_discrete_states(&mut self, time: f64, x: &[f64], states: &mut [u8]) {
@@ -416,51 +418,23 @@ impl Problem for System {
             .find_contact_states((&self.positions, &self.rates), self.internal(x), others);
     }
 
-    /// Gap (m) and load of each point: the gaps of a face's points, their loads, and so on face by face; then of each connection with friction
-    /// what presses it (N) and the load of its accumulator.
-    fn event_variable_count(&self) -> usize {
-        2 * self.point_count() + FRICTION_VARIABLES * self.connections.discrete_states.len()
-    }
-
-    fn event_variables(&mut self, time: f64, x: &[f64], variables: &mut [f64]) {
-        self.update_kinematics(time, x);
-        let (points, others) = variables.split_at_mut(2 * self.point_count());
-        self.point_event_variables(x, points);
-        self.connections
-            .event_variables((&self.positions, &self.rates), self.internal(x), others);
-    }
-
-    /// The points of each face, and all connections together.
-    fn event_groups(&self) -> Vec<EventGroup> {
-        let mut groups = self.point_groups();
-        if !self.connections.discrete_states.is_empty() {
-            groups.push(EventGroup {
-                discrete_states: self.point_count()..self.discrete_state_count(),
-                variables: 2 * self.point_count()..self.event_variable_count(),
-                states: std::iter::once(0..self.dynamic_states()).collect(),
-            });
-        }
-        groups
-    }
-
-    fn group_event_variables(&mut self, group: usize, time: f64, x: &[f64], variables: &mut [f64]) {
-        if group < self.faces.len() {
-            self.face_event_variables(group, time, x, variables);
-        } else {
-            self.update_kinematics(time, x);
-            let coordinates = (&self.positions[..], &self.rates[..]);
-            self.connections
-                .event_variables(coordinates, self.internal(x), variables);
+    fn event_variables(&mut self, group: Option<usize>, time: f64, x: &[f64], variables: &mut [f64]) {
+        match group {
+            Some(face) if face < self.faces.len() => self.face_event_variables(face, time, x, variables),
+            Some(_) => {
+                self.update_kinematics(time, x);
+                self.connection_signs(x, variables);
+            }
+            None => {
+                self.update_kinematics(time, x);
+                let (points, others) = variables.split_at_mut(2 * self.point_count());
+                self.point_event_variables(x, points);
+                self.connection_signs(x, others);
+            }
         }
     }
 
-    fn group_event_functions(
-        &mut self,
-        group: usize,
-        variables: &[f64],
-        states: &[u8],
-        functions: &mut [f64],
-    ) {
+    fn event_functions(&mut self, group: usize, variables: &[f64], states: &[u8], functions: &mut [f64]) {
         if group < self.faces.len() {
             self.face_margins(group, variables, states, functions);
         } else {

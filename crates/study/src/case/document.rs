@@ -314,10 +314,6 @@ pub(super) const SYSTEMS: Names<System> = &[("us", System::Us), ("si", System::S
 
 /// Names of the integration methods.
 pub(super) const METHODS: Names<Method> = &[
-    ("rodas4", Method::Rodas4),
-    ("rodas42", Method::Rodas42),
-    ("rodas4p", Method::Rodas4P),
-    ("rodas4p2", Method::Rodas4P2),
     ("rodas5p", Method::Rodas5P),
     ("tr-bdf2", Method::TrBdf2),
     ("esdirk3", Method::Esdirk3),

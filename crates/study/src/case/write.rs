@@ -314,7 +314,7 @@ impl CaseDocument {
         page.line(
             "method",
             Written::choice(METHODS, &simulation.method),
-            "\"rodas4\", \"rodas42\", \"rodas4p\", \"rodas4p2\" or \"rodas5p\"; \"tr-bdf2\" and \"esdirk3\" damp vibrations",
+            "\"rodas5p\"; \"tr-bdf2\" and \"esdirk3\" damp vibrations",
         );
     }
 }

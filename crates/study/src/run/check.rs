@@ -56,7 +56,7 @@ impl RunState {
         }
         if self.integrator.interval_start < 0.0 {
             return damaged(
-                "integrator.segment_start",
+                "integrator.interval_start",
                 self.integrator.interval_start,
                 "zero or positive",
             );
@@ -68,7 +68,7 @@ impl RunState {
             .find(|contact_state| **contact_state > ContactState::Slip as u8)
         {
             return damaged(
-                "integrator.modes",
+                "integrator.discrete_states",
                 contact_state,
                 "0 (open), 1 (stick) or 2 (slip) at every corner",
             );

@@ -137,6 +137,7 @@ impl Equations {
         let start_energy = wedge.system.observe(0.0, &x).energies.total();
         let mut contact_states = vec![0; wedge.system.point_count()];
         wedge.system.initial_discrete_states(0.0, &x, &mut contact_states);
+        let structure = wedge.system.structure();
         Ok(Self {
             outputs: Outputs::new(&wedge.parameters),
             friction: [
@@ -148,8 +149,8 @@ impl Equations {
             start_coil: coil,
             start_energy,
             time: 0.0,
-            groups: wedge.system.event_groups(),
-            variables: vec![0.0; wedge.system.event_variable_count()],
+            variables: vec![0.0; structure.event_variables()],
+            groups: structure.event_groups,
             margins: vec![0.0; contact_states.len()],
             contact_states,
             x,
@@ -334,7 +335,7 @@ impl Equations {
     /// For each corner a margin that is positive while its contact state lasts, and not positive when it must change.
     pub fn margins(&mut self) -> &[f64] {
         let system = &mut self.wedge.system;
-        system.event_variables(self.time, &self.x, &mut self.variables);
+        system.event_variables(None, self.time, &self.x, &mut self.variables);
         for number in 0..self.groups.len() {
             self.weigh(number);
         }
@@ -351,7 +352,7 @@ impl Equations {
         let (contact_states, margins) = (&self.contact_states[own.clone()], &mut self.margins[own]);
         self.wedge
             .system
-            .group_event_functions(number, variables, contact_states, margins);
+            .event_functions(number, variables, contact_states, margins);
     }
 
     /// Brings the contact states up to date; whether any has changed.

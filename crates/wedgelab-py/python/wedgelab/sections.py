@@ -349,7 +349,7 @@ class SimulationSection(Section):
     output_units: str | None = None
     """Units of the summary, of figures and of files: ``"us"`` or ``"si"``."""
     method: str | None = None
-    """Integration method: ``"rodas4"``, ``"rodas42"``, ``"rodas4p"``, ``"rodas4p2"``, ``"rodas5p"``; ``"tr-bdf2"`` and
-    ``"esdirk3"`` damp vibrations: for averages and slow motions."""
+    """Integration method: ``"rodas5p"``; ``"tr-bdf2"`` and ``"esdirk3"`` damp vibrations: for averages and slow
+    motions."""
 
     _words = frozenset({"relative_tolerance", "start", "output_units", "method"})
