@@ -1,5 +1,5 @@
 //! Integration of stiff, piecewise smooth ordinary differential equations `x' = f(t, x)` by implicit one-step
-//! methods: Rosenbrock methods (RODAS, Rodas5P), which need one linear system per stage, and ESDIRK methods
+//! methods: a Rosenbrock method (Rodas5P), which needs one linear system per stage, and ESDIRK methods
 //! (TR-BDF2, ESDIRK3), whose stages are solved by Newton's method. The crate knows no physics, but it is made
 //! for mechanical systems with contact and regularized dry friction.
 //!
@@ -49,7 +49,7 @@
 //! | coefficients of the methods, with citations | [`Method::tableau`] (`methods/`) |
 //! | error norm and tolerances | [`ProblemStructure::scales`], [`ProblemStructure::error_bounds`], [`Options`] |
 //! | step-size controller (PI, Gustafsson) | `controller.rs` |
-//! | modified Newton: Jacobian cache, stage predictor, line search | `newton/` |
+//! | modified Newton: Jacobian cache, line search | `newton/` |
 //! | switching to a nonstiff method | [`Problem::spectral_radius_bound`] (`integrator/explicit.rs`) |
 //! | discontinuities in time | [`Problem::next_time_discontinuity`] |
 //! | predicted discontinuities in state; slip reversal | [`Problem::discontinuities`] (`discontinuity*.rs`) |
