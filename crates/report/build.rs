@@ -1,5 +1,5 @@
-//! Embeds the page's interactive part, if it has been built: `viewer/dist`, by `cargo xtask viewer`. Without it the crate
-//! compiles all the same, and pages are static.
+//! Embeds the page's interactive part, if it has been built: `viewer/dist`, by `cargo xtask viewer`. Without
+//! it the crate compiles all the same, and pages are static.
 
 use std::env;
 use std::fs;

@@ -4,8 +4,8 @@ use std::process::Command;
 
 use crate::shell;
 
-/// Sees to it that programs are there: each is looked for with `--version`, and the packages of the same names are installed with
-/// `apt-get` if one is missing.
+/// Sees to it that programs are there: each is looked for with `--version`, and the packages of the same
+/// names are installed with `apt-get` if one is missing.
 ///
 /// # Errors
 /// A program is missing and cannot be installed; the text says what to do.

@@ -1,4 +1,5 @@
-//! `cargo xtask race`: our integrator and other people's solvers on the same equations, side by side in one run.
+//! `cargo xtask race`: our integrator and other people's solvers on the same equations, side by side in one
+//! run.
 
 pub mod tools;
 

@@ -5,8 +5,8 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Makes cargo (and maturin) compile for all processors of the kind x86-64 instead of those with AVX2 (`.cargo/config.toml`): what comes later in these
-/// arguments wins. What leaves this machine is compiled so.
+/// Makes cargo (and maturin) compile for all processors of the kind x86-64 instead of those with AVX2
+/// (`.cargo/config.toml`): what comes later in these arguments wins. What leaves this machine is compiled so.
 pub const PORTABLE: [&str; 2] = [
     "--config",
     "target.'cfg(target_arch = \"x86_64\")'.rustflags=[\"-C\", \"target-cpu=x86-64\"]",
@@ -45,7 +45,8 @@ impl Workspace {
         command
     }
 
-    /// Builds with these arguments of `cargo build --release` for all processors, apart from all else, and gives the folder of what was built.
+    /// Builds with these arguments of `cargo build --release` for all processors, apart from all else, and
+    /// gives the folder of what was built.
     ///
     /// # Errors
     /// When it does not compile.

@@ -132,8 +132,8 @@ fn clippy(workspace: &Workspace) -> Outcome {
 }
 
 fn tests(workspace: &Workspace) -> Outcome {
-    // In the release profile: what is tested is what users run (docs/decisions/0008), and it is several times faster.
-    // Benchmarks are left to `cargo xtask bench`; clippy has compiled them.
+    // In the release profile: what is tested is what users run (docs/decisions/0008), and it is several times
+    // faster. Benchmarks are left to `cargo xtask bench`; clippy has compiled them.
     let targets = ["--lib", "--bins", "--tests", "--examples"];
     shell::run(
         workspace

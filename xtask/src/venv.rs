@@ -9,10 +9,11 @@ use crate::shell;
 /// The file in an environment that says what was installed into it.
 const STAMP: &str = "installed-requirements.txt";
 
-/// The Python of an environment that holds what a requirements file names: `<root>/tools/<name>`, where `root` is the folder
-/// that cargo builds into ([`crate::shell::Workspace::target`]).
+/// The Python of an environment that holds what a requirements file names: `<root>/tools/<name>`, where
+/// `root` is the folder that cargo builds into ([`crate::shell::Workspace::target`]).
 ///
-/// The environment is made (network, `python3` with `venv`) when it is not there or was made from another text.
+/// The environment is made (network, `python3` with `venv`) when it is not there or was made from another
+/// text.
 ///
 /// # Errors
 /// The file cannot be read, or Python or pip fail; the text says what to do.

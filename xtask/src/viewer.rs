@@ -1,4 +1,5 @@
-//! `cargo xtask viewer`: the report page's interactive part, bundled into `viewer/dist`, where `report` takes it from.
+//! `cargo xtask viewer`: the report page's interactive part, bundled into `viewer/dist`, where `report` takes
+//! it from.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -178,7 +178,8 @@ pub struct Slopes {
     pub outputs: Vec<f64>,
 }
 
-/// An element at work, from the initialization on. Lists have the lengths and orders of [`Entries`]; SI units.
+/// An element at work, from the initialization on. Lists have the lengths and orders of [`Entries`]; SI
+/// units.
 pub trait Element: Send {
     /// The continuous states.
     fn states(&self) -> &[f64];

@@ -24,8 +24,8 @@ pub(crate) struct Known<'k> {
 
 /// The inputs at the end of a step of this length (s).
 ///
-/// Positions go on with their rate, and with half the square of the step times the rate's derivative where that is known; rates go
-/// on with their derivative; other inputs are held, or go on with their derivative.
+/// Positions go on with their rate, and with half the square of the step times the rate's derivative where
+/// that is known; rates go on with their derivative; other inputs are held, or go on with their derivative.
 pub(crate) fn end_of_step(entries: &[Entry], known: Known<'_>, step: f64, how: Understanding) -> Vec<f64> {
     let Known {
         values,

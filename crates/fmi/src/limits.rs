@@ -1,7 +1,7 @@
 //! How much is read of what others have written, and the ways to read no more.
 //!
-//! The numbers are those of all readers ([`input::limits`]): far beyond what this program writes, and far below what fills
-//! a memory.
+//! The numbers are those of all readers ([`input::limits`]): far beyond what this program writes, and far
+//! below what fills a memory.
 
 use std::fmt::Display;
 use std::fs::{self, File};

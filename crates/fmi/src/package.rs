@@ -95,8 +95,8 @@ impl Platform {
     }
 }
 
-/// Returns the FMU of what is made of a source, with the library for one platform, as the bytes of its file, and its
-/// description.
+/// Returns the FMU of what is made of a source, with the library for one platform, as the bytes of its file,
+/// and its description.
 ///
 /// # Errors
 /// Nothing can be made of the source, or the library cannot be read.

@@ -45,7 +45,8 @@ pub fn read(folder: &Path) -> Result<Source, Error> {
     Source::of_case(model, case).ok_or_else(unknown)
 }
 
-/// The folder that an URI of FMI 2.0 names: `file:///folder`, `file:/folder`, `file://localhost/folder`; a plain path is taken too.
+/// The folder that an URI of FMI 2.0 names: `file:///folder`, `file:/folder`, `file://localhost/folder`; a
+/// plain path is taken too.
 ///
 /// # Errors
 /// The URI is of another scheme or host.

@@ -1,4 +1,5 @@
-//! A truck with four wedges as a system structure (SSP 1.0): five components from two FMUs, their connections, their parameters.
+//! A truck with four wedges as a system structure (SSP 1.0): five components from two FMUs, their
+//! connections, their parameters.
 //!
 //! | file | what it is |
 //! |---|---|
@@ -7,8 +8,8 @@
 //! | `resources/FrictionWedge.fmu` | the wedge of the case, for all four |
 //! | `resources/parameters.ssv` | what may differ from wedge to wedge, and how the truck starts; SI |
 //!
-//! Every force acts twice, on bolster and side frame; every motion is that of the truck. Wedges on the leading side are turned by 180°
-//! about z; the truck does that, so that connections need no signs.
+//! Every force acts twice, on bolster and side frame; every motion is that of the truck. Wedges on the
+//! leading side are turned by 180° about z; the truck does that, so that connections need no signs.
 
 use std::path::Path;
 

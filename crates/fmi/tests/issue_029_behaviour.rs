@@ -184,7 +184,8 @@ fn issue_029_members_of_an_instance_that_led_astray_are_refused_by_name() {
     assert!(reason.message.contains("at most 67108864 are read"), "{reason}");
 }
 
-/// Whoever read a value before the experiment was set up had an element that began at zero, and steps that began there.
+/// Whoever read a value before the experiment was set up had an element that began at zero, and steps that
+/// began there.
 #[test]
 fn issue_029_an_experiment_set_up_after_a_value_was_read_counts() {
     let instance = |reads: bool| {

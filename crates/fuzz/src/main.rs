@@ -40,8 +40,9 @@ const FOUND: u8 = 1;
 /// Exit code: the call is wrong.
 const WRONG: u8 = 2;
 
-/// Give broken inputs to every reader, and tell what breaks a promise: a panic, an abort, more than 1 s or 1 GB for an input,
-/// a message of more than 64 KiB, a place outside the text, a document that is another one once it is written and read again.
+/// Give broken inputs to every reader, and tell what breaks a promise: a panic, an abort, more than 1 s or 1
+/// GB for an input, a message of more than 64 KiB, a place outside the text, a document that is another one
+/// once it is written and read again.
 #[derive(Debug, Parser)]
 #[command(
     name = "fuzz",
@@ -74,7 +75,8 @@ struct Cli {
     /// Folder for the inputs of findings
     #[arg(long, value_name = "DIR")]
     save: Option<PathBuf>,
-    /// Write the corpora of the readers and their dictionaries into a folder, as libFuzzer takes them, and stop
+    /// Write the corpora of the readers and their dictionaries into a folder, as libFuzzer takes them, and
+    /// stop
     #[arg(long, value_name = "DIR", conflicts_with_all = ["seconds", "executions", "repeat"])]
     corpus: Option<PathBuf>,
     /// Show one input and run it

@@ -17,7 +17,8 @@ use crate::folder::Folder;
 use crate::tally::Tally;
 use crate::worker::{FINDINGS, GIVEN_UP, TALLY};
 
-/// How much longer than the processor time of an input its wall time may be, where other programs compute beside it.
+/// How much longer than the processor time of an input its wall time may be, where other programs compute
+/// beside it.
 const WALL: u32 = 20;
 /// How often workers are looked at.
 const LOOK: Duration = Duration::from_millis(10);
@@ -266,7 +267,8 @@ fn broke(status: ExitStatus, said: &str) -> End {
     }
 }
 
-/// Waits until a worker ends. A worker ends itself when it computes for too long; one that waits without computing is ended here.
+/// Waits until a worker ends. A worker ends itself when it computes for too long; one that waits without
+/// computing is ended here.
 fn wait(child: &mut Child, tally: &Path, patience: Duration) -> io::Result<Option<ExitStatus>> {
     let mut seen = None;
     let mut since = Instant::now();

@@ -69,8 +69,8 @@ fn every_way(error: &dyn Diagnostic) -> [String; 3] {
     ]
 }
 
-/// Prints an error in every way in which it may be printed, and checks places, lengths and the number of mistakes. Returns the
-/// bytes of the longest text.
+/// Prints an error in every way in which it may be printed, and checks places, lengths and the number of
+/// mistakes. Returns the bytes of the longest text.
 ///
 /// # Panics
 /// It breaks a promise.
@@ -85,8 +85,8 @@ pub fn check(error: &dyn Diagnostic) -> usize {
     lengths.max().unwrap_or(0)
 }
 
-/// As [`check`] for mistakes that are told one after the other; the texts count together. All of them are printed as into a
-/// file, some in every way.
+/// As [`check`] for mistakes that are told one after the other; the texts count together. All of them are
+/// printed as into a file, some in every way.
 ///
 /// # Panics
 /// As [`check`].

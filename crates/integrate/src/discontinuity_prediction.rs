@@ -122,7 +122,8 @@ impl DiscontinuityPredictor {
         self.here.slips.is_empty() || all.any(|slip| square(slip) < tuning::TAIL * tuning::TAIL)
     }
 
-    /// Returns the factor by which error bounds in zones widen here, see [`ProblemStructure::zone_error_bounds`].
+    /// Returns the factor by which error bounds in zones widen here, see
+    /// [`ProblemStructure::zone_error_bounds`].
     pub fn bound_widening(&self) -> f64 {
         (self.smallest_slip * tuning::BOUND_WIDENING).max(1.0)
     }

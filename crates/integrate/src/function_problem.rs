@@ -133,8 +133,8 @@ impl<'a> FunctionProblem<'a> {
         self
     }
 
-    /// Sets the number of leading states that are displacements, see [`ProblemStructure::displacements`]; by default
-    /// all are.
+    /// Sets the number of leading states that are displacements, see [`ProblemStructure::displacements`]; by
+    /// default all are.
     #[must_use]
     pub fn displacements(mut self, count: usize) -> Self {
         self.structure.displacements = count;

@@ -24,8 +24,8 @@ pub struct ProblemStructure {
     /// problems that a larger error would change in kind.
     pub error_bounds: Vec<f64>,
     /// Upper bound of the admissible error of each state while a slip of [`Problem::discontinuities`] is in
-    /// its regularization zone; empty: no bounds. If the smallest slip has the size s > 20 the bounds are s/20
-    /// times as wide.
+    /// its regularization zone; empty: no bounds. If the smallest slip has the size s > 20 the bounds are
+    /// s/20 times as wide.
     ///
     /// For speeds under regularized friction: an error as large as the reference speed makes a sticking
     /// contact slide to and fro, but hardly changes the force on one that slides a thousand times as fast.
@@ -85,11 +85,12 @@ impl ProblemStructure {
 
 /// A stiff initial value problem `x' = f(t, x)` that brings its own structured linear algebra.
 ///
-/// The right-hand side f is piecewise smooth. Five functions are required. The others have defaults and serve:
-/// jumps in time ([`Problem::next_time_discontinuity`]), Newton's method ([`Problem::linearize_for_newton`]),
-/// explicit steps ([`Problem::spectral_radius_bound`]), prediction of discontinuities
-/// ([`Problem::discontinuities`]), and discrete states with their events
-/// ([`Problem::initial_discrete_states`] and after). [`crate::FunctionProblem`] makes a problem from closures.
+/// The right-hand side f is piecewise smooth. Five functions are required. The others have defaults and
+/// serve: jumps in time ([`Problem::next_time_discontinuity`]), Newton's method
+/// ([`Problem::linearize_for_newton`]), explicit steps ([`Problem::spectral_radius_bound`]), prediction of
+/// discontinuities ([`Problem::discontinuities`]), and discrete states with their events
+/// ([`Problem::initial_discrete_states`] and after). [`crate::FunctionProblem`] makes a problem from
+/// closures.
 ///
 /// All functions are pure: with the same arguments (since the same call of
 /// [`Problem::next_time_discontinuity`]) they return the same bits. They take `&mut self` so that they can
@@ -160,7 +161,8 @@ pub trait Problem {
 
     /// Writes the event variables of one group, or of all groups (none), at `(time, x)`: what event functions
     /// are computed from (gaps and loads of contacts, say). They are continuous in time and do not depend on
-    /// discrete states. Of one group only the states that it names are valid in `x`, and the bits are the same.
+    /// discrete states. Of one group only the states that it names are valid in `x`, and the bits are the
+    /// same.
     fn event_variables(&mut self, group: Option<usize>, time: f64, x: &[f64], variables: &mut [f64]) {
         let _ = (group, time, x, variables);
     }

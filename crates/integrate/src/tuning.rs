@@ -1,9 +1,9 @@
 //! All tuning constants of the integrator, by the part that uses them.
 //!
 //! Each constant states its unit, what it does, and what its value rests on: a citation, a decision record
-//! (`docs/decisions/NNNN-*.md`), a row of the table in `docs/decisions/0045-what-was-tried.md`, or "chosen, not
-//! measured".
-//! Constants without a unit are ratios. "Tolerances" are multiples of the admissible error of a step.
+//! (`docs/decisions/NNNN-*.md`), a row of the table in `docs/decisions/0045-what-was-tried.md`, or "chosen,
+//! not measured". Constants without a unit are ratios. "Tolerances" are multiples of the admissible error of
+//! a step.
 //!
 //! Terms: h is the step, ρ a bound of the spectral radius of the Jacobian matrix (1/s), so h·ρ is the scaled
 //! step. A *slip* is a plane vector in units of the width of its regularization zone (slip velocity over the
@@ -90,8 +90,8 @@ pub mod step {
     /// First step after a discontinuity, as a part of the step planned before it. The error across it says
     /// nothing. With the step through a regularization zone: 23,100 to 18,800 rejections (decision 0045).
     pub const AFTER_DISCONTINUITY: f64 = 0.5;
-    /// Largest h·ρ of the first step after an explicit step to a discontinuity where ρ grows: a contact closed.
-    /// Without it yawed runs have 60 % more rejections (decision 0049).
+    /// Largest h·ρ of the first step after an explicit step to a discontinuity where ρ grows: a contact
+    /// closed. Without it yawed runs have 60 % more rejections (decision 0049).
     pub const AFTER_CLOSING_H_RHO: f64 = 0.5;
     /// After a step to a discontinuity crossed it, this part of the distance is tried. Decision 0028.
     pub const RETRY_BEFORE_DISCONTINUITY: f64 = 0.8;

@@ -1,4 +1,5 @@
-//! What observers of runs find: silent within the limits, a finding with place, time and value beyond them, for any model.
+//! What observers of runs find: silent within the limits, a finding with place, time and value beyond them,
+//! for any model.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -51,7 +52,8 @@ fn state(system: &System, coordinates: [f64; 6]) -> Vec<f64> {
     x
 }
 
-/// What is found if a system starts as it is and then takes these places at times of 0.01 s, 0.02 s and so on.
+/// What is found if a system starts as it is and then takes these places at times of 0.01 s, 0.02 s and so
+/// on.
 fn found(system: &mut System, places: &[[f64; 6]]) -> Vec<Finding> {
     let start = system.initial_state();
     let mut observation = Plausibility::new(system, 0.0, &start);
@@ -62,7 +64,8 @@ fn found(system: &mut System, places: &[[f64; 6]]) -> Vec<Finding> {
     observation.findings(system, &EnergyBalance::new(0.0), INTERVAL)
 }
 
-/// A place just below a limit says nothing, one just above it is the one finding, with the time and the value.
+/// A place just below a limit says nothing, one just above it is the one finding, with the time and the
+/// value.
 fn at_the_limit(model: &Model, place: impl Fn(f64) -> [f64; 6], limit: f64, kind: FindingKind) {
     let mut system = system(model.clone());
     let below = found(&mut system, &[place(0.999 * limit), place(0.0)]);
@@ -217,7 +220,8 @@ fn limits_a_coefficient_of_friction_above_one_is_found_before_anything_moves() {
     );
 }
 
-/// The energy of corners that begin inside is held against the scale of the ledger; what stays stored is not released.
+/// The energy of corners that begin inside is held against the scale of the ledger; what stays stored is not
+/// released.
 #[test]
 fn energy_an_overlap_at_the_start_is_found_by_the_energy_that_it_releases() {
     let depth = 1e-3;

@@ -11,7 +11,8 @@
 //! | `history.NUMBER.factor` | a pure number that amplitudes and base lines of the history are multiplied with |
 //! | `history.NUMBER.frequency` | the frequency of its sines |
 //!
-//! Numbers are those of the files. Values with a dimension need a unit, in any system; trees keep the files' units.
+//! Numbers are those of the files. Values with a dimension need a unit, in any system; trees keep the files'
+//! units.
 
 use input::shortened;
 use quantity::{Kind, Quantity, nearest};

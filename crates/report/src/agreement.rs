@@ -1,18 +1,21 @@
-//! How far the stand-alone wedge, the comparison program's types 6.8 and 6.9, and the quasi-static wedge agree, in numbers.
+//! How far the stand-alone wedge, the comparison program's types 6.8 and 6.9, and the quasi-static wedge
+//! agree, in numbers.
 //!
-//! The types are *our reading* of them, in a half-truck made from the printed files: no output of that program is known.
-//! Looked at is the leading left wedge, connection 127. All with toe out, as in the thesis's comparison.
+//! The types are *our reading* of them, in a half-truck made from the printed files: no output of that
+//! program is known. Looked at is the leading left wedge, connection 127. All with toe out, as in the
+//! thesis's comparison.
 //!
-//! - Means: the vertical wedge force (friction of the column on the side frame, positive up) over the branches of
-//!   [`study::metrics`].
-//! - Energy per cycle: of the stand-alone wedge, what the ledger lost in friction at the column; of the types, the
-//!   column's friction over the stroke; of the closed form, the same over the input's full stroke.
-//! - Loop area: the vertical wedge force over the vertical displacement that the loops are drawn over, which is the wedge's
-//!   for the stand-alone model, the stroke (bolster against side frame) for the types; mean over the whole cycles after
-//!   the first half period, by the trapezoidal rule on the rows.
+//! - Means: the vertical wedge force (friction of the column on the side frame, positive up) over the
+//!   branches of [`study::metrics`].
+//! - Energy per cycle: of the stand-alone wedge, what the ledger lost in friction at the column; of the
+//!   types, the column's friction over the stroke; of the closed form, the same over the input's full stroke.
+//! - Loop area: the vertical wedge force over the vertical displacement that the loops are drawn over, which
+//!   is the wedge's for the stand-alone model, the stroke (bolster against side frame) for the types; mean
+//!   over the whole cycles after the first half period, by the trapezoidal rule on the rows.
 //!
-//! Defect: loops are taken from the rows, 0.01 s apart; in the first cycle with variable damping the types rattle faster than
-//! that, and their loop area, a mean over both cycles, comes out some 2 % below the energy, which is integrated along the steps.
+//! Defect: loops are taken from the rows, 0.01 s apart; in the first cycle with variable damping the types
+//! rattle faster than that, and their loop area, a mean over both cycles, comes out some 2 % below the
+//! energy, which is integrated along the steps.
 //!
 //! Units: SI, unless a text says otherwise.
 
@@ -39,8 +42,8 @@ pub const COMPONENT: &str = "127";
 /// A run of the half-truck.
 pub type TruckOutcome = (Entry, TruckResult);
 
-/// A column of the half-truck's table under the name of the stand-alone wedge's column that stands for the same; any
-/// other name is the half-truck's own.
+/// A column of the half-truck's table under the name of the stand-alone wedge's column that stands for the
+/// same; any other name is the half-truck's own.
 #[must_use]
 pub fn truck_column<'r>(result: &'r TruckResult, name: &str) -> Option<&'r [f64]> {
     let wedge = |what: &str| result.column(&format!("wedge_{COMPONENT}_{what}"));
@@ -127,9 +130,11 @@ impl Numbers {
 pub struct Stroke {
     /// Which type.
     pub wedges: WedgeType,
-    /// Energy per cycle of the element alone under the input's full stroke, J; type 6.9 with the wedge's rise in its pocket.
+    /// Energy per cycle of the element alone under the input's full stroke, J; type 6.9 with the wedge's rise
+    /// in its pocket.
     pub alone: f64,
-    /// The same under the stroke that it has, J: from the mean lowest to the mean highest stroke of the cycles.
+    /// The same under the stroke that it has, J: from the mean lowest to the mean highest stroke of the
+    /// cycles.
     pub shortened: f64,
     /// What it is in the half-truck, J.
     pub found: f64,
@@ -156,7 +161,8 @@ pub struct Group {
     pub remarks: Vec<String>,
 }
 
-/// The stand-alone run with toe out of a damping, without or with yaw, and the half-truck's runs that go with it.
+/// The stand-alone run with toe out of a damping, without or with yaw, and the half-truck's runs that go with
+/// it.
 pub(crate) struct Set<'o> {
     pub damping: Damping,
     pub yawed: bool,
@@ -164,7 +170,8 @@ pub(crate) struct Set<'o> {
     pub trucks: Vec<&'o TruckOutcome>,
 }
 
-/// The sets that these runs allow: those with a stand-alone run and at least one of the half-truck, all complete.
+/// The sets that these runs allow: those with a stand-alone run and at least one of the half-truck, all
+/// complete.
 pub(crate) fn sets<'o>(outcomes: &'o [Outcome], trucks: &'o [TruckOutcome]) -> Vec<Set<'o>> {
     let mut sets = Vec::new();
     for damping in [Damping::Variable, Damping::Constant] {
@@ -314,7 +321,8 @@ fn closed(case: &Case, times: &[f64], cycle: &Cycle) -> Option<Numbers> {
     })
 }
 
-/// What the quasi-static wedge loses at the column while the bolster goes from one height to another and back, J.
+/// What the quasi-static wedge loses at the column while the bolster goes from one height to another and
+/// back, J.
 fn element_energy(parameters: &Parameters, low: f64, high: f64) -> Option<f64> {
     // The forces are straight lines with at most one kink: the midpoint rule is good to 1e-6.
     const PIECES: u32 = 4000;
@@ -413,9 +421,9 @@ pub fn mean_yaw(result: &TruckResult) -> Option<f64> {
     (!yaw.is_empty()).then(|| yaw.iter().sum::<f64>() / yaw.len() as f64)
 }
 
-/// Eq. 5-1 along a type's run: the coil force of the run in the quasi-static wedge of the case, in the direction of the input (the
-/// stroke's own rings, and would change branch with each swing).
-/// Gives at each row the column's friction on the side frame (N, positive up) and its force along the track (N).
+/// Eq. 5-1 along a type's run: the coil force of the run in the quasi-static wedge of the case, in the
+/// direction of the input (the stroke's own rings, and would change branch with each swing). Gives at each
+/// row the column's friction on the side frame (N, positive up) and its force along the track (N).
 #[must_use]
 pub fn equation_5_1(case: &Case, result: &TruckResult) -> Option<Vec<[f64; 2]>> {
     let wedge: QuasiStaticWedge = closed_form::wedge(&case.parameters);

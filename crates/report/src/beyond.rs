@@ -1,7 +1,7 @@
 //! Figures of the built-in cases beyond the thesis: one a group, from all runs of the group.
 //!
-//! Reference lines are those of the quasi-static wedge ([`study::closed_form`]), dashed or dotted, and are not drawn where it
-//! has none.
+//! Reference lines are those of the quasi-static wedge ([`study::closed_form`]), dashed or dotted, and are
+//! not drawn where it has none.
 
 use mechanics::quasi_static::Direction;
 use quantity::{Kind, System as Units};
@@ -49,8 +49,8 @@ pub fn needs(column: &str) -> bool {
     ALSO.contains(&column) || begins && !column.ends_with("_rate")
 }
 
-/// The figure of a group from its runs (those that there are); `None` for a group without a figure, or without runs.
-/// All runs should have the same output units: those of the first are used.
+/// The figure of a group from its runs (those that there are); `None` for a group without a figure, or
+/// without runs. All runs should have the same output units: those of the first are used.
 #[must_use]
 pub fn figure(group: &str, runs: &[Ran]) -> Option<Figure> {
     let units = runs.first()?.1.summary.units;
@@ -82,7 +82,8 @@ pub fn figure(group: &str, runs: &[Ran]) -> Option<Figure> {
     Some(sheet(about.title, about.look_at, panels))
 }
 
-/// Moment about the column's middle over the pocket's yaw, the last two periods; the limit N_c h3/2 of the last one.
+/// Moment about the column's middle over the pocket's yaw, the last two periods; the limit N_c h3/2 of the
+/// last one.
 fn warp(runs: &[Ran], units: Units) -> Vec<Panel> {
     let of = |(case, result): &Ran| -> Option<Panel> {
         let times = result.column("time")?;

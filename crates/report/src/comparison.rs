@@ -1,9 +1,9 @@
 //! Results beside each other: differences from the first one, and overlay figures.
 //!
-//! Everything is in the units of the first result and at its times, as far as all results have them: the numbers of the
-//! others are converted, and interpolated linearly between their own times (counts, such as contact states, keep the value of
-//! the row before). Means and root mean squares are over these times, each counting the same. Figures show every
-//! result at its own times.
+//! Everything is in the units of the first result and at its times, as far as all results have them: the
+//! numbers of the others are converted, and interpolated linearly between their own times (counts, such as
+//! contact states, keep the value of the row before). Means and root mean squares are over these times, each
+//! counting the same. Figures show every result at its own times.
 
 use std::io::{self, Write};
 
@@ -129,8 +129,8 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Compares results with the first of them; `columns` chooses, empty: the main ones that all have, else all that all
-    /// have.
+    /// Compares results with the first of them; `columns` chooses, empty: the main ones that all have, else
+    /// all that all have.
     ///
     /// # Errors
     /// See [`ComparisonError`].
@@ -234,8 +234,9 @@ impl Comparison {
         Ok(overlay::figure(title, caption, vec![axes]))
     }
 
-    /// Writes the table of differences. Differences are *result* less *compared_with*; relative ones are fractions of
-    /// `range`, which is the first result's. Energies per cycle stand in the same columns as far as these apply.
+    /// Writes the table of differences. Differences are *result* less *compared_with*; relative ones are
+    /// fractions of `range`, which is the first result's. Energies per cycle stand in the same columns as far
+    /// as these apply.
     ///
     /// # Errors
     /// The writer's.

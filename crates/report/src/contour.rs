@@ -1,6 +1,7 @@
 //! Lines of equal height over a grid, by marching squares.
 
-/// A grid of heights: `heights[i * y.len() + j]` stands at `(x[i], y[j])`; heights that are not finite are holes.
+/// A grid of heights: `heights[i * y.len() + j]` stands at `(x[i], y[j])`; heights that are not finite are
+/// holes.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid<'g> {
     /// Abscissae, increasing.

@@ -1,7 +1,8 @@
 //! `result.csv`: one row an output time, one column an output.
 //!
-//! A header of full names (`wedge_x_in`), numbers in the shortest decimal form that reads back to the same bits, a
-//! point as decimal sign, `,` between columns, and `\n` at the end of every line. Contact states are integers.
+//! A header of full names (`wedge_x_in`), numbers in the shortest decimal form that reads back to the same
+//! bits, a point as decimal sign, `,` between columns, and `\n` at the end of every line. Contact states are
+//! integers.
 
 use std::io::{self, Write};
 

@@ -1,8 +1,9 @@
 //! Files that appear whole or not at all.
 //!
-//! Files of one result are written and synchronised in a hidden folder beside their destination. If the destination is new,
-//! this folder is renamed to it in one step. If it exists, its files are renamed into it one by one, each in one step;
-//! between two of them a crash of the machine may leave files of two results side by side, but never half a file.
+//! Files of one result are written and synchronised in a hidden folder beside their destination. If the
+//! destination is new, this folder is renamed to it in one step. If it exists, its files are renamed into it
+//! one by one, each in one step; between two of them a crash of the machine may leave files of two results
+//! side by side, but never half a file.
 //!
 //! A program that is told to end calls [`abandon`]; [`remove_left_over`] finds what a killed one left.
 

@@ -14,8 +14,8 @@
 //! - [`run_files`]: the files of a run.
 //! - [`truck_files`]: the files of a half-truck's run.
 //! - [`table`]: tables of results, read back.
-//! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table, [`study_digest`] what
-//!   their page shows.
+//! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
+//!   [`study_digest`] what their page shows.
 //! - [`fit_files`]: the files of an identification.
 //! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
 

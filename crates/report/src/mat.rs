@@ -1,7 +1,8 @@
 //! `result.mat`: a run under the names of the thesis, for its plotting scripts.
 //!
-//! A MAT-file of version 5 (see [`mat5`]) with the variables that the scripts in appendices D and E of Steets (2007) load,
-//! in the thesis's units (inch, pound-force, second, radian) whatever the case's, one row an output time:
+//! A MAT-file of version 5 (see [`mat5`]) with the variables that the scripts in appendices D and E of Steets
+//! (2007) load, in the thesis's units (inch, pound-force, second, radian) whatever the case's, one row an
+//! output time:
 //!
 //! | variable | columns | meaning |
 //! |---|---|---|
@@ -17,13 +18,15 @@
 //! | `vector` | 1 | length of the control coil |
 //! | `about` | text | this table |
 //!
-//! q1, q3, q4 and the bolster's displacement are zero in the nominal position. q2 is absolute, as in the scripts: with variable
-//! damping it is the height of the wedge over the coil's seat (nominal length 10.25 in; the scripts subtract 10.25). With
-//! constant damping the text counts it from the bolster (eq. 3-4), while the scripts plot its full travel of about 2 in and subtract
-//! 9.95: an origin that the text never names. It is [`CONSTANT_NOMINAL_HEIGHT`] in the nominal position here.
+//! q1, q3, q4 and the bolster's displacement are zero in the nominal position. q2 is absolute, as in the
+//! scripts: with variable damping it is the height of the wedge over the coil's seat (nominal length 10.25
+//! in; the scripts subtract 10.25). With constant damping the text counts it from the bolster (eq. 3-4),
+//! while the scripts plot its full travel of about 2 in and subtract 9.95: an origin that the text never
+//! names. It is [`CONSTANT_NOMINAL_HEIGHT`] in the nominal position here.
 //!
-//! The scripts only load the corners' forces and never plot them, and say nothing of their shape: four columns, in the
-//! order of the result's table (lower right, lower left, upper right, upper left), are a choice.
+//! The scripts only load the corners' forces and never plot them, and say nothing of their shape: four
+//! columns, in the order of the result's table (lower right, lower left, upper right, upper left), are a
+//! choice.
 
 use std::io::{self, Write};
 

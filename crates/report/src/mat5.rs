@@ -1,14 +1,16 @@
-//! The MAT-file format, version 5, as far as results need it: matrices of doubles and lines of text, uncompressed.
+//! The MAT-file format, version 5, as far as results need it: matrices of doubles and lines of text,
+//! uncompressed.
 //!
-//! Source: *MAT-File Format*, The MathWorks, "Level 5 MAT-File Format". A file is a header of 128 bytes, then one data
-//! element a variable. Everything is little-endian; every part begins at a multiple of 8 bytes. The header carries no
-//! date, so that the same variables make the same file.
+//! Source: *MAT-File Format*, The MathWorks, "Level 5 MAT-File Format". A file is a header of 128 bytes, then
+//! one data element a variable. Everything is little-endian; every part begins at a multiple of 8 bytes. The
+//! header carries no date, so that the same variables make the same file.
 //!
-//! Own code, because the crate at hand (`matrw` 0.1) puts the hour of writing into the header, so that the same run would never
-//! make the same file, and brings five dependencies for what are two kinds of variables here.
+//! Own code, because the crate at hand (`matrw` 0.1) puts the hour of writing into the header, so that the
+//! same run would never make the same file, and brings five dependencies for what are two kinds of variables
+//! here.
 //!
-//! Limits: names and matrices below 4 GiB; no complex numbers, no structures, no compression. MATLAB (5 and later),
-//! Octave and SciPy read it.
+//! Limits: names and matrices below 4 GiB; no complex numbers, no structures, no compression. MATLAB (5 and
+//! later), Octave and SciPy read it.
 
 use std::io::{self, Write};
 
@@ -47,7 +49,8 @@ pub fn header(text: &str, out: &mut dyn Write) -> io::Result<()> {
 /// Writes a matrix of doubles, given by its columns.
 ///
 /// # Errors
-/// The name is no MATLAB name, the columns differ in length, the matrix is too large for the format; or the writer's.
+/// The name is no MATLAB name, the columns differ in length, the matrix is too large for the format; or the
+/// writer's.
 pub fn matrix(name: &str, columns: &[&[f64]], out: &mut dyn Write) -> io::Result<()> {
     let rows = columns.first().map_or(0, |column| column.len());
     if columns.iter().any(|column| column.len() != rows) {

@@ -1,8 +1,8 @@
 //! Tables as Parquet files, with the unit of each column in the file's metadata.
 //!
-//! Rows are gathered and written in groups, so that the memory needed does not grow with the table; the same rows give the
-//! same bytes. The metadata has, under `wedgelab.columns`, JSON with name, unit and text of each column, and what else the
-//! writer is given.
+//! Rows are gathered and written in groups, so that the memory needed does not grow with the table; the same
+//! rows give the same bytes. The metadata has, under `wedgelab.columns`, JSON with name, unit and text of
+//! each column, and what else the writer is given.
 
 use std::borrow::Cow;
 use std::io::Write;

@@ -54,7 +54,8 @@ pub fn figure(table: &Table, label: &str, x: &str, ys: &[String]) -> Result<Figu
     Ok(overlay::figure(label.to_owned(), caption, axes.collect()))
 }
 
-/// A column's name as the name of a file, without ending: of others' names only letters, digits, `_` and `-` are kept.
+/// A column's name as the name of a file, without ending: of others' names only letters, digits, `_` and `-`
+/// are kept.
 #[must_use]
 pub fn file_name(column: &str) -> String {
     let plain = |sign: char| sign.is_alphanumeric() || matches!(sign, '_' | '-');

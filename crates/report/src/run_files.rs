@@ -13,7 +13,8 @@ pub const NAMES: [&str; 4] = [csv::FILE_NAME, mat::FILE_NAME, CASE_FILE_NAME, su
 
 /// Writes the files of a run, all of them or none.
 ///
-/// The case is written completed, with the tables that it took from other files inside, so that it runs anywhere.
+/// The case is written completed, with the tables that it took from other files inside, so that it runs
+/// anywhere.
 ///
 /// # Errors
 /// A file cannot be written.

@@ -125,7 +125,8 @@ pub fn moving(others: &[Outcome], trucks: &[TruckOutcome]) -> Vec<Plan> {
     others.chain(trucks).collect()
 }
 
-/// The section that compares these runs with those of the half-truck; `None` where there are none to be compared.
+/// The section that compares these runs with those of the half-truck; `None` where there are none to be
+/// compared.
 #[must_use]
 pub fn comparison(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Option<Plan> {
     let exhibits = figures::comparison::exhibits(outcomes, trucks);

@@ -1,5 +1,5 @@
-//! What the summary page of a study needs of its rows, gathered in one pass and in memory that does not grow with the study:
-//! means over the values of each parameter, and of each pair of parameters.
+//! What the summary page of a study needs of its rows, gathered in one pass and in memory that does not grow
+//! with the study: means over the values of each parameter, and of each pair of parameters.
 
 use mechanics::energy_balance::{DOUBTFUL, Verdict};
 use study::design::{Factor, Levels, Sampling, Study, Value};
@@ -226,7 +226,8 @@ pub struct JamCells {
     pub toe_in: bool,
     /// Their toe, rad, positive out.
     pub toe: Gathered,
-    /// The column's force over the coil's load, falling and rising, by place of angle and friction as in [`Pair`].
+    /// The column's force over the coil's load, falling and rising, by place of angle and friction as in
+    /// [`Pair`].
     pub ratios: Vec<[Gathered; 2]>,
 }
 

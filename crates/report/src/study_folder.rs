@@ -8,8 +8,9 @@
 //! .lock                 held while a program works here
 //! ```
 //!
-//! Variant `i` belongs to part `i / part_size`. A part only ever grows; a record that was cut off or damaged is passed over
-//! and its variant computed again. The table and the page appear whole or not at all ([`crate::files`]).
+//! Variant `i` belongs to part `i / part_size`. A part only ever grows; a record that was cut off or damaged
+//! is passed over and its variant computed again. The table and the page appear whole or not at all
+//! ([`crate::files`]).
 
 use std::borrow::Cow;
 use std::fs::{self, File, OpenOptions};
@@ -100,7 +101,8 @@ impl StudyFolder {
     /// Begins a study in a folder, or goes on with the same study.
     ///
     /// # Errors
-    /// The folder holds something else or another study, another program works there, or it cannot be written to.
+    /// The folder holds something else or another study, another program works there, or it cannot be written
+    /// to.
     pub fn open(path: &Path, study: &Study) -> Result<Self, StudyFolderError> {
         let description = serde_json::to_string_pretty(&study.description())
             .map_err(|error| write_error(path, io::Error::other(error)))?;
@@ -262,8 +264,8 @@ impl StudyFolder {
         Ok(found.records.len() as u64)
     }
 
-    /// Makes the table of all records, in the order of their numbers, and shows each row to `each` with the values of the
-    /// factors.
+    /// Makes the table of all records, in the order of their numbers, and shows each row to `each` with the
+    /// values of the factors.
     ///
     /// # Errors
     /// A record is missing, a part cannot be read, or the table cannot be written.

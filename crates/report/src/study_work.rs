@@ -43,8 +43,8 @@ struct Queue {
     numbers: std::vec::IntoIter<u64>,
 }
 
-/// Computes all runs that have no record, by so many workers, until `stop` becomes true: no new runs begin then, and those under way are
-/// finished. Tells each one that is kept.
+/// Computes all runs that have no record, by so many workers, until `stop` becomes true: no new runs begin
+/// then, and those under way are finished. Tells each one that is kept.
 ///
 /// # Errors
 /// A part cannot be read or written to. All that was kept stays.

@@ -1,8 +1,8 @@
 //! `summary.json`: the run in numbers, for people and programs.
 //!
 //! Its schema is that of [`study::summary::Summary`], named in its key `schema` (`wedgelab.summary/2`): every
-//! dimensional number is an object `{"value": ..., "unit": "..."}`, times are in seconds, keys that a reader does not know
-//! are to be ignored.
+//! dimensional number is an object `{"value": ..., "unit": "..."}`, times are in seconds, keys that a reader
+//! does not know are to be ignored.
 
 use std::io::{self, Write};
 

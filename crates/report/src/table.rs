@@ -1,10 +1,12 @@
 //! Tables of results, read back: those of runs, and any CSV file of the same form.
 //!
-//! The form is that of [`csv`](crate::csv): a line of names, *what* then *unit* (`wedge_x_in`, `wedge_x_m`), then lines of
-//! numbers, one of the columns being `time_s`, which increases. Columns may be fewer, more, and in any order; a name without
-//! a known unit is a pure number. Lines that begin with `#` and empty lines do not count.
+//! The form is that of [`csv`](crate::csv): a line of names, *what* then *unit* (`wedge_x_in`, `wedge_x_m`),
+//! then lines of numbers, one of the columns being `time_s`, which increases. Columns may be fewer, more, and
+//! in any order; a name without a known unit is a pure number. Lines that begin with `#` and empty lines do
+//! not count.
 //!
-//! Numbers are kept as written, so that nothing is lost; [`TableColumn::si`] and [`TableColumn::in_units`] convert.
+//! Numbers are kept as written, so that nothing is lost; [`TableColumn::si`] and [`TableColumn::in_units`]
+//! convert.
 
 use std::fs;
 use std::io;
@@ -33,7 +35,8 @@ const RESULT_FILE: Expected = Expected {
 pub struct TableColumn {
     /// Its name without unit, such as `wedge_x`.
     pub name: String,
-    /// What kind of quantity it is. Where moments and energies are written alike and the name is none of ours, a moment.
+    /// What kind of quantity it is. Where moments and energies are written alike and the name is none of
+    /// ours, a moment.
     pub kind: Kind,
     /// The system of units of [`TableColumn::written`].
     pub units: Units,
@@ -101,7 +104,8 @@ impl Table {
             cells: 0,
         };
         for record in reader.records() {
-            // The text is UTF-8 and lengths may differ: what is left are errors of reading from memory, which has none.
+            // The text is UTF-8 and lengths may differ: what is left are errors of reading from memory, which
+            // has none.
             let record = record.map_err(|error| TableError::Unreadable {
                 file: file.to_owned(),
                 reason: io::Error::other(error),
@@ -266,7 +270,8 @@ impl Rows<'_> {
     }
 }
 
-/// The line of a record. The reader's own count stands before the remarks and empty lines in front of the record.
+/// The line of a record. The reader's own count stands before the remarks and empty lines in front of the
+/// record.
 fn line_of(text: &str, place: &::csv::Position) -> u64 {
     let rest = usize::try_from(place.byte())
         .ok()

@@ -2,9 +2,9 @@
 
 /// Thins a curve that will be drawn over `columns` columns of width.
 ///
-/// Of all points that follow each other within one column, the first, the lowest, the highest and the last are kept, in
-/// their order: within the width of one column nothing can be seen to change. Curves may turn back, as loops do.
-/// Points that are not finite are kept, since they interrupt the line.
+/// Of all points that follow each other within one column, the first, the lowest, the highest and the last
+/// are kept, in their order: within the width of one column nothing can be seen to change. Curves may turn
+/// back, as loops do. Points that are not finite are kept, since they interrupt the line.
 #[must_use]
 pub fn thin(points: &[(f64, f64)], columns: u32) -> Vec<(f64, f64)> {
     let finite = |(x, y): &(f64, f64)| x.is_finite() && y.is_finite();
@@ -51,8 +51,8 @@ pub fn thin(points: &[(f64, f64)], columns: u32) -> Vec<(f64, f64)> {
     kept
 }
 
-/// The part of a curve whose abscissae lie in a window; where it crosses the window's edges it is cut by a straight
-/// line, and where it leaves the window it is interrupted.
+/// The part of a curve whose abscissae lie in a window; where it crosses the window's edges it is cut by a
+/// straight line, and where it leaves the window it is interrupted.
 #[must_use]
 pub fn window(points: &[(f64, f64)], (left, right): (f64, f64)) -> Vec<(f64, f64)> {
     const GAP: (f64, f64) = (f64::NAN, f64::NAN);

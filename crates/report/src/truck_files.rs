@@ -2,8 +2,9 @@
 //!
 //! `result.mat` holds every column of the table under its full name, and the array that the thesis's scripts
 //! (Steets 2007, appendix D) load from the comparison program's results, under their name (`var_vrt_69_out`,
-//! `const_yaw_68_out`, ...) and in their units (pound-force, inch, second). Its columns follow the order of the data
-//! files, forces, strokes, velocities, of the first wedge (127 in the printed files, the leading left one):
+//! `const_yaw_68_out`, ...) and in their units (pound-force, inch, second). Its columns follow the order of
+//! the data files, forces, strokes, velocities, of the first wedge (127 in the printed files, the leading
+//! left one):
 //!
 //! | column | type 6.9 | type 6.8 |
 //! |---|---|---|
@@ -16,14 +17,15 @@
 //! | 7 | lateral stroke | lateral velocity |
 //! | 8, 9, 10 | vertical, longitudinal, lateral velocity | |
 //!
-//! The scripts use columns 1, 2, 3, 5 and 8 of type 6.9 and 1, 2, 4 and 6 of type 6.8; the others follow from the data files.
-//! Signs: the vertical force is the whole one of the wedge on the side frame, positive up. The scripts plot it beside `-Fz` of the
-//! wedge with variable damping (where the coil presses the side frame down: negative) and beside `Fz` with constant
-//! damping (friction on the side frame). The longitudinal force is the column's push, positive, as `Fx`.
+//! The scripts use columns 1, 2, 3, 5 and 8 of type 6.9 and 1, 2, 4 and 6 of type 6.8; the others follow from
+//! the data files. Signs: the vertical force is the whole one of the wedge on the side frame, positive up.
+//! The scripts plot it beside `-Fz` of the wedge with variable damping (where the coil presses the side frame
+//! down: negative) and beside `Fz` with constant damping (friction on the side frame). The longitudinal force
+//! is the column's push, positive, as `Fx`.
 //!
-//! The scripts take rows 35 to 75 for 350 to 750 of arrays sampled each 0.01 s: the comparison program's arrays have a row
-//! each 0.1 s, the last of the run file's stepping constants. So has this one: row k is the time (k - 1) times the interval,
-//! between rows of the table interpolated linearly.
+//! The scripts take rows 35 to 75 for 350 to 750 of arrays sampled each 0.01 s: the comparison program's
+//! arrays have a row each 0.1 s, the last of the run file's stepping constants. So has this one: row k is the
+//! time (k - 1) times the interval, between rows of the table interpolated linearly.
 
 use std::io::{self, Write};
 
@@ -129,7 +131,8 @@ fn sample(times: &[f64], values: &[f64], time: f64) -> f64 {
     }
 }
 
-/// Writes the files of a run, all of them or none. `script_interval` (s) is that of the array for the thesis's scripts.
+/// Writes the files of a run, all of them or none. `script_interval` (s) is that of the array for the
+/// thesis's scripts.
 ///
 /// # Errors
 /// A file cannot be written.

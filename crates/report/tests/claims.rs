@@ -122,7 +122,8 @@ fn the_table() {
     assert_eq!(written["claims"][0]["group"], "variable");
 }
 
-/// What is not a question of numbers is decided by the twelve runs, or says why not; every failure is explained.
+/// What is not a question of numbers is decided by the twelve runs, or says why not; every failure is
+/// explained.
 #[test]
 fn verdicts_come_with_their_reasons() {
     // Those that compare need runs of the half-truck, and have tests of their own.

@@ -1,5 +1,5 @@
-//! The comparison with types 6.8 and 6.9: figures complete and drawn from the tables, numbers found again from the columns, claims
-//! decided from the half-truck's runs and undecided without them.
+//! The comparison with types 6.8 and 6.9: figures complete and drawn from the tables, numbers found again
+//! from the columns, claims decided from the half-truck's runs and undecided without them.
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
@@ -207,7 +207,8 @@ fn curves_are_the_columns_of_the_tables() {
     }
 }
 
-/// Means, energies and loops, from the columns by another way: time integrals of the power, and of F over time by steps.
+/// Means, energies and loops, from the columns by another way: time integrals of the power, and of F over
+/// time by steps.
 #[test]
 fn numbers_are_found_again_from_the_columns() {
     for (damping, name) in [
@@ -312,9 +313,9 @@ fn loops_of_the_elements_alone_are_the_known_ones() {
         2.0 * 3702.2 * slope(37.5, 0.2),
         1e-3,
     );
-    // In the half-truck: deeper with variable damping, shorter with constant damping, and that is most of the difference.
-    // The rest is the ringing of the input springs after the start, which crosses the loop again and again with variable
-    // damping, and with constant damping the accumulators, which narrow the loop.
+    // In the half-truck: deeper with variable damping, shorter with constant damping, and that is most of the
+    // difference. The rest is the ringing of the input springs after the start, which crosses the loop again
+    // and again with variable damping, and with constant damping the accumulators, which narrow the loop.
     let groups = [
         (variable, 1.09..1.12, 1.02..1.06),
         (constant, 0.96..0.975, 0.99..1.0),

@@ -288,7 +288,8 @@ fn a_hundred_thousand_points_keep_their_peaks_and_become_small() {
         .split('L')
         .map(|point| point.split_whitespace().nth(1).unwrap().parse().unwrap())
         .collect();
-    // The axis reaches 5 % of the range beyond the extremes, so that the peaks lie at 1/22 and 21/22 of its height.
+    // The axis reaches 5 % of the range beyond the extremes, so that the peaks lie at 1/22 and 21/22 of its
+    // height.
     let top = heights.iter().copied().fold(f64::INFINITY, f64::min);
     let bottom = heights.iter().copied().fold(0.0, f64::max);
     let middle = heights[0];

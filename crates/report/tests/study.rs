@@ -43,8 +43,8 @@ fn curves<'e>(exhibit: &'e Exhibit, panel: usize, label: &str) -> Vec<&'e Curve>
 
 const LINE: &str = "massless wedge jams left of this";
 
-/// With equal frictions and toe in the massless wedge jams, while the bolster falls, where θ + φ = 2 atan μ; never while it rises,
-/// nor with toe out.
+/// With equal frictions and toe in the massless wedge jams, while the bolster falls, where θ + φ = 2 atan μ;
+/// never while it rises, nor with toe out.
 #[test]
 fn analytic_the_jam_line_is_where_the_margin_ends() {
     let maps = maps_of(STUDY, |_| 1.0);
@@ -63,8 +63,8 @@ fn analytic_the_jam_line_is_where_the_margin_ends() {
     }
 }
 
-/// The massless wedge's lines lie where its force says so: with μ = 0 it would be cos θ / sin(θ + φ) of the load at any angle; with friction,
-/// cos ψ cos(θ - ψ) / sin(θ + φ - 2ψ).
+/// The massless wedge's lines lie where its force says so: with μ = 0 it would be cos θ / sin(θ + φ) of the
+/// load at any angle; with friction, cos ψ cos(θ - ψ) / sin(θ + φ - 2ψ).
 #[test]
 fn analytic_the_lines_of_the_massless_wedge_are_its_force() {
     let maps = maps_of(STUDY, |_| 1.0);
@@ -91,7 +91,8 @@ fn analytic_the_lines_of_the_massless_wedge_are_its_force() {
 /// Runs with toe in and toe out do not mix: each map has its own heights.
 #[test]
 fn limits_maps_hold_the_runs_of_their_toe() {
-    // Even numbers have toe in (the last parameter changes fastest): their force grows with the angle, through 1.
+    // Even numbers have toe in (the last parameter changes fastest): their force grows with the angle,
+    // through 1.
     let maps = maps_of(STUDY, |number| match number % 2 {
         0 => 0.6 + 0.1 * (number / 12) as f64,
         _ => 7.0,

@@ -170,8 +170,8 @@ fn find<'v>(list: &'v Value, id: &Value) -> &'v Value {
     list.iter().find(|own| own["id"] == *id).unwrap()
 }
 
-/// Bodies placed by their columns, solids by their mounts, points and normals of contacts: together they must give the
-/// gaps that the mechanics computed.
+/// Bodies placed by their columns, solids by their mounts, points and normals of contacts: together they must
+/// give the gaps that the mechanics computed.
 #[test]
 fn the_scene_has_the_gaps_of_the_result() {
     for (name, set) in [
@@ -325,7 +325,8 @@ fn truck(name: &str, detail: Detail) -> (Value, TruckResult) {
     (serde_json::from_str(&view.to_json().unwrap()).unwrap(), result)
 }
 
-/// Forces as the arrows show them: the wedges have no mass, so that those of column, slope and coil must be in balance.
+/// Forces as the arrows show them: the wedges have no mass, so that those of column, slope and coil must be
+/// in balance.
 #[test]
 fn the_forces_drawn_on_a_half_trucks_wedges_are_in_balance() {
     for name in [
@@ -359,7 +360,8 @@ fn the_forces_drawn_on_a_half_trucks_wedges_are_in_balance() {
                     sum = plus(plus(sum, normal.map(|part| part * force)), friction);
                     size = size.max(force);
                 }
-                // Friction at the column is drawn upright, 0.2 degrees off; across the track the pocket holds the wedge.
+                // Friction at the column is drawn upright, 0.2 degrees off; across the track the pocket holds
+                // the wedge.
                 assert!(
                     sum[0].abs() < 2e-3 * size + 1e-3 && sum[2].abs() < 2e-3 * size + 1e-3,
                     "{name}, {wedge}, row {row}: {sum:?} of {size}"

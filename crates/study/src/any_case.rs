@@ -174,7 +174,8 @@ pub enum CaseSource {
 }
 
 impl CaseSource {
-    /// Returns the half-truck that a user names: a built-in one, or a run file (ending `.run`); `None` if neither is meant.
+    /// Returns the half-truck that a user names: a built-in one, or a run file (ending `.run`); `None` if
+    /// neither is meant.
     ///
     /// # Errors
     /// The run file or those that it names cannot be read.

@@ -1,8 +1,9 @@
 //! What the quasi-static massless wedge says of a case: reference lines for figures and tests.
 //!
-//! The wedge follows the bolster in rigid contact, lifted by its wear, with the frictions of the branch that rigid kinematics
-//! choose (see [`mechanics::quasi_static`]). The coil carries the wedge's weight. Left out: inertia, the elasticity of the
-//! contacts, the reversal of the frictions, moments, the lean of the coil, every motion but the vertical one. Units: SI.
+//! The wedge follows the bolster in rigid contact, lifted by its wear, with the frictions of the branch that
+//! rigid kinematics choose (see [`mechanics::quasi_static`]). The coil carries the wedge's weight. Left out:
+//! inertia, the elasticity of the contacts, the reversal of the frictions, moments, the lean of the coil,
+//! every motion but the vertical one. Units: SI.
 
 use std::f64::consts::PI;
 
@@ -23,9 +24,9 @@ pub fn wedge(parameters: &Parameters) -> QuasiStaticWedge {
     }
 }
 
-/// The coil's force less the wedge's weight, N, with the bolster at this height (m from nominal): the wedge moves by
-/// `z sin θ / sin(θ + φ)` along z, and its wear lifts it. Zero where a coil that cannot pull hangs free, or the weight
-/// exceeds it: the bolster has lifted off.
+/// The coil's force less the wedge's weight, N, with the bolster at this height (m from nominal): the wedge
+/// moves by `z sin θ / sin(θ + φ)` along z, and its wear lifts it. Zero where a coil that cannot pull hangs
+/// free, or the weight exceeds it: the bolster has lifted off.
 #[must_use]
 pub fn load(parameters: &Parameters, bolster: f64) -> f64 {
     let coil = &parameters.coil;
@@ -44,8 +45,8 @@ pub fn load(parameters: &Parameters, bolster: f64) -> f64 {
     (force - parameters.wedge.mass * parameters.gravity).max(0.0)
 }
 
-/// The vertical wedge force, N: the column's friction on the side frame, positive up, with the bolster at this height
-/// (m) and moving this way; `None` where the wedge jams.
+/// The vertical wedge force, N: the column's friction on the side frame, positive up, with the bolster at
+/// this height (m) and moving this way; `None` where the wedge jams.
 #[must_use]
 pub fn vertical_wedge_force(parameters: &Parameters, bolster: f64, direction: Direction) -> Option<f64> {
     let wedge = wedge(parameters);
@@ -69,9 +70,10 @@ pub fn force_on_bolster(parameters: &Parameters, bolster: f64, direction: Direct
     })
 }
 
-/// Equivalent stiffness and damping on the bolster over its vertical cycle, a sine, while the wedge stays loaded: the
-/// branches are straight lines then, so that the stiffness is the slope of their mean and the damping `W/(π ω A²)` with the
-/// work W between them. `None` without a cycle, where the wedge jams or the bolster lifts off, or with a coil by table.
+/// Equivalent stiffness and damping on the bolster over its vertical cycle, a sine, while the wedge stays
+/// loaded: the branches are straight lines then, so that the stiffness is the slope of their mean and the
+/// damping `W/(π ω A²)` with the work W between them. `None` without a cycle, where the wedge jams or the
+/// bolster lifts off, or with a coil by table.
 #[must_use]
 pub fn first_harmonic(parameters: &Parameters) -> Option<FirstHarmonic> {
     let cycle = Cycle::of(parameters)?;
@@ -103,8 +105,8 @@ pub fn energy_per_cycle(parameters: &Parameters) -> Option<f64> {
     Some(2.0 * cycle.amplitude * (force(Direction::Up)? - force(Direction::Down)?))
 }
 
-/// The largest restoring moment of one wedge in warp, N·m, under this normal force at the column (N): it bears on one edge,
-/// half the wedge's width from its middle, `N_c h3/2`. A nest of two wedges has `N_c h3`.
+/// The largest restoring moment of one wedge in warp, N·m, under this normal force at the column (N): it
+/// bears on one edge, half the wedge's width from its middle, `N_c h3/2`. A nest of two wedges has `N_c h3`.
 #[must_use]
 pub fn edge_loading_limit(parameters: &Parameters, column_normal: f64) -> f64 {
     0.5 * parameters.wedge.width * column_normal

@@ -1,4 +1,5 @@
-//! What friction does in each cycle of the bolster: how much of the contact sticks, and the power that wears the faces.
+//! What friction does in each cycle of the bolster: how much of the contact sticks, and the power that wears
+//! the faces.
 
 use wedge::outputs::{CORNERS, FACES};
 
@@ -17,14 +18,15 @@ pub struct CycleShare {
     pub start: f64,
     /// End, s.
     pub end: f64,
-    /// Share of stick in all contact, face by face: of the output times at which corners touch, counted corner by
-    /// corner, the part at which they stick; `None` where no corner of the face touches.
+    /// Share of stick in all contact, face by face: of the output times at which corners touch, counted
+    /// corner by corner, the part at which they stick; `None` where no corner of the face touches.
     pub stick: [Option<f64>; FACES.len()],
     /// Mean power lost in friction, face by face, W: what wears the face.
     pub wear_power: [f64; FACES.len()],
 }
 
-/// The whole cycles of a run, from its start; empty if the bolster does not cycle or the table lacks a column.
+/// The whole cycles of a run, from its start; empty if the bolster does not cycle or the table lacks a
+/// column.
 #[must_use]
 pub fn shares(result: &RunResult, cycle: &Cycle) -> Vec<CycleShare> {
     collect(result, cycle).unwrap_or_default()

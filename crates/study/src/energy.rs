@@ -1,4 +1,5 @@
-//! What the energy ledger says of a run, in words: the same for runs of wedges and of half-trucks, studies and fits.
+//! What the energy ledger says of a run, in words: the same for runs of wedges and of half-trucks, studies
+//! and fits.
 //!
 //! The measure and its limits are those of [`mechanics::energy_balance`].
 
@@ -14,8 +15,8 @@ pub fn among(warnings: &[String]) -> impl Iterator<Item = &str> {
     own.filter(|warning| warning.starts_with(BEGINNING))
 }
 
-/// Returns the warning about a ledger that does not close ([`DOUBTFUL`]): what, how much, where, and what to do. Returns `None` if
-/// it closes.
+/// Returns the warning about a ledger that does not close ([`DOUBTFUL`]): what, how much, where, and what to
+/// do. Returns `None` if it closes.
 #[must_use]
 pub fn warning(balance: &EnergyBalance, what_to_do: &str) -> Option<String> {
     let limit = match balance.verdict() {

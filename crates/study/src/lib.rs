@@ -1,7 +1,7 @@
 //! Cases, runs and metrics.
 //!
-//! A [`case::Case`] says what to run, a [`run::Run`] runs it, a [`result::RunResult`] holds what came out, and
-//! [`summary::Summary`] says it in numbers.
+//! A [`case::Case`] says what to run, a [`run::Run`] runs it, a [`result::RunResult`] holds what came out,
+//! and [`summary::Summary`] says it in numbers.
 
 pub mod any_case;
 pub mod assumptions;

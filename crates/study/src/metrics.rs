@@ -1,8 +1,8 @@
 //! Averages and extremes, defined so that two people compute the same.
 //!
 //! - Energies per cycle are means over whole cycles after the first half period.
-//! - Branch means run over the output times after the first half period with, for constant damping, |ż_b| > 0.9 of
-//!   its peak, and for variable damping |ż_b| > 0.25 of its peak and z_b < -0.3 of the amplitude.
+//! - Branch means run over the output times after the first half period with, for constant damping, |ż_b| >
+//!   0.9 of its peak, and for variable damping |ż_b| > 0.25 of its peak and z_b < -0.3 of the amplitude.
 //! - Equivalent viscous damping is W/(π ω A²).
 //! - Equivalent stiffness and damping of a force are those of its first harmonic, see [`first_harmonic`].
 
@@ -84,7 +84,8 @@ impl Cycle {
         energy / (std::f64::consts::PI * self.angular_frequency * self.amplitude * self.amplitude)
     }
 
-    /// The beginning of the first counted cycle and the end of the last one, s; `None` if there is no whole cycle.
+    /// The beginning of the first counted cycle and the end of the last one, s; `None` if there is no whole
+    /// cycle.
     #[must_use]
     pub fn window(&self, duration: f64) -> Option<(f64, f64, u32)> {
         let (start, period) = (0.5 * self.period(), self.period());
@@ -156,17 +157,19 @@ pub struct FirstHarmonic {
     pub damping: f64,
 }
 
-/// Equivalent stiffness and damping of a force that resists a displacement: with the first harmonics z₁ and F₁ of
-/// displacement and force over whole cycles, `-F₁/z₁ = k + i ω c`.
+/// Equivalent stiffness and damping of a force that resists a displacement: with the first harmonics z₁ and
+/// F₁ of displacement and force over whole cycles, `-F₁/z₁ = k + i ω c`.
 ///
-/// A force is positive the way the displacement is. For a sine of amplitude A this gives `c = W/(π ω A²)` with the work W
-/// that the force takes up a cycle, whatever its course; for a linear spring and dashpot it gives back k and c.
+/// A force is positive the way the displacement is. For a sine of amplitude A this gives `c = W/(π ω A²)`
+/// with the work W that the force takes up a cycle, whatever its course; for a linear spring and dashpot it
+/// gives back k and c.
 ///
-/// `times` (s) grow; `window` is the begin and the end of whole cycles, within them. Integrals are taken by the
-/// trapezoidal rule on the given times, the values at the ends of the window being interpolated linearly: with N rows a
-/// cycle an error of the order 1/N² of the result, of a force that jumps 1/N.
+/// `times` (s) grow; `window` is the begin and the end of whole cycles, within them. Integrals are taken by
+/// the trapezoidal rule on the given times, the values at the ends of the window being interpolated linearly:
+/// with N rows a cycle an error of the order 1/N² of the result, of a force that jumps 1/N.
 ///
-/// `None` if the lengths differ, the window lies outside the times, or the displacement has no first harmonic.
+/// `None` if the lengths differ, the window lies outside the times, or the displacement has no first
+/// harmonic.
 #[must_use]
 pub fn first_harmonic(
     times: &[f64],
@@ -190,8 +193,8 @@ pub fn first_harmonic(
     })
 }
 
-/// Coefficients of cosine and sine of the first harmonic of `values` over a window of whole cycles; `None` if it is not within
-/// the times.
+/// Coefficients of cosine and sine of the first harmonic of `values` over a window of whole cycles; `None` if
+/// it is not within the times.
 #[must_use]
 pub fn harmonic(
     times: &[f64],
@@ -205,7 +208,8 @@ pub fn harmonic(
     if times.len() != values.len() || !inside || end <= start {
         return None;
     }
-    // ∫ v cos, ∫ v sin, ∫ v, ∫ cos, ∫ sin: the last three take out the mean, which the rule would not do exactly.
+    // ∫ v cos, ∫ v sin, ∫ v, ∫ cos, ∫ sin: the last three take out the mean, which the rule would not do
+    // exactly.
     let mut sums = [0.0; 5];
     for (t, v) in times.windows(2).zip(values.windows(2)) {
         let (from, to) = (t[0].max(start), t[1].min(end));

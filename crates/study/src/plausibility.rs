@@ -22,8 +22,8 @@ pub fn among(warnings: &[String]) -> impl Iterator<Item = &str> {
     own.filter(|warning| warning.starts_with(BEGINNING))
 }
 
-/// Returns the warning about a fitted parameter that ends at a bound; `path` is its key, `value` the bound with
-/// its unit.
+/// Returns the warning about a fitted parameter that ends at a bound; `path` is its key, `value` the bound
+/// with its unit.
 #[must_use]
 pub fn at_bound(path: &str, value: &str) -> String {
     format!(
@@ -41,7 +41,8 @@ pub fn warnings<C: RunCase>(run: &Run<C>) -> Vec<String> {
     findings.iter().map(words).collect()
 }
 
-/// Returns why a run is nonsense: the first finding after which results mean nothing. Returns `None` if there is none.
+/// Returns why a run is nonsense: the first finding after which results mean nothing. Returns `None` if there
+/// is none.
 #[must_use]
 pub fn nonsense<C: RunCase>(run: &Run<C>) -> Option<String> {
     let findings = findings(run);

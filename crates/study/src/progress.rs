@@ -1,12 +1,14 @@
-//! When a run hardly progresses, and what is said of it then: one rule for runs of wedges, half-trucks, studies, driven wedges and FMUs.
+//! When a run hardly progresses, and what is said of it then: one rule for runs of wedges, half-trucks,
+//! studies, driven wedges and FMUs.
 //!
-//! **To come forward by [`ADVANCE`], a run may take [`SURE_ATTEMPTS`] attempted steps (accepted and rejected), and
-//! [`ATTEMPTS_A_SECOND`] more for each second of that way. Where [`INTERVALS`] output intervals or one communication step are shorter,
-//! they are the way.** A run that takes more is stopped; what was computed is kept. What rattles takes some five thousand steps a
-//! second, jammed wedges that flutter a hundred thousand within some milliseconds, and then go on.
+//! **To come forward by [`ADVANCE`], a run may take [`SURE_ATTEMPTS`] attempted steps (accepted and
+//! rejected), and [`ATTEMPTS_A_SECOND`] more for each second of that way. Where [`INTERVALS`] output
+//! intervals or one communication step are shorter, they are the way.** A run that takes more is stopped;
+//! what was computed is kept. What rattles takes some five thousand steps a second, jammed wedges that
+//! flutter a hundred thousand within some milliseconds, and then go on.
 //!
-//! A step that would have to be shorter than the resolution of time stops a run, too; that rule is the integrator's
-//! ([`integrate::StepError`]).
+//! A step that would have to be shorter than the resolution of time stops a run, too; that rule is the
+//! integrator's ([`integrate::StepError`]).
 
 use integrate::{Integrator, Problem, StepError};
 use mechanics::body::COORDINATES;
@@ -48,8 +50,8 @@ impl Pace {
         }
     }
 
-    /// Looks at the run after a step; `short` (s) is the way where it is shorter than [`ADVANCE`]: ten output intervals, or the
-    /// communication step.
+    /// Looks at the run after a step; `short` (s) is the way where it is shorter than [`ADVANCE`]: ten output
+    /// intervals, or the communication step.
     ///
     /// # Errors
     /// The run hardly progresses.
@@ -106,7 +108,8 @@ pub const WHAT_TO_TRY: &str = "try a softer contact.stiffness, a larger friction
 pub const WHAT_TO_TRY_WITH_FILES: &str = "look at this body or connection with `wedgelab nucars show`: a stiffness or a damping out of \
      all proportion, or a mass that is too small, makes steps so short";
 
-/// Returns what the integrator says of a step that it cannot make, with the state in words; `name` names a state.
+/// Returns what the integrator says of a step that it cannot make, with the state in words; `name` names a
+/// state.
 #[must_use]
 pub fn describe(error: &StepError, name: impl Fn(usize) -> String) -> String {
     match error.index {
@@ -126,8 +129,8 @@ impl Stalled {
     }
 }
 
-/// Returns the name of a state of a system, in words; `numbers` are those that the user's files give to bodies and connections, empty
-/// without such files.
+/// Returns the name of a state of a system, in words; `numbers` are those that the user's files give to
+/// bodies and connections, empty without such files.
 #[must_use]
 pub fn state_name(system: &System, numbers: [&[u32]; 2], index: usize) -> String {
     let layout = system.layout();

@@ -1,7 +1,8 @@
 //! What a study keeps of its variants: records, one a variant, as bytes that survive being cut off.
 //!
-//! A record is written at once and stands for itself, so that files of records may be made by any number of programs that may
-//! die at any moment: a record is there, or what there is of it is recognized as none. Layout, little-endian:
+//! A record is written at once and stands for itself, so that files of records may be made by any number of
+//! programs that may die at any moment: a record is there, or what there is of it is recognized as none.
+//! Layout, little-endian:
 //!
 //! ```text
 //! bytes 0..4    "WLR2"
@@ -28,8 +29,8 @@ const FIXED: usize = 8 + 8 + 1 + 4;
 const MOST_MEASURES: usize = 4096;
 /// A longer reason is cut.
 const LONGEST_REASON: usize = 1000;
-/// Longest body: a longer one is damage. Without this bound the time to find records among damage would grow with the square
-/// of its length.
+/// Longest body: a longer one is damage. Without this bound the time to find records among damage would grow
+/// with the square of its length.
 const LONGEST: usize = FIXED + 8 * MOST_MEASURES + LONGEST_REASON + '…'.len_utf8();
 
 /// How a variant ended.
@@ -41,7 +42,8 @@ pub enum Status {
     Refused,
     /// It stopped on its way.
     Stopped,
-    /// It came to its end, but its energy ledger does not close, or it is nonsense: it has measures, which are not to be used.
+    /// It came to its end, but its energy ledger does not close, or it is nonsense: it has measures, which
+    /// are not to be used.
     Failed,
 }
 
@@ -143,8 +145,8 @@ fn ledger(definitions: &Definitions, measures: &Measures) -> Option<String> {
     })
 }
 
-/// Computes these variants and gives their records as bytes, in the order of the numbers: what one worker of many does. Numbers
-/// beyond the study are left out.
+/// Computes these variants and gives their records as bytes, in the order of the numbers: what one worker of
+/// many does. Numbers beyond the study are left out.
 #[must_use]
 pub fn run_all(study: &Study, numbers: impl IntoIterator<Item = u64>) -> Vec<u8> {
     let fingerprint = study.fingerprint();

@@ -1,8 +1,9 @@
 //! Runs of any model: a case being integrated, row by row, with a state that can be saved and continued.
 //!
-//! What is run is a [`RunCase`]: a wedge's [`Case`](crate::case::Case), a half-truck's [`TruckCase`](crate::truck::TruckCase).
-//! [`Run`] has the one loop: a step of the integrator, the output times that it reached, the energy balance, the rule for runs that
-//! hardly progress. The case's [`Recorder`] takes from it what the results need: a table with counts, or measures alone.
+//! What is run is a [`RunCase`]: a wedge's [`Case`](crate::case::Case), a half-truck's
+//! [`TruckCase`](crate::truck::TruckCase). [`Run`] has the one loop: a step of the integrator, the output
+//! times that it reached, the energy balance, the rule for runs that hardly progress. The case's [`Recorder`]
+//! takes from it what the results need: a table with counts, or measures alone.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -141,7 +142,8 @@ pub trait Recorder {
     /// # Errors
     /// [`RunError::Damaged`]: no run of this case can have counted that.
     fn restore(&mut self, counts: Self::Counts, time: f64) -> Result<(), RunError>;
-    /// Takes an accepted step. `system` has the integrator's smooth interval of time; `x` is scratch memory for a state.
+    /// Takes an accepted step. `system` has the integrator's smooth interval of time; `x` is scratch memory
+    /// for a state.
     fn step(&mut self, integrator: &Integrator<System>, system: &mut System, x: &mut [f64]);
     /// Takes an output time. Returns the entries of the energy ledger.
     ///
@@ -152,7 +154,8 @@ pub trait Recorder {
     fn describe(&self, system: &System, finding: &Finding, units: Units) -> String;
     /// Returns these contact states in words, by contact.
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String>;
-    /// Returns the numbers that the user's files give to bodies and connections, for messages; empty without such files.
+    /// Returns the numbers that the user's files give to bodies and connections, for messages; empty without
+    /// such files.
     fn numbers(&self) -> [&[u32]; 2] {
         [&[], &[]]
     }
@@ -365,7 +368,8 @@ impl<C: RunCase> Run<C> {
         self.recorder.contacts(self.integrator.discrete_states())
     }
 
-    /// Takes the rows whose time has been reached, with the contact states of that time, up to one that is not finite.
+    /// Takes the rows whose time has been reached, with the contact states of that time, up to one that is
+    /// not finite.
     fn emit_rows(&mut self, first: bool) -> Result<(), RunError> {
         let rows = self.rows;
         // Most steps reach no row.

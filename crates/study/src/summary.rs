@@ -1,8 +1,8 @@
 //! The summary of a run: what `summary.json` holds.
 //!
-//! Schema `wedgelab.summary/2`. Every dimensional number is a [`SummaryValue`] with its unit, in the case's output units;
-//! times are seconds. A reader should ignore keys that it does not know; the number behind the slash grows when a key
-//! changes its meaning or goes.
+//! Schema `wedgelab.summary/2`. Every dimensional number is a [`SummaryValue`] with its unit, in the case's
+//! output units; times are seconds. A reader should ignore keys that it does not know; the number behind the
+//! slash grows when a key changes its meaning or goes.
 
 use std::collections::BTreeMap;
 
@@ -189,7 +189,8 @@ pub struct LedgerSummary {
     pub largest_residual: SummaryValue,
     /// The first output time with this residual, s.
     pub largest_residual_time: f64,
-    /// The measure of how well the ledger closes: [`mechanics::energy_balance::relative_residual`] of the largest residual.
+    /// The measure of how well the ledger closes: [`mechanics::energy_balance::relative_residual`] of the
+    /// largest residual.
     pub largest_relative_residual: f64,
 }
 

@@ -64,8 +64,8 @@ fn spring_and_dashpot_come_back() {
     }
 }
 
-/// The quasi-static wedge of the thesis under 1 in · sin(2 rad/s t): W/(π ω A²) = 1059 lbf·s/in (constant) and 263
-/// (variable, the coil just free at mid-stroke); in phase nothing, and K/2 (1 + (f_down - f_up)/2).
+/// The quasi-static wedge of the thesis under 1 in · sin(2 rad/s t): W/(π ω A²) = 1059 lbf·s/in (constant)
+/// and 263 (variable, the coil just free at mid-stroke); in phase nothing, and K/2 (1 + (f_down - f_up)/2).
 #[test]
 fn the_damping_of_the_quasi_static_wedge() {
     let wedge = |angle: f64| QuasiStaticWedge {
@@ -158,8 +158,8 @@ fn no_harmonic_where_there_is_none() {
     assert_eq!(first_harmonic(&[], &[], &[], 2.0, (0.0, PI)), None);
 }
 
-/// Out of phase, the force on the bolster takes up what friction and dashpots lose: the one comes from forces at output times,
-/// the other from the integrals of the losses.
+/// Out of phase, the force on the bolster takes up what friction and dashpots lose: the one comes from forces
+/// at output times, the other from the integrals of the losses.
 #[test]
 fn the_damping_on_the_bolster_is_what_is_lost() {
     for name in [
@@ -197,9 +197,9 @@ fn the_damping_on_the_bolster_is_what_is_lost() {
     }
 }
 
-/// A planar wedge with so much toe that the slope slides: at the end of each stroke of the rig test its forces are those
-/// of the quasi-static wedge under the coil's force less the weight. As the wedge moves along x its coil leans; seen from
-/// a frame that leans with the coil by λ, the angles are θ + λ and φ - λ.
+/// A planar wedge with so much toe that the slope slides: at the end of each stroke of the rig test its
+/// forces are those of the quasi-static wedge under the coil's force less the weight. As the wedge moves
+/// along x its coil leans; seen from a frame that leans with the coil by λ, the angles are θ + λ and φ - λ.
 #[test]
 fn the_rig_test_reaches_the_quasi_static_forces() {
     for name in ["rig_constant", "rig_variable"] {
@@ -263,8 +263,8 @@ fn the_rig_test_as_built_in_stays_within_the_quasi_static_forces() {
     }
 }
 
-/// The reference lines in the thesis's numbers, a massless wedge: the table of theory.md, W/(π ω A²), and the edge-loading limit of
-/// a nest of two wedges, 30.3 to 57.1 kip·in.
+/// The reference lines in the thesis's numbers, a massless wedge: the table of theory.md, W/(π ω A²), and the
+/// edge-loading limit of a nest of two wedges, 30.3 to 57.1 kip·in.
 #[test]
 fn reference_lines_in_numbers() {
     let mut parameters = builtin::case("cdrun_toe_0_psi_0").unwrap().parameters;
@@ -281,7 +281,8 @@ fn reference_lines_in_numbers() {
         let limit = 2.0 * closed_form::edge_loading_limit(&parameters, normal * LBF) / runs::LBF_IN;
         assert!((limit - nest).abs() < 50.0, "{limit}");
     }
-    // Below the free coil by 1 in, 0.5 in each way: K (1 + (f_down - f_up)/2), and (f_up + f_down) K h 2A a cycle.
+    // Below the free coil by 1 in, 0.5 in each way: K (1 + (f_down - f_up)/2), and (f_up + f_down) K h 2A a
+    // cycle.
     let set =
         [r#"bolster.vertical=[{ shape = "sine", amplitude = "0.5 in", frequency = "2 rad/s" }, "-1 in"]"#];
     let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
@@ -302,7 +303,8 @@ fn reference_lines_in_numbers() {
     );
 }
 
-/// The cases' wedges rise by the closed form, less what the contacts give under the smaller force of the coil.
+/// The cases' wedges rise by the closed form, less what the contacts give under the smaller force of the
+/// coil.
 #[test]
 fn the_worn_cases_rise_by_the_closed_form() {
     for damping in ["constant", "variable"] {

@@ -17,8 +17,9 @@ fn case(name: &str, tolerance: f64, interval: f64, duration: f64) -> Case {
     case
 }
 
-/// Branch means and energies against those at 1e-9. Local errors are of the tolerance; these are global, of a system
-/// with kinks, so no order is asked for: only that they fall from those at 1e-3, and are small where users are.
+/// Branch means and energies against those at 1e-9. Local errors are of the tolerance; these are global, of a
+/// system with kinks, so no order is asked for: only that they fall from those at 1e-3, and are small where
+/// users are.
 #[test]
 fn yawed_cases_converge() {
     // The largest errors of all cases: that of a single one may be small by chance at a wide tolerance.
@@ -37,8 +38,8 @@ fn yawed_cases_converge() {
             .map(|r| (0..3).fold(0.0_f64, |m, i| m.max((r[i] / reference[i] - 1.0).abs())))
             .collect();
         println!("{name}: {errors:.1?} {errors:?}");
-        // At the default tolerance and below nothing changes but the fourth digit and later ones; what is left there is
-        // the sensitivity of kinked motion, not the error of the method.
+        // At the default tolerance and below nothing changes but the fourth digit and later ones; what is
+        // left there is the sensitivity of kinked motion, not the error of the method.
         assert!(
             errors[2..5].iter().all(|error| *error < 2e-4),
             "{name}: {errors:?}"
@@ -49,8 +50,8 @@ fn yawed_cases_converge() {
     assert!(narrow < 0.2 * wide, "{narrow} at 1e-7 and 1e-8, {wide} at 1e-3");
 }
 
-/// Methods that damp vibrations follow the force all the same: rows are ends of their steps. Within steps a single row at a reversal was
-/// off by as much as the friction, and made an error of 4e-2 here.
+/// Methods that damp vibrations follow the force all the same: rows are ends of their steps. Within steps a
+/// single row at a reversal was off by as much as the friction, and made an error of 4e-2 here.
 #[test]
 fn force_histories_of_methods_that_damp_converge() {
     for name in ["cdrun_toe_-0.2_psi_0.012", "cdrun_toe_0.2_psi_0.012"] {
@@ -109,7 +110,8 @@ fn the_output_interval_changes_nothing_but_the_rows() {
                 assert_eq!(a.last().unwrap().to_bits(), b.last().unwrap().to_bits());
             }
         }
-        // And events are at the times where the rows change: a state differs from the one before only if one was listed.
+        // And events are at the times where the rows change: a state differs from the one before only if one
+        // was listed.
         let (times, events) = (results[1].column("time").unwrap(), &results[1].summary.events);
         let state = results[1].column("column_upper_left_state").unwrap();
         if events.total as usize == events.listed.len() {

@@ -1,4 +1,5 @@
-//! Energy ledgers: every built-in case beyond the thesis closes its own without warnings; and how runs are judged that do not.
+//! Energy ledgers: every built-in case beyond the thesis closes its own without warnings; and how runs are
+//! judged that do not.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 #[path = "common/runs.rs"]
@@ -73,7 +74,8 @@ fn run(name: &str, set: &[&str]) -> RunResult {
     Run::new(&case).unwrap().finish(|_| {})
 }
 
-/// The same function judges runs of wedges and of half-trucks: both are what a hand computes from the columns.
+/// The same function judges runs of wedges and of half-trucks: both are what a hand computes from the
+/// columns.
 #[test]
 fn energy_the_measure_is_what_a_hand_computes_from_the_columns() {
     let close = |a: f64, b: f64, name: &str| assert!((a - b).abs() <= 1e-12 * b, "{name}: {a} {b}");
@@ -115,7 +117,8 @@ fn energy_the_measure_is_what_a_hand_computes_from_the_columns() {
     }
 }
 
-/// Above 1e-3 a warning with what, how much, where and what to do; above 1e-2 the run has failed, and has all its rows.
+/// Above 1e-3 a warning with what, how much, where and what to do; above 1e-2 the run has failed, and has all
+/// its rows.
 #[test]
 fn energy_loose_tolerances_warn_and_fail_with_all_rows() {
     let loose = |tolerance: &str| {

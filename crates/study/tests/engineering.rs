@@ -1,4 +1,5 @@
-//! What studies at engineering accuracy keep, and what they do not: against runs of the default method at a close tolerance.
+//! What studies at engineering accuracy keep, and what they do not: against runs of the default method at a
+//! close tolerance.
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
 use study::case::{Case, builtin};
@@ -35,8 +36,8 @@ fn off([close, engineering]: &[Measures; 2], name: &str) -> f64 {
     (of(engineering) / of(close) - 1.0).abs()
 }
 
-/// Branch forces and energies at the side frame within 0.5 %, as the accuracy promises, where a slow motion makes them; with a
-/// third of the steps and less.
+/// Branch forces and energies at the side frame within 0.5 %, as the accuracy promises, where a slow motion
+/// makes them; with a third of the steps and less.
 #[test]
 fn convergence_branch_means_at_engineering_accuracy() {
     let names = [

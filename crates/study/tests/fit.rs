@@ -27,8 +27,8 @@ impl Noise {
     }
 }
 
-/// A load that a spring makes, and friction on it, elastic at the reversals: a loop over one cycle as wedges have it, in closed
-/// form. The mean of the branches tells the load, their distance the friction.
+/// A load that a spring makes, and friction on it, elastic at the reversals: a loop over one cycle as wedges
+/// have it, in closed form. The mean of the branches tells the load, their distance the friction.
 fn loop_of(friction: f64, stiffness: f64, preload: f64) -> Vec<f64> {
     (0..200)
         .map(|row| {
@@ -40,8 +40,8 @@ fn loop_of(friction: f64, stiffness: f64, preload: f64) -> Vec<f64> {
         .collect()
 }
 
-/// 400 loops with noise, three parameters each: of the 1200 intervals 95 % hold, give or take what chance allows (the
-/// intervals of one loop are not independent, so four standard deviations of 400).
+/// 400 loops with noise, three parameters each: of the 1200 intervals 95 % hold, give or take what chance
+/// allows (the intervals of one loop are not independent, so four standard deviations of 400).
 #[test]
 fn convergence_intervals_hold_as_often_as_they_say() {
     let truth = [0.4, 0.3, 0.6];
@@ -123,8 +123,9 @@ fn case(set: &[String]) -> Result<AnyCase, CaseError> {
     Ok(AnyCase::Wedge(Box::new(case)))
 }
 
-/// The wedge itself: column friction and coil stiffness from loops with noise of 2 % of the force. Of 24 intervals each, those at
-/// 95 % and at 50 % hold as often as they say, give or take four standard deviations.
+/// The wedge itself: column friction and coil stiffness from loops with noise of 2 % of the force. Of 24
+/// intervals each, those at 95 % and at 50 % hold as often as they say, give or take four standard
+/// deviations.
 #[test]
 fn convergence_a_wedges_parameters_are_found_again() {
     let free = [
@@ -186,8 +187,9 @@ fn convergence_a_wedges_parameters_are_found_again() {
     }
 }
 
-/// Variably damped, the coil is compressed by the motion itself, so that stiffness and preload do different things to the loop: all three
-/// kinds of parameters at once, each within two 95 % intervals (four standard deviations) of the true value.
+/// Variably damped, the coil is compressed by the motion itself, so that stiffness and preload do different
+/// things to the loop: all three kinds of parameters at once, each within two 95 % intervals (four standard
+/// deviations) of the true value.
 #[test]
 fn convergence_friction_stiffness_and_preload_are_told_apart() {
     let free = [

@@ -109,7 +109,8 @@ fn mistakes_name_the_path_that_was_set() {
     assert_eq!(error.problems()[0].set_path(), None);
 }
 
-/// Every part of a sum and every point of a short table has a field; quantities stand in them in both systems of units.
+/// Every part of a sum and every point of a short table has a field; quantities stand in them in both systems
+/// of units.
 #[test]
 fn sums_and_tables_have_fields_and_fields_have_both_units() {
     let overrides = [

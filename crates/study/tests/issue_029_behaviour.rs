@@ -271,7 +271,8 @@ fn issue_029_values_have_upper_bounds() {
     assert!(table.to_string().contains("at most 1e3 m"), "{table}");
 }
 
-/// A run whose averages overflow is no success: an amplitude of 1e-200 m gives an equivalent damping of infinity.
+/// A run whose averages overflow is no success: an amplitude of 1e-200 m gives an equivalent damping of
+/// infinity.
 #[test]
 fn issue_029_averages_that_are_not_finite_are_no_success() {
     let settings = [

@@ -1,4 +1,5 @@
-//! Issue 29: saved runs and driven wedges edited by hand are refused with the member's name, or go on soundly.
+//! Issue 29: saved runs and driven wedges edited by hand are refused with the member's name, or go on
+//! soundly.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 #[path = "../../integrate/tests/common/damage.rs"]

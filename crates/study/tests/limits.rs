@@ -51,8 +51,9 @@ fn a_wedge_that_may_roll_stays_well_below_the_limit() {
     assert!(most > 0.6 && most < 0.9, "{most}");
 }
 
-/// Squeezed down between both faces, with both frictions up (a = b = +1), the wedge of friction 0.2 slides under the
-/// quasi-static force; the wedge of friction 0.4 has none: it jams, and its force is many times that of the coil.
+/// Squeezed down between both faces, with both frictions up (a = b = +1), the wedge of friction 0.2 slides
+/// under the quasi-static force; the wedge of friction 0.4 has none: it jams, and its force is many times
+/// that of the coil.
 #[test]
 fn squeezed_down_it_slides_or_jams() {
     // At 25 s the yaw turns, at 24 s it still grows; rows are 0.02 s apart.
@@ -111,8 +112,8 @@ const STALLS: [&str; 3] = [
     "simulation.start=touching",
 ];
 
-/// One rule for all runs, and a message that says when and where it hangs; what was computed is kept. A run that was saved and
-/// continued stops at the same step.
+/// One rule for all runs, and a message that says when and where it hangs; what was computed is kept. A run
+/// that was saved and continued stops at the same step.
 #[test]
 fn limits_a_run_that_hardly_progresses_stops_by_the_rule_and_says_where() {
     let case = builtin::case_with("cdrun_toe_0.2_psi_0.012", &STALLS.map(str::to_owned)).unwrap();

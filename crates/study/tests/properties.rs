@@ -126,8 +126,8 @@ fn random_wedges_are_finite_close_their_ledger_and_friction_adds_nothing() {
         let coarse = residual(&result);
         println!("{coarse:.1e} {} steps", result.summary.solver.statistics.steps);
         if coarse > 1e-5 {
-            // Losses are integrated without an error control of their own: a start that is released and gone within a few
-            // steps shows it. What is left must fall with the tolerance.
+            // Losses are integrated without an error control of their own: a start that is released and gone
+            // within a few steps shows it. What is left must fall with the tolerance.
             let mut finer = case.clone();
             finer.simulation.relative_tolerance = 1e-9;
             let fine = residual(&Run::new(&finer).unwrap().finish(|_| {}));

@@ -102,7 +102,8 @@ fn across_save_and_continue() {
             "{}: the tables differ",
             case.name
         );
-        // What was counted along the way goes on counting; branch means need all rows, and so does the number of rows.
+        // What was counted along the way goes on counting; branch means need all rows, and so does the number
+        // of rows.
         let (a, b) = (&straight.summary, &together.summary);
         assert_eq!(a.events, b.events, "{}", case.name);
         assert_eq!(a.ledger, b.ledger, "{}", case.name);

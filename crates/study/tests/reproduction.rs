@@ -1,4 +1,5 @@
-//! The thesis's twelve runs: the two anchors, the orderings and envelopes that the thesis states of its figures, lift-off.
+//! The thesis's twelve runs: the two anchors, the orderings and envelopes that the thesis states of its
+//! figures, lift-off.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 #[path = "common/runs.rs"]
@@ -53,7 +54,8 @@ fn averages_are_those_of_the_definitions() {
         let [found_up, found_down, energy] = averages(result);
         assert!((found_up / mean(&up) - 1.0).abs() < 1e-9, "{name}");
         assert!((found_down / mean(&down) - 1.0).abs() < 1e-9, "{name}");
-        // Two whole cycles from π/2 to 5π/2, straight between rows: friction losses change by less than 60 lbf·in a row.
+        // Two whole cycles from π/2 to 5π/2, straight between rows: friction losses change by less than 60
+        // lbf·in a row.
         let at = |t: f64| {
             let i = (t / 0.01) as usize;
             lost[i] + (lost[i + 1] - lost[i]) * (t / 0.01 - i as f64)
@@ -153,7 +155,8 @@ fn variable_damping_lifts_off_after_three_seconds() {
                 "{name}: lift-off at {} s",
                 time[lift]
             );
-            // After that nothing is lost until the bolster comes back, and the force on the side frame rings about zero.
+            // After that nothing is lost until the bolster comes back, and the force on the side frame rings
+            // about zero.
             let air: Vec<usize> = (0..result.rows())
                 .filter(|&i| (3.3..4.5).contains(&time[i]))
                 .collect();
@@ -219,7 +222,8 @@ fn every_ledger_closes_and_every_run_is_complete() {
     }
 }
 
-/// In the region of the massless wedge's closed form 2A (F_up + F_down) = 6655 lbf·in, and (f_up + f_down) K A²/2 = 1656.
+/// In the region of the massless wedge's closed form 2A (F_up + F_down) = 6655 lbf·in, and (f_up + f_down) K
+/// A²/2 = 1656.
 #[test]
 fn energies_without_toe_and_yaw_are_in_the_region_of_the_closed_forms() {
     for (name, closed) in [("cdrun_toe_0_psi_0", 6655.0), ("vdrun_toe_0_psi_0", 1656.0)] {

@@ -192,11 +192,12 @@ pub(crate) unsafe fn free(pointer: *mut c_void) {
     });
 }
 
-/// Runs a call of a function on the instance behind a pointer. Without an instance there is no logger to tell that to: it is an error, and
-/// nothing else.
+/// Runs a call of a function on the instance behind a pointer. Without an instance there is no logger to tell
+/// that to: it is an error, and nothing else.
 ///
 /// # Safety
-/// The instance behind `pointer` is used by no other thread at the same time: the standard asks importers for that.
+/// The instance behind `pointer` is used by no other thread at the same time: the standard asks importers for
+/// that.
 pub(crate) unsafe fn call(
     function: &'static str,
     pointer: *mut c_void,
@@ -207,8 +208,9 @@ pub(crate) unsafe fn call(
     }
     let component = pointer.cast::<Component>();
     let (status, messages, logger, name) = {
-        // SAFETY: the component is alive, and by this function's contract nobody else uses it now; the reference ends
-        // with this block, before the importer's logger runs, which may call the instance again.
+        // SAFETY: the component is alive, and by this function's contract nobody else uses it now; the
+        // reference ends with this block, before the importer's logger runs, which may call the instance
+        // again.
         let component = unsafe { &mut *component };
         let mut failure = None;
         let status = if component.broken {
@@ -277,8 +279,8 @@ pub(crate) unsafe fn log(logger: Logger, name: &CStr, message: &Message) {
         Logger::Two(logger, environment) => {
             // In FMI 2.0 a single # begins the reference of a variable.
             let text = text_of(&message.text.replace('#', "##"));
-            // SAFETY: by this function's contract; all pointers are of strings that outlive the call. The text is an argument of a format,
-            // since it may hold signs of per cent.
+            // SAFETY: by this function's contract; all pointers are of strings that outlive the call. The
+            // text is an argument of a format, since it may hold signs of per cent.
             unsafe {
                 logger(
                     environment,

@@ -1,4 +1,5 @@
-//! Which pointers that were given to importers are alive: what was freed, or never was one of ours, is recognized before it is used.
+//! Which pointers that were given to importers are alive: what was freed, or never was one of ours, is
+//! recognized before it is used.
 
 use std::collections::BTreeMap;
 use std::ffi::c_void;
@@ -23,8 +24,8 @@ pub(crate) fn hand_out<T>(thing: T, kind: Kind) -> *mut c_void {
     pointer
 }
 
-/// Whether a pointer comes from [`hand_out`] for this kind and has not been taken back. (Another thing of this kind may have come to lie
-/// where a freed one was.)
+/// Whether a pointer comes from [`hand_out`] for this kind and has not been taken back. (Another thing of
+/// this kind may have come to lie where a freed one was.)
 pub(crate) fn is_alive(pointer: *const c_void, kind: Kind) -> bool {
     let alive = ALIVE.read().unwrap_or_else(PoisonError::into_inner);
     alive.get(&(pointer as usize)) == Some(&kind)
@@ -44,8 +45,8 @@ pub(crate) unsafe fn take_back<T>(pointer: *mut c_void, kind: Kind) -> bool {
         found
     };
     if found {
-        // SAFETY: it was alive, so it comes from `Box::into_raw`; it is of this type by this function's contract; and it was removed, so that
-        // nobody takes it back twice.
+        // SAFETY: it was alive, so it comes from `Box::into_raw`; it is of this type by this function's
+        // contract; and it was removed, so that nobody takes it back twice.
         drop(unsafe { Box::from_raw(pointer.cast::<T>()) });
     }
     found

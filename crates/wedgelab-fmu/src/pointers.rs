@@ -78,7 +78,8 @@ pub(crate) unsafe fn put<T>(pointer: *mut T, value: T, what: &str) -> Result<(),
 /// A string from C.
 ///
 /// # Safety
-/// A pointer that is not null points to a string that ends with a zero byte and lives as long as the reference.
+/// A pointer that is not null points to a string that ends with a zero byte and lives as long as the
+/// reference.
 pub(crate) unsafe fn string<'a>(pointer: *const c_char, what: &str) -> Result<&'a str, Error> {
     if pointer.is_null() {
         return Err(missing(what));

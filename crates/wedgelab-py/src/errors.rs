@@ -151,7 +151,8 @@ pub fn unit_error(py: Python<'_>, text: &str, error: &UnitError) -> PyErr {
     raise(py, "UnitError", (error.to_string(), shown))
 }
 
-/// Does something that calls into lower floors; a panic there, which is a mistake of ours, becomes `wedgelab.InternalError`.
+/// Does something that calls into lower floors; a panic there, which is a mistake of ours, becomes
+/// `wedgelab.InternalError`.
 pub fn guarded<T>(py: Python<'_>, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     match catch_unwind(AssertUnwindSafe(work)) {
         Ok(done) => done,

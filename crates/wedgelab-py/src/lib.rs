@@ -1,8 +1,9 @@
 //! The native part of the Python package `wedgelab`: what its Python part calls.
 //!
-//! Python code in `python/wedgelab` gives it names, types and tables; the work is done by lower floors. One module a thing:
-//! `case`, `outcome` (results), `run` and `many` (running), `step` (users' own loops), `study`, `figures`, `nucars` and `truck`, `quasi_static`, `quantity`, and
-//! `values` and `errors` for the way between the languages.
+//! Python code in `python/wedgelab` gives it names, types and tables; the work is done by lower floors. One
+//! module a thing: `case`, `outcome` (results), `run` and `many` (running), `step` (users' own loops),
+//! `study`, `figures`, `nucars` and `truck`, `quasi_static`, `quantity`, and `values` and `errors` for the
+//! way between the languages.
 //!
 //! Nothing panics through: what calls into lower floors runs in `errors::guarded`.
 

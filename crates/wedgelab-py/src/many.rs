@@ -54,8 +54,8 @@ impl Work {
 /// A result or the exception that stands for it.
 type Slot = Result<Table, Failure>;
 
-/// Runs cases on `workers` threads; the list has a result or an exception for each, in their order. `progress` is called
-/// with how many are done.
+/// Runs cases on `workers` threads; the list has a result or an exception for each, in their order.
+/// `progress` is called with how many are done.
 #[pyfunction]
 #[pyo3(signature = (cases, workers, columns, progress))]
 pub fn run_many(

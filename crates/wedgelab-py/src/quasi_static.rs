@@ -7,9 +7,10 @@ use pyo3::prelude::*;
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 
-/// Steady sliding of massless wedges, one an entry: all arrays have the same length; angles in rad (toe positive out), forces in
-/// N, direction +1 up and -1 down, slope +1 friction up the slope, -1 down, 0 as the motion chooses. Gives column normal force, column
-/// friction, slope normal force (NaN where the wedge jams), the jam margin, and the branch.
+/// Steady sliding of massless wedges, one an entry: all arrays have the same length; angles in rad (toe
+/// positive out), forces in N, direction +1 up and -1 down, slope +1 friction up the slope, -1 down, 0 as the
+/// motion chooses. Gives column normal force, column friction, slope normal force (NaN where the wedge jams),
+/// the jam margin, and the branch.
 #[pyfunction]
 #[pyo3(signature = (angle, toe, column_friction, slope_friction, coil_force, direction, slope))]
 pub fn slide<'py>(

@@ -11,7 +11,8 @@ use crate::errors::{guarded, simple};
 type Six = [f64; 6];
 /// Force and moment.
 type Load = ([f64; 3], [f64; 3]);
-/// Loads on bolster and side frame, coil compression and force, normal forces and friction losses of column and slope.
+/// Loads on bolster and side frame, coil compression and force, normal forces and friction losses of column
+/// and slope.
 type Answer = (Load, Load, f64, f64, [f64; 2], [f64; 2]);
 
 /// A wedge between neighbours that are moved from outside.
@@ -64,7 +65,8 @@ impl NativeWedge {
         })
     }
 
-    /// One step. A neighbour without a position stays where it is; without rates, they are the mean rates on the way.
+    /// One step. A neighbour without a position stays where it is; without rates, they are the mean rates on
+    /// the way.
     #[pyo3(signature = (duration, bolster, bolster_rate, side_frame, side_frame_rate))]
     fn step(
         &mut self,
@@ -113,7 +115,8 @@ impl NativeWedge {
         [neighbours.bolster, neighbours.side_frame].map(|place| (place.position, place.rate))
     }
 
-    /// Loads on bolster and side frame, coil compression and force, normal forces and friction losses of column and slope.
+    /// Loads on bolster and side frame, coil compression and force, normal forces and friction losses of
+    /// column and slope.
     fn reading(&mut self, py: Python<'_>) -> PyResult<Answer> {
         let wedge = &mut self.wedge;
         guarded(py, || {

@@ -75,7 +75,8 @@ pub fn execute_whole(case: &Case, folder: &Folder, progress: &Progress) -> Resul
     Ok(Some(done))
 }
 
-/// Writes the files of a half-truck's run; `script_interval` (s) is that of the array for the thesis's scripts.
+/// Writes the files of a half-truck's run; `script_interval` (s) is that of the array for the thesis's
+/// scripts.
 pub fn write_truck(
     done: &Done<TruckResult>,
     case: &TruckCase,

@@ -20,8 +20,8 @@ use failure::Failure;
 
 /// A laboratory for railway friction wedges.
 ///
-/// Wedgelab computes the friction wedge of a three-piece bogie: a rigid body between side frame and bolster, with
-/// unilateral contact, stick-slip friction and its control coil, as in Steets (2007).
+/// Wedgelab computes the friction wedge of a three-piece bogie: a rigid body between side frame and bolster,
+/// with unilateral contact, stick-slip friction and its control coil, as in Steets (2007).
 #[derive(Debug, Parser)]
 #[command(
     name = "wedgelab",

@@ -227,8 +227,8 @@ fn folders_that_cannot_be() {
     }
 }
 
-/// Everything that the input of a case may have wrong: the message names file, line and column, shows the text and says
-/// what is expected.
+/// Everything that the input of a case may have wrong: the message names file, line and column, shows the
+/// text and says what is expected.
 #[test]
 fn bad_cases() {
     let folder = temporary();

@@ -58,8 +58,8 @@ fn every_link_leads_somewhere() {
     }
 }
 
-/// The page without what stands in its scripts, which name addresses in their licences and messages. That they fetch
-/// nothing is watched in a browser (`cargo xtask test --only viewer`).
+/// The page without what stands in its scripts, which name addresses in their licences and messages. That
+/// they fetch nothing is watched in a browser (`cargo xtask test --only viewer`).
 fn markup() -> String {
     let page = page();
     let mut pieces = page.split("<script");

@@ -1,4 +1,5 @@
-//! The page of the benchmarks, `docs/benchmarks.md`: text that stays, around what the programs print. Nobody edits the page.
+//! The page of the benchmarks, `docs/benchmarks.md`: text that stays, around what the programs print. Nobody
+//! edits the page.
 
 use std::fmt::Write;
 
@@ -20,7 +21,8 @@ pub struct Section {
     pub heading: &'static str,
     /// How the lines are to be read.
     pub about: &'static str,
-    /// The program of the package `benchmarks`, with its arguments; none: the benchmark `wedge` of `cargo bench`.
+    /// The program of the package `benchmarks`, with its arguments; none: the benchmark `wedge` of
+    /// `cargo bench`.
     pub program: &'static [&'static str],
 }
 

@@ -102,7 +102,8 @@ fn read(root: &Path) -> Result<Vec<Member>, String> {
     Ok(members)
 }
 
-/// The folders a pattern of `workspace.members` stands for: itself, or with `/*` at its end all packages in it.
+/// The folders a pattern of `workspace.members` stands for: itself, or with `/*` at its end all packages in
+/// it.
 fn folders(root: &Path, pattern: &str) -> Result<Vec<PathBuf>, String> {
     let Some(parent) = pattern.strip_suffix("/*") else {
         return Ok(vec![root.join(pattern)]);

@@ -1,5 +1,5 @@
-//! The tests of functional mock-up units with the tools that people load them into, FMPy and libcosimpy, and with a program in C
-//! that calls every function, under Valgrind too.
+//! The tests of functional mock-up units with the tools that people load them into, FMPy and libcosimpy, and
+//! with a program in C that calls every function, under Valgrind too.
 
 use std::process::Command;
 
@@ -11,13 +11,15 @@ use crate::venv;
 /// Where the tests in Python and their requirements lie.
 const TESTS: &str = "crates/wedgelab-fmu/tests/python";
 
-/// Builds program and library, installs `gcc` and `valgrind` if they are missing, makes the environment if it is missing, and runs the tests.
+/// Builds program and library, installs `gcc` and `valgrind` if they are missing, makes the environment if it
+/// is missing, and runs the tests.
 pub fn check(workspace: &Workspace) -> Outcome {
     debian::need(&["gcc", "valgrind"])?;
     // All of it: so the features of dependencies are those that `test` has built with.
     shell::run(&mut workspace.cargo(["build", "--release", "--workspace"]))?;
     let tests = workspace.root.join(TESTS);
-    // Compiled for all processors the library is to compute the same bits; and Valgrind does not know all instructions of the newer ones.
+    // Compiled for all processors the library is to compute the same bits; and Valgrind does not know all
+    // instructions of the newer ones.
     let portable = workspace.build_portable(&["-p", "wedgelab-fmu"])?;
     let library = portable.join(format!(
         "{}wedgelab_fmu{}",

@@ -1,4 +1,5 @@
-//! The tests that need Octave and SciPy. What is missing is installed: Octave with `apt-get`, SciPy into `target/tools`.
+//! The tests that need Octave and SciPy. What is missing is installed: Octave with `apt-get`, SciPy into
+//! `target/tools`.
 
 use std::env;
 use std::process::Command;
@@ -8,7 +9,8 @@ use crate::debian;
 use crate::shell::{self, Workspace};
 use crate::venv;
 
-/// What Octave needs to draw, though nobody sees it: a toolkit, and a font to measure texts with. About 280 MB.
+/// What Octave needs to draw, though nobody sees it: a toolkit, and a font to measure texts with. About 280
+/// MB.
 const PACKAGES: [&str; 3] = ["octave", "gnuplot-nox", "fonts-freefont-otf"];
 
 /// Draws an unseen curve.

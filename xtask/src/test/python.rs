@@ -1,4 +1,5 @@
-//! The Python package: built and installed with pip into an environment made for it, its tests, types and notebooks.
+//! The Python package: built and installed with pip into an environment made for it, its tests, types and
+//! notebooks.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -19,7 +20,8 @@ pub fn check(workspace: &Workspace) -> Outcome {
         shell::run(&mut command)
     };
     run(&["-m", "mypy"])?;
-    // Stubs against the native part itself; what nobody may make or inherit from needs no more than its methods.
+    // Stubs against the native part itself; what nobody may make or inherit from needs no more than its
+    // methods.
     run(&[
         "-m",
         "mypy.stubtest",

@@ -1,4 +1,5 @@
-//! The race's driver in C compiles, and agrees with our own integrator. What is missing (SUNDIALS) is installed.
+//! The race's driver in C compiles, and agrees with our own integrator. What is missing (SUNDIALS) is
+//! installed.
 
 use super::Outcome;
 use crate::race::tools;

@@ -168,8 +168,8 @@ impl Description {
             .map(|variable| variable.reference)
     }
 
-    /// The token that ties the description to what the library computes: a hash of the case, of all variables, of the library's
-    /// version and of the version of the standard, written as a GUID.
+    /// The token that ties the description to what the library computes: a hash of the case, of all
+    /// variables, of the library's version and of the version of the standard, written as a GUID.
     #[must_use]
     pub fn token(&self, version: Version) -> String {
         let mut hash = Sha256::new();

@@ -294,7 +294,8 @@ impl Instance {
         Ok(())
     }
 
-    /// The derivatives of unknowns (outputs and rates of states) along a direction of knowns (inputs and states).
+    /// The derivatives of unknowns (outputs and rates of states) along a direction of knowns (inputs and
+    /// states).
     ///
     /// # Errors
     /// A variable is no unknown or known, lists of different lengths, or called too early.

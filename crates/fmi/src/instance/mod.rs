@@ -1,6 +1,7 @@
 //! One instance of an FMU: the state machine of the standard, for both versions and both kinds of interface.
 //!
-//! Every call returns a result; a refused call changes nothing. What is to be logged is collected in [`Instance::take_log`].
+//! Every call returns a result; a refused call changes nothing. What is to be logged is collected in
+//! [`Instance::take_log`].
 
 mod access;
 mod phase;
@@ -94,8 +95,8 @@ impl Instance {
     /// An instance of the FMU whose `resources` lie in a folder.
     ///
     /// # Errors
-    /// The folder is not that of an FMU of this program, the token is not that of its description, or the library was compiled for other
-    /// processors.
+    /// The folder is not that of an FMU of this program, the token is not that of its description, or the
+    /// library was compiled for other processors.
     pub fn new(
         name: &str,
         token: &str,

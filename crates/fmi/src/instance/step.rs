@@ -38,8 +38,8 @@ impl Instance {
     /// Makes a step from a time (s) that must be the one reached, of a length (s).
     ///
     /// # Errors
-    /// Called out of order, another time, a length that is none, a step beyond the stop time; or the integration cannot go
-    /// on: the instance has then failed.
+    /// Called out of order, another time, a length that is none, a step beyond the stop time; or the
+    /// integration cannot go on: the instance has then failed.
     pub fn do_step(&mut self, time: f64, length: f64) -> Result<(), Error> {
         self.require("a step is made", &[Phase::Step])?;
         if !(length > 0.0 && length.is_finite()) {

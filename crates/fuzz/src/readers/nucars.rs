@@ -1,5 +1,5 @@
-//! The four kinds of files of NUCARS: read, checked alone and with their partners, shown, written and read again, and made
-//! a run.
+//! The four kinds of files of NUCARS: read, checked alone and with their partners, shown, written and read
+//! again, and made a run.
 
 use std::sync::{Arc, LazyLock};
 

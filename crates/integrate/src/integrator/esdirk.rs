@@ -43,8 +43,8 @@ impl<P: Problem> Integrator<P> {
         Ok(max_norm(self.last_trial_stage(), &self.newton.error_weights))
     }
 
-    /// Starts a stage: computes its base, its time, and its prediction as argument: on the tangent at the start
-    /// of the step, or on the chord from there to the stage before, which is the argument.
+    /// Starts a stage: computes its base, its time, and its prediction as argument: on the tangent at the
+    /// start of the step, or on the chord from there to the stage before, which is the argument.
     fn predict_stage(&mut self, i: usize) {
         let Attempt {
             step: length, target, ..

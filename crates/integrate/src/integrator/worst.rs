@@ -5,8 +5,9 @@ use crate::methods::tableau::Family;
 use crate::problem::Problem;
 
 impl<P: Problem> Integrator<P> {
-    /// Returns the number of the state with the largest error estimate in the last accepted step, relative to its
-    /// admissible error: the one that bounds the length of the steps. Returns `None` before the first step.
+    /// Returns the number of the state with the largest error estimate in the last accepted step, relative to
+    /// its admissible error: the one that bounds the length of the steps. Returns `None` before the first
+    /// step.
     #[must_use]
     pub fn worst_state(&self) -> Option<usize> {
         if self.statistics.steps == 0 {

@@ -32,7 +32,8 @@ pub enum Method {
     #[default]
     Rodas5P,
     /// ESDIRK, order 2, two implicit stages: damps fast vibrations instead of following them. The tolerance
-    /// holds for [`crate::ProblemStructure::displacements`] alone. For averages, not for time series of what vibrates.
+    /// holds for [`crate::ProblemStructure::displacements`] alone. For averages, not for time series of what
+    /// vibrates.
     TrBdf2,
     /// ESDIRK, order 3(2), four implicit stages: as [`Method::TrBdf2`], with a fraction of its error at tight
     /// tolerances.

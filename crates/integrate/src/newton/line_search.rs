@@ -4,8 +4,8 @@
 //! back. The zero of its component along the first correction is then located between both ends, and the
 //! Jacobian matrix is evaluated there. Without this search Newton's method alternates between both sides of a
 //! slip reversal, and steps have to be as short as the regularization zone is thin. Regula falsi with the
-//! Illinois modification (M. Dowell, P. Jarratt, BIT 11 (1971) 168). Natural corrections: P. Deuflhard, *Newton Methods for Nonlinear Problems*, Springer
-//! 2004, section 3.
+//! Illinois modification (M. Dowell, P. Jarratt, BIT 11 (1971) 168). Natural corrections: P. Deuflhard,
+//! *Newton Methods for Nonlinear Problems*, Springer 2004, section 3.
 
 use crate::tuning::newton as tuning;
 

@@ -38,7 +38,8 @@ impl Connections {
         }
     }
 
-    /// Calls `each` with the number of each wedge's connection and the deflection of its coil, m, extension positive.
+    /// Calls `each` with the number of each wedge's connection and the deflection of its coil, m, extension
+    /// positive.
     pub fn coil_deflections(
         &self,
         coordinates: CoordinatesAndRates<'_>,

@@ -166,7 +166,8 @@ impl Checks {
     }
 }
 
-/// Returns whether a table of abscissa and ordinate is straight: then it stands for a stiffness, whatever its reach.
+/// Returns whether a table of abscissa and ordinate is straight: then it stands for a stiffness, whatever its
+/// reach.
 fn is_straight(points: &[[f64; 2]]) -> bool {
     let slope = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
     let mut slopes = points.windows(2).map(slope);
@@ -174,7 +175,8 @@ fn is_straight(points: &[[f64; 2]]) -> bool {
     slopes.all(|slope| (slope - first).abs() <= 1e-9 * first.abs())
 }
 
-/// Returns the diagonal of the box around all origins of bodies and points of connections in the drawn layout, m.
+/// Returns the diagonal of the box around all origins of bodies and points of connections in the drawn
+/// layout, m.
 fn system_size(system: &System) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     let origins = system.bodies().iter().map(|body| {

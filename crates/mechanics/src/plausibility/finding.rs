@@ -54,7 +54,8 @@ impl Location {
 /// What is implausible.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FindingKind {
-    /// All points of a face are farther from its surface than the face is long. The value is the least gap, m.
+    /// All points of a face are farther from its surface than the face is long. The value is the least gap,
+    /// m.
     Separation,
     /// A face has slid along its surface by its own extent. The value is the way, m.
     SlidOff,
@@ -62,7 +63,8 @@ pub enum FindingKind {
     Penetration,
     /// A face is tilted against its surface. The value is the angle since the start, rad.
     Tilt,
-    /// A body with linearized kinematics turns too far about an axis (3 to 5: roll, pitch, yaw). The value is the angle, rad.
+    /// A body with linearized kinematics turns too far about an axis (3 to 5: roll, pitch, yaw). The value is
+    /// the angle, rad.
     LargeAngle(usize),
     /// A body or element moved by more than the system measures. The value is the displacement, m.
     Displacement,
@@ -79,7 +81,8 @@ pub enum FindingKind {
     StoredAtStart,
     /// The coefficient of friction is out of proportion. The value is the coefficient.
     Friction,
-    /// The normal force of a face scatters from output time to output time. The value is the output interval, s.
+    /// The normal force of a face scatters from output time to output time. The value is the output interval,
+    /// s.
     CoarseOutput {
         /// Estimated frequency of the vibration, Hz.
         frequency: f64,

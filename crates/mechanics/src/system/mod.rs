@@ -333,12 +333,12 @@ impl System {
 impl Problem for System {
     /// A discrete state is the contact mode of a point, or of a connection with friction.
     ///
-    /// Event variables: gap (m) and load of each point: the gaps of a face's points, their loads, and so on face by face; then of each
-    /// connection with friction what presses it (N) and the load of its accumulator. The points of each face are a group, and all
-    /// connections together.
+    /// Event variables: gap (m) and load of each point: the gaps of a face's points, their loads, and so on
+    /// face by face; then of each connection with friction what presses it (N) and the load of its
+    /// accumulator. The points of each face are a group, and all connections together.
     ///
-    /// Bristles come to slip without a discontinuity function. (So do coils that go solid, but they change no more than their own
-    /// stiffness.)
+    /// Bristles come to slip without a discontinuity function. (So do coils that go solid, but they change no
+    /// more than their own stiffness.)
     fn structure(&self) -> ProblemStructure {
         let (points, others) = (self.point_count(), self.connections.discrete_states.len());
         let dynamic_states = self.layout.len() - self.layout.quadratures;

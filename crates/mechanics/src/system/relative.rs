@@ -1,4 +1,5 @@
-//! Relative motions that elements see at a time and a state, for observers that need positions only, without allocation.
+//! Relative motions that elements see at a time and a state, for observers that need positions only, without
+//! allocation.
 
 use super::System;
 use crate::link::RelativeMotion;
@@ -51,8 +52,8 @@ impl System {
         &self.positions[body]
     }
 
-    /// Calls `each` with the number of a connection with a coil behind a massless wedge, and the deflection of that coil, m
-    /// (extension positive).
+    /// Calls `each` with the number of a connection with a coil behind a massless wedge, and the deflection
+    /// of that coil, m (extension positive).
     pub(crate) fn wedge_coil_deflections(&self, x: &[f64], each: impl FnMut(usize, f64)) {
         let coordinates = (&self.positions[..], &self.rates[..]);
         self.connections

@@ -15,7 +15,8 @@ pub(crate) const MOMENT: f64 = POUND * INCH;
 /// Radians in a degree.
 pub(crate) const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-/// Factors of stroke and force in a coordinate (0 to 5): in and lb of translations, rad and in-lb of rotations.
+/// Factors of stroke and force in a coordinate (0 to 5): in and lb of translations, rad and in-lb of
+/// rotations.
 pub(crate) fn factors(coordinate: usize) -> (f64, f64) {
     if coordinate < 3 {
         (INCH, POUND)

@@ -102,8 +102,8 @@ impl fmt::Display for RunId {
     }
 }
 
-/// The names that predicates have for the runs: `vd` and `cd` for variable and constant damping; `68` and `69` at the end
-/// for the half-truck with wedges of that type.
+/// The names that predicates have for the runs: `vd` and `cd` for variable and constant damping; `68` and
+/// `69` at the end for the half-truck with wedges of that type.
 #[allow(non_upper_case_globals)] // They stand for the names of arguments.
 pub(super) mod runs {
     use study::truck::catalog::WedgeType;
@@ -166,8 +166,8 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    /// The same with runs of the half-truck; those with yaw as printed are not looked at. A run of the half-truck is
-    /// compared with the stand-alone run of its damping, toe and yaw, which tells the cycle.
+    /// The same with runs of the half-truck; those with yaw as printed are not looked at. A run of the
+    /// half-truck is compared with the stand-alone run of its damping, toe and yaw, which tells the cycle.
     #[must_use]
     pub fn with_trucks(mut self, trucks: impl IntoIterator<Item = (&'a Entry, &'a TruckResult)>) -> Self {
         let known = trucks
@@ -256,7 +256,8 @@ impl<'a> TableOf<'a> {
         }
     }
 
-    /// A column, SI. The leading left wedge of a half-truck has the column's names where it has what they stand for.
+    /// A column, SI. The leading left wedge of a half-truck has the column's names where it has what they
+    /// stand for.
     fn column(self, name: &str) -> Option<&'a [f64]> {
         match self {
             Self::Alone(result) => result.column(name),

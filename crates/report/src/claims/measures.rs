@@ -1,4 +1,5 @@
-//! The verbs of predicates: what is made of a quantity over a time. Every value is noted, so that a page can show it.
+//! The verbs of predicates: what is made of a quantity over a time. Every value is noted, so that a page can
+//! show it.
 //!
 //! Where there are no rows, a value is NaN and the claim cannot be decided.
 
@@ -190,7 +191,8 @@ pub(super) fn energy_per_cycle(run: View<'_>) -> f64 {
     )
 }
 
-/// Root mean square of the difference between a quantity and itself one period later, over that of the quantity.
+/// Root mean square of the difference between a quantity and itself one period later, over that of the
+/// quantity.
 pub(super) fn change_between_cycles(run: View<'_>, quantity: Quantity) -> f64 {
     let values = (quantity.series)(run);
     let times = run.column("time");
@@ -278,8 +280,8 @@ pub(super) fn first_time(run: View<'_>, so: When, when: When) -> f64 {
     )
 }
 
-/// The largest pitch moment that the face's normal forces could give with all of them at one edge: peak longitudinal
-/// force times half the face's height.
+/// The largest pitch moment that the face's normal forces could give with all of them at one edge: peak
+/// longitudinal force times half the face's height.
 pub(super) fn pitch_limit(run: View<'_>) -> f64 {
     edge_moment(run, "height", run.case().parameters.wedge.height)
 }

@@ -1,22 +1,26 @@
-//! The claims: what chapters 5 to 7 of Steets (2007) say of the stand-alone runs, each with a predicate and a verdict.
+//! The claims: what chapters 5 to 7 of Steets (2007) say of the stand-alone runs, each with a predicate and a
+//! verdict.
 //!
-//! One row per statement that can be decided from the twelve runs: where it stands, what it says (in our words), the
-//! predicate in words and as the code that is compiled, the values found, the verdict. Statements about the runs that
-//! they cannot decide have a row too, with the reason. A verdict "does not hold" is a finding: a sentence says why,
-//! as far as the runs tell. Statements that compare with the comparison program have a group of their own; they need runs of
-//! the half-truck ([`Evidence::with_trucks`]), and are decided from our reading of its wedges.
+//! One row per statement that can be decided from the twelve runs: where it stands, what it says (in our
+//! words), the predicate in words and as the code that is compiled, the values found, the verdict. Statements
+//! about the runs that they cannot decide have a row too, with the reason. A verdict "does not hold" is a
+//! finding: a sentence says why, as far as the runs tell. Statements that compare with the comparison program
+//! have a group of their own; they need runs of the half-truck ([`Evidence::with_trucks`]), and are decided
+//! from our reading of its wedges.
 //!
-//! Words that have a number here, wherever the thesis gives none: *small*, *similar*, *close*: within 10 %; *large*
-//! differences: more than 10 %; *very small*: below 5 %; *close to zero* of a ringing force: below 5 % of the run's peak;
-//! *zero*: below 1 % of the peak, or as the row says; a moment is *small* below 10 % of what the face could give with its whole peak
-//! load on one edge, *negligible* below 1 %, and *significant* above 10 %.
+//! Words that have a number here, wherever the thesis gives none: *small*, *similar*, *close*: within 10 %;
+//! *large* differences: more than 10 %; *very small*: below 5 %; *close to zero* of a ringing force: below 5
+//! % of the run's peak; *zero*: below 1 % of the peak, or as the row says; a moment is *small* below 10 % of
+//! what the face could give with its whole peak load on one edge, *negligible* below 1 %, and *significant*
+//! above 10 %.
 //!
 //! Verdicts are those of the runs as they are: friction keeps what the start does for seconds, and with
-//! `start = "touching"` some dozen orders that are close (mostly those with yaw) come out the other way. What counts
-//! peaks or measures roughness depends on the rows' spacing; the thesis's is that of the built-in cases, 0.01 s.
+//! `start = "touching"` some dozen orders that are close (mostly those with yaw) come out the other way. What
+//! counts peaks or measures roughness depends on the rows' spacing; the thesis's is that of the built-in
+//! cases, 0.01 s.
 //!
-//! Forces of chapter 5 are those that its figures draw: the vertical force on the side frame with the coil's part.
-//! Those of chapter 6 are the column friction.
+//! Forces of chapter 5 are those that its figures draw: the vertical force on the side frame with the coil's
+//! part. Those of chapter 6 are the column friction.
 //!
 //! ```
 //! use report::claims::{Evidence, Verdict, evaluate};
@@ -203,8 +207,8 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
 const NOT_LOOKED_INTO: &str =
     "Why is not known: with the thesis's twelve runs as this program makes them it holds.";
 
-/// All claims with their verdicts, in the order of the thesis. Runs that are missing or incomplete leave the claims that need
-/// them undecided.
+/// All claims with their verdicts, in the order of the thesis. Runs that are missing or incomplete leave the
+/// claims that need them undecided.
 #[must_use]
 pub fn evaluate(evidence: &Evidence<'_>) -> Vec<Row> {
     let units = evidence.units();
@@ -251,8 +255,8 @@ fn on_one_line(code: &str) -> String {
         .replace(",]", "]")
 }
 
-/// A claim whose predicate is compiled and shown from the same words. `runs` names the runs that it needs; in `holds`
-/// they are what [`evidence::View`] shows of them.
+/// A claim whose predicate is compiled and shown from the same words. `runs` names the runs that it needs; in
+/// `holds` they are what [`evidence::View`] shows of them.
 macro_rules! claim {
     (
         id: $id:literal,

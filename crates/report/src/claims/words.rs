@@ -1,7 +1,8 @@
 //! The words of predicates: quantities, and times at which they are looked at.
 //!
-//! All times are after the first half period of the bolster's motion, in which the wedge settles, unless a word says
-//! otherwise. They are told by the bolster's phase: its displacement over its amplitude, its speed over its peak.
+//! All times are after the first half period of the bolster's motion, in which the wedge settles, unless a
+//! word says otherwise. They are told by the bolster's phase: its displacement over its amplitude, its speed
+//! over its peak.
 
 #![allow(non_upper_case_globals)] // They are written as words in predicates.
 
@@ -96,7 +97,8 @@ pub(super) const bolster_speed: Quantity = column("vertical bolster speed", Kind
 pub(super) const bolster_yaw: Quantity = column("yaw of the bolster", Kind::Angle, |run| {
     run.column("bolster_yaw").to_vec()
 });
-/// Distance of a lower and of an upper corner from the column, where positive: those of the side that yaw lifts off.
+/// Distance of a lower and of an upper corner from the column, where positive: those of the side that yaw
+/// lifts off.
 pub(super) const lower_gap: Quantity = column(
     "gap at the lower right corner of the column",
     Kind::Length,
@@ -149,7 +151,8 @@ fn corners<T>(run: View<'_>, face: &str, make: fn(usize, usize, usize) -> T) -> 
         .collect()
 }
 
-/// Rows at which the bolster's displacement (over its amplitude) and speed (over its peak) are so, after the start.
+/// Rows at which the bolster's displacement (over its amplitude) and speed (over its peak) are so, after the
+/// start.
 fn phase(run: View<'_>, holds: fn(f64, f64) -> bool) -> Vec<bool> {
     timed(run, |time, z, speed| time > 0.5 && holds(z, speed))
 }
@@ -193,7 +196,8 @@ fn both(mut one: Vec<bool>, other: &[bool]) -> Vec<bool> {
 
 /// After the first half period.
 pub(super) const settled: When = when("after the first half period", |run| phase(run, |_, _| true));
-/// The first half period without its first 0.1 s, which the thesis's figures leave out: the bolster rises and returns.
+/// The first half period without its first 0.1 s, which the thesis's figures leave out: the bolster rises and
+/// returns.
 pub(super) const beginning: When = when("in the first half period", |run| {
     let skip = 0.1 / run.cycle().period();
     timed(run, move |time, _, _| time > skip && time < 0.5)

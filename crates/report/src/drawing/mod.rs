@@ -82,8 +82,8 @@ pub fn distinct(number: usize) -> (Colour, Line) {
 /// A curve.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
-    /// Its name in the legend; curves of the same name in several panels share one entry, and one without a name
-    /// has none.
+    /// Its name in the legend; curves of the same name in several panels share one entry, and one without a
+    /// name has none.
     pub label: String,
     /// Its colour.
     pub colour: Colour,
@@ -178,7 +178,8 @@ impl Figure {
         entries
     }
 
-    /// The grid: for each panel its row, first cell, and number of cells; then the numbers of rows and columns.
+    /// The grid: for each panel its row, first cell, and number of cells; then the numbers of rows and
+    /// columns.
     #[must_use]
     pub fn grid(&self) -> (Vec<(usize, usize, usize)>, usize, usize) {
         let span = |panel: &Panel| panel.span.max(1);

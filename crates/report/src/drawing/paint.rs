@@ -57,8 +57,8 @@ pub(super) fn svg(scene: &Scene) -> String {
     renumbered(&SvgBackend::new().render_scene(scene))
 }
 
-/// The library counts clip paths through all drawings of a program; here they are counted in each drawing, so that the same
-/// figure gives the same text.
+/// The library counts clip paths through all drawings of a program; here they are counted in each drawing, so
+/// that the same figure gives the same text.
 fn renumbered(svg: &str) -> String {
     const THEIRS: &str = "kuva-clip-";
     let mut numbers: Vec<&str> = Vec::new();
@@ -218,7 +218,8 @@ fn title_size(title: &str, width: f64) -> u32 {
     ((width / (0.56 * letters)) as u32).clamp(11, TITLE_SIZE)
 }
 
-/// Rounds a drawn line to a tenth of a pixel and leaves out what then lies on a straight line between its neighbours.
+/// Rounds a drawn line to a tenth of a pixel and leaves out what then lies on a straight line between its
+/// neighbours.
 fn straighten(points: &mut Vec<(f64, f64)>) {
     let round = |value: f64| (10.0 * value).round() as i64;
     let mut kept: Vec<(i64, i64)> = Vec::with_capacity(points.len());

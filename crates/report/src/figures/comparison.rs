@@ -1,9 +1,9 @@
-//! The figures that compare the stand-alone wedge with the comparison program's types 6.8 and 6.9 (thesis, chapters 5 and 6,
-//! appendix D): toe out, each damping, without and with yaw.
+//! The figures that compare the stand-alone wedge with the comparison program's types 6.8 and 6.9 (thesis,
+//! chapters 5 and 6, appendix D): toe out, each damping, without and with yaw.
 //!
-//! The types are our reading of them in a half-truck made from the printed files; no output of that program is known. Their
-//! columns are those of the leading left wedge, drawn under the names of the stand-alone wedge's columns that stand for the same
-//! ([`crate::agreement::truck_column`]).
+//! The types are our reading of them in a half-truck made from the printed files; no output of that program
+//! is known. Their columns are those of the leading left wedge, drawn under the names of the stand-alone
+//! wedge's columns that stand for the same ([`crate::agreement::truck_column`]).
 
 use mechanics::quasi_static::Direction;
 use quantity::{Kind, System as Units};

@@ -16,8 +16,8 @@ const RATIOS: [f64; 8] = [0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0];
 /// Points of the closed form along each axis.
 const POINTS: usize = 161;
 
-/// A map for runs with toe in, and one for those with toe out or none, as far as there are any: the toe decides which way
-/// the slope's friction acts, and with it whether the wedge can jam.
+/// A map for runs with toe in, and one for those with toe out or none, as far as there are any: the toe
+/// decides which way the slope's friction acts, and with it whether the wedge can jam.
 #[must_use]
 pub fn maps(study: &Study, digest: &Digest) -> Vec<Exhibit> {
     let Some(jam) = &digest.jam else {

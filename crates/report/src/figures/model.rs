@@ -67,7 +67,8 @@ fn bolster_motion(outcomes: &[Outcome]) -> Option<Exhibit> {
     })
 }
 
-/// Figure 3-9: the friction force over the slip speed, from the law's own code; beside it the law that sticks.
+/// Figure 3-9: the friction force over the slip speed, from the law's own code; beside it the law that
+/// sticks.
 fn friction_law(outcomes: &[Outcome]) -> Option<Exhibit> {
     let (case, result) = outcomes.first()?;
     let units = result.summary.units;
@@ -121,7 +122,8 @@ fn friction_law(outcomes: &[Outcome]) -> Option<Exhibit> {
     })
 }
 
-/// The bristle law under a slow triangular motion, with the default stiffness and damping of a face and a limit of 1000 lbf.
+/// The bristle law under a slow triangular motion, with the default stiffness and damping of a face and a
+/// limit of 1000 lbf.
 fn bristle_loop(units: Units) -> Vec<(f64, f64)> {
     const INCH: f64 = 0.0254;
     const POUND_FORCE: f64 = 4.448_221_615_260_5;

@@ -207,7 +207,8 @@ fn corner_forces(name: &str, result: &RunResult) -> Exhibit {
     )
 }
 
-/// Where the corners' forces are shown from, s: after the release from the start, if that is larger than all that follows.
+/// Where the corners' forces are shown from, s: after the release from the start, if that is larger than all
+/// that follows.
 fn release(result: &RunResult) -> f64 {
     const RELEASE: f64 = 0.1;
     let before = largest_normal(result, |time| time < RELEASE);

@@ -112,7 +112,8 @@ pub(super) struct Windows {
     phases: [f64; 4],
 }
 
-/// In the order of [`Quantity::thesis`]. The bolster's lowest place is at 2.356 and 5.498 s, its highest at 3.927 and 7.069 s.
+/// In the order of [`Quantity::thesis`]. The bolster's lowest place is at 2.356 and 5.498 s, its highest at
+/// 3.927 and 7.069 s.
 const WINDOWS: [Windows; 4] = [
     Windows {
         start: 0.0,
@@ -152,7 +153,8 @@ const PHASES: [&str; 2] = [
      sticks, (4) it slips down",
 ];
 
-/// The windows of a group of runs: variable damping without and with yaw, constant damping without and with yaw.
+/// The windows of a group of runs: variable damping without and with yaw, constant damping without and with
+/// yaw.
 pub(super) fn windows(number: usize) -> &'static Windows {
     &WINDOWS[number]
 }
@@ -199,8 +201,8 @@ pub struct Chapter {
     pub exhibits: Vec<Exhibit>,
 }
 
-/// All figures that these runs allow. Figure 6-14, which needs runs without and with yaw, stands at the end of constant
-/// damping with yaw.
+/// All figures that these runs allow. Figure 6-14, which needs runs without and with yaw, stands at the end
+/// of constant damping with yaw.
 #[must_use]
 pub fn chapters(outcomes: &[Outcome]) -> Vec<Chapter> {
     let mut chapters: Vec<Chapter> = groups(outcomes).iter().map(Group::chapter).collect();

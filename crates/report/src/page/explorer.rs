@@ -1,5 +1,5 @@
-//! The explorer's page, as `cargo xtask viewer` built it from the folder `viewer`: a script that asks the server of
-//! `wedgelab explore` for everything else.
+//! The explorer's page, as `cargo xtask viewer` built it from the folder `viewer`: a script that asks the
+//! server of `wedgelab explore` for everything else.
 
 use maud::{DOCTYPE, html};
 

@@ -62,7 +62,8 @@ pub struct Contents<'c> {
     pub claims: &'c Claims,
     /// The figures.
     pub sections: &'c [Section],
-    /// The page's interactive part with its data, JSON of [`crate::view::View`]; without it the page is static.
+    /// The page's interactive part with its data, JSON of [`crate::view::View`]; without it the page is
+    /// static.
     pub interactive: Option<(Viewer, &'c str)>,
     /// The comparison with the comparison program's wedges, if there is one.
     pub comparison: Option<Comparison<'c>>,
@@ -183,8 +184,8 @@ fn anchor(name: &str) -> String {
     name.replace('.', "_")
 }
 
-/// A drawing as part of the page: a picture with a name, scaled to the page's width. Its description stands in the
-/// caption, so that it is not told twice.
+/// A drawing as part of the page: a picture with a name, scaled to the page's width. Its description stands
+/// in the caption, so that it is not told twice.
 fn inline(svg: &str, title: &str) -> String {
     let attribute = |name: &str| {
         let start = svg.find(&format!(" {name}=\""))? + name.len() + 3;

@@ -130,8 +130,8 @@ fn curve(curve: &Curve, (to_x, to_y): (f64, f64), data: &mut Data) -> ChartCurve
     }
 }
 
-/// Splits a label such as `force (lbf)` into its name and kind; gives the factor that makes SI of its numbers too. A
-/// unit that is none of ours, such as `%`, stays in the name.
+/// Splits a label such as `force (lbf)` into its name and kind; gives the factor that makes SI of its numbers
+/// too. A unit that is none of ours, such as `%`, stays in the name.
 fn axis(label: &str, units: Units) -> (Axis, f64) {
     let split = label.strip_suffix(')').and_then(|rest| rest.rsplit_once(" ("));
     let found = split.and_then(|(name, unit)| {

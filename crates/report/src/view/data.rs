@@ -16,8 +16,8 @@ pub enum List {
     Rounded {
         /// The step, SI.
         step: f64,
-        /// The second differences of the multiples, each with its sign in the lowest bit, seven bits a byte, the lowest ones first,
-        /// the highest bit set where another byte follows; as base64.
+        /// The second differences of the multiples, each with its sign in the lowest bit, seven bits a byte,
+        /// the lowest ones first, the highest bit set where another byte follows; as base64.
         differences: String,
     },
 }
@@ -87,8 +87,8 @@ impl Data {
     }
 }
 
-/// A step, a power of two so that numbers that hardly differ give the same bytes, and the second differences. Whole
-/// numbers keep their values.
+/// A step, a power of two so that numbers that hardly differ give the same bytes, and the second differences.
+/// Whole numbers keep their values.
 fn rounded(values: &[f64]) -> (f64, Vec<u8>) {
     let most = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let whole = most <= STEPS && values.iter().all(|value| value.fract() == 0.0);

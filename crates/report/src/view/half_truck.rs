@@ -1,9 +1,10 @@
 //! What a half-truck's run looks like: bolster, side frames, wedges with their coils, springs.
 //!
-//! The comparison program's files have places, wedge angles and toes, but no sizes of bodies: these are for the eye, with the
-//! wedge as large as the stand-alone one. Its wedges are massless and have no angles of their own: they are drawn in the bolster's
-//! pocket, where they rise as the law says. The law has one state a wedge, that of the friction at the column; the slope's friction
-//! follows it, and is shown with the same state while it is pressed.
+//! The comparison program's files have places, wedge angles and toes, but no sizes of bodies: these are for
+//! the eye, with the wedge as large as the stand-alone one. Its wedges are massless and have no angles of
+//! their own: they are drawn in the bolster's pocket, where they rise as the law says. The law has one state
+//! a wedge, that of the friction at the column; the slope's friction follows it, and is shown with the same
+//! state while it is pressed.
 
 use std::collections::BTreeMap;
 
@@ -78,7 +79,8 @@ fn wedges(truck: &Truck) -> Vec<Seen<'_>> {
     all.iter().filter_map(seen).collect()
 }
 
-/// Columns that the scene needs and the table does not have: parts of forces in the fixed axes, states of slopes, the wedges' shift.
+/// Columns that the scene needs and the table does not have: parts of forces in the fixed axes, states of
+/// slopes, the wedges' shift.
 #[must_use]
 pub fn drawn(truck: &Truck, result: &TruckResult) -> (Vec<Column>, Vec<Vec<f64>>) {
     let (mut columns, mut values) = (Vec::new(), Vec::new());

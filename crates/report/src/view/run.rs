@@ -62,8 +62,8 @@ pub struct Plot {
 pub enum Detail {
     /// Every row, to seven digits.
     Full,
-    /// Every row, or every n-th one so that there are at most 1251; rounded to half of 1/2¹⁴ of each column's largest
-    /// value or less.
+    /// Every row, or every n-th one so that there are at most 1251; rounded to half of 1/2¹⁴ of each column's
+    /// largest value or less.
     Thinned,
 }
 

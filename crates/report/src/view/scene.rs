@@ -2,10 +2,10 @@
 //!
 //! The scene knows no wedge: any number of bodies, solids, coils and contacts make one.
 //!
-//! Where a viewer exaggerates displacements by a factor f: a body's place is its `position`, plus its `steady` columns to
-//! scale, plus f times what its displacements have more than these (up to `limit`, and to scale beyond it); its angles
-//! and those of a solid's mount are multiplied by f. Gaps of touching faces then grow by f, since a sum of small
-//! displacements is linear.
+//! Where a viewer exaggerates displacements by a factor f: a body's place is its `position`, plus its
+//! `steady` columns to scale, plus f times what its displacements have more than these (up to `limit`, and to
+//! scale beyond it); its angles and those of a solid's mount are multiplied by f. Gaps of touching faces then
+//! grow by f, since a sum of small displacements is linear.
 
 use mechanics::vector::Vector;
 use serde::Serialize;
@@ -382,7 +382,8 @@ fn looks() -> Vec<Look> {
     ]
 }
 
-/// A convex outline in the plane of x and z, anticlockwise with x to the right and z up, drawn out to both sides along y.
+/// A convex outline in the plane of x and z, anticlockwise with x to the right and z up, drawn out to both
+/// sides along y.
 pub(super) fn extruded(
     (id, name, role, body): (&str, &str, Role, &str),
     outline: &[[f64; 2]],

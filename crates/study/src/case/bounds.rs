@@ -1,6 +1,7 @@
 //! Upper bounds of the values of a case: far beyond any wedge, truck or track, and far below what overflows.
 //!
-//! Within them a case may still be nonsense, which its run tells; beyond them it is a slip of the pen or of a unit.
+//! Within them a case may still be nonsense, which its run tells; beyond them it is a slip of the pen or of a
+//! unit.
 
 use quantity::{Kind, System};
 

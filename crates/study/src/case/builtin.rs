@@ -1,8 +1,8 @@
 //! The built-in cases, in groups: the thesis's twelve runs, and cases beyond them.
 //!
-//! Every case is the text of a case file, so that what runs is what `wedgelab case NAME` prints. A group has a title and
-//! says in two sentences what to look at in its results; families (sweeps, depths of wear) are one group each, their
-//! cases named by what changes.
+//! Every case is the text of a case file, so that what runs is what `wedgelab case NAME` prints. A group has
+//! a title and says in two sentences what to look at in its results; families (sweeps, depths of wear) are
+//! one group each, their cases named by what changes.
 
 mod beyond;
 mod thesis;

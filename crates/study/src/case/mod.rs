@@ -58,7 +58,8 @@ pub struct Case {
     pub parameters: Parameters,
     /// How to run it.
     pub simulation: Simulation,
-    /// Whether the case file, with what `--set` lays over it, says nothing of wedge, coil, contact, friction and motions: they are defaults.
+    /// Whether the case file, with what `--set` lays over it, says nothing of wedge, coil, contact, friction
+    /// and motions: they are defaults.
     pub nothing_given: bool,
 }
 

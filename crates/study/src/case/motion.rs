@@ -203,7 +203,8 @@ fn read_shape(
 }
 
 impl Motion {
-    /// As written in a case file, without the key; its values measure `kind`. In the units of a system, or as typed.
+    /// As written in a case file, without the key; its values measure `kind`. In the units of a system, or as
+    /// typed.
     pub(super) fn to_toml_in(&self, kind: Kind, system: Option<System>) -> String {
         system.map_or_else(|| self.to_toml(), |system| self.in_system(kind, system).to_toml())
     }

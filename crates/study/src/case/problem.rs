@@ -99,8 +99,8 @@ impl Problem {
         self
     }
 
-    /// The same mistake in a file that must not be quoted: its place there and its kind, shown where the file was
-    /// named. Labels, which tell the kind, never quote a text.
+    /// The same mistake in a file that must not be quoted: its place there and its kind, shown where the file
+    /// was named. Labels, which tell the kind, never quote a text.
     pub(crate) fn without_quoting(self, file: &str, path: &str, named: &TomlLocation) -> Self {
         let inside = (self.place.as_ref()).is_some_and(|place| !Arc::ptr_eq(&place.source, &named.source));
         if !inside {

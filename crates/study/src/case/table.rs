@@ -24,7 +24,8 @@ pub struct QuantityTable {
 }
 
 impl QuantityTable {
-    /// Reads the text of a CSV file with times and values of this kind, as a motion takes it. Messages call it `name`.
+    /// Reads the text of a CSV file with times and values of this kind, as a motion takes it. Messages call
+    /// it `name`.
     ///
     /// # Errors
     /// The text is no such table.
@@ -32,7 +33,8 @@ impl QuantityTable {
         Self::parse(name, text, &Form::motion(kind))
     }
 
-    /// Reads the text of a CSV file with compressions and forces, as a coil takes it. Messages call it `name`.
+    /// Reads the text of a CSV file with compressions and forces, as a coil takes it. Messages call it
+    /// `name`.
     ///
     /// # Errors
     /// The text is no such table.
@@ -161,8 +163,8 @@ pub(super) fn read_either(
     }
 }
 
-/// Reads a table from the name of a file or from points. Of a file that must not be quoted, messages tell the place
-/// and the kind of a mistake.
+/// Reads a table from the name of a file or from points. Of a file that must not be quoted, messages tell the
+/// place and the kind of a mistake.
 pub(super) fn read(
     node: &Node,
     path: &str,

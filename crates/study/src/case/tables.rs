@@ -6,8 +6,8 @@ use std::path::{Component, Path, PathBuf};
 
 /// The folder in which tables are looked for, and which files may be read.
 ///
-/// A path alone stands for [`Tables::anywhere`], which is right for a case that its own user wrote. A program that
-/// takes values from others reads [`Tables::below`] the folder, or [`Tables::nowhere`].
+/// A path alone stands for [`Tables::anywhere`], which is right for a case that its own user wrote. A program
+/// that takes values from others reads [`Tables::below`] the folder, or [`Tables::nowhere`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tables<'a> {
     folder: &'a Path,

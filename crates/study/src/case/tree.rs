@@ -41,7 +41,8 @@ pub(crate) struct Entry {
     pub node: Node,
 }
 
-/// Reads TOML; every mistake of syntax becomes a problem. What is too long or nested too deeply is not parsed.
+/// Reads TOML; every mistake of syntax becomes a problem. What is too long or nested too deeply is not
+/// parsed.
 pub(crate) fn parse(source: &Arc<TomlSource>) -> Result<Table, Problems> {
     structure::toml(source.text()).map_err(|excess| {
         let place = TomlLocation {
@@ -150,7 +151,8 @@ impl Table {
         }
     }
 
-    /// Returns whether a case file's tree describes anything: whether it has a value besides name, title and the section `simulation`.
+    /// Returns whether a case file's tree describes anything: whether it has a value besides name, title and
+    /// the section `simulation`.
     pub fn gives_values(&self) -> bool {
         let beside = |key: &str| matches!(key, "name" | "title" | "simulation");
         self.entries.iter().any(|entry| match &entry.node.value {

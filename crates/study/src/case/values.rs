@@ -10,12 +10,12 @@ use super::{Case, CaseError, tree};
 const EITHER: [(&str, &str, &str); 1] = [("control_coil", "stiffness", "table")];
 
 impl Case {
-    /// Lays values over a case file, given by the name that messages show it under and its text; without one, over the
-    /// thesis's values.
+    /// Lays values over a case file, given by the name that messages show it under and its text; without one,
+    /// over the thesis's values.
     ///
-    /// `values` is TOML as in a case file, but a bare number where a quantity is expected is in SI units (a toe in rad,
-    /// positive out). Tables are merged key by key; a motion of another shape replaces the whole motion. Messages call
-    /// these values `values_name`.
+    /// `values` is TOML as in a case file, but a bare number where a quantity is expected is in SI units (a
+    /// toe in rad, positive out). Tables are merged key by key; a motion of another shape replaces the whole
+    /// motion. Messages call these values `values_name`.
     ///
     /// # Errors
     /// As [`Case::parse`].

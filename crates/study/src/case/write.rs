@@ -375,7 +375,8 @@ fn write_neighbour(page: &mut Page, section: &NeighbourSection, center: &str) {
     }
 }
 
-/// Fields of the quantities of a motion, also of each part of a sum: `vertical.amplitude`, `vertical.0.amplitude`.
+/// Fields of the quantities of a motion, also of each part of a sum: `vertical.amplitude`,
+/// `vertical.0.amplitude`.
 fn write_motion(page: &mut Page, path: &str, motion: &Motion, kind: Kind, most: f64) {
     let signed = Reach::Signed(most);
     for (part, value) in motion.parts() {

@@ -1,8 +1,8 @@
 //! Latin hypercube sampling (McKay, Beckman and Conover, 1979), by number.
 //!
-//! Each of n runs has in each dimension a stratum of width 1/n of its own, and lies in it at random. Which stratum, says a
-//! random permutation that needs no memory: a Feistel cipher over the next power of four, walked until it falls below n
-//! (Black and Rogaway, *Ciphers with arbitrary finite domains*, 2002).
+//! Each of n runs has in each dimension a stratum of width 1/n of its own, and lies in it at random. Which
+//! stratum, says a random permutation that needs no memory: a Feistel cipher over the next power of four,
+//! walked until it falls below n (Black and Rogaway, *Ciphers with arbitrary finite domains*, 2002).
 
 use super::random::{mix, unit};
 

@@ -1,8 +1,9 @@
 //! Studies: many variants of one case.
 //!
-//! A [`Study`] is a document (`STUDY.toml`, see `docs/study.md`) that numbers its variants from zero: which values variant
-//! `i` has is a function of the document and of `i` alone, so that any number of workers, on one machine or many, may
-//! compute any part of it in any order. What comes out of a variant is a [record](crate::records).
+//! A [`Study`] is a document (`STUDY.toml`, see `docs/study.md`) that numbers its variants from zero: which
+//! values variant `i` has is a function of the document and of `i` alone, so that any number of workers, on
+//! one machine or many, may compute any part of it in any order. What comes out of a variant is a
+//! [record](crate::records).
 
 mod factor;
 mod latin_hypercube;
@@ -64,9 +65,10 @@ pub enum Accuracy {
     Engineering,
 }
 
-/// What [`Accuracy::Engineering`] sets, unless the study sets it itself. In the six yawed cases of the thesis branch forces and energies per
-/// cycle at the side frame are within 0.5 % of those at 1e-8. Over wide ranges of parameters nine of ten variants are. Wedges that rattle
-/// for as long as they run lose that rattling: 12 % of a branch force in two of the thesis's runs without yaw.
+/// What [`Accuracy::Engineering`] sets, unless the study sets it itself. In the six yawed cases of the thesis
+/// branch forces and energies per cycle at the side frame are within 0.5 % of those at 1e-8. Over wide ranges
+/// of parameters nine of ten variants are. Wedges that rattle for as long as they run lose that rattling: 12
+/// % of a branch force in two of the thesis's runs without yaw.
 pub const ENGINEERING: [&str; 2] = [
     "simulation.method=\"tr-bdf2\"",
     "simulation.relative_tolerance=1.5e-5",
@@ -150,7 +152,8 @@ impl Study {
         read::text(source, text, folder, None)
     }
 
-    /// The same study from its texts, on this machine or another. Tables in files of their own are looked for where they were.
+    /// The same study from its texts, on this machine or another. Tables in files of their own are looked for
+    /// where they were.
     ///
     /// # Errors
     /// As [`Study::read`].
@@ -176,8 +179,8 @@ impl Study {
         self.base.units()
     }
 
-    /// The values of the variant of this number, below [`Study::count`]: one a factor, `None` where a list leaves the
-    /// case's own.
+    /// The values of the variant of this number, below [`Study::count`]: one a factor, `None` where a list
+    /// leaves the case's own.
     #[must_use]
     pub fn values(&self, number: u64) -> Vec<Option<Value>> {
         values::of(self, number)
@@ -230,7 +233,8 @@ impl Study {
     /// The description in short: other studies have another number, as good as certainly.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
-        // FNV-1a over the description's text, whose floating-point numbers are written so that they read back.
+        // FNV-1a over the description's text, whose floating-point numbers are written so that they read
+        // back.
         let text = format!("{:?}", self.description());
         text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)

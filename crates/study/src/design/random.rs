@@ -1,6 +1,7 @@
 //! Random numbers by place, not in a row: the same for every order and number of workers.
 
-/// 64 random bits for a seed and some numbers: the finalizer of SplitMix64 (Steele, Lea and Flood, 2014), once a number.
+/// 64 random bits for a seed and some numbers: the finalizer of SplitMix64 (Steele, Lea and Flood, 2014),
+/// once a number.
 pub(super) fn mix(seed: u64, numbers: &[u64]) -> u64 {
     let mut state = finalize(seed.wrapping_add(0x9e37_79b9_7f4a_7c15));
     for number in numbers {

@@ -1,16 +1,17 @@
 //! Points of the Sobol' sequence, by number.
 //!
-//! Direction numbers of S. Joe and F. Y. Kuo, *Constructing Sobol sequences with better two-dimensional projections*, SIAM
-//! J. Sci. Comput. 30 (2008), file `new-joe-kuo-6.21201`, in the Gray-code order of I. A. Antonov and V. M. Saleev (1979), in
-//! which SciPy and others give the points too. A seed shifts all points by the same random bits (a digital shift), which
-//! keeps their evenness.
+//! Direction numbers of S. Joe and F. Y. Kuo, *Constructing Sobol sequences with better two-dimensional
+//! projections*, SIAM J. Sci. Comput. 30 (2008), file `new-joe-kuo-6.21201`, in the Gray-code order of I. A.
+//! Antonov and V. M. Saleev (1979), in which SciPy and others give the points too. A seed shifts all points
+//! by the same random bits (a digital shift), which keeps their evenness.
 
 use super::random::mix;
 
 /// Bits of a coordinate: as many points differ as 2 to this power.
 const BITS: u32 = 52;
 
-/// For each dimension after the first: degree and coefficients of its primitive polynomial, first direction numbers.
+/// For each dimension after the first: degree and coefficients of its primitive polynomial, first direction
+/// numbers.
 const DIRECTIONS: [(u32, u32, &[u64]); DIMENSIONS - 1] = [
     (1, 0, &[1]),
     (2, 1, &[1, 3]),
@@ -47,7 +48,8 @@ pub struct Sobol {
 }
 
 impl Sobol {
-    /// The sequence in this many dimensions, at most [`DIMENSIONS`]; without a seed as it is, its first point zero.
+    /// The sequence in this many dimensions, at most [`DIMENSIONS`]; without a seed as it is, its first point
+    /// zero.
     #[must_use]
     pub fn new(dimensions: usize, seed: Option<u64>) -> Self {
         let dimensions = dimensions.min(DIMENSIONS);
@@ -59,7 +61,8 @@ impl Sobol {
         }
     }
 
-    /// A coordinate of the point of this number, from 0 to below 1; zero for a dimension that it does not have.
+    /// A coordinate of the point of this number, from 0 to below 1; zero for a dimension that it does not
+    /// have.
     #[must_use]
     pub fn coordinate(&self, number: u64, dimension: usize) -> f64 {
         let (Some(directions), Some(shift)) = (self.directions.get(dimension), self.shifts.get(dimension))

@@ -1,10 +1,10 @@
-//! Nonlinear least squares between bounds: the method of Levenberg (1944) and Marquardt (1963) with a projection onto the
-//! bounds.
+//! Nonlinear least squares between bounds: the method of Levenberg (1944) and Marquardt (1963) with a
+//! projection onto the bounds.
 //!
-//! Parameters are scaled to their ranges, so that 0 and 1 are the bounds. Derivatives are central differences (one-sided at a
-//! bound), because the model is a simulation; over the parameters' standard deviations in the end, because simulations with contacts are
-//! jagged in the small. A parameter that stands at a bound and would leave it is held in that round; one
-//! that ends there has no interval.
+//! Parameters are scaled to their ranges, so that 0 and 1 are the bounds. Derivatives are central differences
+//! (one-sided at a bound), because the model is a simulation; over the parameters' standard deviations in the
+//! end, because simulations with contacts are jagged in the small. A parameter that stands at a bound and
+//! would leave it is held in that round; one that ends there has no interval.
 
 /// Values of a model at many points, for several sets of scaled parameters at a time; why it has none.
 pub type Evaluate<'e> = &'e dyn Fn(&[Vec<f64>]) -> Vec<Result<Vec<f64>, String>>;
@@ -12,8 +12,8 @@ pub type Evaluate<'e> = &'e dyn Fn(&[Vec<f64>]) -> Vec<Result<Vec<f64>, String>>
 /// Settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Half the distance of central differences, of the range, at first; later it is the parameter's own standard deviation, if
-    /// that is more.
+    /// Half the distance of central differences, of the range, at first; later it is the parameter's own
+    /// standard deviation, if that is more.
     pub difference: f64,
     /// Rounds at most, with differences of one distance.
     pub most_rounds: u32,
@@ -42,8 +42,8 @@ pub struct Minimum {
     pub sum: f64,
     /// Whether a parameter ends at a bound.
     pub at_bound: Vec<bool>,
-    /// Covariance of the scaled parameters, row by row: s² (JᵀJ)⁻¹ of those that are at no bound, zero for others; `None`
-    /// where the data do not determine them.
+    /// Covariance of the scaled parameters, row by row: s² (JᵀJ)⁻¹ of those that are at no bound, zero for
+    /// others; `None` where the data do not determine them.
     pub covariance: Option<Vec<Vec<f64>>>,
     /// Rounds.
     pub rounds: u32,
@@ -74,8 +74,9 @@ pub fn minimize(
         rounds: 0,
     };
     let mut settled = state.descend(evaluate, data, settings)?;
-    // Runs are jagged in the small: events come and go. What counts is how they change over the parameters' own uncertainty,
-    // so once that is known, differences are taken over it, and the search goes on with them.
+    // Runs are jagged in the small: events come and go. What counts is how they change over the parameters'
+    // own uncertainty, so once that is known, differences are taken over it, and the search goes on with
+    // them.
     for _ in 0..WIDENINGS {
         let Some(covariance) = state.covariance(data.len()) else {
             break;
@@ -261,7 +262,8 @@ fn normal(slopes: &[Vec<f64>], free: &[usize]) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Solves a small system with a symmetric positive definite matrix (Cholesky); `None` if it is singular to rounding.
+/// Solves a small system with a symmetric positive definite matrix (Cholesky); `None` if it is singular to
+/// rounding.
 fn solve(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
     let n = right.len();
     // Scaled to a unit diagonal, so that rounding is seen whatever the sizes.

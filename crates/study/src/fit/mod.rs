@@ -1,9 +1,10 @@
 //! Identification: parameters of a case whose run comes nearest to a measured course of a force.
 //!
-//! The measured values are compared with a column of the run at the same times (between rows linearly). The sum of squared
-//! differences is made least over the free parameters between their bounds ([`least_squares`]). With independent errors of one
-//! size, the intervals hold the true values with the probability stated, as far as the model is straight over them; errors
-//! that hang together (a model that is wrong, a sensor that drifts) make them too narrow, which [`Fit::durbin_watson`] tells.
+//! The measured values are compared with a column of the run at the same times (between rows linearly). The
+//! sum of squared differences is made least over the free parameters between their bounds
+//! ([`least_squares`]). With independent errors of one size, the intervals hold the true values with the
+//! probability stated, as far as the model is straight over them; errors that hang together (a model that is
+//! wrong, a sensor that drifts) make them too narrow, which [`Fit::durbin_watson`] tells.
 
 pub mod least_squares;
 mod student;
@@ -183,7 +184,8 @@ pub struct Fit {
     pub values: Vec<f64>,
     /// Root of the mean square of the differences, with the degrees of freedom, SI.
     pub standard_error: f64,
-    /// Durbin-Watson statistic of the differences: near 2 where they are independent, near 0 where they hang together.
+    /// Durbin-Watson statistic of the differences: near 2 where they are independent, near 0 where they hang
+    /// together.
     pub durbin_watson: f64,
     /// Rounds.
     pub rounds: u32,
@@ -191,7 +193,8 @@ pub struct Fit {
     pub settled: bool,
     /// The relative residual of the energy ledger of the run with the parameters found.
     pub largest_relative_residual: f64,
-    /// The warnings about that ledger, about what is implausible in that run, and about parameters at a bound.
+    /// The warnings about that ledger, about what is implausible in that run, and about parameters at a
+    /// bound.
     pub warnings: Vec<String>,
     /// Why the fit has failed: that ledger does not close to 1e-2.
     pub failed: Option<String>,
@@ -239,7 +242,8 @@ pub type FitModel<'m> = &'m (dyn Fn(usize) -> Result<Vec<f64>, String> + Sync);
 /// Computes so many models, side by side if it can, and gives them in order.
 pub type Each<'e> = &'e dyn Fn(usize, FitModel<'_>) -> Vec<Result<Vec<f64>, String>>;
 
-/// Finds the free parameters of a case; `case` gives it with values set, `each` computes several models at a time.
+/// Finds the free parameters of a case; `case` gives it with values set, `each` computes several models at a
+/// time.
 ///
 /// # Errors
 /// The case has no such parameters, or no values beside its start.

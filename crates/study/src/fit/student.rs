@@ -1,10 +1,10 @@
 //! Quantiles of Student's t distribution, for confidence intervals.
 
-/// The number t such that a Student-distributed value with so many degrees of freedom lies between -t and t with this
-/// probability.
+/// The number t such that a Student-distributed value with so many degrees of freedom lies between -t and t
+/// with this probability.
 ///
-/// Hill's expansion (*Algorithm 396: Student's t-quantiles*, Comm. ACM 13, 1970), better than 1e-4 from three degrees of
-/// freedom on; the exact values for one and two.
+/// Hill's expansion (*Algorithm 396: Student's t-quantiles*, Comm. ACM 13, 1970), better than 1e-4 from three
+/// degrees of freedom on; the exact values for one and two.
 #[must_use]
 pub fn two_sided(probability: f64, freedom: f64) -> f64 {
     let tail = 1.0 - probability;

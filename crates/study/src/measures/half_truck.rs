@@ -12,7 +12,8 @@ use crate::run::Run;
 use crate::summary;
 use crate::truck::{TruckCase, TruckSummary, WedgeSummary};
 
-/// What is measured of a wedge: its name after `wedge_NUMBER_`, kind, text, and where it stands in the summary.
+/// What is measured of a wedge: its name after `wedge_NUMBER_`, kind, text, and where it stands in the
+/// summary.
 type OfWedge = (&'static str, Kind, &'static str, fn(&WedgeSummary) -> Option<f64>);
 
 const OF_WEDGES: [OfWedge; 5] = [
@@ -106,7 +107,8 @@ fn displacements(case: &TruckCase) -> Vec<(String, usize)> {
         .collect()
 }
 
-/// Runs a half-truck, measures it in the order of [`definitions`], and judges whether the measures mean something.
+/// Runs a half-truck, measures it in the order of [`definitions`], and judges whether the measures mean
+/// something.
 ///
 /// # Errors
 /// The run cannot begin or does not come to its end.

@@ -1,22 +1,26 @@
 //! What a study keeps of a run: one number for each measure, without the table of the run.
 //!
-//! Those of half-trucks are in [`half_truck`]. The definitions of wedges' measures are those of [`metrics`](crate::metrics) and of the summary, taken at the same output times from the same
-//! functions; a test holds every measure against the summary of the whole run. What is more here:
+//! Those of half-trucks are in [`half_truck`]. The definitions of wedges' measures are those of
+//! [`metrics`](crate::metrics) and of the summary, taken at the same output times from the same functions; a
+//! test holds every measure against the summary of the whole run. What is more here:
 //!
-//! - *lift-off time* of a face: time of the whole run in which none of its corners touches, from the contact events;
-//! - *stick share* of a face: of the time in which corners touch, counted corner by corner, the part in which they stick;
+//! - *lift-off time* of a face: time of the whole run in which none of its corners touches, from the contact
+//!   events;
+//! - *stick share* of a face: of the time in which corners touch, counted corner by corner, the part in which
+//!   they stick;
 //! - *wear power* of a face: energy lost in its friction over time;
-//! - *peak moments*: the largest size at any output time after the first half period, so that the release at the start does
-//!   not count; where there is no whole cycle, of the whole run;
-//! - *column force ratio*: of the sums over a branch, the column's normal forces along x over the load on the wedge
-//!   ([`closed_form::load`](crate::closed_form::load)); beside it that of the massless wedge, which depends on angles and
-//!   frictions alone;
-//! - *ledger residual*: the relative residual of the energy ledger ([`mechanics::energy_balance`]); a variant for which it exceeds
-//!   1e-2 has failed, and keeps its measures;
-//! - *jam margin*: of the massless wedge ([`mechanics::quasi_static`]), going down, going up, and the smaller one.
+//! - *peak moments*: the largest size at any output time after the first half period, so that the release at
+//!   the start does not count; where there is no whole cycle, of the whole run;
+//! - *column force ratio*: of the sums over a branch, the column's normal forces along x over the load on the
+//!   wedge ([`closed_form::load`](crate::closed_form::load)); beside it that of the massless wedge, which
+//!   depends on angles and frictions alone;
+//! - *ledger residual*: the relative residual of the energy ledger ([`mechanics::energy_balance`]); a variant
+//!   for which it exceeds 1e-2 has failed, and keeps its measures;
+//! - *jam margin*: of the massless wedge ([`mechanics::quasi_static`]), going down, going up, and the smaller
+//!   one.
 //!
-//! Stick share and wear power are taken over the whole cycles after the first half period, as energies are; where there
-//! are none, over the whole run. A measure that a run does not have is `NaN`.
+//! Stick share and wear power are taken over the whole cycles after the first half period, as energies are;
+//! where there are none, over the whole run. A measure that a run does not have is `NaN`.
 
 mod clock;
 pub mod half_truck;

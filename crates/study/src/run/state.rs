@@ -1,5 +1,5 @@
-//! Saved states of runs, and whether one can be that of a case's run: all that could lead a run astray is looked at before it
-//! goes on.
+//! Saved states of runs, and whether one can be that of a case's run: all that could lead a run astray is
+//! looked at before it goes on.
 
 use integrate::{MAXIMUM_COUNT, State};
 use mechanics::energy_balance::EnergyBalance;

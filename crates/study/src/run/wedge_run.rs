@@ -1,4 +1,5 @@
-//! What a wedge's run records: the output table, contact events, creep of sticking corners, friction losses of whole cycles.
+//! What a wedge's run records: the output table, contact events, creep of sticking corners, friction losses
+//! of whole cycles.
 
 use std::collections::BTreeMap;
 
@@ -275,8 +276,8 @@ const STEPS_A_CYCLE: f64 = 200.0;
 pub(crate) fn options(case: &Case) -> Options {
     let method = case.simulation.method;
     let maximum_step = match method.tableau().family {
-        // Its steps are as long as the motion allows; rows and reversals are to be resolved. At 2 Hz steps of 0.01 s, fifty a cycle,
-        // err by 1.3 % in branch forces, two hundred by 0.2 %.
+        // Its steps are as long as the motion allows; rows and reversals are to be resolved. At 2 Hz steps of
+        // 0.01 s, fifty a cycle, err by 1.3 % in branch forces, two hundred by 0.2 %.
         Family::DiagonallyImplicit => Cycle::of(&case.parameters)
             .map_or(f64::INFINITY, |cycle| cycle.period() / STEPS_A_CYCLE)
             .min(case.simulation.output_interval),

@@ -1,4 +1,5 @@
-//! The equations of a driven wedge at one instant: for solvers that bring their own integration, and for reading results.
+//! The equations of a driven wedge at one instant: for solvers that bring their own integration, and for
+//! reading results.
 
 use std::fmt;
 
@@ -332,7 +333,8 @@ impl Equations {
         Ok(())
     }
 
-    /// For each corner a margin that is positive while its contact state lasts, and not positive when it must change.
+    /// For each corner a margin that is positive while its contact state lasts, and not positive when it must
+    /// change.
     pub fn margins(&mut self) -> &[f64] {
         let system = &mut self.wedge.system;
         system.event_variables(None, self.time, &self.x, &mut self.variables);
@@ -406,8 +408,8 @@ impl Equations {
         Reading::of(&self.evaluation, &self.wedge.system, &self.wedge.parameters).ok_or(SteppingError::Failed)
     }
 
-    /// Derivatives along a direction: changes of the states (empty: none), of the neighbours, and of the coil's spring force at its
-    /// present length (N).
+    /// Derivatives along a direction: changes of the states (empty: none), of the neighbours, and of the
+    /// coil's spring force at its present length (N).
     ///
     /// # Errors
     /// A wrong number of states.

@@ -1,8 +1,9 @@
-//! The wedge as an element of somebody else's simulation: the caller moves bolster and side frame, step by step or instant by
-//! instant, and reads the forces on them.
+//! The wedge as an element of somebody else's simulation: the caller moves bolster and side frame, step by
+//! step or instant by instant, and reads the forces on them.
 //!
-//! [`SteppedWedge`] integrates itself from one call to the next; [`Equations`] gives rates, margins and derivatives for
-//! a solver of the caller's. Coordinates, axes and reference points are those of [`wedge::inputs`]. SI units.
+//! [`SteppedWedge`] integrates itself from one call to the next; [`Equations`] gives rates, margins and
+//! derivatives for a solver of the caller's. Coordinates, axes and reference points are those of
+//! [`wedge::inputs`]. SI units.
 //!
 //! ```
 //! use study::case::Case;
@@ -43,8 +44,8 @@ const SHORTEST_STEP: f64 = 1e-15;
 
 /// A wedge whose neighbours are moved by the caller, and which integrates itself.
 ///
-/// During a step each coordinate of a neighbour is the cubic through its values and rates at both ends. Steps may have any
-/// lengths; a smooth motion does not restart the integrator.
+/// During a step each coordinate of a neighbour is the cubic through its values and rates at both ends. Steps
+/// may have any lengths; a smooth motion does not restart the integrator.
 #[derive(Debug)]
 pub struct SteppedWedge {
     equations: Equations,
@@ -76,8 +77,8 @@ impl SteppedWedge {
         )
     }
 
-    /// The same of parameters, options of the integrator (the number of steps is bounded by the rule of [`progress`], for each step
-    /// of the neighbours) and a coil that may be outside.
+    /// The same of parameters, options of the integrator (the number of steps is bounded by the rule of
+    /// [`progress`], for each step of the neighbours) and a coil that may be outside.
     ///
     /// # Errors
     /// As [`SteppedWedge::starting`].
@@ -191,8 +192,8 @@ impl SteppedWedge {
     /// One step: within `duration` (s) the neighbours go from where they are to `end`.
     ///
     /// # Errors
-    /// A duration that is not positive, values that are not finite; or the integrator cannot go on: the wedge then takes no
-    /// further step until a state is restored.
+    /// A duration that is not positive, values that are not finite; or the integrator cannot go on: the wedge
+    /// then takes no further step until a state is restored.
     pub fn step(&mut self, end: &Neighbours, duration: f64) -> Result<(), SteppingError> {
         self.step_to(end, self.time() + duration)
     }

@@ -15,7 +15,8 @@ pub const STEPPED_STATE_VERSION: u32 = 1;
 /// More bytes than these are no saved state, and are not read: states take some kilobytes.
 pub const MOST_STATE_BYTES: usize = input::limits::RECORD_FILE as usize;
 
-/// All that is needed to continue a driven wedge with the same bits, also in another process and on another machine.
+/// All that is needed to continue a driven wedge with the same bits, also in another process and on another
+/// machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SteppedState {
@@ -75,8 +76,8 @@ impl SteppedState {
         serde_json::from_slice(bytes).map_err(damaged)
     }
 
-    /// Whether places, coil, friction, time and contact states can be those of a wedge; what else the integrator has is looked at by
-    /// the integrator.
+    /// Whether places, coil, friction, time and contact states can be those of a wedge; what else the
+    /// integrator has is looked at by the integrator.
     pub(super) fn check(&self) -> Result<(), SteppingError> {
         check_neighbours(&self.neighbours)?;
         check_coil(&self.coil)?;
@@ -93,7 +94,8 @@ impl SteppedState {
     }
 }
 
-/// A number for parameters and options; motions and coefficients of friction do not count, since a caller gives them.
+/// A number for parameters and options; motions and coefficients of friction do not count, since a caller
+/// gives them.
 pub(super) fn fingerprint(parameters: &Parameters, options: &Options) -> u64 {
     let mut still = parameters.clone();
     for neighbour in [&mut still.side_frame, &mut still.bolster] {

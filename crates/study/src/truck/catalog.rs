@@ -1,9 +1,9 @@
-//! The runs of the thesis's table 4-1 with the comparison program's half-truck: two types of wedge, two dampings, three toes,
-//! without and with yaw.
+//! The runs of the thesis's table 4-1 with the comparison program's half-truck: two types of wedge, two
+//! dampings, three toes, without and with yaw.
 //!
-//! Eight of them have printed files (toe out); the others are made from these by their toe: type 6.8 by its flag, type 6.9
-//! by the face of the column (none: flat; in: the printed one inverted). A zero toe takes the toe-out branch, so that type
-//! 6.8, which has no angle, gives the same forces for no toe and for toe out.
+//! Eight of them have printed files (toe out); the others are made from these by their toe: type 6.8 by its
+//! flag, type 6.9 by the face of the column (none: flat; in: the printed one inverted). A zero toe takes the
+//! toe-out branch, so that type 6.8, which has no angle, gives the same forces for no toe and for toe out.
 
 use nucars::builtin;
 use nucars::read::{read_data, read_input, read_system};

@@ -183,7 +183,8 @@ pub fn case(name: &str, title: &str, files: Files<'_>, settings: &Settings) -> R
     })
 }
 
-/// The run of a run file, read from `path`, and what belongs to it. Errors in the files are for the caller to refuse.
+/// The run of a run file, read from `path`, and what belongs to it. Errors in the files are for the caller to
+/// refuse.
 ///
 /// # Errors
 /// What [`FilesError`] names.

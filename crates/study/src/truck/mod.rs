@@ -1,7 +1,8 @@
 //! Runs of the half-truck of the comparison program's files.
 //!
-//! [`catalog`] lists the thesis's runs, [`files`] makes a run of any files, with single values [`mod@set`] over them. [`TruckCase`] is a model made from files with what a run needs besides, [`run`](run::run) runs it, [`requests`] holds what a
-//! data file asks for, and [`TruckResult`] what came out.
+//! [`catalog`] lists the thesis's runs, [`files`] makes a run of any files, with single values [`mod@set`]
+//! over them. [`TruckCase`] is a model made from files with what a run needs besides, [`run`](run::run) runs
+//! it, [`requests`] holds what a data file asks for, and [`TruckResult`] what came out.
 
 pub mod catalog;
 pub mod columns;
@@ -124,7 +125,8 @@ pub struct TruckSummary {
     pub largest_residual: SummaryValue,
     /// The first output time with this residual, s.
     pub largest_residual_time: f64,
-    /// The measure of how well the ledger closes: [`mechanics::energy_balance::relative_residual`] of the largest residual.
+    /// The measure of how well the ledger closes: [`mechanics::energy_balance::relative_residual`] of the
+    /// largest residual.
     pub largest_relative_residual: f64,
     /// Steps and calls of the integrator.
     pub statistics: Statistics,
@@ -137,7 +139,8 @@ pub struct TruckSummary {
 /// A wedge's averages.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct WedgeSummary {
-    /// Friction energy at the column per cycle of the vertical input, over whole cycles after the first half period.
+    /// Friction energy at the column per cycle of the vertical input, over whole cycles after the first half
+    /// period.
     pub energy_per_cycle: Option<SummaryValue>,
     /// Mean of the column's friction on the side frame (positive up) while the bolster goes up.
     pub up: Option<SummaryValue>,

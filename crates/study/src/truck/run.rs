@@ -36,7 +36,8 @@ pub fn start(system: &mut System, start: TruckStart) -> Result<Vec<f64>, NoEquil
     }
 }
 
-/// Runs a half-truck to its end. Returns the results; a run that cannot go on has incomplete results with the reason.
+/// Runs a half-truck to its end. Returns the results; a run that cannot go on has incomplete results with the
+/// reason.
 ///
 /// # Errors
 /// The run cannot begin.
@@ -275,8 +276,8 @@ pub(crate) fn cycle(case: &TruckCase) -> Option<Cycle> {
     }
 }
 
-/// The work of each wedge's friction at the column over whole cycles, taken step by step from the dense output (Simpson's rule):
-/// the input springs ring, which rows would miss.
+/// The work of each wedge's friction at the column over whole cycles, taken step by step from the dense
+/// output (Simpson's rule): the input springs ring, which rows would miss.
 struct Works {
     window: Option<(f64, f64, u32)>,
     wedges: Vec<usize>,

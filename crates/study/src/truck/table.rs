@@ -1,7 +1,7 @@
 //! The columns of a half-truck's results.
 //!
-//! Always there: time, the vertical input, every wedge, the bodies' displacements, the energies. Forces of connections are those of the files: positive in
-//! extension, on body A they act against the stroke.
+//! Always there: time, the vertical input, every wedge, the bodies' displacements, the energies. Forces of
+//! connections are those of the files: positive in extension, on body A they act against the stroke.
 
 use mechanics::body::COORDINATES;
 use mechanics::motion::Motion;
@@ -71,7 +71,8 @@ impl Table {
         table
     }
 
-    /// Appends the values of all columns (SI) at one instant; `start_energy` is the stored energy at the start, J.
+    /// Appends the values of all columns (SI) at one instant; `start_energy` is the stored energy at the
+    /// start, J.
     pub fn read(&self, seen: &Observation, start_energy: f64, out: &mut Vec<f64>) {
         out.extend(self.values.iter().map(|value| value(seen, start_energy)));
     }

@@ -63,8 +63,8 @@ pub fn column(result: &RunResult, name: &str, unit: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Branch means of the vertical wedge force (up, down) in lbf, and the energy per cycle at the side frame in lbf·in,
-/// as the summary has them.
+/// Branch means of the vertical wedge force (up, down) in lbf, and the energy per cycle at the side frame in
+/// lbf·in, as the summary has them.
 pub fn averages(result: &RunResult) -> [f64; 3] {
     let averages = &result.summary.averages;
     let force = |means: &BTreeMap<String, study::summary::SummaryValue>| {

@@ -4,7 +4,8 @@ use study::design::{DIMENSIONS, LatinHypercube, Sobol, Value};
 
 use super::common::{HEAD, study};
 
-/// SciPy 1.17, `scipy.stats.qmc.Sobol(21, scramble=False, bits=52)`: dimensions 0, 1, 2, 5, 12, 20 of some points.
+/// SciPy 1.17, `scipy.stats.qmc.Sobol(21, scramble=False, bits=52)`: dimensions 0, 1, 2, 5, 12, 20 of some
+/// points.
 const SCIPY: [(u64, [f64; 6]); 7] = [
     (1, [0.5, 0.5, 0.5, 0.5, 0.5, 0.5]),
     (2, [0.75, 0.25, 0.25, 0.75, 0.25, 0.25]),
@@ -50,8 +51,8 @@ fn cross_code_sobol_points_are_those_of_scipy() {
     }
 }
 
-/// Joe and Kuo's property A: of the first 2^d points each of the 2^d octants has one, for d up to their dimensions that have it;
-/// and every dimension alone is evenly filled, shifted or not.
+/// Joe and Kuo's property A: of the first 2^d points each of the 2^d octants has one, for d up to their
+/// dimensions that have it; and every dimension alone is evenly filled, shifted or not.
 #[test]
 fn analytic_sobol_points_fill_evenly() {
     for seed in [None, Some(7)] {
@@ -95,7 +96,8 @@ fn analytic_a_latin_hypercube_has_each_part_once_in_each_dimension() {
     }
 }
 
-/// The correlation of two dimensions of n points has a standard deviation of 1/√(n-1) if they are independent.
+/// The correlation of two dimensions of n points has a standard deviation of 1/√(n-1) if they are
+/// independent.
 #[test]
 fn analytic_dimensions_of_a_latin_hypercube_are_not_correlated() {
     const RUNS: u64 = 2000;

@@ -84,8 +84,8 @@ fn limits_measures_are_those_of_the_summary() {
                 same(&format!("peak_{side}_{axis}_moment"), Some(peak));
             }
         }
-        // Shares and times by the rows of the table: a wedge that hangs free rattles with 400 Hz, so that rows each 0.01 s would see
-        // contacts too seldom.
+        // Shares and times by the rows of the table: a wedge that hangs free rattles with 400 Hz, so that
+        // rows each 0.01 s would see contacts too seldom.
         for face in ["column", "slope"] {
             let states: Vec<&[f64]> = ["lower_right", "lower_left", "upper_right", "upper_left"]
                 .map(|corner| result.column(&format!("{face}_{corner}_state")).unwrap())

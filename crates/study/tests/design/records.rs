@@ -169,7 +169,8 @@ fn limits_variants_have_the_same_records_in_any_order() {
     }
 }
 
-/// A variant whose energy ledger does not close to 1e-2 is a record of its own kind: with its reason, and with its measures.
+/// A variant whose energy ledger does not close to 1e-2 is a record of its own kind: with its reason, and
+/// with its measures.
 #[test]
 fn energy_a_variant_whose_ledger_does_not_close_has_failed_and_keeps_its_measures() {
     let study = study(

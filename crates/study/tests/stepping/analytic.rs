@@ -138,8 +138,8 @@ fn slopes(reading: &Reading<Dual<1>>) -> Vec<f64> {
     out
 }
 
-/// Every directional derivative of rates and readings against central differences, by each state and each coordinate of
-/// the neighbours.
+/// Every directional derivative of rates and readings against central differences, by each state and each
+/// coordinate of the neighbours.
 #[test]
 fn derivatives_along_directions_are_those_of_the_rates_and_forces() {
     for overrides in [

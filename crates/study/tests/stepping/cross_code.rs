@@ -6,7 +6,8 @@ use study::stepping::SteppedWedge;
 
 use crate::common::{YAWED, case, place};
 
-/// Energy per cycle and branch means of the vertical wedge force (up, down), from rows of (time, bolster, rate, force, loss).
+/// Energy per cycle and branch means of the vertical wedge force (up, down), from rows of (time, bolster,
+/// rate, force, loss).
 fn averages(case: &study::case::Case, rows: &[[f64; 5]]) -> [f64; 3] {
     let cycle = Cycle::of(&case.parameters).unwrap();
     let (start, end, cycles) = cycle.window(case.simulation.duration).unwrap();
@@ -62,7 +63,8 @@ fn rows_of_steps(case: &study::case::Case, step: f64, rates: bool) -> Vec<[f64; 
         if number % every == 0 {
             let bolster = wedge.neighbours().bolster;
             let evaluation = wedge.evaluation();
-            // Column friction as it acts on the side frame: with no toe t2 is vertical; with toe it is the row's column.
+            // Column friction as it acts on the side frame: with no toe t2 is vertical; with toe it is the
+            // row's column.
             let _ = evaluation;
             let row = wedge.row();
             let columns = wedge.columns();

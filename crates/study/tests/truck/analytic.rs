@@ -1,5 +1,5 @@
-//! Static balance, rest, natural frequencies and yaw of the printed half-truck, against hand calculations with the numbers of
-//! its files (lb, in).
+//! Static balance, rest, natural frequencies and yaw of the printed half-truck, against hand calculations
+//! with the numbers of its files (lb, in).
 #![allow(clippy::unwrap_used)]
 
 use integrate::Problem;
@@ -94,8 +94,8 @@ fn the_variably_damped_truck_hangs_on_its_input_springs() {
 /// Eight springs and four coils of 3000 lb/in, between bolster and side frames, lb/in.
 const VARIABLE_PLAIN: f64 = 36_000.0;
 
-/// The same with an inclined column, 0.0034907 in/in out, without friction: the rise r = -s tan φ / tan θ takes from the coil's
-/// stroke, and the column's normal force N = F cos θ / sin(θ + φ) pushes by -N sin φ.
+/// The same with an inclined column, 0.0034907 in/in out, without friction: the rise r = -s tan φ / tan θ
+/// takes from the coil's stroke, and the column's normal force N = F cos θ / sin(θ + φ) pushes by -N sin φ.
 fn variable_with_toe() -> f64 {
     let (theta, phi) = (32.0_f64.to_radians(), 0.003_490_7_f64.atan());
     let stroke = 1.0 - phi.tan() / theta.tan();
@@ -183,8 +183,9 @@ fn without_wedges(name: &str) -> System {
     System::new(model).unwrap()
 }
 
-/// Surfaces stick as bristles, wedges slide (vertical and lateral) or are left out (longitudinal, yaw): a sliding wedge of type
-/// 6.9 adds to the longitudinal stiffness, because its normal force goes with the gap, by up to 0.7 % of the frequency of yaw.
+/// Surfaces stick as bristles, wedges slide (vertical and lateral) or are left out (longitudinal, yaw): a
+/// sliding wedge of type 6.9 adds to the longitudinal stiffness, because its normal force goes with the gap,
+/// by up to 0.7 % of the frequency of yaw.
 #[test]
 fn the_other_frequencies() {
     for (name, yaw, longitudinal) in [
@@ -246,8 +247,8 @@ fn solve(mut matrix: Vec<f64>, mut b: Vec<f64>) -> Vec<f64> {
     (0..n).map(|i| b[i] / matrix[i * n + i]).collect()
 }
 
-/// The body's yaw, rad, where 0.012 rad are commanded through 1e6 in-lb/rad: the linear system about the drawn layout,
-/// without wedges (sliding ones of type 6.9 take another 2 %).
+/// The body's yaw, rad, where 0.012 rad are commanded through 1e6 in-lb/rad: the linear system about the
+/// drawn layout, without wedges (sliding ones of type 6.9 take another 2 %).
 fn linear_yaw(name: &str, held: Held) -> f64 {
     let mut system = without_wedges(name);
     let x = compressed(&system);
@@ -258,9 +259,10 @@ fn linear_yaw(name: &str, held: Held) -> f64 {
     solve(stiffness, moments)[yaw]
 }
 
-/// Where side frames stick to their bearings, the stiff longitudinal connections of the 6.8 files (1e6 lb/in) hold the bolster
-/// besides the input springs: 2.1e-6 rad; else, and with 6.9, the input springs alone: 0.012 / (2 * 39.5^2 + 1) = 3.8e-6 rad. The bearings
-/// carry little with variable damping, so that side frames slip in a run, and the mean of its yaw lies between.
+/// Where side frames stick to their bearings, the stiff longitudinal connections of the 6.8 files (1e6 lb/in)
+/// hold the bolster besides the input springs: 2.1e-6 rad; else, and with 6.9, the input springs alone: 0.012
+/// / (2 * 39.5^2 + 1) = 3.8e-6 rad. The bearings carry little with variable damping, so that side frames slip
+/// in a run, and the mean of its yaw lies between.
 #[test]
 fn the_printed_yaw_input_hardly_yaws() {
     for (wedges, damping, expected) in [
@@ -307,7 +309,8 @@ fn yaw_at_rest(name: &str) -> f64 {
     held[system.position_of(BODY, 5).unwrap()]
 }
 
-/// The yaw as intended reaches its command but for the springs' share: 1e10 in-lb/rad against those of the suspension.
+/// The yaw as intended reaches its command but for the springs' share: 1e10 in-lb/rad against those of the
+/// suspension.
 #[test]
 fn the_intended_yaw_is_reached() {
     for name in [

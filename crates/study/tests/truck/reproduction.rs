@@ -8,7 +8,8 @@ use study::truck::run::run;
 
 use crate::common::{INCH, POUND_INCH, case};
 
-/// Cycles of the input, from the first loading on: energy at the column (lbf in), lowest and highest stroke (in).
+/// Cycles of the input, from the first loading on: energy at the column (lbf in), lowest and highest stroke
+/// (in).
 fn cycles(result: &TruckResult, number: u32) -> Vec<[f64; 3]> {
     let column = |what: &str| result.column(&format!("wedge_{number}_{what}")).unwrap();
     let (friction, stroke) = (column("column_friction"), column("stroke"));
@@ -50,11 +51,12 @@ fn both(angle: f64, toe: f64) -> f64 {
 
 /// Wedges in the truck turn out the energy of the element alone under their own stroke.
 ///
-/// The driven bolster moves by 1 in; input springs (3e6 lb/in), suspension and bearings (4e6 lb/in) change the stroke between
-/// bolster and side frames: constant damping 1.935 in instead of 2 in, variable damping down to -1.049 in instead of -1 in,
-/// because the bolster hangs 0.0402 in low and the side frames stand 0.0302 in high. So a cycle takes 6428 (6.8) and
-/// 6399 lbf in (6.9) instead of 6655 and 6626, and 1817 and 1797 instead of 1656 and 1646. In the first cycle the input
-/// springs still ring from the start, and with variable damping that takes 9 % more.
+/// The driven bolster moves by 1 in; input springs (3e6 lb/in), suspension and bearings (4e6 lb/in) change
+/// the stroke between bolster and side frames: constant damping 1.935 in instead of 2 in, variable damping
+/// down to -1.049 in instead of -1 in, because the bolster hangs 0.0402 in low and the side frames stand
+/// 0.0302 in high. So a cycle takes 6428 (6.8) and 6399 lbf in (6.9) instead of 6655 and 6626, and 1817 and
+/// 1797 instead of 1656 and 1646. In the first cycle the input springs still ring from the start, and with
+/// variable damping that takes 9 % more.
 #[test]
 fn energy_a_cycle_is_that_of_the_element_under_the_actual_stroke() {
     for (name, angle, toe, constant) in [
@@ -72,8 +74,8 @@ fn energy_a_cycle_is_that_of_the_element_under_the_actual_stroke() {
                 let force = both(angle, toe) * 3702.2;
                 force * (high - low - force / 1e6)
             } else {
-                // Half of friction over the loaded stroke, less the corner that the accumulator cuts; with a toe the
-                // rise of the wedge takes tan φ / tan θ from the coil's stroke.
+                // Half of friction over the loaded stroke, less the corner that the accumulator cuts; with a
+                // toe the rise of the wedge takes tan φ / tan θ from the coil's stroke.
                 let (theta, phi) = (f64::to_radians(angle), f64::to_radians(toe));
                 let force = both(angle, toe) * 3000.0 * -low * (1.0 - phi.tan() / theta.tan());
                 0.5 * force * -low - 0.5 * force * force / 1e6
@@ -113,7 +115,8 @@ fn energy_a_cycle_does_not_depend_on_the_rows() {
     assert!((coarse - fine).abs() < 1e-9 * fine, "{coarse} {fine}");
 }
 
-/// Friction while the bolster goes through its middle, constant damping, against the balance of the massless wedge.
+/// Friction while the bolster goes through its middle, constant damping, against the balance of the massless
+/// wedge.
 #[test]
 fn forces_of_constant_damping_are_those_of_the_element() {
     let normal = |phi: f64, down: f64| {

@@ -1,10 +1,10 @@
-//! The functions of FMI 2.0, in the order of the standard's header: here those of both interfaces, in [`model_exchange`] and
-//! [`co_simulation`] those of one.
+//! The functions of FMI 2.0, in the order of the standard's header: here those of both interfaces, in
+//! [`model_exchange`] and [`co_simulation`] those of one.
 //!
 //! # Safety
-//! All functions share the standard's contract: a component comes from [`fmi2Instantiate`] and has not been freed, a pointer to an array
-//! points to as many values as the call says, strings end with a zero byte, and no component is used by two threads at once.
-//! Null pointers are refused.
+//! All functions share the standard's contract: a component comes from [`fmi2Instantiate`] and has not been
+//! freed, a pointer to an array points to as many values as the call says, strings end with a zero byte, and
+//! no component is used by two threads at once. Null pointers are refused.
 #![allow(clippy::missing_safety_doc)]
 
 pub mod co_simulation;

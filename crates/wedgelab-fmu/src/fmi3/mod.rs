@@ -1,10 +1,12 @@
-//! The functions of FMI 3.0, in the order of the standard's header; those of model exchange alone are in [`model_exchange`], those that only
-//! clocks, scheduled execution and other types of variables need in [`others`].
+//! The functions of FMI 3.0, in the order of the standard's header; those of model exchange alone are in
+//! [`model_exchange`], those that only clocks, scheduled execution and other types of variables need in
+//! [`others`].
 //!
 //! # Safety
 //! All functions share the standard's contract: an instance comes from [`fmi3InstantiateModelExchange`] or
-//! [`fmi3InstantiateCoSimulation`] and has not been freed, a pointer to an array points to as many values as the call says, strings
-//! end with a zero byte, and no instance is used by two threads at once. Null pointers are refused.
+//! [`fmi3InstantiateCoSimulation`] and has not been freed, a pointer to an array points to as many values as
+//! the call says, strings end with a zero byte, and no instance is used by two threads at once. Null pointers
+//! are refused.
 #![allow(clippy::missing_safety_doc)]
 
 pub mod model_exchange;

@@ -1,5 +1,6 @@
-//! Issue 29: whatever an FMU refuses is told to the importer's logger, with the name of the function and a reason; also while logging is
-//! switched off. Every exported function is called in every phase, rightly and wrongly.
+//! Issue 29: whatever an FMU refuses is told to the importer's logger, with the name of the function and a
+//! reason; also while logging is switched off. Every exported function is called in every phase, rightly and
+//! wrongly.
 #![allow(missing_docs, clippy::unwrap_used, clippy::undocumented_unsafe_blocks)]
 
 mod instantiation;
@@ -70,7 +71,8 @@ fn issue_029_every_exported_function_is_guarded_and_known_to_these_tests() {
     }
 }
 
-/// Tests of instances run one after the other: an instance may come to lie where a freed one of another test was.
+/// Tests of instances run one after the other: an instance may come to lie where a freed one of another test
+/// was.
 static ALONE: Mutex<()> = Mutex::new(());
 
 /// The messages of an importer's log: status, category, text.
@@ -159,7 +161,8 @@ struct Row {
     calls: Vec<(&'static str, Call)>,
 }
 
-/// `row!(function: "about" => |instance| call, ...)`; those about which is begun with `!` must be refused wherever they are made.
+/// `row!(function: "about" => |instance| call, ...)`; those about which is begun with `!` must be refused
+/// wherever they are made.
 macro_rules! row {
     ($name:ident: $($about:literal => |$instance:ident| $call:expr),+ $(,)?) => {
         crate::Row {
@@ -200,7 +203,8 @@ impl Driver<'_> {
         assert_eq!(own, exported);
     }
 
-    /// Makes all calls on an instance in some phase, from which it starts again after each; how many were refused, by function.
+    /// Makes all calls on an instance in some phase, from which it starts again after each; how many were
+    /// refused, by function.
     fn drive(&self, instance: *mut c_void, phase: &str, refused: &mut BTreeSet<&'static str>) {
         let here = (self.save)(instance);
         assert!(!here.is_null());

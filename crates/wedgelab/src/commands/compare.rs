@@ -15,9 +15,10 @@ use crate::table::Table;
 
 /// Compare results: overlay figures and a table of differences
 ///
-/// Compares results with the first of them: those of runs (the folder or its result.csv) and other CSV files with columns of
-/// the same names, such as time_s, wedge_x_in. Other units are converted and other times interpolated; both are said.
-/// Prints the differences, and writes them as differences.csv with a figure for each column and the hysteresis loops.
+/// Compares results with the first of them: those of runs (the folder or its result.csv) and other CSV files
+/// with columns of the same names, such as time_s, wedge_x_in. Other units are converted and other times
+/// interpolated; both are said. Prints the differences, and writes them as differences.csv with a figure for
+/// each column and the hysteresis loops.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

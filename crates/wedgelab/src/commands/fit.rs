@@ -38,11 +38,11 @@ const INDEPENDENT: f64 = 1.0;
 
 /// Find parameters of a case from a measured force-displacement loop
 ///
-/// Takes a CSV file with the columns time_s, a force such as vertical_wedge_force_lbf, and perhaps bolster_vertical_in, and
-/// finds the values of free parameters between bounds with which the case's run comes nearest to it (least squares).
-/// Prints them with confidence intervals, and writes fit.json, the case with the values found, and a figure of loop and
-/// residuals. The case may be a half-truck: then --column names the force (wedge_127_column_friction), and parameters are those of
-/// `wedgelab nucars run --set`.
+/// Takes a CSV file with the columns time_s, a force such as vertical_wedge_force_lbf, and perhaps
+/// bolster_vertical_in, and finds the values of free parameters between bounds with which the case's run
+/// comes nearest to it (least squares). Prints them with confidence intervals, and writes fit.json, the case
+/// with the values found, and a figure of loop and residuals. The case may be a half-truck: then --column
+/// names the force (wedge_127_column_friction), and parameters are those of `wedgelab nucars run --set`.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -60,7 +60,8 @@ pub struct Arguments {
     /// Parameters to be found, between bounds
     #[arg(long, value_name = "PATH=LOW..HIGH", num_args = 1.., required = true)]
     free: Vec<String>,
-    /// Column with the measured force [default: the first force on a wedge's side frame or bolster that the file has]
+    /// Column with the measured force
+    /// [default: the first force on a wedge's side frame or bolster that the file has]
     #[arg(long, value_name = "NAME")]
     column: Option<String>,
     /// Move the bolster as measured (column bolster_vertical), not as the case says

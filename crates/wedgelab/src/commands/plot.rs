@@ -15,8 +15,9 @@ use crate::interrupt;
 
 /// Draw any column of a result over any other
 ///
-/// Takes the result of a run (its folder or its result.csv) or another CSV file with columns such as time_s, wedge_x_in, and
-/// writes an SVG or PNG file. Several columns with one unit share their axes; each unit has its own.
+/// Takes the result of a run (its folder or its result.csv) or another CSV file with columns such as time_s,
+/// wedge_x_in, and writes an SVG or PNG file. Several columns with one unit share their axes; each unit has
+/// its own.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

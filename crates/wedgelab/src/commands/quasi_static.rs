@@ -13,9 +13,10 @@ use crate::table::Table;
 
 /// Forces of the massless wedge in steady sliding, and its jam margin
 ///
-/// Solves the balance of forces of a wedge without mass (Steets 2007, eq. 5-1, derived anew) for both directions of the
-/// bolster and both directions of the slope's friction. Where the jam margin is not positive there is no steady
-/// sliding: the wedge jams. The defaults are the thesis's with variable damping, its coil compressed by 1 in.
+/// Solves the balance of forces of a wedge without mass (Steets 2007, eq. 5-1, derived anew) for both
+/// directions of the bolster and both directions of the slope's friction. Where the jam margin is not
+/// positive there is no steady sliding: the wedge jams. The defaults are the thesis's with variable damping,
+/// its coil compressed by 1 in.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

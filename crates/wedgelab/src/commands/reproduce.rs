@@ -34,10 +34,10 @@ const USUAL: &str = "reproduction";
 
 /// Run all built-in cases and tell them in a report
 ///
-/// Computes the twelve runs of Steets (2007), table 4-1 (variable and constant damping, toe out, none and in, with and
-/// without yaw of the bolster), and the cases beyond the thesis. Writes the report index.html, its statements with verdicts
-/// claims.json, each figure as SVG and PNG, and for each run runs/NAME/result.csv, result.mat, case.toml and
-/// summary.json; prints a table of the runs. Without --only the half-truck of the
+/// Computes the twelve runs of Steets (2007), table 4-1 (variable and constant damping, toe out, none and in,
+/// with and without yaw of the bolster), and the cases beyond the thesis. Writes the report index.html, its
+/// statements with verdicts claims.json, each figure as SVG and PNG, and for each run runs/NAME/result.csv,
+/// result.mat, case.toml and summary.json; prints a table of the runs. Without --only the half-truck of the
 /// comparison program's files is run too (28 runs: result.csv and summary.json), and the report compares.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
@@ -182,8 +182,8 @@ fn is_of_thesis(case: &Case) -> bool {
 
 /// Writes all figures as pictures and drawings; gives the drawings.
 ///
-/// A picture is written as soon as it is painted, and nothing of it is kept: its pixels need a hundred times the memory of
-/// its drawing.
+/// A picture is written as soon as it is painted, and nothing of it is kept: its pixels need a hundred times
+/// the memory of its drawing.
 fn draw(exhibits: &[&Exhibit], folder: &Folder) -> Result<Vec<String>, Failure> {
     let mut svgs = Vec::new();
     folder.write(|files| {

@@ -18,9 +18,9 @@ use crate::progress::Progress;
 
 /// Run one case
 ///
-/// Runs a case file and writes result.csv (the time histories), result.mat (the same under the thesis's names), case.toml
-/// (the case, completed) and summary.json (averages, extremes, events, energy ledger, solver statistics, assumptions)
-/// into a folder named as the case.
+/// Runs a case file and writes result.csv (the time histories), result.mat (the same under the thesis's
+/// names), case.toml (the case, completed) and summary.json (averages, extremes, events, energy ledger,
+/// solver statistics, assumptions) into a folder named as the case.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

@@ -20,11 +20,12 @@ use crate::interrupt;
 
 /// Run many variants of a case
 ///
-/// Reads a study file (TOML): a case, and parameters to vary as full factorial, Latin hypercube, Sobol' sequence or list.
-/// Computes the measures of every variant (energies per cycle, equivalent damping and stiffness, branch forces, peak moments,
-/// lift-off time, stick share, jam margin, wear power) and writes table.parquet, with units in its metadata, and index.html
-/// (main effects, contour maps, jam map). A study that was ended or killed goes on where it was when the command is
-/// given again; the table does not depend on that, nor on the number of jobs.
+/// Reads a study file (TOML): a case, and parameters to vary as full factorial, Latin hypercube, Sobol'
+/// sequence or list. Computes the measures of every variant (energies per cycle, equivalent damping and
+/// stiffness, branch forces, peak moments, lift-off time, stick share, jam margin, wear power) and writes
+/// table.parquet, with units in its metadata, and index.html (main effects, contour maps, jam map). A study
+/// that was ended or killed goes on where it was when the command is given again; the table does not depend
+/// on that, nor on the number of jobs.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

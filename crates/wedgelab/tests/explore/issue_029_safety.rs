@@ -1,5 +1,5 @@
-//! What anyone who can reach the server can do: nothing without the token, and with it nothing that the owner would
-//! rue.
+//! What anyone who can reach the server can do: nothing without the token, and with it nothing that the owner
+//! would rue.
 
 use std::fs;
 use std::io::{Read, Write};

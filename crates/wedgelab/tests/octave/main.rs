@@ -1,7 +1,8 @@
-//! Cross-code: Octave and SciPy read `result.mat` to the bit, and the plotting scripts draw our curves in Octave.
+//! Cross-code: Octave and SciPy read `result.mat` to the bit, and the plotting scripts draw our curves in
+//! Octave.
 //!
-//! What is expected is taken from `result.csv` and written anew from the thesis's appendices D and E: which column over
-//! which, which rows, which limits.
+//! What is expected is taken from `result.csv` and written anew from the thesis's appendices D and E: which
+//! column over which, which rows, which limits.
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 

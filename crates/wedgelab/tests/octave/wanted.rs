@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::runs::{Csv, NAMES};
 
-/// What a figure is to show: of these runs one column over another (with an offset), these rows (counted from one),
-/// these limits.
+/// What a figure is to show: of these runs one column over another (with an offset), these rows (counted from
+/// one), these limits.
 pub struct Wanted {
     pub runs: Vec<String>,
     pub labels: Vec<&'static str>,

@@ -27,7 +27,8 @@ fn kill_after(folder: &Path, arguments: &[&str], milliseconds: u64) -> bool {
     working
 }
 
-/// Kills until it has been killed at work so often, each time at another moment, and never loses what was there.
+/// Kills until it has been killed at work so often, each time at another moment, and never loses what was
+/// there.
 fn kill_often(folder: &Path, study: &str, out: &str, often: u32, least: u64, span: u64) -> u32 {
     let (mut killed, mut random, mut before) = (0, 0x2545_f491_4f6c_dd1d_u64, 0);
     for _ in 0..often {
@@ -71,7 +72,8 @@ fn limits_killed_ten_times_it_has_the_table_of_an_undisturbed_study() {
     assert_eq!(names(&path.join("killed")), WHOLE, "nothing is left over");
 }
 
-/// Killed while Parquet is written, seen by the file that grows: twenty thousand rows, made up, so that it takes a while.
+/// Killed while Parquet is written, seen by the file that grows: twenty thousand rows, made up, so that it
+/// takes a while.
 #[test]
 fn limits_killed_while_the_table_is_written_it_writes_it_again() {
     const RUNS: u64 = 20_000;

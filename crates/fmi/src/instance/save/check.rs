@@ -1,4 +1,5 @@
-//! Whether a saved state can be one of an instance: all that could lead it astray is looked at before it is taken over.
+//! Whether a saved state can be one of an instance: all that could lead it astray is looked at before it is
+//! taken over.
 
 use std::fmt::Display;
 

@@ -1,9 +1,9 @@
 //! Cases beyond the thesis: what people who design, test and simulate trucks ask a wedge.
 //!
-//! They share what the thesis's runs have not: bristle friction, which holds; 10 lbf·s/in of damping a corner (5 % of
-//! critical for the wedge on a face), so that contacts do not ring; a start in equilibrium, with sines at 90° of phase, which
-//! begin at rest. Everything else is the thesis's wedge. Where numbers of a car or a track had to be assumed, the case's
-//! title says so.
+//! They share what the thesis's runs have not: bristle friction, which holds; 10 lbf·s/in of damping a corner
+//! (5 % of critical for the wedge on a face), so that contacts do not ring; a start in equilibrium, with
+//! sines at 90° of phase, which begin at rest. Everything else is the thesis's wedge. Where numbers of a car
+//! or a track had to be assumed, the case's title says so.
 
 use super::{BuiltIn, Group};
 
@@ -17,9 +17,10 @@ law = "bristle"
 
 /// Both dampings, with the height of the bolster about which it moves.
 ///
-/// A variably damped wedge carries load where the bolster lies below the place at which the control coil is just free:
-/// 2.4333 in on 3000 lbf/in are 7300 lbf. That, and 1350 lbf, are the ends of the range of side-spring forces in US patent
-/// 6,269,752 (2001), on wedges. With constant damping the height makes no difference.
+/// A variably damped wedge carries load where the bolster lies below the place at which the control coil is
+/// just free: 2.4333 in on 3000 lbf/in are 7300 lbf. That, and 1350 lbf, are the ends of the range of
+/// side-spring forces in US patent 6,269,752 (2001), on wedges. With constant damping the height makes no
+/// difference.
 const DAMPINGS: [(&str, &str); 2] = [("constant", "0 in"), ("variable", LOADED)];
 const LOADED: &str = "-2.4333 in";
 const EMPTY: &str = "-0.45 in";

@@ -27,7 +27,8 @@ pub struct Wanted {
     /// A built-in case; left out: the one the program was started with.
     #[serde(default)]
     pub preset: Option<String>,
-    /// Changes by path, as typed. Those of a table go before those of its keys: that is the order of their names.
+    /// Changes by path, as typed. Those of a table go before those of its keys: that is the order of their
+    /// names.
     #[serde(default)]
     pub set: BTreeMap<String, String>,
 }
@@ -367,7 +368,8 @@ fn finite(result: &RunResult) -> Result<(), Refused> {
     }
 }
 
-/// The mistakes, each with the field it is shown at: the one that was typed into, or else the one the message speaks of.
+/// The mistakes, each with the field it is shown at: the one that was typed into, or else the one the message
+/// speaks of.
 fn mistakes(error: &CaseError, set: &BTreeMap<String, String>, known: &[FieldSection]) -> Vec<Mistake> {
     let is_field = |path: &str| {
         set.contains_key(path)

@@ -1,7 +1,7 @@
 //! The case that changes are laid over: a file as it was when the program started, or a built-in case.
 //!
-//! Changes come from a page, so tables in files are read below the folder of the case file only, and none at all for
-//! a built-in case.
+//! Changes come from a page, so tables in files are read below the folder of the case file only, and none at
+//! all for a built-in case.
 
 use std::path::{Path, PathBuf};
 

@@ -1,8 +1,9 @@
-//! Which requests are answered: those that a page of this very server can make, or a person who typed its address.
+//! Which requests are answered: those that a page of this very server can make, or a person who typed its
+//! address.
 //!
-//! A server on 127.0.0.1 can be reached by every page that the same person has open, and by every user of the same
-//! machine. A foreign page cannot hide its origin, and one that made its own name point to 127.0.0.1 cannot hide that
-//! name; other users do not know the token.
+//! A server on 127.0.0.1 can be reached by every page that the same person has open, and by every user of the
+//! same machine. A foreign page cannot hide its origin, and one that made its own name point to 127.0.0.1
+//! cannot hide that name; other users do not know the token.
 
 use std::net::SocketAddr;
 

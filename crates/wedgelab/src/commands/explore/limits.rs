@@ -20,8 +20,8 @@ pub const HEAD: usize = 16 * 1024;
 pub const CONNECTIONS: usize = 64;
 /// Runs and files being made or sent at once; further ones wait.
 pub const ANSWERS: usize = 4;
-/// Stack of a thread that makes an answer, bytes: a reader that goes one level down for every byte of a text of
-/// [`TEXT`] bytes still finds room.
+/// Stack of a thread that makes an answer, bytes: a reader that goes one level down for every byte of a text
+/// of [`TEXT`] bytes still finds room.
 pub const STACK: usize = 32 * 1024 * 1024;
 
 /// How long clients are waited for.

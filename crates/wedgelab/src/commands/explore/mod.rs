@@ -30,9 +30,9 @@ const FIRST: &str = "vdrun_toe_0_psi_0";
 
 /// Change a case on a page and see its loop move
 ///
-/// Serves a page on this machine only (127.0.0.1) with a control for every value of the case; each change runs the case again
-/// and shows the new hysteresis loop over the earlier ones, with plots and the 3D view. Prints the address to open in a
-/// browser, with a secret that only you are shown; Ctrl-C stops it.
+/// Serves a page on this machine only (127.0.0.1) with a control for every value of the case; each change
+/// runs the case again and shows the new hysteresis loop over the earlier ones, with plots and the 3D view.
+/// Prints the address to open in a browser, with a secret that only you are shown; Ctrl-C stops it.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

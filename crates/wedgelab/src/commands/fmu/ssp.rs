@@ -14,8 +14,8 @@ use crate::failure::{Failure, Message};
 
 /// Write a truck with four wedges of a case as a system structure (SSP 1.0)
 ///
-/// The file holds the FMUs of wedge and truck (FMI 2.0), five components with all their connections, and the values of parameters, in SI units.
-/// It is an example of how wedges are put into a vehicle.
+/// The file holds the FMUs of wedge and truck (FMI 2.0), five components with all their connections, and the
+/// values of parameters, in SI units. It is an example of how wedges are put into a vehicle.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Example:

@@ -15,7 +15,8 @@ use crate::failure::Failure;
 
 /// Check, show and run files of NUCARS
 ///
-/// Reads the .SYS, .INP, .DAT and .RUN files of NUCARS, the vehicle dynamics program that the thesis compares with.
+/// Reads the .SYS, .INP, .DAT and .RUN files of NUCARS, the vehicle dynamics program that the thesis compares
+/// with.
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(subcommand)]

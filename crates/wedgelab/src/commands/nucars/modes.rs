@@ -19,10 +19,10 @@ use crate::table::Table;
 
 /// Print natural frequencies and shapes of a system
 ///
-/// Undamped small vibrations about the drawn layout, or about static equilibrium without friction, input bodies at rest. Where a
-/// characteristic has a kink, the piece of the larger strokes counts. Shapes are given as shares of kinetic energy in
-/// each body's coordinates, with the sign of the motion; shares below 3 % are left out. A negative number instead of a
-/// frequency is that of a motion that grows.
+/// Undamped small vibrations about the drawn layout, or about static equilibrium without friction, input
+/// bodies at rest. Where a characteristic has a kink, the piece of the larger strokes counts. Shapes are
+/// given as shares of kinetic energy in each body's coordinates, with the sign of the motion; shares below 3
+/// % are left out. A negative number instead of a frequency is that of a motion that grows.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

@@ -25,19 +25,20 @@ use crate::table::Table;
 
 /// Run a half-truck from its files
 ///
-/// Reads a run file with the files it names, and writes result.csv (the columns that the data file asks for, wedges, bodies,
-/// energies), result.mat (the same, and the array that the thesis's scripts load) and summary.json (averages of each
-/// wedge, energy ledger, yaw, assumptions) into a folder named as the run file. The run ends when the run file's stepping
-/// constants say. The runs of the thesis's table 4-1 are built in; --list names them.
+/// Reads a run file with the files it names, and writes result.csv (the columns that the data file asks for,
+/// wedges, bodies, energies), result.mat (the same, and the array that the thesis's scripts load) and
+/// summary.json (averages of each wedge, energy ledger, yaw, assumptions) into a folder named as the run
+/// file. The run ends when the run file's stepping constants say. The runs of the thesis's table 4-1 are
+/// built in; --list names them.
 ///
-/// What no public text says of the elements is an --option, with a default that the summary lists:
-/// bend (half_cosine, linear), speed (along the track), plain_toe_angle (column of types without an angle), branch
-/// (friction_force, or a reference speed), rise_in_slip (true, false), negative_rise (extend, stop), accumulator_damping (a
-/// factor), gap_tension (never, allowed).
+/// What no public text says of the elements is an --option, with a default that the summary lists: bend
+/// (half_cosine, linear), speed (along the track), plain_toe_angle (column of types without an angle), branch
+/// (friction_force, or a reference speed), rise_in_slip (true, false), negative_rise (extend, stop),
+/// accumulator_damping (a factor), gap_tension (never, allowed).
 ///
-/// --set lays single values over the files, by the numbers that these give: characteristic.301.column_friction, wedges.slope_friction
-/// (of all wedges), body.2.mass, connection.127.z, function.7.factor, history.1.frequency; simulation.duration and
-/// simulation.relative_tolerance.
+/// --set lays single values over the files, by the numbers that these give:
+/// characteristic.301.column_friction, wedges.slope_friction (of all wedges), body.2.mass, connection.127.z,
+/// function.7.factor, history.1.frequency; simulation.duration and simulation.relative_tolerance.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

@@ -1,4 +1,5 @@
-//! The time series of some runs of a study, whenever they are wanted: a variant is a function of the study and its number.
+//! The time series of some runs of a study, whenever they are wanted: a variant is a function of the study
+//! and its number.
 
 use std::io::{self, Write};
 use std::path::Path;
