@@ -20,6 +20,7 @@ pub mod link;
 pub mod motion;
 pub mod orientation;
 pub mod output;
+pub mod plausibility;
 pub mod quasi_static;
 pub mod spline;
 pub mod surface;

@@ -13,6 +13,7 @@ mod finite;
 pub mod fit;
 pub mod measures;
 pub mod metrics;
+pub mod plausibility;
 pub mod progress;
 pub mod records;
 pub mod result;

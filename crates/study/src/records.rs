@@ -18,7 +18,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use mechanics::energy_balance::{FAILED, Verdict};
 
 use crate::design::Study;
-use crate::measures::{COUNT, Measures, Unmeasured, measure, place};
+use crate::measures::{COUNT, Judged, Measures, Unmeasured, judge, place};
 
 const MAGIC: [u8; 4] = *b"WLR1";
 const HEAD: usize = 12;
@@ -38,7 +38,8 @@ pub enum Status {
     Refused,
     /// It stopped on its way.
     Stopped,
-    /// It came to its end, but its energy ledger does not close: it has measures, which are not to be used.
+    /// It came to its end, but its energy ledger does not close, or it is nonsense: it has measures, which are
+    /// not to be used.
     Failed,
 }
 
@@ -102,16 +103,16 @@ fn compute(study: &Study, number: u64) -> Record {
         let reasons: Vec<&str> = error.problems().iter().map(|problem| problem.message()).collect();
         Unmeasured::Refused(reasons.join("; "))
     });
-    record(number, case.and_then(|case| measure(&case)))
+    record(number, case.and_then(|case| judge(&case)))
 }
 
 /// What became of a variant as its record.
-fn record(number: u64, outcome: Result<Measures, Unmeasured>) -> Record {
+fn record(number: u64, outcome: Result<Judged, Unmeasured>) -> Record {
     let (status, reason, measures) = match outcome {
-        Ok(measures) => match measures.not_finite() {
-            None => match ledger(&measures) {
+        Ok(Judged { measures, nonsense }) => match measures.not_finite() {
+            None => match ledger(&measures).or(nonsense) {
                 None => (Status::Complete, String::new(), measures),
-                Some(reason) => (Status::Failed, reason, measures),
+                Some(reason) => (Status::Failed, shortened(reason), measures),
             },
             Some(name) => {
                 let reason = format!("`{name}` is not a finite number");

@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use integrate::{Family, Integrator, Options, SetupError, State};
 use mechanics::energy_balance::EnergyBalance;
 use mechanics::output::Column;
+use mechanics::plausibility::{Plausibility, PlausibilityRecord};
 use mechanics::system::{ContactState, EnergyTermKind, System};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -24,7 +25,7 @@ mod check;
 mod summarize;
 
 /// Version of [`RunState`].
-pub const RUN_STATE_VERSION: u32 = 2;
+pub const RUN_STATE_VERSION: u32 = 3;
 /// How many events are listed at most.
 pub const EVENT_CAP: usize = 500;
 
@@ -89,6 +90,8 @@ pub struct RunState {
     pub next_row: u64,
     /// What has been counted so far.
     pub counts: Counts,
+    /// What has been seen for the plausibility of the run.
+    pub plausibility: PlausibilityRecord,
 }
 
 /// What is counted along a run.
@@ -112,6 +115,8 @@ pub struct Counts {
     pub energy_balance: EnergyBalance,
     /// How far it has come, and with how many steps.
     pub pace: Pace,
+    /// Whether the case file gave no values.
+    pub nothing_given: bool,
 }
 
 /// A run under way.
@@ -123,6 +128,7 @@ pub struct Run {
     integrator: Integrator<System>,
     next_row: u64,
     counts: Counts,
+    plausibility: Plausibility,
     probe_times: Vec<f64>,
     values: Vec<Vec<f64>>,
     buffer: Vec<f64>,
@@ -148,9 +154,11 @@ impl Run {
             creep_speeds: vec![0.0; points],
             events: vec![[0; 4]; FACES.len()],
             energy_balance: EnergyBalance::new(start_energy),
+            nothing_given: case.nothing_given,
             ..Counts::default()
         };
-        let mut run = Self::assemble(case, wedge, integrator, counts, 0);
+        let plausibility = Plausibility::new(&mut wedge.system, 0.0, &start);
+        let mut run = Self::assemble(case, wedge, integrator, (counts, plausibility), 0);
         run.emit_rows(true)?;
         Ok(run)
     }
@@ -163,14 +171,17 @@ impl Run {
         if state.version != RUN_STATE_VERSION {
             return Err(RunError::Version { found: state.version });
         }
-        let wedge = Wedge::new(case.parameters.clone())?;
+        let mut wedge = Wedge::new(case.parameters.clone())?;
         state.check(case, wedge.system.point_count())?;
+        let start = &wedge.initial_state;
+        let plausibility = Plausibility::resume(&mut wedge.system, 0.0, start, state.plausibility);
+        let plausibility = plausibility.ok_or_else(check::implausible)?;
         let integrator = Integrator::resume(wedge.system.clone(), options(case), state.integrator)?;
         Ok(Self::assemble(
             case,
             wedge,
             integrator,
-            state.counts,
+            (state.counts, plausibility),
             state.next_row,
         ))
     }
@@ -179,7 +190,7 @@ impl Run {
         case: &Case,
         wedge: Wedge,
         integrator: Integrator<System>,
-        counts: Counts,
+        (counts, plausibility): (Counts, Plausibility),
         next_row: u64,
     ) -> Self {
         let outputs = Outputs::new(&wedge.parameters);
@@ -198,6 +209,7 @@ impl Run {
             integrator,
             next_row,
             counts,
+            plausibility,
         }
     }
 
@@ -227,6 +239,7 @@ impl Run {
             integrator: self.integrator.state(),
             next_row: self.next_row,
             counts: self.counts.clone(),
+            plausibility: self.plausibility.record().clone(),
         }
     }
 
@@ -453,6 +466,9 @@ impl Run {
                 column.push(*value);
             }
             self.counts.energy_balance.note(time, &ledger.entries());
+            if !first {
+                self.plausibility.note(&mut self.wedge.system, time, &self.buffer);
+            }
             self.next_row += 1;
         }
         Ok(())

@@ -262,3 +262,33 @@ fn input_free_parameters() {
     };
     assert!(fit(&case, &short, &few, 0.95, &|_, _| Vec::new()).is_err());
 }
+
+/// The friction that made the course lies beyond the range: the fit ends at the bound, and says so.
+#[test]
+fn limits_a_parameter_at_its_bound_is_a_warning() {
+    let times: Vec<f64> = (20..=60).map(|row| 0.004 * f64::from(row)).collect();
+    let beyond = case(&["friction.column=0.45".to_owned()]).unwrap();
+    let measured = Measured {
+        values: course(&beyond, "vertical_wedge_force", &times).unwrap(),
+        times,
+        column: "vertical_wedge_force".to_owned(),
+    };
+    let warned = |range: &str| {
+        let free = [Free::parse(&format!("friction.column={range}")).unwrap()];
+        let found = fit(&case, &measured, &free, 0.95, &|count, one| {
+            (0..count).map(one).collect()
+        });
+        found.unwrap().warnings
+    };
+    let text = "the fitted friction.column ends at its bound, 0.4,";
+    let at_bound = warned("0.3..0.4");
+    assert!(
+        at_bound.iter().any(|warning| warning.contains(text)),
+        "{at_bound:?}"
+    );
+    let inside = warned("0.3..0.6");
+    assert!(
+        !inside.iter().any(|warning| warning.contains("bound")),
+        "{inside:?}"
+    );
+}

@@ -269,6 +269,16 @@ impl NativeResult {
         study::energy::among(warnings).map(str::to_owned).collect()
     }
 
+    /// The warnings about what is implausible in it.
+    #[getter]
+    fn implausible(&self) -> Vec<String> {
+        let warnings = match &self.table.summary {
+            AnySummary::Wedge(summary) => &summary.warnings,
+            AnySummary::Truck(summary) => &summary.warnings,
+        };
+        study::plausibility::among(warnings).map(str::to_owned).collect()
+    }
+
     /// The summary as nested dicts, as in `summary.json`.
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let value = match &self.table.summary {

@@ -383,7 +383,8 @@ impl<P: Problem> Integrator<P> {
     /// Plans the step after a discontinuity; the error of the step across it says nothing.
     fn plan_after_discontinuity(&mut self, planned: f64, radius_before: f64) {
         self.proposed_step = self.proposed_step.max(tuning::AFTER_DISCONTINUITY * planned);
-        if self.explicit_h_rho > 0.0 {
+        // A bound that is not known (infinite) would say that no step is short enough.
+        if self.explicit_h_rho > 0.0 && self.spectral_radius.is_finite() {
             // In units of 1/ρ steps are about as long as before.
             let usual = self.explicit_h_rho / self.spectral_radius;
             if self.spectral_radius > tuning::CONTACT_CHANGE * radius_before {

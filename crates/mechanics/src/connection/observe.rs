@@ -38,6 +38,19 @@ impl Connections {
         }
     }
 
+    /// Calls `each` with the number of each wedge's connection and the deflection of its coil, m, extension positive.
+    pub fn coil_deflections(
+        &self,
+        coordinates: CoordinatesAndRates<'_>,
+        internal: &[f64],
+        mut each: impl FnMut(usize, f64),
+    ) {
+        for wedge in &self.wedges {
+            let (inside, _) = self.inside(wedge, coordinates, internal);
+            each(wedge.site.connection, inside.coil_extension);
+        }
+    }
+
     /// What a wedge does inside, and the rates of its strokes.
     fn inside(
         &self,

@@ -19,6 +19,7 @@ mod kinematics;
 mod loads;
 mod model;
 mod observe;
+mod relative;
 mod spectral_radius;
 mod time;
 mod vibration;

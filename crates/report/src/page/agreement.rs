@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 use quantity::{Kind, System as Units};
 use study::energy;
+use study::plausibility;
 use study::summary::SummaryValue;
 
 use crate::agreement::{COMPONENT, Group, TruckOutcome, mean_yaw, percent};
@@ -141,7 +142,8 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
             @if let Some(stopped) = &result.summary.stopped {
                 p.warning { (entry.name()) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
             }
-            @for warning in energy::among(&result.summary.warnings) { p.warning { (entry.name()) ": " (warning) } }
+            @let warnings = &result.summary.warnings;
+            @for warning in energy::among(warnings).chain(plausibility::among(warnings)) { p.warning { (entry.name()) ": " (warning) } }
             @if result.summary.failed.is_some() {
                 p.warning { (entry.name()) (super::runs::FAILED) }
             }

@@ -170,8 +170,8 @@ fn failures(digest: &Digest) -> Markup {
         @if failed > 0 {
             div.warning {
                 p {
-                    (failed) " runs are left out of all figures: they have no measures, or have failed because their energy ledger \
-                     does not close. The first ones:"
+                    (failed) " runs are left out of all figures: they have no measures, or have failed: their energy ledger does \
+                     not close, or their bodies left the range in which the model means something. The first ones:"
                 }
                 ul { @for (number, reason) in &digest.reasons { li { "run " (number) ": " (reason) } } }
             }

@@ -58,6 +58,9 @@ pub struct Case {
     pub parameters: Parameters,
     /// How to run it.
     pub simulation: Simulation,
+    /// Whether the case file, with what `--set` lays over it, says nothing of wedge, coil, contact, friction
+    /// and motions: they are defaults.
+    pub nothing_given: bool,
 }
 
 /// How to run a case. The start is one of the [`Parameters`].
@@ -107,7 +110,12 @@ impl Case {
             return Err(problem.help(FileType::Study.advice(source)).into());
         }
         let problems = overrides::apply(&mut tree, overrides);
-        Self::of_tree(tree, source, tables.into(), problems)
+        let nothing_given = !tree.gives_values();
+        let case = Self::of_tree(tree, source, tables.into(), problems)?;
+        Ok(Self {
+            nothing_given,
+            ..case
+        })
     }
 
     /// Completes, reads and checks a tree; `problems` are those found on the way to it.
@@ -145,6 +153,7 @@ impl Case {
             document,
             parameters,
             simulation,
+            nothing_given: false,
         })
     }
 

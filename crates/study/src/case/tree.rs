@@ -150,6 +150,17 @@ impl Table {
         }
     }
 
+    /// Returns whether a case file's tree describes anything: whether it has a value besides name, title and
+    /// the section `simulation`.
+    pub fn gives_values(&self) -> bool {
+        let beside = |key: &str| matches!(key, "name" | "title" | "simulation");
+        self.entries.iter().any(|entry| match &entry.node.value {
+            _ if beside(&entry.key) => false,
+            Value::Table(table) => !table.entries.is_empty(),
+            _ => true,
+        })
+    }
+
     /// The place of the value at a dotted path, or of the nearest table around it.
     pub fn place_of(&self, path: &str) -> Option<&TomlLocation> {
         let (key, rest) = path

@@ -23,7 +23,7 @@ pub use sobol::{DIMENSIONS, Sobol};
 use crate::case::{Case, CaseError};
 
 /// Version of what a study computes: it grows when the same document gives another table.
-pub const STUDY_VERSION: u32 = 2;
+pub const STUDY_VERSION: u32 = 3;
 
 /// Studies of more runs than this are begun only if the user says so.
 pub const MANY: u64 = 1_000_000;

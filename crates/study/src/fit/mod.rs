@@ -15,6 +15,7 @@ use thiserror::Error;
 use crate::case::{Case, CaseError};
 use crate::design::Value;
 use crate::energy;
+use crate::plausibility::{self, at_bound};
 use crate::run::Run;
 use least_squares::{Evaluate, Settings, minimize};
 
@@ -190,7 +191,7 @@ pub struct Fit {
     pub settled: bool,
     /// The relative residual of the energy ledger of the run with the parameters found.
     pub largest_relative_residual: f64,
-    /// The warnings about that ledger.
+    /// The warnings about that ledger, about what is implausible in that run, and about parameters at a bound.
     pub warnings: Vec<String>,
     /// Why the fit has failed: that ledger does not close to 1e-2.
     pub failed: Option<String>,
@@ -281,12 +282,26 @@ pub fn fit(
         .collect();
     let run = Run::new(&case(&values)?).map_err(|error| FitError::Model(error.to_string()))?;
     let summary = run.finish(|_| ()).summary;
+    let of_run = energy::among(&summary.warnings).chain(plausibility::among(&summary.warnings));
+    let bounds = fit
+        .parameters
+        .iter()
+        .filter(|found| found.at_bound)
+        .map(bound_warning);
     Ok(Fit {
         largest_relative_residual: summary.ledger.largest_relative_residual,
-        warnings: energy::among(&summary.warnings).map(str::to_owned).collect(),
+        warnings: of_run.map(str::to_owned).chain(bounds).collect(),
         failed: summary.failed,
         ..fit
     })
+}
+
+fn bound_warning(found: &Found) -> String {
+    let value = Value::Number {
+        value: found.value,
+        unit: found.free.unit.clone(),
+    };
+    at_bound(&found.free.path, &value.shown())
 }
 
 /// Where the case stands, as far as it lies well within the bounds; the middle otherwise.

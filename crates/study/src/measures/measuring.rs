@@ -2,6 +2,7 @@
 
 use integrate::Integrator;
 use mechanics::energy_balance::EnergyBalance;
+use mechanics::plausibility::Plausibility;
 use mechanics::quasi_static::Direction;
 use mechanics::system::{Loads, System};
 use wedge::outputs::{FACES, Ledger};
@@ -13,6 +14,7 @@ use super::{Measures, place};
 use crate::case::{Case, Simulation};
 use crate::closed_form;
 use crate::metrics::{Cycle, first_harmonic};
+use crate::plausibility;
 use crate::progress::{self, INTERVALS, Pace};
 use crate::rows::Rows;
 use crate::run::{RunError, friction_losses, options};
@@ -26,11 +28,28 @@ pub enum Unmeasured {
     Stopped(String),
 }
 
+/// The measures of a run, and why they mean nothing if they do not.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged {
+    /// The measures.
+    pub measures: Measures,
+    /// Why the run is nonsense ([`plausibility::nonsense`]); `None` if it is not.
+    pub nonsense: Option<String>,
+}
+
 /// Runs a case and measures it.
 ///
 /// # Errors
 /// The run cannot begin or does not come to its end.
 pub fn measure(case: &Case) -> Result<Measures, Unmeasured> {
+    judge(case).map(|judged| judged.measures)
+}
+
+/// Runs a case, measures it, and judges whether the measures mean something.
+///
+/// # Errors
+/// The run cannot begin or does not come to its end.
+pub fn judge(case: &Case) -> Result<Judged, Unmeasured> {
     let refused = |error: RunError| Unmeasured::Refused(error.to_string());
     let wedge = Wedge::new(case.parameters.clone()).map_err(|error| refused(error.into()))?;
     let mut integrator = Integrator::new(wedge.system.clone(), options(case), 0.0, &wedge.initial_state)
@@ -49,7 +68,21 @@ pub fn measure(case: &Case) -> Result<Measures, Unmeasured> {
             return Err(stopped(&stalled.describe(name)));
         }
     }
-    Ok(measuring.finish(&integrator))
+    let Simulation {
+        output_interval,
+        output_units,
+        ..
+    } = case.simulation;
+    let (seen, system, balance) = (
+        &measuring.plausibility,
+        &measuring.wedge.system,
+        &measuring.balance,
+    );
+    let nonsense = plausibility::nonsense(seen, system, balance, output_interval, output_units);
+    Ok(Judged {
+        measures: measuring.finish(&integrator),
+        nonsense,
+    })
 }
 
 fn stopped(why: &str) -> Unmeasured {
@@ -74,6 +107,7 @@ struct Measuring {
     clock: ContactClock,
     start_energy: f64,
     balance: EnergyBalance,
+    plausibility: Plausibility,
     /// Friction losses at the ends of the window, by face, J.
     probes: Vec<[f64; 2]>,
     next_row: u64,
@@ -103,6 +137,7 @@ impl Measuring {
             window,
             start_energy,
             balance: EnergyBalance::new(start_energy),
+            plausibility: Plausibility::new(&mut wedge.system, 0.0, &start),
             probes: Vec::with_capacity(2),
             next_row: 0,
             rows,
@@ -135,6 +170,7 @@ impl Measuring {
             }
             integrator.interpolate(row, &mut self.buffer);
             self.observe_row(row);
+            self.plausibility.note(&mut self.wedge.system, row, &self.buffer);
             self.next_row += 1;
         }
     }

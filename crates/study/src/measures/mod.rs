@@ -23,7 +23,7 @@ mod measuring;
 
 use quantity::Kind;
 
-pub use measuring::{Unmeasured, measure};
+pub use measuring::{Judged, Unmeasured, judge, measure};
 
 /// A measure.
 #[derive(Clone, Copy, Debug, PartialEq)]

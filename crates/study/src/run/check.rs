@@ -42,6 +42,15 @@ fn check_finite(member: &'static str, value: f64) -> Result<(), RunError> {
     damaged(member, value, "finite")
 }
 
+/// Returns that what was seen for the plausibility of a run cannot be.
+pub(super) fn implausible() -> RunError {
+    RunError::Damaged {
+        member: "plausibility",
+        found: "something that no run of this case can have seen".to_owned(),
+        expected: "finite values, zero or positive, as many as the case has places".to_owned(),
+    }
+}
+
 impl RunState {
     /// Whether it can be one of this case's run, whose wedge has so many contact points. What the integrator has is looked at by
     /// the integrator.

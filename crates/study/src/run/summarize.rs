@@ -12,6 +12,7 @@ use super::{EVENT_CAP, Run};
 use crate::assumptions;
 use crate::energy;
 use crate::metrics::{Cycle, Extremes, first_harmonic, mean};
+use crate::plausibility;
 use crate::summary::{
     Averages, Events, FrictionSummary, LedgerSummary, SCHEMA, Solver, Stopped, Summary, SummaryValue,
 };
@@ -71,6 +72,13 @@ fn warnings(run: &Run, damped: bool) -> Vec<String> {
         ));
     }
     warnings.extend(energy::warning(&run.counts.energy_balance, what_to_do(damped)));
+    let (simulation, balance) = (&run.case.simulation, &run.counts.energy_balance);
+    let (interval, units) = (simulation.output_interval, simulation.output_units);
+    let (seen, system) = (&run.plausibility, &run.wedge.system);
+    warnings.extend(plausibility::of_wedge(seen, system, balance, interval, units));
+    if run.counts.nothing_given {
+        warnings.push(plausibility::NOTHING_GIVEN.to_owned());
+    }
     if run.integrator.statistics().events_unresolved > 0 {
         warnings.push(format!(
             "{} steps held more contact events than could be resolved: contact states are doubtful there",

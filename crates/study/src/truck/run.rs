@@ -7,6 +7,7 @@ use integrate::{Integrator, Options, SetupError};
 use mechanics::body::COORDINATES;
 use mechanics::energy_balance::{EnergyBalance, Entries};
 use mechanics::motion::Motion;
+use mechanics::plausibility::Plausibility;
 use mechanics::system::NoEquilibrium;
 use mechanics::system::{EnergyTermKind, ModelError, Observation, StaticFriction, System};
 use quantity::Kind;
@@ -17,6 +18,7 @@ use super::{SCHEMA, TruckCase, TruckResult, TruckStart, TruckSummary, WedgeSumma
 use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::metrics::{Cycle, mean};
+use crate::plausibility;
 use crate::progress::{self, INTERVALS, Pace};
 use crate::summary::{Stopped, SummaryValue};
 
@@ -89,6 +91,7 @@ pub fn run_while(
     let mut integrator = Integrator::new(system.clone(), options, 0.0, &x)?;
     let mut values = vec![Vec::new(); table.columns.len()];
     let mut balance = EnergyBalance::new(start_energy);
+    let mut plausibility = Plausibility::new(&mut system, 0.0, &x);
     table.read(&system.observe(0.0, &x), &mut values);
     if let Some((column, value)) = drop_not_finite(&table, &mut values) {
         return Err(TruckError::NotFinite { column, value });
@@ -130,6 +133,7 @@ pub fn run_while(
                 break 'steps;
             }
             balance.note(time, &entries(&system, &seen, start_energy));
+            plausibility.note(&mut system, time, &buffer);
             row += 1;
         }
         if let Err(stalled) = pace.check(&integrator, INTERVALS * case.interval)
@@ -146,6 +150,8 @@ pub fn run_while(
             break;
         }
     }
+    let (seen, scales) = (&plausibility, (case.interval, case.units));
+    let implausible = plausibility::of_truck(seen, &system, numbers, &balance, scales);
     let joules = |value| SummaryValue::new(value, Kind::Energy, case.units);
     let mut result = TruckResult {
         columns: table.columns,
@@ -161,6 +167,7 @@ pub fn run_while(
             failed: energy::failure(&balance, energy::WHAT_TO_DO_WITH_FILES),
             warnings: energy::warning(&balance, energy::WHAT_TO_DO_WITH_FILES)
                 .into_iter()
+                .chain(implausible)
                 .collect(),
             rows: 0,
             yaw: None,

@@ -1,7 +1,11 @@
 //! Where wedges jam, and what is the same in all four.
 #![allow(clippy::unwrap_used)]
 
-use crate::common::{POUND, result};
+use mechanics::motion::Motion;
+use study::plausibility;
+use study::truck::run::run;
+
+use crate::common::{POUND, case, result, run_all};
 
 #[test]
 fn toe_in_jams_on_the_way_down_and_is_held_by_the_limit() {
@@ -60,4 +64,33 @@ fn without_yaw_all_four_wedges_do_the_same() {
             assert!(most < 1e-2 * size, "{name} {number}: {most} of {size}");
         }
     }
+}
+
+#[test]
+fn none_of_the_thesiss_runs_is_implausible() {
+    let all = run_all(10.0, |_| true);
+    assert!(all.len() >= 24, "{}", all.len());
+    for (entry, result) in &all {
+        let found: Vec<&str> = plausibility::among(&result.summary.warnings).collect();
+        assert!(found.is_empty(), "{}: {found:?}", entry.name());
+    }
+}
+
+/// Input ten times as large lifts the bolster by more than the element's small displacements mean.
+#[test]
+fn a_body_that_leaves_its_surroundings_is_called_by_its_number() {
+    let mut case = case("nucars_68_constant_toe_out", 2.0);
+    for body in &mut case.truck.model.bodies {
+        for motion in &mut body.frame.motions {
+            if let Motion::Sine { amplitude, .. } = motion {
+                *amplitude *= 1e3;
+            }
+        }
+    }
+    let result = run(&case, |_| ()).unwrap();
+    let found: Vec<&str> = plausibility::among(&result.summary.warnings).collect();
+    let left = found
+        .iter()
+        .any(|text| text.contains("implausible: body ") && text.contains("has left its surroundings"));
+    assert!(left, "{found:?}");
 }

@@ -253,7 +253,7 @@ class Case:
         ``columns`` are the names (without units) of those that are kept; without it, all. ``progress`` is called some 20 times
         a second with the time reached, s; an exception in it ends the run. A run that cannot go on, or whose energy ledger does not close to
         1e-2, raises `RunError`, which has what was computed as ``result``; with ``incomplete="keep"`` it is returned instead. An
-        `EnergyWarning` tells of a ledger that does not close to 1e-3.
+        `EnergyWarning` tells of a ledger that does not close to 1e-3, a `PlausibilityWarning` of what is implausible.
         """
         interruptible = threading.current_thread() is threading.main_thread()
         native = self._native.run(_names(columns), progress, interruptible)

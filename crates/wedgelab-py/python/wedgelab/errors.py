@@ -20,6 +20,7 @@ __all__ = [
     "InternalError",
     "MissingDependencyError",
     "NucarsError",
+    "PlausibilityWarning",
     "Problem",
     "RunError",
     "StepError",
@@ -118,6 +119,10 @@ class CaseError(WedgelabError, ValueError):
 
 class EnergyWarning(UserWarning):
     """The energy ledger of a run does not close: its relative residual is above 1e-3."""
+
+
+class PlausibilityWarning(UserWarning):
+    """A run is implausible: bodies, contacts or coils leave the range in which the model means something."""
 
 
 class RunError(WedgelabError, RuntimeError):

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ._optional import need
 from ._wedgelab import NativeCase, NativeResult
-from .errors import EnergyWarning, RunError, WedgelabError
+from .errors import EnergyWarning, PlausibilityWarning, RunError, WedgelabError
 from .figures import Figure, _figures
 
 if TYPE_CHECKING:
@@ -452,9 +452,11 @@ def is_sound(result: Any) -> bool:
 
 
 def warn(result: Any, stacklevel: int) -> None:
-    """Warns of an energy ledger that does not close."""
+    """Warns of an energy ledger that does not close, and of what is implausible."""
     for text in result._native.energy_warnings:
         warnings.warn(f"{result.summary.name}: {text}", EnergyWarning, stacklevel=stacklevel)
+    for text in result._native.implausible:
+        warnings.warn(f"{result.summary.name}: {text}", PlausibilityWarning, stacklevel=stacklevel)
 
 
 def unsound_error(result: Any) -> RunError:

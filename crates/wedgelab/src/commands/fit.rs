@@ -212,7 +212,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     })?;
     tell(&found, &shown, &arguments.out)?;
     for warning in &found.warnings {
-        say(&format!("warning: the run with these values: {warning}"));
+        say(&format!("warning: {}: {warning}", fitted.name));
     }
     match &found.failed {
         Some(reason) => Err(failed_fit(reason, &arguments.out)),

@@ -11,6 +11,7 @@ use report::page::Viewer;
 use report::truck_files;
 use report::view::run::{Detail, Recording};
 use study::energy;
+use study::plausibility;
 use study::truck::TruckCase;
 use study::truck::catalog::{self, Entry};
 use study::truck::run::run_while;
@@ -95,7 +96,8 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<ReproducedTruck>,
         None => format!("{:.2} s", start.elapsed().as_secs_f64()),
     };
     progress.done(&case.name, &how);
-    for warning in energy::among(&result.summary.warnings) {
+    let warnings = &result.summary.warnings;
+    for warning in energy::among(warnings).chain(plausibility::among(warnings)) {
         say(&format!("warning: {}: {warning}", case.name));
     }
     let recording = Viewer::embedded().map(|_| Recording::of_truck(&case, &result, Detail::Thinned));

@@ -1,0 +1,128 @@
+//! What is implausible in a run, in words: the same for runs of wedges and of half-trucks, studies and fits.
+//!
+//! What is looked at, and the limits, are those of [`mechanics::plausibility`].
+
+use mechanics::energy_balance::EnergyBalance;
+use mechanics::plausibility::{Finding, FindingKind, Location, Plausibility};
+use mechanics::system::System;
+use quantity::System as Units;
+use wedge::outputs::{CORNERS, FACES};
+
+/// How warnings about what is implausible begin.
+const BEGINNING: &str = "implausible: ";
+
+/// The warning about a case file that gives no values.
+pub const NOTHING_GIVEN: &str = "the case file gives no values of wedge, coil, contact, friction and motions: \
+     all are defaults, the thesis's with variable damping; write your own (`wedgelab case` shows all keys)";
+
+/// Returns those of a run's warnings that are about something implausible.
+pub fn among(warnings: &[String]) -> impl Iterator<Item = &str> {
+    let own = warnings.iter().map(String::as_str);
+    own.filter(|warning| warning.starts_with(BEGINNING))
+}
+
+/// Returns the warning about a fitted parameter that ends at a bound; `path` is its key, `value` the bound
+/// with its unit.
+#[must_use]
+pub fn at_bound(path: &str, value: &str) -> String {
+    format!(
+        "{BEGINNING}the fitted {path} ends at its bound, {value}, so that the best value lies beyond or the \
+                 data do not determine it; widen its bounds, or do not fit it"
+    )
+}
+
+/// Returns the warnings about what is implausible in the run of a wedge; `interval` is its output interval,
+/// s.
+#[must_use]
+pub fn of_wedge(
+    seen: &Plausibility,
+    system: &System,
+    balance: &EnergyBalance,
+    interval: f64,
+    units: Units,
+) -> Vec<String> {
+    let findings = seen.findings(system, balance, interval);
+    let words = |finding: &Finding| in_wedge(finding, system, units);
+    findings.iter().map(words).collect()
+}
+
+/// Returns why a run of a wedge is nonsense: the first finding after which results mean nothing, in these
+/// units. Returns `None` if there is none.
+#[must_use]
+pub fn nonsense(
+    seen: &Plausibility,
+    system: &System,
+    balance: &EnergyBalance,
+    interval: f64,
+    units: Units,
+) -> Option<String> {
+    let findings = seen.findings(system, balance, interval);
+    let found = findings.iter().filter(|finding| finding.kind.is_nonsense());
+    let first = found.min_by(|a, b| a.since.unwrap_or(0.0).total_cmp(&b.since.unwrap_or(0.0)));
+    first.map(|finding| in_wedge(finding, system, units))
+}
+
+/// Returns the warnings about what is implausible in the run of a half-truck; `numbers` are those of bodies
+/// and of connections in its files, `interval` is its output interval, s.
+#[must_use]
+pub fn of_truck(
+    seen: &Plausibility,
+    system: &System,
+    numbers: [&[u32]; 2],
+    balance: &EnergyBalance,
+    (interval, units): (f64, Units),
+) -> Vec<String> {
+    let [bodies, connections] = numbers;
+    let place = |location: Location| match location {
+        Location::Body(body) => bodies.get(body).map_or_else(
+            || location.describe(system),
+            |number| format!("body {number} ({})", system.bodies()[body].name),
+        ),
+        Location::Connection(place) => connections.get(place).map_or_else(
+            || location.describe(system),
+            |number| format!("connection {number} ({})", system.connections()[place].name),
+        ),
+        _ => location.describe(system),
+    };
+    let findings = seen.findings(system, balance, interval);
+    let words = |finding: &Finding| {
+        let sentence = finding.words(&place(finding.location), units);
+        format!("{BEGINNING}{sentence}; {}", finding.kind.advice())
+    };
+    findings.iter().map(words).collect()
+}
+
+/// Returns a finding in a wedge with the names and keys of its case.
+fn in_wedge(finding: &Finding, system: &System, units: Units) -> String {
+    let face_name = |face: usize| FACES.get(face).copied().unwrap_or("face");
+    let place = match finding.location {
+        Location::Face { face, point: None } => format!("the {}", face_name(face)),
+        Location::Face {
+            face,
+            point: Some(point),
+        } => {
+            let corner = CORNERS.get(point).copied().unwrap_or("nth").replace('_', " ");
+            format!("the {corner} corner of the {}", face_name(face))
+        }
+        Location::Coil(_) => "the control coil".to_owned(),
+        other => other.describe(system),
+    };
+    let advice = match finding.kind {
+        FindingKind::Penetration => {
+            "raise contact.stiffness, or lower the coil's load or the motion that presses the wedge in"
+        }
+        FindingKind::StoredAtStart => "start with simulation.start = \"touching\" or \"equilibrium\"",
+        FindingKind::Lifted { pulls: true } => {
+            "set control_coil.pulls = false, and lower the motion that stretches the coil"
+        }
+        FindingKind::CoarseOutput { .. } => {
+            "shorten simulation.output_interval, or use averages, not single values, extremes or spectra"
+        }
+        FindingKind::Separation | FindingKind::SlidOff | FindingKind::Tilt => {
+            "do not use what follows; look at weight, angle, friction, coil and the motions of bolster and side frame \
+                 for a value out of all proportion"
+        }
+        kind => kind.advice(),
+    };
+    format!("{BEGINNING}{}; {advice}", finding.words(&place, units))
+}
