@@ -220,8 +220,8 @@ fn limits_a_coefficient_of_friction_above_one_is_found_before_anything_moves() {
     );
 }
 
-/// The energy of corners that begin inside is held against the scale of the ledger; what stays stored is not
-/// released.
+/// The energy of corners that begin inside is held against the scale of the ledger; what stays stored is
+/// not released.
 #[test]
 fn energy_an_overlap_at_the_start_is_found_by_the_energy_that_it_releases() {
     let depth = 1e-3;

@@ -13,8 +13,8 @@ use crate::run::{Recorder, Run, RunCase};
 const BEGINNING: &str = "implausible: ";
 
 /// The warning about a case file that gives no values.
-pub const NOTHING_GIVEN: &str = "the case file gives no values of wedge, coil, contact, friction and motions: all are defaults, the thesis's with \
-     variable damping; write your own (`wedgelab case` shows all keys)";
+pub const NOTHING_GIVEN: &str = "the case file gives no values of wedge, coil, contact, friction and motions: \
+     all are defaults, the thesis's with variable damping; write your own (`wedgelab case` shows all keys)";
 
 /// Returns those of a run's warnings that are about something implausible.
 pub fn among(warnings: &[String]) -> impl Iterator<Item = &str> {
@@ -27,8 +27,8 @@ pub fn among(warnings: &[String]) -> impl Iterator<Item = &str> {
 #[must_use]
 pub fn at_bound(path: &str, value: &str) -> String {
     format!(
-        "{BEGINNING}the fitted {path} ends at its bound, {value}, so that the best value lies beyond or the data do not determine it; \
-         widen its bounds, or do not fit it"
+        "{BEGINNING}the fitted {path} ends at its bound, {value}, so that the best value lies beyond or the \
+                 data do not determine it; widen its bounds, or do not fit it"
     )
 }
 
@@ -101,8 +101,8 @@ pub(crate) fn in_wedge(system: &System, finding: &Finding, units: Units) -> Stri
             "shorten simulation.output_interval, or use averages, not single values, extremes or spectra"
         }
         FindingKind::Separation | FindingKind::SlidOff | FindingKind::Tilt => {
-            "do not use what follows; look at weight, angle, friction, coil and the motions of bolster and side frame for a value out of \
-             all proportion"
+            "do not use what follows; look at weight, angle, friction, coil and the motions of bolster and side frame \
+                 for a value out of all proportion"
         }
         kind => kind.advice(),
     };

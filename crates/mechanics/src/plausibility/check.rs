@@ -166,8 +166,8 @@ impl Checks {
     }
 }
 
-/// Returns whether a table of abscissa and ordinate is straight: then it stands for a stiffness, whatever its
-/// reach.
+/// Returns whether a table of abscissa and ordinate is straight: then it stands for a stiffness, whatever
+/// its reach.
 fn is_straight(points: &[[f64; 2]]) -> bool {
     let slope = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
     let mut slopes = points.windows(2).map(slope);

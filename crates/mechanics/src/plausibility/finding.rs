@@ -63,8 +63,8 @@ pub enum FindingKind {
     Penetration,
     /// A face is tilted against its surface. The value is the angle since the start, rad.
     Tilt,
-    /// A body with linearized kinematics turns too far about an axis (3 to 5: roll, pitch, yaw). The value is
-    /// the angle, rad.
+    /// A body with linearized kinematics turns too far about an axis (3 to 5: roll, pitch, yaw). The value
+    /// is the angle, rad.
     LargeAngle(usize),
     /// A body or element moved by more than the system measures. The value is the displacement, m.
     Displacement,
@@ -81,8 +81,8 @@ pub enum FindingKind {
     StoredAtStart,
     /// The coefficient of friction is out of proportion. The value is the coefficient.
     Friction,
-    /// The normal force of a face scatters from output time to output time. The value is the output interval,
-    /// s.
+    /// The normal force of a face scatters from output time to output time. The value is the output
+    /// interval, s.
     CoarseOutput {
         /// Estimated frequency of the vibration, Hz.
         frequency: f64,
@@ -128,14 +128,15 @@ impl FindingKind {
     pub fn advice(self) -> &'static str {
         match self {
             Self::Separation | Self::SlidOff | Self::Displacement => {
-                "do not use what follows; look for a mass, a stiffness, a friction or a motion out of proportion"
+                "do not use what follows; look for a mass, a stiffness, a friction or a \
+                 motion out of proportion"
             }
             Self::Penetration => {
                 "raise the contact stiffness, or lower the load or the motion that presses the face in"
             }
             Self::Tilt => {
-                "do not use what follows: edges and sides touch that the model does not have; look for a motion, a friction or a \
-                 position of the center of gravity out of proportion"
+                "do not use what follows: edges and sides touch that the model does not have; look for a motion, \
+                 a friction or a position of the center of gravity out of proportion"
             }
             Self::LargeAngle(_) => "lower the motion, or model the body with finite rotations",
             Self::Solid => {
@@ -254,8 +255,9 @@ impl Finding {
             }
             FindingKind::CoarseOutput { frequency, scatter } => {
                 return format!(
-                    "the normal force at {place} scatters by {} % of its mean (or of the body's weight) from output time to output time: the contact vibrates at \
-                     about {} Hz, which the output interval of {value} does not resolve (at most {limit}, a {}th of the period)",
+                    "the normal force at {place} scatters by {} % of its mean (or of the body's weight) from output time \
+                 to output time: the contact vibrates at about {} Hz, which the output interval of {value} does not \
+                 resolve (at most {limit}, a {}th of the period)",
                     percent(scatter),
                     rounded(frequency),
                     ROWS_A_PERIOD

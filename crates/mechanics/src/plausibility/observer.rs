@@ -97,8 +97,8 @@ impl Plausibility {
         observer
     }
 
-    /// Returns the observer of a run that goes on; `time` (s) and `x` are those of its start. Returns `None`
-    /// if the record cannot be that of a run of this system.
+    /// Returns the observer of a run that goes on; `time` (s) and `x` are those of its start. Returns
+    /// `None` if the record cannot be that of a run of this system.
     #[must_use]
     pub fn resume(system: &mut System, time: f64, x: &[f64], record: PlausibilityRecord) -> Option<Self> {
         system.place_at(time, x);
@@ -246,8 +246,8 @@ impl FaceRecord {
         self.forces = [force, last];
     }
 
-    /// Returns the scatter of the normal force ([`LARGEST_SCATTER`]) of a body of this weight (N); zero where
-    /// there is not enough to judge.
+    /// Returns the scatter of the normal force ([`LARGEST_SCATTER`]) of a body of this weight (N); zero
+    /// where there is not enough to judge.
     fn scatter(&self, rows: u64, weight: f64) -> f64 {
         let scale = self.sum.max(weight * rows as f64);
         if rows < FEWEST_ROWS || scale <= 0.0 {

@@ -1,5 +1,5 @@
-//! Relative motions that elements see at a time and a state, for observers that need positions only, without
-//! allocation.
+//! Relative motions that elements see at a time and a state, for observers that need positions only,
+//! without allocation.
 
 use super::System;
 use crate::link::RelativeMotion;

@@ -98,11 +98,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 impl Arguments {
     /// What the FMU is to be made of.
     fn source(&self) -> Result<Source, Failure> {
-        if let Some(half_truck) = self.choice.half_truck(&self.case)? {
-            let option = match (self.quasi_static, self.truck, self.set.is_empty()) {
-                (true, ..) => "--quasi-static",
-                (_, true, _) => "--truck",
-                (.., false) => "--set",
+        if let Some(half_truck) = self.choice.half_truck(&self.case, &self.set)? {
+            let option = match (self.quasi_static, self.truck) {
+                (true, _) => "--quasi-static",
+                (_, true) => "--truck",
                 _ => return Ok(Source::HalfTruck(Box::new(half_truck))),
             };
             let message = format!(

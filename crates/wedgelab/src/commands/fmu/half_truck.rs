@@ -36,8 +36,9 @@ impl Choice {
             .next()
     }
 
-    /// Returns the half-truck of a run file or of a built-in run; none if neither is named.
-    pub fn half_truck(&self, named: &Path) -> Result<Option<HalfTruck>, Failure> {
+    /// Returns the half-truck of a run file or of a built-in run, with the values of `set` over it; none if
+    /// neither is named.
+    pub fn half_truck(&self, named: &Path, set: &[String]) -> Result<Option<HalfTruck>, Failure> {
         let ending = named.extension().and_then(|ending| ending.to_str());
         let of_nucars =
             ending.is_some_and(|ending| ENDINGS.iter().any(|own| own.eq_ignore_ascii_case(ending)));
@@ -47,6 +48,7 @@ impl Choice {
         }
         let settings = Settings {
             choices: choices(self.yaw, &self.option)?,
+            set: set.to_vec(),
             ..Settings::default()
         };
         let Some(entry) = entry else {
@@ -72,7 +74,7 @@ impl Choice {
         check_yaw(entry, self.yaw)?;
         let made = HalfTruck::built_in(&entry.name(), &settings);
         Ok(Some(made.map_err(|error| {
-            Message::new(error.to_string(), "choose another option")
+            Message::new(error.to_string(), "choose another option or value")
         })?))
     }
 }
