@@ -91,7 +91,7 @@ fn what_makes_no_half_truck_is_refused_with_the_reason() {
             &["nucars_69_constant_toe_up"][..],
             "did you mean nucars_69_constant_toe",
         ),
-        (&[RUN, "--set", "wedge.toe=0.1 deg"], "--set is for wedges"),
+        (&[RUN, "--set", "wedges.toe=0.1 deg"], "\"out\" or \"in\""),
         (&[RUN, "--quasi-static"], "--quasi-static is for wedges"),
         (
             &["nucars_69_constant_toe_out", "--truck"],
