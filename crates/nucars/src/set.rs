@@ -402,8 +402,13 @@ fn put(target: Target<'_>, path: &str, value: &str) -> Result<(), SetError> {
 }
 
 /// Returns the advice on a name that is not there, among those that are.
-fn choose(name: &str, mut known: Vec<&str>, has: &str) -> String {
-    known.dedup();
+fn choose(name: &str, names: Vec<&str>, has: &str) -> String {
+    let mut known: Vec<&str> = Vec::new();
+    for own in names {
+        if !known.contains(&own) {
+            known.push(own);
+        }
+    }
     if known.is_empty() {
         return format!("{has} nothing that can be set");
     }

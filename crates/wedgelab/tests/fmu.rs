@@ -91,7 +91,10 @@ fn what_makes_no_half_truck_is_refused_with_the_reason() {
             &["nucars_69_constant_toe_up"][..],
             "did you mean nucars_69_constant_toe",
         ),
-        (&[RUN, "--set", "wedges.toe=0.1 deg"], "\"out\" or \"in\""),
+        (
+            &[RUN, "--set", "wedges.toe=0.1 deg"],
+            "have wedge_angle, stiffness, damping, slope_friction, column_friction, normal_limit help",
+        ),
         (&[RUN, "--quasi-static"], "--quasi-static is for wedges"),
         (
             &["nucars_69_constant_toe_out", "--truck"],

@@ -169,7 +169,7 @@ impl SteppedWedge {
         self.equations.energies()
     }
 
-    /// Derivatives along a direction, see [`Equations::along`].
+    /// Derivatives along a direction, see [`Equations::jacobian_vector_product`].
     ///
     /// # Errors
     /// A wrong number of states.

@@ -6,7 +6,7 @@
 //! | `simulation.relative_tolerance` | a number between 0 and 1 |
 //! | `simulation.start` | `drawn` or `equilibrium` |
 //! | `simulation.output_units` | `us` or `si` |
-//! | `option.NAME` | a choice where the files leave one open: [`options`](super::options) |
+//! | `option.NAME` | a choice where the files leave one open: [`options`] |
 //! | anything else | a value in the files: [`nucars::set`] |
 
 use std::borrow::Cow;
