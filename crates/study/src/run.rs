@@ -99,7 +99,9 @@ pub trait RunCase: Clone {
     /// The results.
     type Output;
 
-    /// What to try where a run cannot begin or go on.
+    /// What to try where a run cannot begin.
+    const WHERE_TO_LOOK: &'static str;
+    /// What to try where a run cannot go on.
     const WHAT_TO_TRY: &'static str;
 
     /// Returns the name of the case.

@@ -33,7 +33,7 @@ pub fn compute<C: RunCase>(case: &C, progress: &Progress) -> Result<Done<C::Outp
     // Where nothing can be computed at all, the input is at fault.
     let run = Run::new(case).map_err(|error| {
         let message = format!("the run {} cannot begin: {error}", case.name());
-        Message::new(message, C::WHAT_TO_TRY)
+        Message::new(message, C::WHERE_TO_LOOK)
     })?;
     let [duration, _] = case.duration_and_interval();
     let mut reached = progress.of_run(duration);

@@ -30,6 +30,8 @@ const CONTOURS: [&str; MOST_CONTOURS] = [
 ];
 /// Measures that are drawn.
 const MOST_EFFECTS: usize = 9;
+/// Measures of other models that are drawn: the sum over all wedges, and those of the first one.
+const MOST_OTHERS: usize = 6;
 /// Panels of contours.
 const MOST_CONTOURS: usize = 4;
 /// Pairs of parameters that are drawn.
@@ -57,7 +59,7 @@ fn drawn<'s>(study: &'s Study, of_wedges: &[&'static str]) -> Vec<&'s str> {
         return of_wedges.to_vec();
     }
     let names = study.measures().iter().map(|measure| &*measure.name);
-    names.take(of_wedges.len()).collect()
+    names.take(of_wedges.len().min(MOST_OTHERS)).collect()
 }
 
 fn measure<'s>(study: &'s Study, name: &str) -> Option<(usize, &'s Measure)> {

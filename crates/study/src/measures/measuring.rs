@@ -67,6 +67,7 @@ impl RunCase for Measured<'_> {
     type Recorder = Measuring;
     type Output = Result<Judged, Unmeasured>;
 
+    const WHERE_TO_LOOK: &'static str = Case::WHERE_TO_LOOK;
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
 
     fn name(&self) -> &str {

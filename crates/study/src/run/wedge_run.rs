@@ -58,6 +58,8 @@ impl RunCase for Case {
     type Recorder = WedgeRecorder;
     type Output = RunResult;
 
+    const WHERE_TO_LOOK: &'static str =
+        "look for values that are out of proportion; `wedgelab case` has cases that run";
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
 
     fn name(&self) -> &str {

@@ -72,6 +72,8 @@ impl RunCase for TruckCase {
     type Recorder = TruckRecorder;
     type Output = TruckResult;
 
+    const WHERE_TO_LOOK: &'static str =
+        "look for values that are out of proportion; `wedgelab nucars show` prints them as tables";
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY_WITH_FILES;
 
     fn name(&self) -> &str {
