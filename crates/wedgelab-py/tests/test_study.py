@@ -54,7 +54,8 @@ def test_a_study_is_what_its_file_says(path: Path) -> None:
     assert (study.name, study.title, study.count, len(study)) == ("friction", "Friction and stiffness", 80, 80)
     assert study.parameters == ["friction.column", "friction.reference_speed"]
     assert study.values(0) == {"friction.column": "0.2", "friction.reference_speed": "0.001 in/s"}
-    assert study.case(1).friction.column == 0.2
+    case = study.case(1)
+    assert isinstance(case, wl.Case) and case.friction.column == 0.2
     assert study.columns["wear_power_column_lbf_in_per_s"].unit == "lbf·in/s"
     again = pickle.loads(pickle.dumps(study))
     assert again.values(79) == study.values(79) and list(again.columns) == list(study.columns)
