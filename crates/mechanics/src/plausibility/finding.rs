@@ -242,7 +242,7 @@ impl Finding {
                 "overlaps its surface at the start",
                 format!("contact energy of {value} is released"),
                 format!(
-                    "{} % of the largest of work, losses and change of stored energy",
+                    "{} % of the largest of work, losses, stored energy at the start and its change",
                     percent(RELEASED_SHARE)
                 ),
             ),

@@ -198,7 +198,8 @@ impl Plausibility {
             .work
             .abs()
             .max(balance.losses.abs())
-            .max(balance.largest_stored_change);
+            .max(balance.largest_stored_change)
+            .max(balance.stored_at_start);
         for (number, face) in self.record.faces.iter().enumerate() {
             let finding = |kind: FindingKind, value: f64, limit: f64| Finding {
                 kind,
