@@ -214,12 +214,21 @@ fn discontinuity_at(system: &System, driven: bool, point: f64, length: f64) -> O
         .filter(|time| *time <= point + slack)
 }
 
+/// Largest size of an input, SI: no motion and no load of a machine comes near it, and steps under larger ones
+/// would be so short that they lead nowhere.
+const LARGEST_INPUT: f64 = 1e15;
+
 /// Checks the values of all inputs.
 fn check_inputs(inputs: &[f64], count: usize) -> Result<(), Error> {
     if inputs.len() != count || !inputs.iter().all(|value| value.is_finite()) {
         return Err(Error::new("an input is not finite"));
     }
-    Ok(())
+    match inputs.iter().find(|value| value.abs() > LARGEST_INPUT) {
+        Some(value) => Err(Error::new(format!(
+            "an input is {value:e}, out of all proportion: at most {LARGEST_INPUT:e} (SI units) is admissible"
+        ))),
+        None => Ok(()),
+    }
 }
 
 impl Element for SystemElement {

@@ -154,6 +154,11 @@ fn wrong_values_are_refused_and_nothing_changes() {
         .directional_derivative(&unknowns, &knowns, &[1.0], &mut [0.0]);
     assert!(reason.unwrap_err().message.contains("no directional derivatives"));
     assert_eq!(part.instance.save(), before);
+    // Under such a load steps would lead nowhere.
+    let time = part.instance.time();
+    part.instance.set_float(load, 1e118).unwrap();
+    let reason = part.instance.do_step(time, 1e-3).unwrap_err().message;
+    assert!(reason.contains("1e118, out of all proportion"), "{reason}");
     let mut part = Part::new(Interface::CoSimulation);
     let reason = part.instance.set_integer(motion, 2).unwrap_err().message;
     assert!(reason.contains("it goes from 0 to 1"), "{reason}");
