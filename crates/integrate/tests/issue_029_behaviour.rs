@@ -136,3 +136,17 @@ fn issue_029_a_step_that_does_not_advance_the_time_is_an_error() {
     assert_eq!(error.reason, Reason::StepUnderflow);
     assert!(error.to_string().contains("lost against the time"), "{error}");
 }
+
+#[test]
+fn issue_029_states_with_which_nothing_can_be_computed_are_refused() {
+    let state = states(Method::Rodas5P).remove(0);
+    for (value, admissible) in [(1e99, true), (-1e308, false), (1.1e100, false)] {
+        let mut changed = state.clone();
+        changed["x"][1] = json!(value);
+        let resumed = resume(Method::Rodas5P, changed).map(|_| ());
+        match resumed {
+            Ok(()) => assert!(admissible, "{value}"),
+            Err(reason) => assert!(!admissible && reason.contains("state 1"), "{value}: {reason}"),
+        }
+    }
+}

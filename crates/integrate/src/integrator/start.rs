@@ -7,7 +7,7 @@ use crate::discontinuity_prediction::DiscontinuityPredictor;
 use crate::error::SetupError;
 use crate::event_detection::EventDetector;
 use crate::lanes::LANES;
-use crate::limits::STATE_VERSION;
+use crate::limits::{LARGEST_STATE, STATE_VERSION};
 use crate::methods::tableau::{Family, MAXIMUM_STAGES};
 use crate::newton::Newton;
 use crate::options::Options;
@@ -270,7 +270,8 @@ fn check_state(state: &State, dimension: usize, discrete_states: usize) -> Resul
         return Err(SetupError::Time(state.time));
     }
     state.check(dimension, discrete_states)?;
-    match state.x.iter().enumerate().find(|(_, v)| !v.is_finite()) {
+    let mut states = state.x.iter().enumerate();
+    match states.find(|(_, value)| value.is_nan() || value.abs() > LARGEST_STATE) {
         Some((index, &value)) => Err(SetupError::NotFiniteState { index, value }),
         None => Ok(()),
     }
