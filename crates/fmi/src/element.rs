@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::quasi_static::QuasiStaticState;
-use crate::truck::TruckState;
+use crate::system::SystemState;
 use crate::unit::Unit;
 use crate::variable::Start;
 use crate::wedge::WedgeState;
@@ -37,6 +37,8 @@ pub struct Entry {
     pub tunable: bool,
     /// For a position the input that is its rate.
     pub rate: Option<usize>,
+    /// Whether it is an output too (states).
+    pub output: bool,
 }
 
 impl Entry {
@@ -57,6 +59,7 @@ impl Entry {
             reach: None,
             tunable: false,
             rate: None,
+            output: false,
         }
     }
 
@@ -131,8 +134,8 @@ pub enum ElementState {
     Wedge(Box<WedgeState>),
     /// A quasi-static wedge.
     QuasiStatic(QuasiStaticState),
-    /// A truck without wedges.
-    Truck(Box<TruckState>),
+    /// A system with named ports.
+    System(Box<SystemState>),
 }
 
 /// The time of a saved element.
@@ -160,7 +163,7 @@ impl ElementState {
                 WedgeState::Equations { time, .. } => (*time, 0.0),
             },
             Self::QuasiStatic(state) => (state.time, 0.0),
-            Self::Truck(state) => (state.time, 0.0),
+            Self::System(state) => (state.time, 0.0),
         };
         ElementTime { own, zero }
     }
@@ -210,6 +213,10 @@ pub trait Element: Send {
     fn modes(&self) -> &[u8];
     /// Brings the contact states up to date.
     fn update_modes(&mut self) -> bool;
+    /// Returns the time of the next time event (s), if there is one, at an event (model exchange).
+    fn next_time_event(&mut self) -> Option<f64> {
+        None
+    }
     /// The outputs.
     ///
     /// # Errors

@@ -1,22 +1,30 @@
-//! The wedge as a functional mock-up unit (FMI 2.0 and 3.0), as far as no C is needed.
+//! Functional mock-up units (FMI 2.0 and 3.0), as far as no C is needed.
 //!
-//! - [`variable`], [`description`]: what an importer can see, as data and as `modelDescription.xml` of either version.
-//! - [`element`]: what stands behind the variables: the wedge ([`wedge`]), the quasi-static wedge ([`quasi_static`]), and a truck
-//!   without wedges ([`truck`]).
-//! - [`instance`]: one instance, with the states of the standard's state machine, for both versions and both kinds of interface.
-//! - [`package`], [`resources`]: writing a whole FMU, and finding the case again in an unpacked one; [`limits`]: how much is read.
+//! - [`variable`], [`description`]: what an importer can see, as data and as `modelDescription.xml` of either
+//!   version.
+//! - [`source`]: what an FMU is made of: the case of a wedge, or the run of a half-truck.
+//! - [`element`]: what stands behind the variables: the wedge ([`wedge`]), the quasi-static wedge
+//!   ([`quasi_static`]), and any
+//!   system with named ports ([`system`]): the truck without wedges ([`truck`]) and the half-truck ([`half_truck`]).
+//! - [`instance`]: one instance, with the states of the standard's state machine, for both versions and both
+//!   kinds of interface.
+//! - [`package`], [`resources`]: writing a whole FMU, and finding the case again in an unpacked one;
+//!   [`limits`]: how much is read.
 //! - [`ssp`]: the truck with four wedges as a system structure.
 
 pub mod description;
 pub mod element;
 mod error;
 mod extrapolate;
+pub mod half_truck;
 pub mod instance;
 pub mod limits;
 pub mod package;
 pub mod quasi_static;
 pub mod resources;
+pub mod source;
 pub mod ssp;
+pub mod system;
 pub mod truck;
 pub mod unit;
 pub mod variable;

@@ -3,12 +3,12 @@
 use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 
-use study::case::Case;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
-use crate::description::{Description, FmuModel, Version};
-use crate::resources::{CASE, MODEL};
+use crate::description::{Description, Version};
+use crate::resources::MODEL;
+use crate::source::Source;
 use crate::{Error, limits};
 
 const LICENSES: [(&str, &str); 2] = [
@@ -95,26 +95,26 @@ impl Platform {
     }
 }
 
-/// Returns the FMU of a case's element, with the library for one platform, as the bytes of its file, and its
+/// Returns the FMU of what is made of a source, with the library for one platform, as the bytes of its file, and its
 /// description.
 ///
 /// # Errors
-/// The case makes no such element, or the library cannot be read.
+/// Nothing can be made of the source, or the library cannot be read.
 pub fn fmu(
-    model: FmuModel,
+    source: &Source,
     version: Version,
-    case: &Case,
     library: &Path,
     platform: Platform,
 ) -> Result<(Vec<u8>, Description), Error> {
-    let description = Description::new(model, case)?;
+    let description = Description::new(source)?;
+    let name = description.model.name();
     let binary = limits::read(library, limits::FMU_LIBRARY)
         .map_err(|error| Error::new(format!("the library {error}")))?;
     platform.check(library, &binary)?;
     let library = format!(
         "binaries/{}/{}.{}",
         platform.folder(version),
-        model.name(),
+        name,
         platform.ending
     );
     let mut files: Vec<(String, Vec<u8>)> = vec![
@@ -123,11 +123,11 @@ pub fn fmu(
             description.xml(version)?.into_bytes(),
         ),
         (library, binary),
-        (format!("resources/{CASE}"), description.toml.clone().into_bytes()),
         (
-            format!("resources/{MODEL}"),
-            format!("{}\n", model.name()).into_bytes(),
+            format!("resources/{}", description.file.0),
+            description.file.1.clone().into_bytes(),
         ),
+        (format!("resources/{MODEL}"), format!("{name}\n").into_bytes()),
         (
             "documentation/index.html".to_owned(),
             page(&description).into_bytes(),
@@ -275,14 +275,14 @@ fn page(description: &Description) -> String {
          <style>body {{ font-family: sans-serif; max-width: 70em; margin: 2em auto; padding: 0 1em }} \
          td, th {{ text-align: left; padding: 0.1em 0.8em 0.1em 0; vertical-align: top }}</style></head>\n\
          <body>\n<h1>{name}</h1>\n<p>{text}</p>\n\
-         <p>Made by wedgelab {version}. Fixed frame: x longitudinal, positive from the column towards the bolster; y lateral; z up. \
-         Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). Forces act on the named neighbour, along the fixed axes; moments are taken \
-         about the neighbour's turning center, the point whose displacements are the inputs. All values are in SI units.</p>\n\
-         <p>The case is in <code>resources/{CASE}</code>; licences are in <code>documentation/licenses</code>.</p>\n\
+         <p>Made by wedgelab {version}. {conventions} All values are in SI units.</p>\n\
+         <p>What it is made of is in <code>resources/{file}</code>; licences are in <code>documentation/licenses</code>.</p>\n\
          <table>\n<tr><th>variable</th><th>causality</th><th>variability</th><th>unit</th><th></th></tr>\n{rows}</table>\n\
          </body>\n</html>\n",
         name = description.model.name(),
         text = escape(&description.text),
         version = env!("CARGO_PKG_VERSION"),
+        conventions = description.model.conventions(),
+        file = description.file.0,
     )
 }

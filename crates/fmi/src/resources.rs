@@ -1,10 +1,12 @@
-//! The folder `resources` of an unpacked FMU: which element it holds, and of which case.
+//! The folder `resources` of an unpacked FMU: what it is made of.
 
 use std::path::{Path, PathBuf};
 
 use study::case::Case;
 
 use crate::description::FmuModel;
+use crate::half_truck::{self, HalfTruck};
+use crate::source::Source;
 use crate::{Error, limits};
 
 /// The file with the case.
@@ -12,11 +14,11 @@ pub const CASE: &str = "case.toml";
 /// The file with the name of the model.
 pub const MODEL: &str = "model.txt";
 
-/// Element and case of an unpacked FMU.
+/// What an unpacked FMU is made of.
 ///
 /// # Errors
-/// The folder is not one of an FMU of this program, or its case is damaged.
-pub fn read(folder: &Path) -> Result<(FmuModel, Case), Error> {
+/// The folder is not one of an FMU of this program, or its case or run is damaged.
+pub fn read(folder: &Path) -> Result<Source, Error> {
     let text = |file: &str, most: u64| {
         limits::read_text(&folder.join(file), most).map_err(|error| {
             Error::new(format!(
@@ -25,17 +27,22 @@ pub fn read(folder: &Path) -> Result<(FmuModel, Case), Error> {
         })
     };
     let name = text(MODEL, limits::MODEL_FILE)?;
-    let model = FmuModel::of(name.trim()).ok_or_else(|| {
+    let unknown = || {
         let shown: String = name.trim().chars().take(40).collect();
         Error::new(format!(
             "`{shown}` in {} is no model of this library: take the FMU's `resources` as they were unpacked",
             folder.join(MODEL).display()
         ))
-    })?;
+    };
+    let model = FmuModel::of(name.trim()).ok_or_else(unknown)?;
+    if model == FmuModel::HalfTruck {
+        let text = text(half_truck::RESOURCE, limits::RECORD_FILE)?;
+        return Ok(Source::HalfTruck(Box::new(HalfTruck::parse(&text)?)));
+    }
     let text = text(CASE, limits::TEXT_FILE)?;
     let case = Case::parse(CASE, &text, folder, &[])
         .map_err(|error| Error::new(format!("the FMU's {CASE} is damaged: {error}")))?;
-    Ok((model, case))
+    Source::of_case(model, case).ok_or_else(unknown)
 }
 
 /// The folder that an URI of FMI 2.0 names: `file:///folder`, `file:/folder`, `file://localhost/folder`; a plain path is taken too.

@@ -16,8 +16,9 @@ use study::case::Case;
 
 use crate::Error;
 use crate::description::xml::{Attributes, Xml, number};
-use crate::description::{Description, FmuModel, Version};
+use crate::description::{Description, Version};
 use crate::package::{self, Platform};
+use crate::source::Source;
 use crate::truck::WEDGES;
 use crate::unit::Unit;
 use crate::variable::{Role, Start, Variable};
@@ -53,12 +54,13 @@ pub struct Connection {
 /// As [`package::fmu`].
 pub fn truck(case: &Case, library: &Path, platform: Platform) -> Result<(Vec<u8>, Vec<Connection>), Error> {
     let mut files = Vec::new();
-    let mut fmu = |model: FmuModel| -> Result<Description, Error> {
-        let (bytes, description) = package::fmu(model, Version::Two, case, library, platform)?;
-        files.push((format!("resources/{}.fmu", model.name()), bytes));
+    let mut fmu = |source: Source| -> Result<Description, Error> {
+        let (bytes, description) = package::fmu(&source, Version::Two, library, platform)?;
+        files.push((format!("resources/{}.fmu", description.model.name()), bytes));
         Ok(description)
     };
-    let (truck, wedge) = (fmu(FmuModel::Truck)?, fmu(FmuModel::Wedge)?);
+    let case = || Box::new(case.clone());
+    let (truck, wedge) = (fmu(Source::Truck(case()))?, fmu(Source::Wedge(case()))?);
     let connections = connections(&truck, &wedge)?;
     files.insert(
         0,

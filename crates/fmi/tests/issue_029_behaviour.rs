@@ -10,10 +10,13 @@ use std::path::{Path, PathBuf};
 
 use fmi::description::{Description, FmuModel, Version};
 use fmi::element::Interface;
+use fmi::half_truck::HalfTruck;
 use fmi::instance::{Instance, Phase, Saved};
+use fmi::source::Source;
 use fmi::{limits, package, resources};
 use serde_json::{Value, json};
 use study::case::{Case, builtin};
+use study::truck::files::Settings;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
@@ -21,9 +24,15 @@ fn case() -> Case {
     builtin::case("cdrun_toe_-0.2_psi_0.012").unwrap()
 }
 
+/// What a model is made of here.
+fn source(model: FmuModel) -> Source {
+    let half_truck = || HalfTruck::built_in("nucars_69_constant_toe_out", &Settings::default()).unwrap();
+    Source::of_case(model, case()).unwrap_or_else(|| Source::HalfTruck(Box::new(half_truck())))
+}
+
 /// An instance on its way.
 fn under_way(model: FmuModel, interface: Interface) -> Instance {
-    let mut instance = Instance::of_case("wedge", None, model, case(), Version::Two, interface).unwrap();
+    let mut instance = Instance::of("wedge", None, source(model), Version::Two, interface).unwrap();
     instance.set_experiment(0.5, Some(100.0), Some(1e-6)).unwrap();
     instance.enter_initialization().unwrap();
     instance.exit_initialization().unwrap();
@@ -82,6 +91,8 @@ fn issue_029_every_member_of_an_instance_edited_by_hand_is_refused_or_goes_on() 
         (FmuModel::Wedge, Interface::ModelExchange),
         (FmuModel::QuasiStatic, Interface::CoSimulation),
         (FmuModel::Truck, Interface::CoSimulation),
+        (FmuModel::HalfTruck, Interface::CoSimulation),
+        (FmuModel::HalfTruck, Interface::ModelExchange),
     ] {
         let mut instance = under_way(model, interface);
         let good = instance.save();
@@ -215,8 +226,8 @@ fn issue_029_steps_that_are_lost_against_the_time_are_refused() {
 
 /// The folder `resources` of an FMU.
 fn resources_of(folder: &Path) -> PathBuf {
-    let description = Description::new(FmuModel::Wedge, &case()).unwrap();
-    fs::write(folder.join(resources::CASE), description.toml).unwrap();
+    let description = Description::new(&Source::Wedge(Box::new(case()))).unwrap();
+    fs::write(folder.join(resources::CASE), description.file.1).unwrap();
     fs::write(folder.join(resources::MODEL), "FrictionWedge\n").unwrap();
     folder.to_owned()
 }
@@ -352,9 +363,10 @@ fn issue_029_fmus_that_cannot_be_merged_say_why() {
 fn issue_029_what_is_no_library_is_not_put_into_an_fmu() {
     let folder = tempfile::tempdir().unwrap();
     let library = folder.path().join("library");
+    let source = Source::Wedge(Box::new(case()));
     let write = |platform: usize| {
         let platform = package::PLATFORMS[platform];
-        let written = package::fmu(FmuModel::Wedge, Version::Two, &case(), &library, platform);
+        let written = package::fmu(&source, Version::Two, &library, platform);
         written.map(|_| ()).map_err(|error| error.message)
     };
     let reason = write(0).unwrap_err();

@@ -134,10 +134,11 @@ fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
             ("dependencies", dependencies),
         ]
     };
-    let outputs = || description.those(|role| matches!(role, Role::Output(_) | Role::ContactState(_)));
     let rates = || description.those(|role| matches!(role, Role::Rate(_)));
     xml.element("Outputs", &[], |xml| {
-        outputs().try_for_each(|variable| xml.empty("Unknown", &unknown(variable)))
+        description
+            .outputs()
+            .try_for_each(|variable| xml.empty("Unknown", &unknown(variable)))
     })?;
     xml.element("Derivatives", &[], |xml| {
         rates().try_for_each(|variable| xml.empty("Unknown", &unknown(variable)))

@@ -112,20 +112,19 @@ fn write_variable(xml: &mut Xml, description: &Description, variable: &Variable)
 }
 
 fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
-    for name in ["Output", "ContinuousStateDerivative"] {
-        let rates = name != "Output";
-        for variable in description.those(|role| match role {
-            Role::Output(_) | Role::ContactState(_) => !rates,
-            Role::Rate(_) => rates,
-            _ => false,
-        }) {
-            let dependencies = list(description.dependencies(variable.role).into_iter());
-            let attributes = vec![
-                ("valueReference", variable.reference.to_string()),
-                ("dependencies", dependencies),
-            ];
-            xml.empty(name, &attributes)?;
-        }
+    let with_dependencies = |xml: &mut Xml, name: &str, variable: &Variable| {
+        let dependencies = list(description.dependencies(variable.role).into_iter());
+        let attributes = vec![
+            ("valueReference", variable.reference.to_string()),
+            ("dependencies", dependencies),
+        ];
+        xml.empty(name, &attributes)
+    };
+    for variable in description.outputs() {
+        with_dependencies(xml, "Output", variable)?;
+    }
+    for variable in description.those(|role| matches!(role, Role::Rate(_))) {
+        with_dependencies(xml, "ContinuousStateDerivative", variable)?;
     }
     // At the start everything depends on all inputs and parameters, which is what no list means.
     for variable in description.those(|role| {
@@ -140,12 +139,7 @@ fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
         )?;
     }
     for variable in description.those(|role| matches!(role, Role::Indicator(_))) {
-        let dependencies = list(description.dependencies(variable.role).into_iter());
-        let attributes = vec![
-            ("valueReference", variable.reference.to_string()),
-            ("dependencies", dependencies),
-        ];
-        xml.empty("EventIndicator", &attributes)?;
+        with_dependencies(xml, "EventIndicator", variable)?;
     }
     Ok(())
 }

@@ -5,10 +5,10 @@ mod fmi3;
 pub(crate) mod xml;
 
 use sha2::{Digest, Sha256};
-use study::case::Case;
 
 use crate::Error;
 use crate::element::{Entries, Entry};
+use crate::source::Source;
 use crate::unit::Unit;
 use crate::variable::{Causality, Role, Start, Variability, Variable};
 
@@ -30,6 +30,8 @@ pub enum FmuModel {
     QuasiStatic,
     /// A half-truck without its wedges.
     Truck,
+    /// A half-truck with its wedges.
+    HalfTruck,
 }
 
 impl FmuModel {
@@ -40,19 +42,58 @@ impl FmuModel {
             Self::Wedge => "FrictionWedge",
             Self::QuasiStatic => "FrictionWedgeQS",
             Self::Truck => "FrictionTruck",
+            Self::HalfTruck => "HalfTruck",
         }
     }
 
     /// Whether it gives directional derivatives.
     #[must_use]
     pub fn has_derivatives(self) -> bool {
-        self != Self::Truck
+        matches!(self, Self::Wedge | Self::QuasiStatic)
+    }
+
+    /// What it is, in one line.
+    fn text(self) -> &'static str {
+        match self {
+            Self::Wedge => {
+                "Friction wedge of a three-piece truck between bolster and side frame: rigid body with mass, unilateral \
+                 contact at eight corners, stick-slip friction"
+            }
+            Self::QuasiStatic => {
+                "Friction wedge of a three-piece truck between bolster and side frame: quasi-static, without mass"
+            }
+            Self::Truck => {
+                "Loaded half of a three-piece truck without its four friction wedges: half a car on a bolster, side frames, springs"
+            }
+            Self::HalfTruck => {
+                "Loaded half of a three-piece truck from files of NUCARS: half a car on a bolster, friction wedges, side frames, springs"
+            }
+        }
+    }
+
+    /// Its frames and signs, in a few sentences.
+    pub(crate) fn conventions(self) -> &'static str {
+        match self {
+            Self::Wedge | Self::QuasiStatic => {
+                "Fixed frame: x longitudinal, positive from the column towards the bolster; y lateral; z up. \
+                 Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). Forces act on the named neighbour, along the fixed axes; moments are taken \
+                 about the neighbour's turning center, the point whose displacements are the inputs."
+            }
+            Self::Truck => {
+                "Axes: x forward, y left, z up; displacements from the drawn position, small angles. Quantities of a wedge are in the axes \
+                 of that wedge, which has x from the column towards the bolster."
+            }
+            Self::HalfTruck => {
+                "Axes: x forward, y left, z up; displacements of centers of gravity from the drawn position, small angles. Bodies, wedges and \
+                 connections have the numbers of the files; forces of connections are positive in extension."
+            }
+        }
     }
 
     /// The model of this name.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
-        [Self::Wedge, Self::QuasiStatic, Self::Truck]
+        [Self::Wedge, Self::QuasiStatic, Self::Truck, Self::HalfTruck]
             .into_iter()
             .find(|model| model.name() == name)
     }
@@ -63,7 +104,7 @@ impl FmuModel {
 pub struct Description {
     /// The element.
     pub model: FmuModel,
-    /// The case's name.
+    /// The name of the case or run.
     pub case: String,
     /// What it is, in one line.
     pub text: String,
@@ -77,48 +118,38 @@ pub struct Description {
     pub tolerance: f64,
     /// Its step, s.
     pub step: f64,
-    /// The case as TOML: what the element is made of.
-    pub toml: String,
+    /// Name and text of the file that says what the element is made of.
+    pub file: (&'static str, String),
 }
 
 impl Description {
-    /// The description of a case's element.
+    /// Returns the description of what is made of a source.
     ///
     /// # Errors
-    /// The case makes no such element.
-    pub fn new(model: FmuModel, case: &Case) -> Result<Self, Error> {
-        let entries = match model {
-            FmuModel::Wedge => crate::wedge::entries(case)?,
-            FmuModel::QuasiStatic => crate::quasi_static::entries(case)?,
-            FmuModel::Truck => crate::truck::entries(case)?,
+    /// Nothing can be made of it.
+    pub fn new(source: &Source) -> Result<Self, Error> {
+        let entries = source.entries()?;
+        let model = source.model();
+        let [name, title] = source.name_and_title();
+        let kind = match model {
+            FmuModel::HalfTruck => "Run",
+            _ => "Case",
         };
-        let text = match model {
-            FmuModel::Wedge => {
-                "Friction wedge of a three-piece truck between bolster and side frame: rigid body with mass, unilateral \
-                 contact at eight corners, stick-slip friction"
-            }
-            FmuModel::QuasiStatic => {
-                "Friction wedge of a three-piece truck between bolster and side frame: quasi-static, without mass"
-            }
-            FmuModel::Truck => {
-                "Loaded half of a three-piece truck without its four friction wedges: half a car on a bolster, side frames, springs"
-            }
+        let text = match title {
+            "" => format!("{}. {kind}: {name}", model.text()),
+            title => format!("{}. {kind}: {name}, {title}", model.text()),
         };
-        let text = if case.title.is_empty() {
-            format!("{text}. Case: {}", case.name)
-        } else {
-            format!("{text}. Case: {}, {}", case.name, case.title)
-        };
+        let [stop_time, tolerance] = source.experiment();
         Ok(Self {
             model,
-            case: case.name.clone(),
+            case: name.to_owned(),
             text,
             variables: variables(&entries),
             entries,
-            stop_time: case.simulation.duration,
-            tolerance: case.simulation.relative_tolerance,
+            stop_time,
+            tolerance,
             step: 1e-3,
-            toml: case.document.clone().with_tables_embedded().to_toml(),
+            file: source.file(),
         })
     }
 
@@ -148,7 +179,7 @@ impl Description {
             Version::Two => "2.0",
             Version::Three => "3.0",
         });
-        hash.update(&self.toml);
+        hash.update(&self.file.1);
         for variable in &self.variables {
             hash.update(format!("{variable:?}"));
         }
@@ -181,6 +212,8 @@ impl Description {
             // Work and losses are accumulated: nothing depends on them.
             (Role::Output(_), Role::State(state)) => state < states,
             (Role::Output(_), Role::Input(_)) => !entries.outputs_of_states,
+            // A state that is an output.
+            (Role::State(output), Role::State(state)) => output == state,
             (Role::Rate(rate), other) => match entries.kinematic.iter().find(|(q, _)| *q == rate) {
                 Some((_, speed)) => other == Role::State(*speed),
                 None => match other {
@@ -198,6 +231,13 @@ impl Description {
             .filter(depends)
             .map(|variable| variable.reference)
             .collect()
+    }
+
+    /// Outputs, in the order of references.
+    fn outputs(&self) -> impl Iterator<Item = &Variable> {
+        self.variables
+            .iter()
+            .filter(|variable| variable.causality == Causality::Output)
     }
 
     /// Variables with a role of a kind, in the order of references.
@@ -259,7 +299,12 @@ fn variables(entries: &Entries) -> Vec<Variable> {
         add(entry, Role::Parameter(i), Causality::Parameter, variability);
     }
     for (i, entry) in entries.states.iter().enumerate() {
-        add(entry, Role::State(i), Causality::Local, Variability::Continuous);
+        let causality = if entry.output {
+            Causality::Output
+        } else {
+            Causality::Local
+        };
+        add(entry, Role::State(i), causality, Variability::Continuous);
     }
     for (i, state) in entries.states.iter().enumerate() {
         let rate = Entry::real(

@@ -20,10 +20,8 @@ use study::case::Case;
 
 use crate::description::{Description, FmuModel, Version};
 use crate::element::{Element, Interface, Setting};
-use crate::quasi_static::QuasiStaticElement;
-use crate::truck::TruckElement;
+use crate::source::Source;
 use crate::variable::Start;
-use crate::wedge::WedgeElement;
 use crate::{Category, Error, Severity, resources};
 
 /// A message for the importer's log.
@@ -61,7 +59,7 @@ struct Values {
 pub struct Instance {
     description: Arc<Description>,
     token: String,
-    case: Case,
+    source: Arc<Source>,
     version: Version,
     interface: Interface,
     name: String,
@@ -106,14 +104,13 @@ impl Instance {
         interface: Interface,
     ) -> Result<Self, Error> {
         processor::check().map_err(|error| Error::new(format!("{error}. {}", OldProcessor::ADVICE)))?;
-        let (model, case) = resources::read(folder)?;
-        Self::of_case(name, Some(token), model, case, version, interface)
+        Self::of(name, Some(token), resources::read(folder)?, version, interface)
     }
 
-    /// An instance of a case's element; the token is compared if there is one.
+    /// An instance of a model that is made of a case; the token is compared if there is one.
     ///
     /// # Errors
-    /// The case makes no such element, or the token is another one.
+    /// The case makes no such model, or the token is another one.
     pub fn of_case(
         name: &str,
         token: Option<&str>,
@@ -122,7 +119,23 @@ impl Instance {
         version: Version,
         interface: Interface,
     ) -> Result<Self, Error> {
-        let description = Description::new(model, &case)?;
+        let source = Source::of_case(model, case)
+            .ok_or_else(|| Error::new(format!("{} is not made of a case", model.name())))?;
+        Self::of(name, token, source, version, interface)
+    }
+
+    /// An instance of what is made of a source; the token is compared if there is one.
+    ///
+    /// # Errors
+    /// Nothing can be made of the source, or the token is another one.
+    pub fn of(
+        name: &str,
+        token: Option<&str>,
+        source: Source,
+        version: Version,
+        interface: Interface,
+    ) -> Result<Self, Error> {
+        let description = Description::new(&source)?;
         let own = description.token(version);
         if let Some(token) = token.filter(|token| *token != own) {
             return Err(Error::new(format!(
@@ -133,7 +146,7 @@ impl Instance {
         Ok(Self {
             description: Arc::new(description),
             token: own,
-            case,
+            source: Arc::new(source),
             version,
             interface,
             name: name.to_owned(),
@@ -280,12 +293,7 @@ impl Instance {
                 tolerance: self.experiment.tolerance,
                 start_time: self.experiment.start,
             };
-            let entries = &self.description.entries;
-            let element: Box<dyn Element> = match self.description.model {
-                FmuModel::Wedge => Box::new(WedgeElement::new(&self.case, entries, &setting)?),
-                FmuModel::QuasiStatic => Box::new(QuasiStaticElement::new(&self.case, entries, &setting)?),
-                FmuModel::Truck => Box::new(TruckElement::new(&self.case, &setting)?),
-            };
+            let element = self.source.element(&self.description.entries, &setting)?;
             self.stale = false;
             self.element = Some(element);
         }

@@ -154,7 +154,7 @@ impl Instance {
         Self {
             description: self.description.clone(),
             token: self.token.clone(),
-            case: self.case.clone(),
+            source: self.source.clone(),
             version: self.version,
             interface: self.interface,
             name: self.name.clone(),

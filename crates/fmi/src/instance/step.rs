@@ -6,10 +6,12 @@ use crate::extrapolate::{Known, Understanding, end_of_step};
 use crate::{Category, Error, Severity};
 
 /// What handling events has changed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EventUpdate {
     /// Another update is needed.
     pub again: bool,
+    /// The time of the next time event (s), if there is one.
+    pub next_time: Option<f64>,
 }
 
 /// In all phases in which model exchange evaluates equations.
@@ -160,10 +162,14 @@ impl Instance {
         self.exchange("discrete states are updated", &[Phase::Event])?;
         let element = self.fresh()?;
         let before = element.modes().to_vec();
+        let next_time = element.next_time_event();
         element.update_modes();
         self.changed();
         self.log_modes(&before);
-        Ok(EventUpdate { again: false })
+        Ok(EventUpdate {
+            again: false,
+            next_time,
+        })
     }
 
     /// A step of the importer's integrator is complete.

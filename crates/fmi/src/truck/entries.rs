@@ -1,34 +1,12 @@
 //! The quantities of the truck.
 
 use mechanics::body::COORDINATES;
-use mechanics::system::EnergyTermKind;
-use mechanics::system::scales;
-use quantity::Kind;
+use mechanics::system::{EnergyTermKind, System};
 
-use super::body::{Loaded, WEDGES};
+use super::WEDGES;
 use crate::element::{Entries, Entry};
-use crate::unit::Unit;
-use crate::wedge::entries::{NEIGHBOURS, relative_residual};
-
-/// Inputs of one wedge: force and moment on both neighbours.
-pub(super) const LOADS: usize = 12;
-/// Outputs of one wedge: positions and rates of both neighbours.
-pub(super) const MOTIONS: usize = 24;
-/// Parameters: positions of the body at the start, then its rates.
-pub(super) const START: usize = 12;
-
-fn unit(kind: Kind) -> Option<Unit> {
-    Some(Unit::Of(kind))
-}
-
-/// Kinds of a position and of its rate.
-fn kinds(coordinate: usize) -> (Kind, Kind) {
-    if coordinate < 3 {
-        (Kind::Length, Kind::Speed)
-    } else {
-        (Kind::Angle, Kind::AngularSpeed)
-    }
-}
+use crate::system::{accumulated, deflection, kinds, ledger, load, motions, unit};
+use crate::wedge::entries::NEIGHBOURS;
 
 fn parameters() -> Vec<Entry> {
     let positions = COORDINATES.iter().enumerate().map(|(k, name)| {
@@ -50,44 +28,21 @@ fn parameters() -> Vec<Entry> {
     positions.chain(rates).collect()
 }
 
-/// Force and moment under these names.
-fn load(prefix: &str, on: &str, text: &str) -> Vec<Entry> {
-    let forces = ["x", "y", "z"].map(|axis| {
-        Entry::real(
-            format!("{prefix}force_on_{on}_{axis}"),
-            unit(Kind::Force),
-            Some(0.0),
-            format!("force on {text}, {axis} axis"),
-        )
-    });
-    let moments = [("roll", "x"), ("pitch", "y"), ("yaw", "z")].map(|(moment, axis)| {
-        Entry::real(
-            format!("{prefix}moment_on_{on}_{moment}"),
-            unit(Kind::Moment),
-            Some(0.0),
-            format!("moment on {text}, {axis} axis"),
-        )
-    });
-    forces.into_iter().chain(moments).collect()
-}
-
 fn inputs() -> Vec<Entry> {
     let mut inputs = Vec::new();
     for wedge in WEDGES {
         for on in NEIGHBOURS {
             let text = format!(
-                "the {} from the wedge at the {}, in that wedge's axes, about the point whose displacements are given",
+                "the {} from the wedge at the {}, in that wedge's axes, about the point whose \
+                 displacements are given",
                 on.replace('_', " "),
                 wedge.replace('_', " ")
             );
-            inputs.extend(load(&format!("{wedge}_"), on, &text));
+            inputs.extend((0..6).map(|k| load(&format!("{wedge}_"), on, k, &text)));
         }
     }
-    inputs.extend(load(
-        "",
-        "body",
-        "the loaded bolster from outside, at its center of gravity",
-    ));
+    let text = "the loaded bolster from outside, at its center of gravity";
+    inputs.extend((0..6).map(|k| load("", "body", k, text)));
     inputs
 }
 
@@ -121,74 +76,35 @@ fn outputs() -> Vec<Entry> {
     outputs
 }
 
-fn states(truck: &Loaded) -> Vec<Entry> {
+fn states(system: &System) -> Vec<Entry> {
     let names = ["ground", "body", "left_side_frame", "right_side_frame"];
-    let mut states = Vec::new();
-    for rate in [false, true] {
-        for (body, k) in truck.coordinates() {
-            let name = format!("{}_{}", names.get(body).unwrap_or(&"body"), COORDINATES[k]);
-            let (kind, nominal, name) = match (rate, k < 3) {
-                (false, true) => (kinds(k).0, scales::DISPLACEMENT, name),
-                (false, false) => (kinds(k).0, scales::ANGLE, name),
-                (true, true) => (kinds(k).1, scales::VELOCITY, format!("{name}_rate")),
-                (true, false) => (kinds(k).1, scales::ANGULAR_VELOCITY, format!("{name}_rate")),
-            };
-            let text = if rate {
-                "rate of the position of the same name".to_owned()
-            } else {
-                "displacement of the center of gravity, or angle, from the drawn position, in the truck's axes".to_owned()
-            };
-            let mut entry = Entry::real(name, unit(kind), None, text);
-            entry.nominal = Some(nominal);
-            states.push(entry);
-        }
-    }
-    for number in 0..truck.system.layout().internals {
-        let mut entry = Entry::real(
-            format!("bearing_friction_deflection_{}", number + 1),
-            unit(Kind::Length),
-            None,
+    let mut states = motions(system, |body| {
+        names.get(body).copied().unwrap_or("body").to_owned()
+    });
+    for number in 0..system.layout().internals {
+        let name = format!("bearing_friction_deflection_{}", number + 1);
+        states.push(deflection(
+            name,
             "deflection of the friction of a bearing adapter",
-        );
-        entry.nominal = Some(scales::DEFLECTION);
-        states.push(entry);
+        ));
     }
-    let mut add = |name: &str, text: &str| {
-        let mut entry = Entry::real(name, unit(Kind::Energy), None, text);
-        entry.nominal = Some(scales::ENERGY);
-        states.push(entry);
-    };
-    for energy_term in truck.system.energy_terms() {
+    for energy_term in system.energy_terms() {
         let text = match energy_term.kind {
             EnergyTermKind::MotionWork => "work of prescribed motions: there are none",
             _ => "energy lost",
         };
-        add(energy_term.kind.name(), text);
+        states.push(accumulated(energy_term.kind.name(), text));
     }
-    add(
+    states.push(accumulated(
         "load_work",
         "work of all loads from outside and from the wedges on the truck",
-    );
+    ));
     states
 }
 
-fn columns() -> Vec<Entry> {
-    [
-        ("stored_energy_change", "kinetic, elastic and gravity energy since the start"),
-        (
-            "ledger_residual",
-            "energy that came from nowhere: what is stored and lost since the start less the work of the loads",
-        ),
-    ]
-    .map(|(name, text)| Entry::real(name, unit(Kind::Energy), None, text))
-    .into_iter()
-    .chain([relative_residual()])
-    .collect()
-}
-
-/// All quantities.
-pub(super) fn entries(truck: &Loaded) -> Entries {
-    let layout = truck.system.layout();
+/// Returns all quantities.
+pub(super) fn entries(system: &System) -> Entries {
+    let layout = system.layout();
     Entries {
         parameters: parameters(),
         inputs: inputs(),
@@ -196,8 +112,11 @@ pub(super) fn entries(truck: &Loaded) -> Entries {
         outputs_of_states: true,
         accumulators: layout.quadratures + 1,
         kinematic: (0..layout.speeds).map(|q| (q, q + layout.speeds)).collect(),
-        states: states(truck),
-        columns: columns(),
+        states: states(system),
+        columns: ledger(
+            "energy that came from nowhere: what is stored and lost since the start less the work of the \
+             loads",
+        ),
         ..Entries::default()
     }
 }

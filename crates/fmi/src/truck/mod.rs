@@ -1,290 +1,224 @@
-//! The half-truck without its wedges behind the variables: with four FMUs of wedges it is the truck.
+//! The half-truck without its wedges, as data of [`crate::system`]: with four FMUs of wedges it is the truck.
 //!
-//! Its wedges' forces are inputs, held within a communication step; the motions of the points where the wedges are, are outputs.
-//! These depend on states alone, so that truck and wedges make no algebraic loop.
+//! Bodies, springs, bearing adapters and stops are those of the built-in system file of the constantly damped
+//! half-truck ([`FILE`]), with small displacements ([`mechanics::connection`]); its friction wedges and the
+//! springs that drive its bolster are left out. The forces of wedges are inputs; the motions of the points
+//! where the wedges are, are outputs. These depend on states alone, so that truck and wedges make no
+//! algebraic loop.
+//!
+//! Where wedges are: a wedge has x from the column towards the bolster. Trailing wedges (columns behind the
+//! bolster) have the axes of the truck; leading ones are turned by 180° about z: x, y, roll and pitch change
+//! their signs, z and yaw do not. The points that the neighbours of a wedge turn about lie half the length of
+//! the wedge apart, as in the wedge itself, around the point of the connection in the file.
 
-mod body;
 mod entries;
 
-use integrate::{Integrator, Options, Problem, State};
-use mechanics::energy_balance;
-use mechanics::system::{ContactState, System};
-use serde::{Deserialize, Serialize};
+use mechanics::connection::Law;
+use mechanics::system::System;
+use nucars::read::read_system;
+use nucars::truck::{Choices, Truck};
 use study::case::Case;
-use study::progress::{self, Pace};
+use wedge::Parameters;
 
 use crate::Error;
-use crate::element::{Element, ElementState, Entries, Interface, Setting, Slopes};
-use crate::instance::{check_finite, damaged};
-use body::{BODY, Loaded, Six};
-pub use body::{FILE, WEDGES};
-use entries::{LOADS, MOTIONS, START};
+use crate::element::Setting;
+use crate::system::{Direction, LoadPort, Plant, Ports, Reading, Start, StartPort, SystemElement};
 
-/// All quantities of the truck that has room for a case's wedges.
+/// The file that the truck is made of.
+pub const FILE: &str = "Bolst_wedge_sf_68_constant.sys";
+
+/// Names of the wedges; the first is at the left of the leading side.
+pub const WEDGES: [&str; 4] = ["leading_left", "leading_right", "trailing_left", "trailing_right"];
+/// Numbers of their connections in the file.
+const CONNECTIONS: [u32; 4] = [127, 128, 129, 130];
+/// The body that carries the load, among the bodies of the system.
+pub const BODY: usize = 1;
+
+/// For each wedge the displacements of the points that bolster and side frame turn about.
+type Points = [[[Direction; 6]; 2]; 4];
+
+/// Returns the truck that has room for the wedges of a case.
 ///
 /// # Errors
 /// Never, with the built-in file.
-pub fn entries(case: &Case) -> Result<Entries, Error> {
-    Ok(entries::entries(&Loaded::new(&case.parameters)?))
+pub fn plant(case: &Case) -> Result<Plant, Error> {
+    let (system, points) = system(&case.parameters)?;
+    Ok(Plant {
+        entries: entries::entries(&system),
+        ports: ports(&points),
+        table: None,
+        numbers: [Vec::new(), Vec::new()],
+        residual_of_stored: true,
+        relative_tolerance: case.simulation.relative_tolerance,
+        system,
+    })
 }
 
-/// The saved state of a truck.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TruckState {
-    pub(crate) time: f64,
-    states: Vec<f64>,
-    inputs: Vec<f64>,
-    start_energy: f64,
-    integrator: Option<State>,
+/// Returns the truck under these settings, at its start.
+///
+/// # Errors
+/// Values that are not finite; or the integrator refuses the start.
+pub fn element(case: &Case, setting: &Setting) -> Result<SystemElement, Error> {
+    SystemElement::new(plant(case)?, setting, Start::Initial, false)
 }
 
-/// The truck behind the variables.
-pub struct TruckElement {
-    truck: Loaded,
-    integrator: Option<Integrator<System>>,
-    time: f64,
-    /// Those of the system, then the work of the loads.
-    states: Vec<f64>,
-    inputs: Vec<f64>,
-    /// Stored energy at the start, J.
-    start_energy: f64,
-}
-
-fn six(values: &[f64], first: usize) -> Six {
-    std::array::from_fn(|k| values.get(first + k).copied().unwrap_or(0.0))
-}
-
-/// Puts the loads that the inputs say on a truck.
-fn put_loads(truck: &mut Loaded, inputs: &[f64]) -> Result<(), Error> {
-    let wedges = std::array::from_fn(|wedge| [0, 6].map(|first| six(inputs, LOADS * wedge + first)));
-    truck.set_loads(&wedges, six(inputs, LOADS * WEDGES.len()))
-}
-
-impl TruckElement {
-    /// The truck under these settings, at its start.
-    ///
-    /// # Errors
-    /// Values that are not finite; or the integrator refuses the start.
-    pub fn new(case: &Case, setting: &Setting) -> Result<Self, Error> {
-        let mut truck = Loaded::new(&case.parameters)?;
-        put_loads(&mut truck, &setting.inputs)?;
-        let mut states = truck.system.initial_state();
-        let speeds = truck.system.layout().speeds;
-        for coordinate in 0..6 {
-            if let Some(place) = truck.system.position_of(BODY, coordinate) {
-                let start = |index: usize| setting.parameters.get(index).copied().unwrap_or(0.0);
-                states[place] = start(coordinate);
-                states[speeds + place] = start(START / 2 + coordinate);
-            }
-        }
-        truck.system.next_time_discontinuity(setting.start_time);
-        let start_energy = truck.system.observe(setting.start_time, &states).energies.total();
-        let integrator = match setting.interface {
-            Interface::ModelExchange => None,
-            Interface::CoSimulation => {
-                let simulation = study::stepping::options(&case.simulation);
-                let options = Options {
-                    relative_tolerance: setting
-                        .tolerance
-                        .unwrap_or(simulation.relative_tolerance)
-                        .clamp(1e-12, 1e-3),
-                    ..Options::default()
-                };
-                let made = Integrator::new(truck.system.clone(), options, setting.start_time, &states);
-                Some(made.map_err(|error| Error::new(error.to_string()))?)
-            }
-        };
-        states.push(0.0);
-        Ok(Self {
-            truck,
-            integrator,
-            time: setting.start_time,
-            states,
-            inputs: setting.inputs.clone(),
-            start_energy,
+/// Returns the system, and the points where the wedges are.
+fn system(wedge: &Parameters) -> Result<(System, Points), Error> {
+    let failed = |error: &dyn std::fmt::Display| Error::new(format!("the file {FILE} of the truck: {error}"));
+    let source = nucars::builtin::source(FILE).ok_or_else(|| failed(&"it is missing"))?;
+    let file = read_system(&source).strict().map_err(|error| failed(&error))?;
+    let truck = Truck::new(&file, None, &Choices::default()).map_err(|error| failed(&error))?;
+    let half = 0.25 * wedge.bottom_length();
+    let mut points = Vec::with_capacity(WEDGES.len());
+    for number in CONNECTIONS {
+        let connection = truck
+            .connection(number)
+            .and_then(|place| truck.model.connections.get(place))
+            .ok_or_else(|| failed(&"a wedge is missing"))?;
+        let (a, b) = (connection.a, connection.b);
+        let center = |body: usize| truck.model.bodies[body].frame.origin;
+        // The column lies on the other side of the wedge than the bolster.
+        let turned = connection.point[0] > center(a)[0];
+        points.push([(a, half), (b, -half)].map(|(body, ahead)| {
+            let center = center(body);
+            let mut lever: [f64; 3] = std::array::from_fn(|k| connection.point[k] - center[k]);
+            lever[0] += if turned { -ahead } else { ahead };
+            Direction::of_point(body, lever, turned)
+        }));
+    }
+    let points = points.try_into().map_err(|_| failed(&"it has not four wedges"))?;
+    let mut model = truck.model.clone();
+    let inputs: Vec<usize> = (0..model.bodies.len())
+        .filter(|body| {
+            file.input_bodies
+                .iter()
+                .any(|input| *input.id == truck.bodies[*body])
         })
-    }
+        .collect();
+    model.connections.retain(|own| {
+        !matches!(own.law, Law::Wedge(_)) && !inputs.contains(&own.a) && !inputs.contains(&own.b)
+    });
+    let system = System::new(model).map_err(|error| failed(&error))?;
+    Ok((system, points))
+}
 
-    fn dimension(&self) -> usize {
-        self.truck.system.dimension()
+/// For each wedge and neighbour, force and moment are inputs, displacements and their rates outputs; the last
+/// six inputs are the load on the body.
+fn ports(points: &Points) -> Ports {
+    let wedges = || points.iter().flatten();
+    let body: [Direction; 6] = std::array::from_fn(|k| Direction::coordinate(BODY, k));
+    let starts = [false, true].into_iter().flat_map(|rate| {
+        (0..6).map(move |coordinate| StartPort {
+            body: BODY,
+            coordinate,
+            rate,
+        })
+    });
+    Ports {
+        loads: wedges()
+            .flatten()
+            .chain(&body)
+            .enumerate()
+            .map(|(input, direction)| LoadPort {
+                input,
+                direction: *direction,
+            })
+            .collect(),
+        starts: starts.collect(),
+        outputs: wedges()
+            .flat_map(|six| {
+                let rates = six.map(Reading::Rate);
+                six.map(Reading::Displacement).into_iter().chain(rates)
+            })
+            .collect(),
+        ..Ports::default()
     }
 }
 
-impl Element for TruckElement {
-    fn states(&self) -> &[f64] {
-        &self.states
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::element::{Element, Interface};
+
+    fn made() -> (System, Points) {
+        let damping = wedge::parameters::Damping::Constant;
+        system(&wedge::thesis::parameters(damping, 0.0, 0.0)).unwrap()
     }
 
-    fn set_states(&mut self, time: f64, states: &[f64]) -> Result<(), Error> {
-        if states.len() != self.states.len() || !states.iter().chain([&time]).all(|value| value.is_finite()) {
-            return Err(Error::new(format!(
-                "time and {} finite states are expected",
-                self.states.len()
-            )));
-        }
-        self.time = time;
-        self.states.copy_from_slice(states);
-        Ok(())
+    /// Numbers without pattern.
+    fn number(k: usize) -> f64 {
+        f64::from(((k * 7919 + 13) % 101) as u32) - 50.0
     }
 
-    fn set_inputs(&mut self, inputs: &[f64]) -> Result<(), Error> {
-        if inputs.len() != self.inputs.len() || !inputs.iter().all(|value| value.is_finite()) {
-            return Err(Error::new("an input is not finite"));
-        }
-        self.inputs.copy_from_slice(inputs);
-        put_loads(&mut self.truck, &self.inputs)
-    }
-
-    fn tune(&mut self, _: &[f64]) -> Result<(), Error> {
-        Ok(())
-    }
-
-    fn step(&mut self, end: &[f64], time: f64) -> Result<(), Error> {
-        self.set_inputs(end)?;
-        let dimension = self.dimension();
-        let speeds = self.truck.system.layout().speeds;
-        let Some(integrator) = &mut self.integrator else {
-            return Err(Error::new("a step belongs to co-simulation"));
+    fn element_under(inputs: Vec<f64>) -> SystemElement {
+        let case = study::case::builtin::case("cdrun_toe_0_psi_0").unwrap();
+        let setting = Setting {
+            interface: Interface::ModelExchange,
+            parameters: vec![0.0; 12],
+            options: Vec::new(),
+            inputs,
+            tolerance: None,
+            start_time: 0.0,
         };
-        self.truck.put_loads(integrator.problem_mut())?;
-        integrator.reevaluate();
-        let before = self.states[..speeds].to_vec();
-        let length = time - integrator.time();
-        let mut pace = Pace::of(integrator);
-        while integrator.time() < time {
-            let name = |state| progress::truck_state_name(&self.truck.system, [&[], &[]], state);
-            if let Err(error) = integrator.step_to(time) {
-                return Err(Error::new(progress::describe(&error, name)));
-            }
-            pace.check(integrator, length).map_err(|stalled| {
-                Error::new(format!(
-                    "the step of {length} s to {time} s cannot be finished: {}; make it shorter, or look for inputs that are far out",
-                    stalled.describe(name)
-                ))
-            })?;
+        element(&case, &setting).unwrap()
+    }
+
+    #[test]
+    fn energy_loads_at_wedges_do_the_work_of_their_points() {
+        let loads: Vec<f64> = (0..54).map(|k| if k < 48 { number(k) } else { 0.0 }).collect();
+        let mut element = element_under(loads.clone());
+        let mut states = element.states().to_vec();
+        let speeds = element.plant.system.layout().speeds;
+        for k in 0..speeds {
+            states[speeds + k] = number(k + 61);
         }
-        self.time = time;
-        self.states[..dimension].copy_from_slice(integrator.x());
-        let ways = self.states[..speeds]
-            .iter()
-            .zip(&before)
-            .map(|(after, before)| after - before);
-        let work = self.truck.work(ways);
-        self.states[dimension] += work;
-        Ok(())
+        element.set_states(0.0, &states).unwrap();
+        let mut outputs = vec![0.0; element.plant.entries.outputs.len()];
+        element.outputs(&mut outputs).unwrap();
+        // For each wedge and neighbour six displacements, then six rates.
+        let rates = outputs.chunks(12).flat_map(|own| &own[6..]);
+        let of_points: f64 = loads.iter().zip(rates).map(|(load, rate)| load * rate).sum();
+        let mut rates = vec![0.0; states.len()];
+        element.rates(&mut rates).unwrap();
+        let of_bodies = rates[states.len() - 1];
+        assert!(
+            (of_points - of_bodies).abs() < 1e-12 * of_points.abs() && of_points.abs() > 1.0,
+            "{of_points} {of_bodies}"
+        );
     }
 
-    fn rates(&mut self, out: &mut [f64]) -> Result<(), Error> {
-        let dimension = self.dimension();
-        if out.len() != dimension + 1 {
-            return Err(Error::new("the rates have another number"));
+    #[test]
+    fn analytic_the_springs_carry_the_truck_where_it_is_drawn() {
+        let (mut system, _) = made();
+        let start = system.initial_state();
+        let rest = system
+            .equilibrium(0.0, &start, mechanics::system::StaticFriction::Without)
+            .unwrap();
+        let height = rest[system.position_of(BODY, 2).unwrap()];
+        // 319.175 lb s²/in · 386.09 in/s² on springs of about 51,000 lb/in, preloaded by eight times
+        // 15,403.78 lb.
+        assert!(height.abs() < 0.5e-3, "{height} m");
+    }
+
+    #[test]
+    fn limits_a_load_from_outside_moves_the_body_alone() {
+        let mut loads = vec![0.0; 54];
+        let mut element = element_under(loads.clone());
+        let mut without = vec![0.0; element.states().len()];
+        element.rates(&mut without).unwrap();
+        loads[50] = 1000.0;
+        element.set_inputs(&loads).unwrap();
+        let mut with = vec![0.0; without.len()];
+        element.rates(&mut with).unwrap();
+        let system = &element.plant.system;
+        let place = system.layout().speeds + system.position_of(BODY, 2).unwrap();
+        // 319.175 lb s²/in in kg.
+        let mass = 319.175 * 0.453_592_37 * 9.806_65 / 0.0254;
+        assert!(((with[place] - without[place]) * mass / 1000.0 - 1.0).abs() < 1e-9);
+        for k in (0..with.len()).filter(|k| *k != place) {
+            assert_eq!(with[k].to_bits(), without[k].to_bits());
         }
-        let (rates, power) = out.split_at_mut(dimension);
-        self.truck
-            .system
-            .derivative(self.time, &self.states[..dimension], rates);
-        let speeds = self.truck.system.layout().speeds;
-        power[0] = self.truck.work(self.states[speeds..2 * speeds].iter().copied());
-        Ok(())
-    }
-
-    fn indicators(&mut self, _: &mut [f64]) {}
-
-    fn modes(&self) -> &[u8] {
-        &[]
-    }
-
-    fn update_modes(&mut self) -> bool {
-        false
-    }
-
-    fn outputs(&mut self, out: &mut [f64]) -> Result<(), Error> {
-        let speeds = self.truck.system.layout().speeds;
-        let (positions, rates) = self.states[..2 * speeds].split_at(speeds);
-        for (number, values) in out.chunks_mut(MOTIONS / 4).enumerate() {
-            // For each wedge and neighbour positions, then rates.
-            let (wedge, neighbour) = (number / 4, number / 2 % 2);
-            let of = if number % 2 == 0 { positions } else { rates };
-            let motion = self.truck.neighbour(wedge, neighbour, of);
-            values.copy_from_slice(motion.get(..values.len()).unwrap_or(&motion));
-        }
-        Ok(())
-    }
-
-    fn columns(&mut self, out: &mut [f64]) {
-        let dimension = self.dimension();
-        let seen = self.truck.system.observe(self.time, &self.states[..dimension]);
-        let change = seen.energies.total() - self.start_energy;
-        let residual = seen.residual(self.start_energy) - self.states[dimension];
-        let ledger = energy_balance::Entries {
-            work: self.states[dimension],
-            losses: seen.quadratures.iter().skip(1).sum(),
-            stored_change: change,
-            residual,
-        };
-        for (target, value) in out.iter_mut().zip([change, residual, ledger.relative_residual()]) {
-            *target = value;
-        }
-    }
-
-    fn jacobian_vector_product(&mut self, _: &[f64], _: &[f64]) -> Result<Slopes, Error> {
-        Err(Error::new("the truck gives no directional derivatives"))
-    }
-
-    fn save(&self) -> ElementState {
-        ElementState::Truck(Box::new(TruckState {
-            time: self.time,
-            states: self.states.clone(),
-            inputs: self.inputs.clone(),
-            start_energy: self.start_energy,
-            integrator: self.integrator.as_ref().map(Integrator::state),
-        }))
-    }
-
-    fn restore(&mut self, state: &ElementState) -> Result<(), Error> {
-        let ElementState::Truck(state) = state else {
-            return Err(Error::new("the saved state belongs to another model"));
-        };
-        for (member, found, own) in [
-            ("the truck's states", state.states.len(), self.states.len()),
-            ("the truck's inputs", state.inputs.len(), self.inputs.len()),
-        ] {
-            if found != own {
-                let (found, own) = (format!("a list of {found}"), format!("a list of {own}"));
-                return Err(damaged(member, found, own));
-            }
-        }
-        check_finite("the truck's states", &state.states)?;
-        check_finite("the truck's inputs", &state.inputs)?;
-        check_finite(
-            "the truck's time and start energy",
-            [&state.time, &state.start_energy],
-        )?;
-        match (&mut self.integrator, &state.integrator) {
-            (None, None) => {}
-            (Some(integrator), Some(saved)) => {
-                integrator
-                    .check_state(saved)
-                    .map_err(|error| Error::new(error.to_string()))?;
-                let modes = &saved.discrete_states;
-                if let Some(mode) = modes.iter().find(|mode| **mode > ContactState::Slip as u8) {
-                    let expected = "0 (open), 1 (stick) or 2 (slip)";
-                    return Err(damaged("a contact state of the truck", mode, expected));
-                }
-                put_loads(&mut self.truck, &state.inputs)?;
-                self.truck.put_loads(integrator.problem_mut())?;
-                integrator
-                    .restore(saved)
-                    .map_err(|error| Error::new(error.to_string()))?;
-            }
-            _ => {
-                return Err(Error::new(
-                    "the saved state belongs to the other kind of interface (model exchange or co-simulation)",
-                ));
-            }
-        }
-        self.start_energy = state.start_energy;
-        self.set_states(state.time, &state.states)?;
-        self.set_inputs(&state.inputs)
     }
 }

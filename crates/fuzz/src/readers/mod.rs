@@ -4,6 +4,7 @@ mod beginnings;
 mod broken;
 mod cases;
 mod files;
+mod fmus;
 mod nucars;
 mod small;
 mod states;
@@ -31,7 +32,7 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 20] = [
+pub const ALL: [Reader; 21] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,
@@ -50,6 +51,7 @@ pub const ALL: [Reader; 20] = [
     states::DRIVEN,
     states::RUN_STATES,
     states::INSTANCES,
+    fmus::FMU_RUNS,
     files::FILES,
     beginnings::BEGINNINGS,
 ];

@@ -4,11 +4,14 @@ use std::sync::LazyLock;
 
 use fmi::description::{FmuModel, Version};
 use fmi::element::Interface;
+use fmi::half_truck::HalfTruck;
 use fmi::instance::{Instance, Saved};
+use fmi::source::Source;
 use serde::Deserialize;
 use study::case::{Case, builtin};
 use study::run::{Run, RunState};
 use study::stepping::{Neighbours, SteppedState, SteppedWedge};
+use study::truck::files::Settings;
 
 use super::{Outcome, Reader};
 
@@ -172,18 +175,28 @@ fn run_state(input: &[u8]) -> Outcome {
 }
 
 /// The FMUs whose states are read.
-const MODELS: [(FmuModel, Version, Interface); 4] = [
+const MODELS: [(FmuModel, Version, Interface); 5] = [
     (FmuModel::Wedge, Version::Two, Interface::CoSimulation),
     (FmuModel::Wedge, Version::Three, Interface::ModelExchange),
     (FmuModel::QuasiStatic, Version::Two, Interface::CoSimulation),
     (FmuModel::Truck, Version::Two, Interface::CoSimulation),
+    // An integration that hardly progresses takes longer here than an execution may: the attempts that the
+    // rule of all runs admits cost five times those of a wedge.
+    (FmuModel::HalfTruck, Version::Three, Interface::ModelExchange),
 ];
+
+/// A half-truck whose states are read.
+static HALF_TRUCK: LazyLock<Option<HalfTruck>> =
+    LazyLock::new(|| HalfTruck::built_in("nucars_69_constant_toe_out", &Settings::default()).ok());
 
 /// A new instance.
 fn new_instance(place: usize) -> Option<Instance> {
     let (model, version, interface) = MODELS[place];
-    let case = CASE.as_ref()?.clone();
-    Instance::of_case("fuzz", None, model, case, version, interface).ok()
+    let source = match model {
+        FmuModel::HalfTruck => Source::HalfTruck(Box::new(HALF_TRUCK.as_ref()?.clone())),
+        _ => Source::of_case(model, CASE.as_ref()?.clone())?,
+    };
+    Instance::of("fuzz", None, source, version, interface).ok()
 }
 
 /// One that has begun.

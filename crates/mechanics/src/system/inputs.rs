@@ -1,6 +1,7 @@
 //! What a caller may change in a system between two steps: motions of prescribed bodies, coils, friction.
 //!
-//! After a change the right-hand side is another one: [`integrate::Integrator::reevaluate`] tells the integrator so.
+//! After a change the right-hand side is another one: [`integrate::Integrator::reevaluate`] tells the
+//! integrator so.
 
 use thiserror::Error;
 
@@ -27,9 +28,10 @@ pub enum InputError {
         /// Its name.
         body: String,
     },
-    /// The body was built with a frame that stands still or only translates, or has free coordinates.
+    /// The body was built with motions that do not move, or has free coordinates.
     #[error(
-        "{body} cannot be driven: it must be prescribed, and all its motions must be able to move from the start on"
+        "{body} cannot be driven: it must be prescribed, and its motions must be able to move from the start on (all of \
+         them, where its kinematics are not linearized)"
     )]
     NotPrescribed {
         /// Its name.
@@ -38,14 +40,16 @@ pub enum InputError {
 }
 
 impl System {
-    /// Replaces the motions of a prescribed body that was built with motions which can all move and turn it, such as
-    /// [`Motion::line`]. States stay what they are; no memory is allocated for polynomials.
+    /// Replaces the motions of a prescribed body that was built with motions which can move, such as
+    /// [`Motion::line`]: at least one of a body with linearized kinematics; of another body one that moves
+    /// and one that turns it. States stay what they are; no memory is allocated for polynomials. The work of
+    /// the motions stays in the energy ledger.
     ///
     /// # Errors
     /// There is no such body, or it was not built to be driven.
     pub fn set_motions(&mut self, body: usize, motions: [Motion; 6]) -> Result<(), InputError> {
         let count = self.bodies.len();
-        let Some(moved) = self.bodies.get_mut(body) else {
+        let Some(prescribed) = self.bodies.get_mut(body) else {
             return Err(InputError::NoSuch {
                 what: "body",
                 number: body,
@@ -53,18 +57,27 @@ impl System {
             });
         };
         let frame = &self.frames[body];
-        if frame.fixed || frame.keeps_orientation || self.free_number[body].is_some() {
+        let moved = self.moved.iter_mut().find(|moved| moved.body == body);
+        let moves = match prescribed.linearized {
+            true => moved.is_some(),
+            false => !frame.fixed && !frame.keeps_orientation && self.free_number[body].is_none(),
+        };
+        if !moves {
             return Err(InputError::NotPrescribed {
-                body: moved.name.clone(),
+                body: prescribed.name.clone(),
             });
         }
-        moved.frame.motions = motions;
+        if let Some(moved) = moved {
+            moved.motions.clone_from_slice(&motions);
+        }
+        prescribed.frame.motions = motions;
         self.invalidate_kinematics();
         Ok(())
     }
 
-    /// Sets a force (N) and a moment (N·m, about the centre of gravity) on a body with linearized kinematics, constant until the next call. Their
-    /// work is no term of the energy ledger: with constant loads it is the load times the displacement.
+    /// Sets a force (N) and a moment (N·m, about the centre of gravity) on a body with linearized kinematics,
+    /// constant until the next call. Their work is no term of the energy ledger: with constant loads it is
+    /// the load times the displacement.
     ///
     /// # Errors
     /// There is no such body, or its kinematics are not linearized.

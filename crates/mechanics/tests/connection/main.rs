@@ -15,5 +15,6 @@ mod issue_004_behaviour;
 mod jacobian;
 mod limits;
 mod loops;
+mod prescribed;
 mod vibration;
 mod wedges;

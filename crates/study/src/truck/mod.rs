@@ -4,6 +4,7 @@
 //! data file asks for, and [`TruckResult`] what came out.
 
 pub mod catalog;
+pub mod columns;
 pub mod files;
 pub mod options;
 pub mod requests;

@@ -3,7 +3,7 @@
 
 use std::ffi::{c_int, c_void};
 
-use fmi::instance::Instance;
+use fmi::instance::{EventUpdate, Instance};
 
 use super::simple;
 use crate::component::{OK, Status, call};
@@ -39,18 +39,18 @@ pub unsafe extern "C" fn fmi2NewDiscreteStates(c: *mut c_void, info: *mut EventI
     // SAFETY: the standard's contract, see the module above.
     unsafe {
         call("fmi2NewDiscreteStates", c, |component| {
-            let found = |again: bool| EventInfo {
-                new_discrete_states_needed: c_int::from(again),
+            let found = |update: EventUpdate| EventInfo {
+                new_discrete_states_needed: c_int::from(update.again),
                 terminate_simulation: 0,
                 nominals_of_continuous_states_changed: 0,
                 values_of_continuous_states_changed: 0,
-                next_event_time_defined: 0,
-                next_event_time: 0.0,
+                next_event_time_defined: c_int::from(update.next_time.is_some()),
+                next_event_time: update.next_time.unwrap_or(0.0),
             };
             // Before anything changes: a null pointer is refused as a whole.
-            put(info, found(false), "the event info")?;
+            put(info, found(EventUpdate::default()), "the event info")?;
             let update = component.instance.update_discrete_states()?;
-            put(info, found(update.again), "the event info")?;
+            put(info, found(update), "the event info")?;
             Ok(OK)
         })
     }

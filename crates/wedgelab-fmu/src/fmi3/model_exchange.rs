@@ -32,6 +32,12 @@ pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
             put(next_time, 0.0, "nextEventTime")?;
             let update = component.instance.update_discrete_states()?;
             put(again, update.again, "discreteStatesNeedUpdate")?;
+            put(
+                next_time_defined,
+                update.next_time.is_some(),
+                "nextEventTimeDefined",
+            )?;
+            put(next_time, update.next_time.unwrap_or(0.0), "nextEventTime")?;
             Ok(OK)
         })
     }

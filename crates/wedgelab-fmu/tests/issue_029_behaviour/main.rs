@@ -14,8 +14,9 @@ use std::path::Path;
 use std::ptr::null_mut;
 use std::sync::Mutex;
 
-use fmi::description::{Description, FmuModel, Version};
+use fmi::description::{Description, Version};
 use fmi::resources;
+use fmi::source::Source;
 use study::case::builtin;
 
 const OK: i32 = 0;
@@ -116,9 +117,9 @@ struct Names {
 impl Fmu {
     fn new(version: Version) -> Self {
         let case = builtin::case("cdrun_toe_-0.2_psi_0.012").unwrap();
-        let description = Description::new(FmuModel::Wedge, &case).unwrap();
+        let description = Description::new(&Source::Wedge(Box::new(case))).unwrap();
         let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join(resources::CASE), &description.toml).unwrap();
+        std::fs::write(folder.path().join(resources::CASE), &description.file.1).unwrap();
         std::fs::write(folder.path().join(resources::MODEL), "FrictionWedge\n").unwrap();
         let find = |name: &str| {
             let variable = description

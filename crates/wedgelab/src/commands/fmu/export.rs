@@ -1,4 +1,4 @@
-//! `wedgelab fmu export`: one case as an FMU.
+//! `wedgelab fmu export`: the wedge of a case, or the half-truck of a run, as an FMU.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -7,23 +7,29 @@ use std::process::ExitCode;
 use clap::Args;
 use fmi::description::{FmuModel, Version};
 use fmi::package::{self, Platform};
+use fmi::source::Source;
 
+use super::half_truck::Choice;
 use super::write;
 use crate::commands::run;
 use crate::failure::{Failure, Message};
 
-/// Write one case as an FMU
+/// Write the wedge of a case, or the half-truck of a run, as an FMU
 ///
-/// The file holds the wedge for model exchange and for co-simulation, the case, a page that documents all variables, and the library for
-/// the platform that this program runs on. It needs nothing else.
+/// The file holds the model for model exchange and for co-simulation, the case or the files of the run, a
+/// page that documents all variables, and the library for the platform that this program runs on. It needs
+/// nothing else.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
   wedgelab fmu export my.toml -o wedge.fmu
   wedgelab fmu export cdrun_toe_0_psi_0 -o wedge.fmu --fmi 3
-  wedgelab fmu export my.toml -o simple.fmu --quasi-static")]
+  wedgelab fmu export my.toml -o simple.fmu --quasi-static
+  wedgelab fmu export half_truck.run -o half.fmu
+  wedgelab fmu export nucars_69_constant_toe_out -o half.fmu")]
 pub struct Arguments {
-    /// Case file, or, if there is no such file, the name of a built-in case
+    /// Case file, or run file of a half-truck (.RUN), or, if there is no such file, the name of a built-in
+    /// case or run
     case: PathBuf,
     /// File to write
     #[arg(long, short, value_name = "FILE")]
@@ -34,12 +40,15 @@ pub struct Arguments {
     /// The quasi-static wedge: without mass, contact stiffness and moments
     #[arg(long)]
     quasi_static: bool,
-    /// The truck without its wedges: half a car on a bolster, side frames, springs; with room for four wedges of the case
+    /// The truck without its wedges: half a car on a bolster, side frames, springs; with room for four wedges
+    /// of the case
     #[arg(long, conflicts_with = "quasi_static")]
     truck: bool,
     /// Set one value over those of the case; VALUE is TOML (quotes around text may be left out)
     #[arg(long, value_name = "PATH.KEY=VALUE")]
     set: Vec<String>,
+    #[command(flatten)]
+    choice: Choice,
     /// The library for the FMU [default: the one beside this program]
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
@@ -58,24 +67,22 @@ fn version(text: &str) -> Result<Version, String> {
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let case = run::read(&arguments.case, &arguments.set)?;
+    let source = arguments.source()?;
     may_write(&arguments.out, arguments.force)?;
     let (platform, library) = parts(arguments.library.as_deref())?;
-    let model = if arguments.quasi_static {
-        FmuModel::QuasiStatic
-    } else if arguments.truck {
-        FmuModel::Truck
-    } else {
-        FmuModel::Wedge
-    };
-    let (bytes, description) = package::fmu(model, arguments.fmi, &case, &library, platform)
+    let (bytes, description) = package::fmu(&source, arguments.fmi, &library, platform)
         .map_err(|error| Failure::from(Message::new(error.to_string(), "nothing was written")))?;
     write(&arguments.out, arguments.force, &bytes)?;
     writeln!(
         io::stdout().lock(),
-        "Written {}: {} of the case {}, FMI {}, model exchange and co-simulation, {} variables, {} states, for {}.",
+        "Written {}: {} of the {} {}, FMI {}, model exchange and co-simulation, {} variables, \
+         {} states, for {}.",
         arguments.out.display(),
-        model.name(),
+        description.model.name(),
+        match description.model {
+            FmuModel::HalfTruck => "run",
+            _ => "case",
+        },
         description.case,
         match arguments.fmi {
             Version::Two => "2.0",
@@ -88,10 +95,43 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+impl Arguments {
+    /// What the FMU is to be made of.
+    fn source(&self) -> Result<Source, Failure> {
+        if let Some(half_truck) = self.choice.half_truck(&self.case)? {
+            let option = match (self.quasi_static, self.truck, self.set.is_empty()) {
+                (true, ..) => "--quasi-static",
+                (_, true, _) => "--truck",
+                (.., false) => "--set",
+                _ => return Ok(Source::HalfTruck(Box::new(half_truck))),
+            };
+            let message = format!(
+                "{} is a half-truck, and {option} is for wedges",
+                self.case.display()
+            );
+            return Err(Message::new(message, "leave it out, or name the case of a wedge").into());
+        }
+        let case = Box::new(run::read(&self.case, &self.set)?);
+        if let Some(option) = self.choice.given() {
+            let message = format!(
+                "{} is a case, and {option} is for half-trucks",
+                self.case.display()
+            );
+            return Err(Message::new(message, "leave it out, or name a run file").into());
+        }
+        Ok(match (self.quasi_static, self.truck) {
+            (true, _) => Source::QuasiStatic(case),
+            (_, true) => Source::Truck(case),
+            _ => Source::Wedge(case),
+        })
+    }
+}
+
 const BUILD: &str = "`cargo build --release -p wedgelab-fmu` makes it, in the folder target/release; `--library FILE` names it where it lies \
      elsewhere";
 
-/// The platform of this program, and the library for it: the one that is named, or the one beside the program.
+/// The platform of this program, and the library for it: the one that is named, or the one beside the
+/// program.
 pub(super) fn parts(library: Option<&Path>) -> Result<(Platform, PathBuf), Failure> {
     let Some(platform) = Platform::here() else {
         let message = format!(

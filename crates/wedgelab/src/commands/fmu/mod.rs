@@ -1,6 +1,7 @@
 //! `wedgelab fmu`: functional mock-up units.
 
 mod export;
+mod half_truck;
 mod merge;
 mod ssp;
 
@@ -13,10 +14,11 @@ use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 
-/// Write wedges as functional mock-up units (FMI 2.0 and 3.0)
+/// Write wedges and half-trucks as functional mock-up units (FMI 2.0 and 3.0)
 ///
-/// A functional mock-up unit is a file that a vehicle dynamics program loads as an element of its own: bolster and side frame move
-/// there, forces and moments come from the wedge.
+/// A functional mock-up unit is a file that a vehicle dynamics program loads as an element of its own:
+/// bolster and side frame move there, forces and moments come from the wedge; or loads on a half-truck come
+/// from there, its motions go back.
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(subcommand)]

@@ -1,10 +1,10 @@
 //! `wedgelab nucars`: the comparison program's files.
 
 mod check;
-mod files;
+pub mod files;
 mod load;
 mod modes;
-mod run;
+pub mod run;
 mod show;
 
 use std::process::ExitCode;

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 use nucars::Severity;
-use nucars::together::{RunFiles, find, kind, load};
+use nucars::together::{self, RunFiles, find, kind, load};
 use nucars::truck::{Choices, Yaw};
 use quantity::{Kind, Number, Quantity, System as Units, nearest};
 use report::truck_files;
@@ -84,8 +84,9 @@ pub struct Arguments {
     quiet: bool,
 }
 
+/// How the yaw of the bolster is reached.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-enum YawArgument {
+pub enum YawArgument {
     /// As the files say, even where springs hold the bolster
     Printed,
     /// As they mean it: without the longitudinal springs at both sides, with a stiff yaw spring
@@ -173,19 +174,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
 impl Arguments {
     fn settings(&self) -> Result<Settings, Message> {
-        let mut choices = Choices {
-            yaw: match self.yaw {
-                None | Some(YawArgument::Printed) => Yaw::AsPrinted,
-                Some(YawArgument::Drop) => Yaw::Dropped,
-                Some(YawArgument::Drive) => Yaw::Driven,
-            },
-            ..Choices::default()
-        };
-        for typed in &self.option {
-            options::set(&mut choices, typed).map_err(|error| {
-                Message::new(error.to_string(), "`wedgelab nucars run --help` lists them")
-            })?;
-        }
+        let choices = choices(self.yaw, &self.option)?;
         Ok(Settings {
             choices,
             start: if self.equilibrium {
@@ -213,56 +202,15 @@ impl Arguments {
                 "give a run file, or leave it out",
             ));
         }
-        let fits = match self.yaw {
-            None => true,
-            Some(YawArgument::Printed) => entry.yaw != YawCase::Intended,
-            Some(_) => entry.yaw == YawCase::Intended,
-        };
-        if !fits {
-            return Err(Message::new(
-                format!("--yaw does not fit the built-in run {}", entry.name()),
-                "built-in runs with yaw as intended end with _yaw, those as printed with _yaw_as_printed",
-            ));
-        }
+        check_yaw(entry, self.yaw)?;
         let wrong = |text: String| Message::new(text, "choose another interval or another option");
         entry.case_with(&settings).map_err(wrong)
     }
 
     /// The case of a run file, and its own interval of results, s.
     fn of_files(&self, file: &Path, settings: &Settings) -> Result<(TruckCase, f64), Failure> {
-        let path = find(file)?;
-        let source = load(&path)?;
-        let found = kind(&source)?;
-        if found != nucars::read::FileKind::Run {
-            return Err(Message::new(
-                format!("{} is not a run file, but a {found}", path.display()),
-                "name the .RUN file, which says what belongs together and how long the run is",
-            )
-            .into());
-        }
         let instead = self.instead.files();
-        let files = RunFiles::read(&path, &instead)?;
-        for findings in files.findings() {
-            tell(findings, |finding| finding.severity() == Severity::Error);
-        }
-        let again = std::iter::once(format!("wedgelab nucars check {}", path.display()))
-            .chain(instead.given())
-            .collect::<Vec<_>>()
-            .join(" ");
-        if files.has_errors() {
-            return Err(Message::new(
-                format!("{} cannot be run", path.display()),
-                format!("mend the errors above; `{again}` tells warnings and notes too"),
-            )
-            .into());
-        }
-        let warnings = files.count(Severity::Warning);
-        if warnings > 0 {
-            let s = if warnings == 1 { "" } else { "s" };
-            say(&format!(
-                "{warnings} warning{s} about the files; `{again}` tells them"
-            ));
-        }
+        let RunToMake { path, files, again } = read_run(file, &instead)?;
         let case = case_of_run(&path, &files, settings).map_err(|error| {
             Message::new(
                 format!("{} cannot be run: {error}", path.display()),
@@ -274,8 +222,88 @@ impl Arguments {
     }
 }
 
-/// The built-in run of this name, unless there is such a file.
-fn built_in(file: &Path) -> Result<Option<Entry>, Message> {
+/// Returns what is chosen where the files leave something open.
+pub fn choices(yaw: Option<YawArgument>, typed: &[String]) -> Result<Choices, Message> {
+    let mut choices = Choices {
+        yaw: match yaw {
+            None | Some(YawArgument::Printed) => Yaw::AsPrinted,
+            Some(YawArgument::Drop) => Yaw::Dropped,
+            Some(YawArgument::Drive) => Yaw::Driven,
+        },
+        ..Choices::default()
+    };
+    for typed in typed {
+        options::set(&mut choices, typed)
+            .map_err(|error| Message::new(error.to_string(), "`wedgelab nucars run --help` lists them"))?;
+    }
+    Ok(choices)
+}
+
+/// Checks whether a built-in run can yaw so.
+pub fn check_yaw(entry: Entry, yaw: Option<YawArgument>) -> Result<(), Message> {
+    let fits = match yaw {
+        None => true,
+        Some(YawArgument::Printed) => entry.yaw != YawCase::Intended,
+        Some(_) => entry.yaw == YawCase::Intended,
+    };
+    if fits {
+        return Ok(());
+    }
+    Err(Message::new(
+        format!("--yaw does not fit the built-in run {}", entry.name()),
+        "built-in runs with yaw as intended end with _yaw, those as printed with _yaw_as_printed",
+    ))
+}
+
+/// A run file with its files, which can be run.
+pub struct RunToMake {
+    /// Where the run file is.
+    pub path: PathBuf,
+    /// All files.
+    pub files: RunFiles,
+    /// The command that tells what is doubtful about them.
+    pub again: String,
+}
+
+/// Reads a run file with its files; tells their errors, and refuses them if they have some.
+pub fn read_run(file: &Path, instead: &together::Instead) -> Result<RunToMake, Failure> {
+    let path = find(file)?;
+    let source = load(&path)?;
+    let found = kind(&source)?;
+    if found != nucars::read::FileKind::Run {
+        return Err(Message::new(
+            format!("{} is not a run file, but a {found}", path.display()),
+            "name the .RUN file, which says what belongs together and how long the run is",
+        )
+        .into());
+    }
+    let files = RunFiles::read(&path, instead)?;
+    for findings in files.findings() {
+        tell(findings, |finding| finding.severity() == Severity::Error);
+    }
+    let again = std::iter::once(format!("wedgelab nucars check {}", path.display()))
+        .chain(instead.given())
+        .collect::<Vec<_>>()
+        .join(" ");
+    if files.has_errors() {
+        return Err(Message::new(
+            format!("{} cannot be run", path.display()),
+            format!("mend the errors above; `{again}` tells warnings and notes too"),
+        )
+        .into());
+    }
+    let warnings = files.count(Severity::Warning);
+    if warnings > 0 {
+        let s = if warnings == 1 { "" } else { "s" };
+        say(&format!(
+            "{warnings} warning{s} about the files; `{again}` tells them"
+        ));
+    }
+    Ok(RunToMake { path, files, again })
+}
+
+/// Returns the built-in run of this name, unless there is such a file.
+pub fn built_in(file: &Path) -> Result<Option<Entry>, Message> {
     let name = file.to_str().unwrap_or("");
     let exists = file.is_file();
     if let Some(entry) = catalog::entry(name).filter(|_| !exists) {

@@ -1,0 +1,107 @@
+//! What an FMU is made of, and the file in its resources that says so.
+
+use study::case::Case;
+
+use crate::Error;
+use crate::description::FmuModel;
+use crate::element::{Element, Entries, Setting};
+use crate::half_truck::{self, HalfTruck};
+use crate::quasi_static::QuasiStaticElement;
+use crate::wedge::WedgeElement;
+use crate::{quasi_static, resources, truck, wedge};
+
+/// What an FMU is made of.
+#[derive(Clone, Debug)]
+pub enum Source {
+    /// A wedge with mass.
+    Wedge(Box<Case>),
+    /// A quasi-static wedge.
+    QuasiStatic(Box<Case>),
+    /// A half-truck that has room for wedges of the case.
+    Truck(Box<Case>),
+    /// The run of a half-truck.
+    HalfTruck(Box<HalfTruck>),
+}
+
+impl Source {
+    /// Returns a model that is made of a case; none if the model is made of something else.
+    #[must_use]
+    pub fn of_case(model: FmuModel, case: Case) -> Option<Self> {
+        let case = Box::new(case);
+        match model {
+            FmuModel::Wedge => Some(Self::Wedge(case)),
+            FmuModel::QuasiStatic => Some(Self::QuasiStatic(case)),
+            FmuModel::Truck => Some(Self::Truck(case)),
+            FmuModel::HalfTruck => None,
+        }
+    }
+
+    /// Returns which model it is.
+    #[must_use]
+    pub fn model(&self) -> FmuModel {
+        match self {
+            Self::Wedge(_) => FmuModel::Wedge,
+            Self::QuasiStatic(_) => FmuModel::QuasiStatic,
+            Self::Truck(_) => FmuModel::Truck,
+            Self::HalfTruck(_) => FmuModel::HalfTruck,
+        }
+    }
+
+    /// Returns name and title.
+    #[must_use]
+    pub fn name_and_title(&self) -> [&str; 2] {
+        match self {
+            Self::Wedge(case) | Self::QuasiStatic(case) | Self::Truck(case) => [&case.name, &case.title],
+            Self::HalfTruck(own) => [&own.case().name, &own.case().title],
+        }
+    }
+
+    /// Returns length (s) and tolerance of the default experiment.
+    #[must_use]
+    pub fn experiment(&self) -> [f64; 2] {
+        match self {
+            Self::Wedge(case) | Self::QuasiStatic(case) | Self::Truck(case) => {
+                [case.simulation.duration, case.simulation.relative_tolerance]
+            }
+            Self::HalfTruck(own) => [own.case().duration, own.case().relative_tolerance],
+        }
+    }
+
+    /// Returns name and text of the file that says what it is made of.
+    #[must_use]
+    pub fn file(&self) -> (&'static str, String) {
+        match self {
+            Self::Wedge(case) | Self::QuasiStatic(case) | Self::Truck(case) => {
+                let document = case.document.clone().with_tables_embedded();
+                (resources::CASE, document.to_toml())
+            }
+            Self::HalfTruck(own) => (half_truck::RESOURCE, own.text().to_owned()),
+        }
+    }
+
+    /// Returns all quantities.
+    ///
+    /// # Errors
+    /// Nothing of this model can be made of it.
+    pub fn entries(&self) -> Result<Entries, Error> {
+        match self {
+            Self::Wedge(case) => wedge::entries(case),
+            Self::QuasiStatic(case) => quasi_static::entries(case),
+            Self::Truck(case) => Ok(truck::plant(case)?.entries),
+            Self::HalfTruck(own) => Ok(own.plant()?.entries),
+        }
+    }
+
+    /// Returns the element under these settings, at its start; `entries` are its own.
+    ///
+    /// # Errors
+    /// Values that are not admissible, or from which it cannot start.
+    pub fn element(&self, entries: &Entries, setting: &Setting) -> Result<Box<dyn Element>, Error> {
+        Ok(match self {
+            Self::Wedge(case) => Box::new(WedgeElement::new(case, entries, setting)?),
+            Self::QuasiStatic(case) => Box::new(QuasiStaticElement::new(case, entries, setting)?),
+            Self::Truck(case) => Box::new(truck::element(case, setting)?),
+            Self::HalfTruck(own) => Box::new(own.element(setting)?),
+        })
+    }
+}
