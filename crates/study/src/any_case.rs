@@ -174,13 +174,14 @@ pub enum CaseSource {
 }
 
 impl CaseSource {
-    /// Returns the half-truck that a user names: a built-in one, or a run file (ending `.run`); `None` if
-    /// neither is meant.
+    /// Returns the half-truck that a user names: a built-in one, or a run file (ending `.run`), looked for in
+    /// `folder`; `None` if neither is meant.
     ///
     /// # Errors
     /// The run file or those that it names cannot be read.
-    pub fn half_truck(path: &Path) -> Result<Option<Self>, LoadError> {
-        let built_in = path.to_str().filter(|name| catalog::entry(name).is_some());
+    pub fn half_truck(folder: &Path, named: &Path) -> Result<Option<Self>, LoadError> {
+        let path = folder.join(named);
+        let built_in = named.to_str().filter(|name| catalog::entry(name).is_some());
         if let Some(name) = built_in.filter(|_| !path.is_file()) {
             return Ok(Some(Self::BuiltInHalfTruck(name.to_owned())));
         }
@@ -190,7 +191,7 @@ impl CaseSource {
         {
             return Ok(None);
         }
-        let path = find(path)?;
+        let path = find(&path)?;
         let texts = Box::new(RunFiles::read(&path, &Instead::default())?.texts());
         Ok(Some(Self::HalfTruck { path, texts }))
     }

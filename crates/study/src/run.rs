@@ -10,6 +10,7 @@ use std::ops::ControlFlow;
 
 use integrate::{Integrator, Options, SetupError};
 use mechanics::energy_balance::{EnergyBalance, Entries};
+use mechanics::output::Column;
 use mechanics::plausibility::{Finding, Plausibility};
 use mechanics::system::{ModelError, NoEquilibrium, System};
 use quantity::System as Units;
@@ -18,6 +19,7 @@ use serde::de::DeserializeOwned;
 use thiserror::Error;
 use wedge::BuildError;
 
+use crate::finite::is_finite;
 use crate::progress::{self, INTERVALS, Pace};
 use crate::rows::Rows;
 use crate::summary::Stopped;
@@ -90,6 +92,29 @@ pub struct NotFinite {
     pub value: f64,
     /// The time, s.
     pub time: f64,
+}
+
+/// Appends a row (SI) at `time` (s) to the values of a table, one vector a column.
+///
+/// # Errors
+/// A value is not finite; nothing is appended then.
+pub(crate) fn append(
+    values: &mut [Vec<f64>],
+    columns: &[Column],
+    row: &[f64],
+    time: f64,
+) -> Result<(), NotFinite> {
+    if let Some(index) = row.iter().position(|value| !is_finite(*value)) {
+        return Err(NotFinite {
+            column: columns[index].name.clone(),
+            value: row[index],
+            time,
+        });
+    }
+    for (column, value) in values.iter_mut().zip(row) {
+        column.push(*value);
+    }
+    Ok(())
 }
 
 /// A case that can be run: a model with all that a run needs besides.
@@ -334,7 +359,16 @@ impl<C: RunCase> Run<C> {
     /// As [`Run::finish`], but asks after each step, with the time reached, whether to go on. When not, it is
     /// told why, and the results are incomplete for that reason.
     #[must_use]
-    pub fn finish_while(mut self, mut progress: impl FnMut(f64) -> ControlFlow<String>) -> C::Output {
+    pub fn finish_while(mut self, progress: impl FnMut(f64) -> ControlFlow<String>) -> C::Output {
+        let stopped = self.go_on_while(progress);
+        self.result(stopped)
+    }
+
+    /// Goes on to the end, as [`Run::finish_while`]. Returns why the run stopped, if it did before.
+    pub(crate) fn go_on_while(
+        &mut self,
+        mut progress: impl FnMut(f64) -> ControlFlow<String>,
+    ) -> Option<Stopped> {
         let mut reason = None;
         while reason.is_none() && !self.is_finished() {
             reason = match self.advance() {
@@ -344,8 +378,7 @@ impl<C: RunCase> Run<C> {
                 Err(error) => Some(error.to_string()),
             };
         }
-        let stopped = reason.map(|reason| self.stopped(reason));
-        self.result(stopped)
+        reason.map(|reason| self.stopped(reason))
     }
 
     /// Returns the results so far.

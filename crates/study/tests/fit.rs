@@ -270,7 +270,7 @@ fn input_free_parameters() {
 /// A half-truck's friction from a loop of one of its wedges without noise: the true value, for all wedges.
 #[test]
 fn convergence_a_half_trucks_friction_is_found_again() {
-    let source = CaseSource::half_truck(Path::new("nucars_68_constant_toe_out"));
+    let source = CaseSource::half_truck(Path::new(""), Path::new("nucars_68_constant_toe_out"));
     let source = source.unwrap().unwrap();
     let case = |set: &[String]| {
         let head = [

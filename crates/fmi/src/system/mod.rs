@@ -6,20 +6,17 @@
 //! loads Q the work that comes in is `Q · Δq`, exactly: it is the last state. The work of the prescribed
 //! motions is in the system's own ledger.
 
-mod contacts;
 mod entries;
 mod inputs;
 mod ports;
 mod state;
 
 use integrate::{Integrator, Options, Problem};
-use mechanics::energy_balance;
-use mechanics::system::{EnergyTermKind, Observation, StaticFriction, System};
+use mechanics::system::{Contacts, Observation, StaticFriction, System};
 use study::progress::{self, Pace};
 
 use crate::Error;
 use crate::element::{Element, ElementState, Interface, Setting, Slopes};
-use contacts::Contacts;
 pub(crate) use entries::{accumulated, deflection, kinds, ledger, load, motions, unit};
 use inputs::{Loads, lead, place};
 pub use ports::{Direction, LoadPort, MotionPort, Plant, Ports, Reading, Six, StartPort, Table};
@@ -344,12 +341,8 @@ impl Element for SystemElement {
         self.read_table(&seen);
         for (target, reading) in out.iter_mut().zip(&self.plant.ports.outputs) {
             *target = match reading {
-                Reading::Displacement(direction) => {
-                    direction.jacobian_vector_product(&seen.bodies[direction.body].coordinates)
-                }
-                Reading::Rate(direction) => {
-                    direction.jacobian_vector_product(&seen.bodies[direction.body].speeds)
-                }
+                Reading::Displacement(direction) => direction.value(&seen.bodies[direction.body].coordinates),
+                Reading::Rate(direction) => direction.value(&seen.bodies[direction.body].speeds),
                 Reading::Table(number) => self.row.get(*number).copied().unwrap_or(f64::NAN),
             };
         }
@@ -363,24 +356,13 @@ impl Element for SystemElement {
         let own = own.map(|number| self.row.get(*number).copied().unwrap_or(f64::NAN));
         let load_work = self.states[self.dimension()];
         let of_stored = seen.residual(self.start_energy) - load_work;
-        let mut ledger = energy_balance::Entries {
-            work: load_work,
-            losses: 0.0,
-            stored_change: seen.energies.total() - self.start_energy,
-            residual: if self.plant.residual_of_stored {
-                of_stored
-            } else {
-                -of_stored
-            },
+        let mut ledger = self.plant.system.ledger_entries(&seen, self.start_energy);
+        ledger.work += load_work;
+        ledger.residual = if self.plant.residual_of_stored {
+            of_stored
+        } else {
+            -of_stored
         };
-        for (energy_term, value) in self.plant.system.energy_terms().iter().zip(&seen.quadratures) {
-            match energy_term.kind {
-                EnergyTermKind::MotionWork | EnergyTermKind::CoilGuideWork => ledger.work += value,
-                // An entry of either sign, which is neither.
-                EnergyTermKind::WedgeKinematics => {}
-                _ => ledger.losses += value,
-            }
-        }
         let balance = [ledger.stored_change, ledger.residual, ledger.relative_residual()];
         for (target, value) in out.iter_mut().zip(own.chain(balance)) {
             *target = value;

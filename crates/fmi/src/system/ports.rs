@@ -53,7 +53,7 @@ impl Direction {
 
     /// Returns the displacement at these coordinates of its body, or its rate at their rates.
     #[must_use]
-    pub fn jacobian_vector_product(&self, coordinates: &Six) -> f64 {
+    pub fn value(&self, coordinates: &Six) -> f64 {
         self.row
             .iter()
             .zip(coordinates)

@@ -7,6 +7,7 @@
 mod assembler;
 mod chain;
 mod contact_states;
+mod contacts;
 mod energies;
 mod energy_term;
 mod equilibrium;
@@ -44,6 +45,7 @@ use crate::surface::Plane;
 use crate::vector::Vector;
 
 pub use contact_states::{CLOSING_GAP, ContactState, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
+pub use contacts::Contacts;
 pub use energy_term::{EnergyTerm, EnergyTermKind};
 pub use equilibrium::{NoEquilibrium, StaticFriction};
 pub use evaluation::{CoilEvaluation, ElementEvaluation, Load, PointEvaluation};

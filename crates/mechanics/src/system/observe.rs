@@ -7,6 +7,7 @@ use crate::coil::CoilForce;
 use crate::connection::ConnectionState;
 use crate::contact::PointContact;
 use crate::element::Marked;
+use crate::energy_balance::Entries;
 use crate::link::RelativeMotion;
 use crate::vector::{Matrix, Vector};
 
@@ -167,6 +168,27 @@ impl Observation {
 }
 
 impl System {
+    /// Returns what the energy balance of a run takes from an observation, where the stored energy at the start
+    /// was `start` (J).
+    #[must_use]
+    pub fn ledger_entries(&self, seen: &Observation, start: f64) -> Entries {
+        let mut entries = Entries {
+            work: 0.0,
+            losses: 0.0,
+            stored_change: seen.energies.total() - start,
+            residual: -seen.residual(start),
+        };
+        for (energy_term, value) in self.energy_terms.iter().zip(&seen.quadratures) {
+            match energy_term.kind {
+                EnergyTermKind::MotionWork | EnergyTermKind::CoilGuideWork => entries.work += value,
+                // An entry of either sign, which is neither.
+                EnergyTermKind::WedgeKinematics => {}
+                _ => entries.losses += value,
+            }
+        }
+        entries
+    }
+
     /// Returns all derived quantities of the state `x` at `time`.
     #[must_use]
     pub fn observe(&mut self, time: f64, x: &[f64]) -> Observation {

@@ -16,7 +16,6 @@ use crate::case::problem::{Problem, Problems, TomlLocation, TomlSource};
 use crate::case::section::{Names, Section};
 use crate::case::tree::{self, Node, Table, Value as Toml};
 use crate::case::{CASE_FILE, CaseDocument, CaseError};
-use crate::truck::catalog;
 use vary::{RANGE_HELP, TRIED, assignments, check_paths, factors, variants};
 
 const KEYS: [&str; 10] = [
@@ -354,8 +353,7 @@ fn whole(top: &Section<'_>, key: &str, least: f64, problems: &mut Problems) -> O
 /// The text of the case that is varied.
 fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) -> Option<CaseSource> {
     let path = folder.join(case);
-    let built_in = catalog::entry(case).is_some() && !path.is_file();
-    match CaseSource::half_truck(if built_in { Path::new(case) } else { &path }) {
+    match CaseSource::half_truck(folder, Path::new(case)) {
         Ok(None) => {}
         Ok(Some(source)) => return Some(source),
         Err(error) => {

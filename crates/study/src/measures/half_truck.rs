@@ -1,6 +1,7 @@
 //! The measures of half-trucks: those of the summary, by the numbers of wedges and bodies in the files.
 
 use std::borrow::Cow;
+use std::ops::ControlFlow;
 
 use mechanics::body::COORDINATES;
 use quantity::{Kind, System as Units};
@@ -119,23 +120,17 @@ pub fn judge(case: &TruckCase) -> Result<Judged, Unmeasured> {
         ..case.clone()
     };
     let mut run = Run::new(&case).map_err(|error| Unmeasured::Refused(error.to_string()))?;
-    while !run.is_finished() {
-        run.advance()
-            .map_err(|error| Unmeasured::Stopped(error.to_string()))?;
-    }
+    let stopped = run.go_on_while(|_| ControlFlow::Continue(()));
     let nonsense = plausibility::nonsense(&run);
-    let summary = run.result(None).summary;
-    if let Some(early) = &summary.stopped {
-        return Err(stopped(&early.reason));
+    let summary = run.result(stopped).summary;
+    if let Some(stopped) = &summary.stopped {
+        let (reason, advice) = (&stopped.reason, progress::WHAT_TO_TRY_WITH_FILES);
+        return Err(Unmeasured::Stopped(format!("{reason}; {advice}")));
     }
     Ok(Judged {
         measures: of_summary(&case, &summary),
         nonsense,
     })
-}
-
-fn stopped(reason: &str) -> Unmeasured {
-    Unmeasured::Stopped(format!("{reason}; {}", progress::WHAT_TO_TRY_WITH_FILES))
 }
 
 fn of_summary(case: &TruckCase, summary: &TruckSummary) -> Measures {

@@ -13,9 +13,8 @@ use serde::{Deserialize, Serialize};
 use wedge::Wedge;
 use wedge::outputs::{CORNERS, FACES, Outputs};
 
-use super::{Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError, summarize};
+use super::{Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError, append, summarize};
 use crate::case::Case;
-use crate::finite::is_finite;
 use crate::metrics::Cycle;
 use crate::plausibility;
 use crate::progress;
@@ -152,16 +151,7 @@ impl Recorder for WedgeRecorder {
         let ledger = self
             .outputs
             .values(system, &seen, row.contact_states, row.start_energy, &mut self.row);
-        if let Some(index) = self.row.iter().position(|value| !is_finite(*value)) {
-            return Err(NotFinite {
-                column: self.outputs.columns()[index].name.clone(),
-                value: self.row[index],
-                time: row.time,
-            });
-        }
-        for (column, value) in self.values.iter_mut().zip(&self.row) {
-            column.push(*value);
-        }
+        append(&mut self.values, self.outputs.columns(), &self.row, row.time)?;
         Ok(ledger.entries())
     }
 

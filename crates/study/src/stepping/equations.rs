@@ -3,11 +3,11 @@
 
 use std::fmt;
 
-use integrate::{EventGroup, Problem, SetupError};
+use integrate::{Problem, SetupError};
 use mechanics::output::Column;
 use mechanics::system::{
-    ContactState, Direction, ElementEvaluation, Energies, InputError, JacobianVectorProduct, MotionChange,
-    Observation, System,
+    ContactState, Contacts, Direction, ElementEvaluation, Energies, InputError, JacobianVectorProduct,
+    MotionChange, Observation, System,
 };
 use thiserror::Error;
 use wedge::inputs::{COIL, CoilInput, Neighbours, Reading};
@@ -100,10 +100,7 @@ pub struct Equations {
     outputs: Outputs,
     time: f64,
     x: Vec<f64>,
-    contact_states: Vec<u8>,
-    groups: Vec<EventGroup>,
-    variables: Vec<f64>,
-    margins: Vec<f64>,
+    contacts: Contacts,
     neighbours: Neighbours,
     coil: CoilInput,
     friction: [f64; 2],
@@ -117,7 +114,7 @@ impl fmt::Debug for Equations {
         f.debug_struct("Equations")
             .field("time", &self.time)
             .field("x", &self.x)
-            .field("modes", &self.contact_states)
+            .field("modes", &self.contacts.states)
             .field("neighbours", &self.neighbours)
             .finish_non_exhaustive()
     }
@@ -136,9 +133,7 @@ impl Equations {
         let mut wedge = Wedge::new(wedge_parameters)?;
         let x = wedge.initial_state.clone();
         let start_energy = wedge.system.observe(0.0, &x).energies.total();
-        let mut contact_states = vec![0; wedge.system.point_count()];
-        wedge.system.initial_discrete_states(0.0, &x, &mut contact_states);
-        let structure = wedge.system.structure();
+        let contacts = Contacts::new(&mut wedge.system, 0.0, &x);
         Ok(Self {
             outputs: Outputs::new(&wedge.parameters),
             friction: [
@@ -150,10 +145,7 @@ impl Equations {
             start_coil: coil,
             start_energy,
             time: 0.0,
-            variables: vec![0.0; structure.event_variables()],
-            groups: structure.event_groups,
-            margins: vec![0.0; contact_states.len()],
-            contact_states,
+            contacts,
             x,
             neighbours: *start,
             coil,
@@ -202,7 +194,7 @@ impl Equations {
     /// [`wedge::outputs::CORNERS`].
     #[must_use]
     pub fn contact_states(&self) -> &[u8] {
-        &self.contact_states
+        &self.contacts.states
     }
     /// Where the neighbours are.
     #[must_use]
@@ -289,14 +281,14 @@ impl Equations {
     /// # Errors
     /// Not one for each corner, or one that is none.
     pub fn set_contact_states(&mut self, contact_states: &[u8]) -> Result<(), SteppingError> {
-        if contact_states.len() != self.contact_states.len() {
+        if contact_states.len() != self.contacts.states.len() {
             return Err(SteppingError::Length {
-                expected: self.contact_states.len(),
+                expected: self.contacts.states.len(),
                 found: contact_states.len(),
             });
         }
         check_contact_states(contact_states)?;
-        self.contact_states.copy_from_slice(contact_states);
+        self.contacts.states.copy_from_slice(contact_states);
         Ok(())
     }
 
@@ -310,7 +302,7 @@ impl Equations {
     ) -> Result<(), SteppingError> {
         self.time = time;
         self.x.copy_from_slice(x);
-        self.contact_states.copy_from_slice(contact_states);
+        self.contacts.states.copy_from_slice(contact_states);
         self.neighbours = *at;
         // Straight through the place that was given: whoever begins here from a saved state sees the same.
         self.neighbours.set_at(&mut self.wedge.system, time)?;
@@ -336,56 +328,12 @@ impl Equations {
     /// For each corner a margin that is positive while its contact state lasts, and not positive when it must
     /// change.
     pub fn margins(&mut self) -> &[f64] {
-        let system = &mut self.wedge.system;
-        system.event_variables(None, self.time, &self.x, &mut self.variables);
-        for number in 0..self.groups.len() {
-            self.weigh(number);
-        }
-        &self.margins
-    }
-
-    /// Brings the margins of a group up to date with its signs and contact states.
-    fn weigh(&mut self, number: usize) {
-        let group = &self.groups[number];
-        let (own, variables) = (
-            group.discrete_states.clone(),
-            &self.variables[group.variables.clone()],
-        );
-        let (contact_states, margins) = (&self.contact_states[own.clone()], &mut self.margins[own]);
-        self.wedge
-            .system
-            .event_functions(number, variables, contact_states, margins);
+        self.contacts.evaluate(&mut self.wedge.system, self.time, &self.x)
     }
 
     /// Brings the contact states up to date; whether any has changed.
     pub fn update_modes(&mut self) -> bool {
-        let mut changed = false;
-        self.margins();
-        for number in 0..self.groups.len() {
-            let own = self.groups[number].discrete_states.clone();
-            for corner in own.clone() {
-                // A change may lead straight to the next one, open to stick to slip.
-                for _ in 0..3 {
-                    if self.margins[corner] > 0.0 {
-                        break;
-                    }
-                    let variables = &self.variables[self.groups[number].variables.clone()];
-                    let contact_state = self.contact_states[corner];
-                    let index = corner - own.start;
-                    let next = self
-                        .wedge
-                        .system
-                        .next_discrete_state(number, variables, index, contact_state);
-                    if next == contact_state {
-                        break;
-                    }
-                    self.contact_states[corner] = next;
-                    self.weigh(number);
-                    changed = true;
-                }
-            }
-        }
-        changed
+        self.contacts.update(&mut self.wedge.system, self.time, &self.x)
     }
 
     /// What elements feel.
@@ -473,7 +421,7 @@ impl Equations {
         self.outputs.values(
             &self.wedge.system,
             &seen,
-            &self.contact_states,
+            &self.contacts.states,
             self.start_energy,
             &mut row,
         );
@@ -483,7 +431,7 @@ impl Equations {
     /// Contact state of a corner (0 to 7), by name.
     #[must_use]
     pub fn mode_name(&self, corner: usize) -> &'static str {
-        ContactState::from_number(self.contact_states.get(corner).copied().unwrap_or(0)).name()
+        ContactState::from_number(self.contacts.states.get(corner).copied().unwrap_or(0)).name()
     }
 }
 

@@ -8,7 +8,7 @@ use mechanics::body::COORDINATES;
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
 use mechanics::plausibility::Finding;
-use mechanics::system::{ContactState, EnergyTermKind, NoEquilibrium, Observation, StaticFriction, System};
+use mechanics::system::{ContactState, NoEquilibrium, StaticFriction, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +20,7 @@ use crate::metrics::{Cycle, mean};
 use crate::plausibility;
 use crate::progress;
 use crate::run::{
-    Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError, check_finite, check_length, damaged,
+    Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError, append, check_finite, check_length, damaged,
 };
 use crate::summary::{Stopped, SummaryValue};
 
@@ -148,17 +148,8 @@ impl Recorder for TruckRecorder {
         let seen = system.observe(row.time, row.x);
         self.row.clear();
         self.table.read(&seen, row.start_energy, &mut self.row);
-        if let Some(index) = self.row.iter().position(|value| !is_finite(*value)) {
-            return Err(NotFinite {
-                column: self.table.columns[index].name.clone(),
-                value: self.row[index],
-                time: row.time,
-            });
-        }
-        for (column, value) in self.values.iter_mut().zip(&self.row) {
-            column.push(*value);
-        }
-        Ok(entries(system, &seen, row.start_energy))
+        append(&mut self.values, &self.table.columns, &self.row, row.time)?;
+        Ok(system.ledger_entries(&seen, row.start_energy))
     }
 
     fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
@@ -223,25 +214,6 @@ fn output(run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         result.summary.stopped = Some(run.stopped(format!("{what} is not a finite number")));
     }
     result
-}
-
-/// Returns what the energy balance takes from an instant; `start` is the stored energy at the start, J.
-fn entries(system: &System, seen: &Observation, start: f64) -> Entries {
-    let mut entries = Entries {
-        work: 0.0,
-        losses: 0.0,
-        stored_change: seen.energies.total() - start,
-        residual: -seen.residual(start),
-    };
-    for (energy_term, value) in system.energy_terms().iter().zip(&seen.quadratures) {
-        match energy_term.kind {
-            EnergyTermKind::MotionWork => entries.work += value,
-            // An entry of either sign, which is neither.
-            EnergyTermKind::WedgeKinematics => {}
-            _ => entries.losses += value,
-        }
-    }
-    entries
 }
 
 /// The first number of a summary that is not finite, in words.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
@@ -140,7 +140,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let force = force(&table, arguments.column.as_deref())?;
     let displacement = DISPLACEMENTS.iter().find_map(|name| table.find(name));
     let displacement = displacement.map(TableColumn::si);
-    let half_truck = CaseSource::half_truck(&arguments.case)?;
+    let half_truck = CaseSource::half_truck(Path::new(""), &arguments.case)?;
     let times = table.times();
     let mut set = arguments.set.clone();
     if arguments.follow {

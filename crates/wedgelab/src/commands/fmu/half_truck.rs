@@ -7,7 +7,7 @@ use fmi::half_truck::HalfTruck;
 use study::truck::files::Settings;
 
 use crate::commands::nucars::files::Instead;
-use crate::commands::nucars::run::{RunToMake, YawArgument, built_in, check_yaw, choices, read_run};
+use crate::commands::nucars::run::{RunToMake, YawArgument, built_in, check_built_in, choices, read_run};
 use crate::failure::{Failure, Message};
 
 /// Endings of files of NUCARS.
@@ -61,17 +61,7 @@ impl Choice {
             })?;
             return Ok(Some(made));
         };
-        if let Some(option) = self.instead.files().given().first() {
-            return Err(Message::new(
-                format!(
-                    "the built-in run {} has its own files, and {option} is given",
-                    entry.name()
-                ),
-                "give a run file, or leave it out",
-            )
-            .into());
-        }
-        check_yaw(entry, self.yaw)?;
+        check_built_in(entry, &self.instead, self.yaw)?;
         let made = HalfTruck::built_in(&entry.name(), &settings);
         Ok(Some(made.map_err(|error| {
             Message::new(error.to_string(), "choose another option or value")

@@ -183,16 +183,7 @@ impl Arguments {
     }
 
     fn built_in(&self, entry: Entry, settings: Settings) -> Result<TruckCase, Message> {
-        if let Some(option) = self.instead.files().given().first() {
-            return Err(Message::new(
-                format!(
-                    "the built-in run {} has its own files, and {option} is given",
-                    entry.name()
-                ),
-                "give a run file, or leave it out",
-            ));
-        }
-        check_yaw(entry, self.yaw)?;
+        check_built_in(entry, &self.instead, self.yaw)?;
         entry.case_with(&settings).map_err(|error| {
             let advice = "choose another interval, option or value; `wedgelab nucars run --help` lists them";
             Message::new(error.to_string(), advice)
@@ -231,8 +222,17 @@ pub fn choices(yaw: Option<YawArgument>, typed: &[String]) -> Result<Choices, Me
     Ok(choices)
 }
 
-/// Checks whether a built-in run can yaw so.
-pub fn check_yaw(entry: Entry, yaw: Option<YawArgument>) -> Result<(), Message> {
+/// Checks whether a built-in run can be made without other files, and yaw so.
+pub fn check_built_in(entry: Entry, instead: &Instead, yaw: Option<YawArgument>) -> Result<(), Message> {
+    if let Some(option) = instead.files().given().first() {
+        return Err(Message::new(
+            format!(
+                "the built-in run {} has its own files, and {option} is given",
+                entry.name()
+            ),
+            "give a run file, or leave it out",
+        ));
+    }
     let fits = match yaw {
         None => true,
         Some(YawArgument::Printed) => entry.yaw != YawCase::Intended,

@@ -1,10 +1,12 @@
-//! Contact states of a system and their event indicators, for importers that integrate.
+//! Contact states of a system and their event functions, for callers that integrate it themselves.
 
 use integrate::{EventGroup, Problem};
-use mechanics::system::System;
 
-/// The contact states.
-pub(super) struct Contacts {
+use super::System;
+
+/// The contact states of a system that a caller integrates.
+#[derive(Clone, Debug)]
+pub struct Contacts {
     groups: Vec<EventGroup>,
     variables: Vec<f64>,
     /// For each contact state a number that is positive while the state lasts.
@@ -14,7 +16,8 @@ pub(super) struct Contacts {
 }
 
 impl Contacts {
-    /// Returns those of a system at `time` and state `x`.
+    /// Returns those of a system at `time` (s) and state `x`.
+    #[must_use]
     pub fn new(system: &mut System, time: f64, x: &[f64]) -> Self {
         let structure = system.structure();
         let mut states = vec![0; structure.discrete_states()];
@@ -27,7 +30,8 @@ impl Contacts {
         }
     }
 
-    /// Returns the event functions at `time` and state `x`.
+    /// Returns the event function of each contact state at `time` (s) and state `x`: positive while it lasts,
+    /// zero or negative if it must change.
     pub fn evaluate(&mut self, system: &mut System, time: f64, x: &[f64]) -> &[f64] {
         system.event_variables(None, time, x, &mut self.variables);
         for number in 0..self.groups.len() {
