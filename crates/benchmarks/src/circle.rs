@@ -11,7 +11,6 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use integrate::scalar::{Dual, Real};
 use integrate::{FunctionProblem, Integrator, Method, Options, Problem, SetupError, StepError};
 use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLaw};
@@ -21,6 +20,7 @@ use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::system::{Model, System};
 use mechanics::vector::{Matrix, Vector, rotation_x, rotation_y, rotation_z};
+use numerics::scalar::{Dual, Real};
 
 /// Radius of a curve of 7.5 degrees, m, and 60 km/h, m/s.
 pub const RADIUS: f64 = 232.9;

@@ -1,7 +1,7 @@
 //! The quasi-static wedge behind the variables. Its only states are what it accumulates: work and losses.
 
-use integrate::scalar::{Dual, Real};
 use mechanics::system::scales;
+use numerics::scalar::{Dual, Real};
 use quantity::Kind;
 use serde::{Deserialize, Serialize};
 use study::case::Case;

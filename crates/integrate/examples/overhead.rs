@@ -5,7 +5,9 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use integrate::{BlockLu, EventGroup, Integrator, Method, Options, Problem, ProblemStructure, Singular};
+use integrate::{EventGroup, Integrator, Method, Options, Problem, ProblemStructure};
+
+use numerics::{BlockLu, Singular};
 
 /// 14 linear states: 10 that decay by themselves, 4 that are coupled.
 struct Trivial {

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use wide::f64x4;
 
-use crate::lanes::LANES;
 use crate::methods::tableau::{MAXIMUM_STAGES, Tableau};
 use crate::vector::{add, combine};
+use numerics::lanes::LANES;
 
 /// The dense output of a step: a polynomial in the fraction `θ = (t - start)/step`.
 pub(crate) struct DenseOutput<'a> {

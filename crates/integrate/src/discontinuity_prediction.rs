@@ -8,10 +8,10 @@
 
 use crate::dense_output::DenseOutput;
 use crate::discontinuity::{DiscontinuityFunctions, Prediction, square};
-use crate::lanes::LANES;
 use crate::problem::{Problem, ProblemStructure};
 use crate::root_search::RootSearch;
 use crate::tuning::discontinuity as tuning;
+use numerics::lanes::LANES;
 
 /// Evaluates the discontinuity functions of a problem and predicts their zeros.
 ///

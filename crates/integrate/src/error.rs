@@ -2,14 +2,6 @@
 
 use crate::limits::{MAXIMUM_COUNT, STATE_VERSION};
 
-/// The matrix of a linear system is singular.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the matrix is singular in its diagonal block {block}")]
-pub struct Singular {
-    /// Index of the diagonal block without a usable pivot, in the caller's numbering.
-    pub block: usize,
-}
-
 /// An integration cannot begin.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SetupError {

@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use crate::dense_output::DenseOutput;
 use crate::event::{Event, EventGroup};
-use crate::lanes::LANES;
 use crate::problem::{Problem, ProblemStructure};
 use crate::root_search::RootSearch;
 use crate::statistics::Statistics;
 use crate::tuning::events as tuning;
+use numerics::lanes::LANES;
 
 /// The discrete states of a problem, and the events of the last step.
 #[derive(Clone, Debug)]

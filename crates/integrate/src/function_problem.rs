@@ -1,10 +1,10 @@
 //! Problems made of functions.
 
-use crate::block_lu::BlockLu;
 use crate::discontinuity::DiscontinuityFunctions;
-use crate::error::Singular;
 use crate::event::EventGroup;
 use crate::problem::{Problem, ProblemStructure};
+use numerics::BlockLu;
+use numerics::Singular;
 
 type VectorFunction<'a> = Box<dyn FnMut(f64, &[f64], &mut [f64]) + Send + 'a>;
 type ScalarFunction<'a> = Box<dyn FnMut(f64, &[f64]) -> f64 + Send + 'a>;

@@ -58,9 +58,7 @@
 //! | dense output and its correction | [`Integrator::interpolate`] (`integrator/interpolation.rs`) |
 //! | save and resume with the same bits | [`State`], [`Integrator::resume`], [`Integrator::restore`] |
 //! | counters | [`Statistics`] |
-//! | block-sparse LU factorization | [`BlockLu`] |
-//! | linear algebra of second-order systems | [`partitioned`] |
-//! | numbers with derivatives, SIMD lanes | [`scalar`], [`lanes`] |
+//! | numbers with derivatives, SIMD lanes, linear algebra | the crate `numerics` |
 //! | every tuning constant, with its source | `tuning.rs` |
 //!
 //! # Modules
@@ -68,10 +66,9 @@
 //! A module uses only modules of the lines before its own (the test `limits_modules` checks that):
 //!
 //! ```text
-//! tuning  limits  processor  scalar
-//! lanes  methods  error  event  dense_block
-//! vector  validation  block_lu  root_search
-//! dense_output  discontinuity  partitioned  options
+//! tuning  limits  vector
+//! methods  error  event
+//! validation  root_search  dense_output  discontinuity  options
 //! problem  statistics  controller
 //! function_problem  event_detection  discontinuity_prediction  newton
 //! state
@@ -92,9 +89,7 @@
 
 #![warn(missing_docs)]
 
-mod block_lu;
 mod controller;
-mod dense_block;
 mod dense_output;
 mod discontinuity;
 mod discontinuity_prediction;
@@ -103,25 +98,20 @@ mod event;
 mod event_detection;
 mod function_problem;
 mod integrator;
-pub mod lanes;
 mod limits;
 mod methods;
 mod newton;
 mod options;
-pub mod partitioned;
 mod problem;
-pub mod processor;
 mod root_search;
-pub mod scalar;
 mod state;
 mod statistics;
 mod tuning;
 mod validation;
 mod vector;
 
-pub use block_lu::BlockLu;
 pub use discontinuity::DiscontinuityFunctions;
-pub use error::{Reason, SetupError, Singular, StepError};
+pub use error::{Reason, SetupError, StepError};
 pub use event::{Event, EventGroup};
 pub use function_problem::FunctionProblem;
 pub use integrator::Integrator;

@@ -1,9 +1,9 @@
 //! What an integrator needs to know about a problem.
 
 use crate::discontinuity::DiscontinuityFunctions;
-use crate::error::Singular;
 use crate::event::EventGroup;
-use crate::lanes::LANES;
+use numerics::Singular;
+use numerics::lanes::LANES;
 
 /// Numbers of states and functions of a problem, its error scales and bounds.
 #[derive(Clone, Debug, Default, PartialEq)]

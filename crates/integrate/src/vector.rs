@@ -2,7 +2,7 @@
 
 use wide::f64x4;
 
-use crate::lanes::LANES;
+use numerics::lanes::LANES;
 
 /// Writes `out = base + scale · Σ_j weights_j stage_j`, with `stage_j` at `stages[j·stride ..]`.
 #[inline]

@@ -4,7 +4,9 @@
 
 use std::f64::consts::PI;
 
-use integrate::{Event, EventGroup, Integrator, Options, Problem, ProblemStructure, Singular};
+use integrate::{Event, EventGroup, Integrator, Options, Problem, ProblemStructure};
+
+use numerics::Singular;
 
 /// x_i = sin(ω_i t), each a state of its own, with a discrete state that goes to 1 above a half and back
 /// below its negative.

@@ -324,7 +324,7 @@ fn a_time_discontinuity_must_be_later_than_the_start() {
         fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
             self.0.linearize(time, x, dx, df_dt);
         }
-        fn factor(&mut self, shift: f64) -> Result<(), integrate::Singular> {
+        fn factor(&mut self, shift: f64) -> Result<(), numerics::Singular> {
             self.0.factor(shift)
         }
         fn solve(&mut self, b: &mut [f64]) {

@@ -2,13 +2,13 @@
 //!
 //! `cargo run --release -p mechanics --example custom_element`
 
-use integrate::scalar::Real;
 use integrate::{Integrator, Options};
 use mechanics::body::Body;
 use mechanics::element::{Element, Wrench};
 use mechanics::frame::Frame;
 use mechanics::link::{Marker, RelativeMotion};
 use mechanics::system::{Model, System};
+use numerics::scalar::Real;
 
 /// Linear springs (N/m, N·m/rad) and dampers (N·s/m, N·m·s/rad) along and about the axes of marker B, for
 /// small rotations.

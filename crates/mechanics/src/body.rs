@@ -11,7 +11,7 @@
 
 use std::ops::{Add, Mul};
 
-use integrate::scalar::Number;
+use numerics::scalar::Number;
 use serde::{Deserialize, Serialize};
 
 use crate::frame::{Frame, FrameMotion};

@@ -1,6 +1,6 @@
 //! A piecewise linear characteristic: straight between its points, the end slopes continued outside.
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 

@@ -11,7 +11,7 @@
 //! energy ledger under its own name. With `acts_at = "seat"` the force acts at the coil's end, and there is
 //! no couple.
 
-use integrate::scalar::{Number, Real};
+use numerics::scalar::{Number, Real};
 use serde::{Deserialize, Serialize};
 
 use crate::body::Kinematics;

@@ -11,7 +11,7 @@
 mod blocks;
 mod tangent;
 
-use integrate::scalar::{Number, Real};
+use numerics::scalar::{Number, Real};
 
 pub(crate) use blocks::{PlaneMotion, Points};
 

@@ -3,7 +3,7 @@
 //! Unlike a [`Characteristic`] a curve may fall, be mirrored about the origin, and be clamped. Its integral
 //! from zero is exact: that is the energy of a spring that follows it.
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 

@@ -9,7 +9,7 @@
 
 use std::fmt::Debug;
 
-use integrate::scalar::{Dual, Real};
+use numerics::scalar::{Dual, Real};
 
 use crate::link::{Marker, RelativeMotion};
 use crate::tangent::Tangent;

@@ -1,6 +1,6 @@
 //! Reference frames: where a body's coordinates are measured from. A frame may move in a prescribed way.
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::{Jet, Motion};

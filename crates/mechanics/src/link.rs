@@ -7,7 +7,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use integrate::scalar::{Number, Real};
+use numerics::scalar::{Number, Real};
 
 use crate::body::Kinematics;
 use crate::frame::FrameMotion;

@@ -6,7 +6,7 @@
 //! piece, chosen by a `reference` time inside the piece, so that the value at a break itself belongs to the
 //! piece that is being integrated.
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 use serde::{Deserialize, Serialize};
 
 use crate::spline::Spline;

@@ -5,7 +5,7 @@
 //! `ω = pitch˙ e_pitch + yaw˙ e_yaw + roll˙ e_roll`; with roll held this is (u4 sin q3, u3, u4 cos q3) in the
 //! axes of the reference frame, and (u3 sin q4, u3 cos q4, u4) in those of the body, where moments are taken.
 
-use integrate::scalar::Number;
+use numerics::scalar::Number;
 
 use crate::vector::{Matrix, Vector, rotation_x, rotation_y, rotation_z};
 

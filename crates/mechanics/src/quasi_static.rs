@@ -17,7 +17,7 @@
 //! Limits: no mass, no moments, the faces flat on each other. Rigid kinematics choose b: toe out b = -a, toe
 //! in b = +a; with no toe the slope does not slip, and the industry's elements take the toe-out branch.
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 
 /// A massless wedge.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! The cubic spline through tabulated points, with not-a-knot ends: twice continuously differentiable.
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 

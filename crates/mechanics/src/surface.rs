@@ -1,6 +1,6 @@
 //! Surfaces that contact points touch: signed distance and directions, in the axes of the surface's marker.
 
-use integrate::scalar::Number;
+use numerics::scalar::Number;
 use serde::{Deserialize, Serialize};
 
 use crate::vector::Vector;

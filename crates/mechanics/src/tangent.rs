@@ -8,8 +8,8 @@
 //! elements ([`crate::system`]); so an element states one function over any scalar, and its derivatives come
 //! from [`Tangent::of`].
 
-use integrate::lanes::Lanes;
-use integrate::scalar::Dual;
+use numerics::lanes::Lanes;
+use numerics::scalar::Dual;
 
 use crate::element::{Element, Inputs, Wrench};
 use crate::link::RelativeMotion;

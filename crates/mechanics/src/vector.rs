@@ -5,7 +5,7 @@
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
-use integrate::scalar::{Number, Real};
+use numerics::scalar::{Number, Real};
 
 /// A vector of three components.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,6 @@
 mod common;
 
 use common::Random;
-use integrate::scalar::Real;
 use integrate::{Integrator, Options, Problem};
 use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLaw};
@@ -17,6 +16,7 @@ use mechanics::link::{Marker, RelativeMotion};
 use mechanics::motion::Motion;
 use mechanics::system::{Model, ModelError, System};
 use mechanics::vector::Vector;
+use numerics::scalar::Real;
 
 /// A bushing, and what share of its energy it owns up to.
 #[derive(Clone, Debug)]

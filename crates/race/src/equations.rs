@@ -4,9 +4,11 @@
 //! friction at the first face (the side frame's column), which the energy per cycle needs. Our own integrator
 //! carries all quadratures of the energy ledger besides, as it always does.
 
-use integrate::{Problem as _, Singular};
+use integrate::Problem as _;
+
 use mechanics::system::{EnergyTermKind, System};
 use nalgebra::DMatrix;
+use numerics::Singular;
 
 use crate::problem::{Problem, ProblemError};
 

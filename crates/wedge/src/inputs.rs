@@ -6,10 +6,10 @@
 //! where that is at the time: so, with small angles, force and moment times the rates are the power that the
 //! neighbor takes up.
 
-use integrate::scalar::Real;
 use mechanics::coil::CoilLaw;
 use mechanics::motion::Motion;
 use mechanics::system::{ElementEvaluation, InputError, Load, System};
+use numerics::scalar::Real;
 use serde::{Deserialize, Serialize};
 
 use crate::assemble::{BOLSTER, COLUMN, SIDE_FRAME};

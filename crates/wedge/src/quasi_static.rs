@@ -8,9 +8,9 @@
 //! under a held load as that law does. Where the weight exceeds the coil's force nothing is carried. Units
 //! SI; x longitudinal, z up, as in [`crate::inputs`].
 
-use integrate::scalar::Real;
 use mechanics::friction::FrictionLaw;
 use mechanics::quasi_static::QuasiStaticWedge;
+use numerics::scalar::Real;
 use thiserror::Error;
 
 use crate::inputs::CoilInput;

@@ -13,7 +13,7 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use integrate::processor::{OldProcessor, check};
+use numerics::processor::{OldProcessor, check};
 
 use commands::{case, compare, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, study};
 use failure::Failure;

@@ -12,7 +12,8 @@ use crate::shell::Workspace;
 /// The floors from the ground up, and the crates on each.
 const FLOORS: &[(&str, &[&str])] = &[
     ("reading", &["input"]),
-    ("ground", &["integrate", "quantity"]),
+    ("ground", &["numerics", "quantity"]),
+    ("integration", &["integrate"]),
     ("mechanics", &["mechanics"]),
     ("systems", &["wedge", "nucars"]),
     ("asking", &["study"]),

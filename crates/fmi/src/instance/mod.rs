@@ -16,7 +16,7 @@ pub use step::EventUpdate;
 use std::path::Path;
 use std::sync::Arc;
 
-use integrate::processor::{self, OldProcessor};
+use numerics::processor::{self, OldProcessor};
 use study::case::Case;
 
 use crate::description::{Description, FmuModel, Version};

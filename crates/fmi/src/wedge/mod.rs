@@ -4,7 +4,7 @@ pub(crate) mod entries;
 pub(crate) mod parameters;
 
 use integrate::Options;
-use integrate::scalar::Dual;
+use numerics::scalar::Dual;
 use serde::{Deserialize, Serialize};
 use study::case::Case;
 use study::stepping::{CoilInput, Equations, Neighbours, Reading, SteppedState, SteppedWedge};

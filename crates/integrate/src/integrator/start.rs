@@ -6,7 +6,6 @@ use crate::controller::Controller;
 use crate::discontinuity_prediction::DiscontinuityPredictor;
 use crate::error::SetupError;
 use crate::event_detection::EventDetector;
-use crate::lanes::LANES;
 use crate::limits::{LARGEST_STATE, STATE_VERSION};
 use crate::methods::tableau::{Family, MAXIMUM_STAGES};
 use crate::newton::Newton;
@@ -15,6 +14,7 @@ use crate::problem::{Problem, ProblemStructure};
 use crate::state::State;
 use crate::statistics::Statistics;
 use crate::tuning::first_step as tuning;
+use numerics::lanes::LANES;
 
 impl<P: Problem> Integrator<P> {
     /// Starts an integration.

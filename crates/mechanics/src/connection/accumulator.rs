@@ -1,7 +1,7 @@
 //! How the friction of a connection holds: by a force accumulator, a bristle in series with a slider, or by a
 //! damper up to the limit.
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 
 use crate::friction::Friction as Slip;
 use crate::friction::bristle;

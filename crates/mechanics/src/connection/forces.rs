@@ -1,6 +1,6 @@
 //! The forces of connections, rates of their accumulators, powers.
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 
 use super::accumulator::{AxisForce, Grip, SpatialForce};
 use super::gap::Gap;

@@ -12,7 +12,7 @@
 //! of another connection is loaded. Defect: force jumps from zero where the gap closes at speed. Limit: it
 //! knows its own spring only, not that of a neighbouring connection.
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 
 use super::accumulator::AxisForce;
 use super::options::{GapTension, Options};

@@ -4,8 +4,8 @@
 //! An element gives derivatives by its extensions, their rates and its deflections (2, 6 or 8 of them); with
 //! the rows J of its displacements they become `-Jᵀ (∂f/∂s) J` in the blocks of the two bodies.
 
-use integrate::partitioned::Partitioned;
-use integrate::scalar::Dual;
+use numerics::partitioned::Partitioned;
+use numerics::scalar::Dual;
 
 use super::accumulator::Grip;
 use super::forces::{AxisLaw, SpatialLaw, deflection_at};

@@ -36,7 +36,7 @@ mod spring;
 mod surface;
 mod wedge;
 
-use integrate::partitioned::Partitioned;
+use numerics::partitioned::Partitioned;
 
 use gap::Gap;
 use site::Site;

@@ -3,7 +3,7 @@
 //! `u = x + θ lz - ψ ly`, `v = y - φ lz + ψ lx`, `w = z + φ ly - θ lx`; rotations pass through. The offset l
 //! from the center of gravity is that of the drawn layout.
 
-use integrate::partitioned::Partitioned;
+use numerics::partitioned::Partitioned;
 
 /// The row of one displacement in a body's coordinates: at most three entries.
 #[derive(Clone, Copy, Debug, Default)]

@@ -12,7 +12,7 @@
 //! discontinuous derivative. Limit: coordinates of one group are independent of each other; a coil's shear
 //! does not roll it.
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 
 use super::accumulator::AxisForce;
 use crate::curve::Curve;

@@ -12,7 +12,7 @@
 //! elements beside it. Defect: under a held load it deflects by F/K_a. Limit: the limit of friction is taken
 //! from the spring's force, without the damper's.
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 
 use super::accumulator::{Accumulator, Friction, Grip, SpatialForce, friction_of};
 use crate::curve::Curve;

@@ -40,7 +40,7 @@
 //! `-μ_s tanh(slip/v0)` in place of `α x`. Where `μ_c x N(x)` is not monotonic (steep angles with high
 //! friction) sticking and slipping disagree about N at the limit.
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 
 use super::accumulator::{Accumulator, Friction, Grip, SpatialForce, friction_of};
 use super::options::{Branch, NegativeRise, Options, SlopeDirection};

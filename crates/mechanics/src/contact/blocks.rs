@@ -14,8 +14,8 @@
 
 use std::ops::Range;
 
-use integrate::lanes::{LANES, LaneDual, LaneMask, Lanes};
-use integrate::scalar::{Mask, Number};
+use numerics::lanes::{LANES, LaneDual, LaneMask, Lanes};
+use numerics::scalar::{Mask, Number};
 
 use super::{ContactFace, ContactPoint, PointForce, PointKinematics, PointProperties};
 use crate::body::Kinematics;

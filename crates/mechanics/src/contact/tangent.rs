@@ -9,8 +9,8 @@
 //!
 //! A plane's forces change neither with a displacement along it nor with one point's friction at another.
 
-use integrate::lanes::Lanes;
-use integrate::scalar::Number;
+use numerics::lanes::Lanes;
+use numerics::scalar::Number;
 
 use super::blocks::{OUTPUTS, PointDerivatives, Points};
 use crate::link::RelativeMotion;

@@ -13,7 +13,7 @@
 //! of a Maxwell-slip element. Units: N, m, s. Defect: under a held load the contact deflects elastically by
 //! F/K (no creep); limit: one bristle a point, no Stribeck effect, no rate dependence.
 
-use integrate::scalar::{Number, choose};
+use numerics::scalar::{Number, choose};
 
 use super::{Friction, dot};
 

@@ -4,7 +4,7 @@
 pub mod bristle;
 pub mod tanh;
 
-use integrate::scalar::{Blend, Number};
+use numerics::scalar::{Blend, Number};
 use serde::{Deserialize, Serialize};
 
 /// The friction laws. Every result states the active one.

@@ -7,7 +7,7 @@
 //! `v = v0 atanh(|F_t| / μN)`; the law is a stiff dashpot of μN/v0 there. Remedy: [`super::bristle`].
 //! Example: with v0 = 0.001 in/s a load of half the limit creeps by 0.00055 in/s.
 
-use integrate::scalar::Number;
+use numerics::scalar::Number;
 
 use super::{Friction, dot};
 

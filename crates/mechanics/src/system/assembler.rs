@@ -1,7 +1,7 @@
 //! Assembly of elements between bodies.
 
-use integrate::lanes::LANES;
-use integrate::partitioned::Partitioned;
+use numerics::lanes::LANES;
+use numerics::partitioned::Partitioned;
 
 use super::FrameState;
 use super::energy_term::{EnergyTerm, EnergyTermKind};

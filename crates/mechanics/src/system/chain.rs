@@ -20,7 +20,7 @@
 //! The wrench (F, M) acts on a as the force F and the moment `M + arm × F` about its origin, on b as -F and
 //! `-(M + D × F)`; the axes in which it is given rotate with b.
 
-use integrate::lanes::Lanes;
+use numerics::lanes::Lanes;
 
 use super::{FreeBody, Mounted};
 use crate::body::Kinematics;

@@ -8,9 +8,9 @@
 
 use std::ops::Range;
 
-use integrate::lanes::{LANES, LaneMask, Lanes};
-use integrate::scalar::{Blend, Number};
 use integrate::{DiscontinuityFunctions, EventGroup};
+use numerics::lanes::{LANES, LaneMask, Lanes};
+use numerics::scalar::{Blend, Number};
 
 use super::System;
 use crate::contact::PlaneMotion;

@@ -1,6 +1,6 @@
 //! The widest admissible errors of positions and speeds: see [`scales::WIDEST_TOLERANCE`].
 
-use integrate::partitioned::Layout;
+use numerics::partitioned::Layout;
 
 use super::{FrameState, FreeBody, Mounted, scales};
 use crate::contact::ContactFace;

@@ -5,7 +5,7 @@
 
 use std::ops::Mul;
 
-use integrate::scalar::Real;
+use numerics::scalar::Real;
 
 use super::{Mounted, System};
 use crate::body::Kinematics;

@@ -2,8 +2,8 @@
 
 use std::ops::Mul;
 
-use integrate::partitioned::Partitioned;
-use integrate::scalar::Real;
+use numerics::partitioned::Partitioned;
+use numerics::scalar::Real;
 
 use super::chain::Chain;
 use super::jacobian::differentiate_internal;

@@ -5,9 +5,9 @@
 //! [`super::chain`] applies the chain rule for the coordinates of the bodies at its two ends. Inertia is
 //! differentiated by dual numbers: by angles and their rates only, if the reference frame stands still.
 
-use integrate::lanes::LANES;
-use integrate::partitioned::Partitioned;
-use integrate::scalar::Dual;
+use numerics::lanes::LANES;
+use numerics::partitioned::Partitioned;
+use numerics::scalar::Dual;
 
 use super::chain::{Block, Chain, NO_BLOCK, Powers, add_block};
 use super::forces::Mountable;

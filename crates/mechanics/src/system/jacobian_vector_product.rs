@@ -3,8 +3,8 @@
 //! dual numbers of one derivative.
 
 use integrate::Problem;
-use integrate::scalar::Dual;
 use nalgebra::{DMatrix, DVector};
+use numerics::scalar::Dual;
 
 use super::System;
 use super::evaluation::{ElementEvaluation, EvaluationInputs};

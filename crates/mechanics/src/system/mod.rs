@@ -28,8 +28,9 @@ mod vibration;
 
 use std::ops::Range;
 
-use integrate::partitioned::{Layout, Partitioned, Structure};
-use integrate::{DiscontinuityFunctions, EventGroup, Problem, ProblemStructure, Singular};
+use integrate::{DiscontinuityFunctions, EventGroup, Problem, ProblemStructure};
+use numerics::Singular;
+use numerics::partitioned::{Layout, Partitioned, Structure};
 
 use self::jacobian::Gathered;
 use crate::body::{Body, Kinematics, Rigid};

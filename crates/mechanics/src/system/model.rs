@@ -1,6 +1,6 @@
 //! The description of a system, and how it becomes a [`System`].
 
-use integrate::partitioned::Partitioned;
+use numerics::partitioned::Partitioned;
 use thiserror::Error;
 
 use super::assembler::ElementAssembler;

@@ -5,7 +5,7 @@
 //! tangents; that of dampers at most `Σ c b`, where friction counts as the steepest damper of its law,
 //! `μN/max(|v|, v0)`. Sums over all points: an upper bound, some times too large.
 
-use integrate::scalar::Dual;
+use numerics::scalar::Dual;
 
 use super::System;
 use crate::body::Body;

@@ -1,7 +1,7 @@
 //! The explicit dependence of the rates on time, through the motions of prescribed bodies and reference
 //! frames.
 
-use integrate::scalar::Dual;
+use numerics::scalar::Dual;
 
 use super::forces::Mountable;
 use super::jacobian::rates_along;

@@ -15,7 +15,6 @@ use common::{
     ALL, Random, UP, add, body, coil, cross, difference, face, ground, model, norm, rodrigues, times,
 };
 use integrate::Problem;
-use integrate::scalar::Dual;
 use mechanics::body::Body;
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::{Coil, CoilLaw};
@@ -27,6 +26,7 @@ use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
 use mechanics::spline::{Spline, SplineError};
 use mechanics::system::System;
 use mechanics::vector::{Matrix, Vector};
+use numerics::scalar::Dual;
 use std::f64::consts::PI;
 
 fn close(value: f64, expected: f64, tolerance: f64) {

@@ -1,6 +1,6 @@
 //! Driven wedges against closed forms, balances and differences.
 
-use integrate::scalar::Dual;
+use numerics::scalar::Dual;
 use study::stepping::{CoilInput, Equations, Neighbours, Reading, SteppedWedge};
 
 use crate::common::{YAWED, at, case, value};

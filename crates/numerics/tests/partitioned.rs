@@ -2,8 +2,8 @@
 //! matrix, for one body (which has a path of its own, up to six coordinates) and for several.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use integrate::BlockLu;
-use integrate::partitioned::{Partitioned, Structure};
+use numerics::BlockLu;
+use numerics::partitioned::{Partitioned, Structure};
 
 /// Numbers in -1 .. 1 without pattern.
 fn numbers(mut seed: u64) -> impl FnMut() -> f64 {

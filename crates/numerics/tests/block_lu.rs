@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
-use integrate::{BlockLu, Singular};
+use numerics::{BlockLu, Singular};
 use proptest::prelude::*;
 
 /// Dense solution with full pivoting by rows, written independently.

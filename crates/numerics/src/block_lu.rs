@@ -3,7 +3,14 @@
 use std::collections::BTreeSet;
 
 use crate::dense_block::{eliminate, invert, multiply, subtract_product, subtract_row_product};
-use crate::error::Singular;
+
+/// The matrix of a linear system is singular.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the matrix is singular in its diagonal block {block}")]
+pub struct Singular {
+    /// Index of the diagonal block without a usable pivot, in the caller's numbering.
+    pub block: usize,
+}
 
 /// One elimination: a diagonal block and the later blocks to which it is coupled when it is eliminated.
 #[derive(Clone, Debug)]
@@ -53,7 +60,7 @@ struct Update {
 /// *Accuracy and Stability of Numerical Algorithms*, section 14.4): a solution is then a product.
 ///
 /// ```
-/// use integrate::BlockLu;
+/// use numerics::BlockLu;
 /// let mut matrix = BlockLu::new(&[1, 2], &[(0, 1)]);
 /// matrix.block_mut(0, 0).unwrap().copy_from_slice(&[2.0]);
 /// matrix.block_mut(0, 1).unwrap().copy_from_slice(&[1.0, 0.0]);

@@ -29,7 +29,7 @@ pub struct DualOf<S, const N: usize> {
 /// A real number with its `N` partial derivatives.
 ///
 /// ```
-/// use integrate::scalar::{Dual, Number};
+/// use numerics::scalar::{Dual, Number};
 /// let x = Dual::<1>::variable(0.5, 0);
 /// let y = x * x + x.sin_cos().0;
 /// assert_eq!(y.derivative[0], 2.0 * 0.5 + libm::cos(0.5));

@@ -24,7 +24,7 @@ pub use structure::{Layout, Structure};
 use structure::QuadratureOfBody;
 
 use crate::block_lu::BlockLu;
-use crate::error::Singular;
+use crate::block_lu::Singular;
 
 /// The structured Jacobian of a second-order system, and its factors.
 #[derive(Clone, Debug)]
