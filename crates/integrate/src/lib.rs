@@ -68,7 +68,8 @@
 //! ```text
 //! tuning  limits  vector
 //! methods  error  event
-//! validation  root_search  dense_output  discontinuity  options
+//! validation  root_search
+//! dense_output  discontinuity  options
 //! problem  statistics  controller
 //! function_problem  event_detection  discontinuity_prediction  newton
 //! state

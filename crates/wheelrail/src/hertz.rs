@@ -1,0 +1,1 @@
+//! Elastic contact of two curved bodies.
