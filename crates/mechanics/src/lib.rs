@@ -13,6 +13,7 @@ pub mod connection;
 pub mod contact;
 pub mod curve;
 pub mod element;
+pub mod elements;
 pub mod energy_balance;
 pub mod frame;
 pub mod friction;

@@ -1,0 +1,237 @@
+//! Elements of suspensions: closed forms, both ends' derivatives against differences, the energy ledger,
+//! momentum of free bodies.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+use common::Random;
+use integrate::{Integrator, Options, Problem};
+use mechanics::body::Body;
+use mechanics::element::Element;
+use mechanics::elements::{RadialStop, ShearSpring, Solid, Stop};
+use mechanics::link::{Marker, RelativeMotion};
+use mechanics::system::{Model, System};
+use mechanics::vector::{Matrix, Vector};
+
+fn motion(position: [f64; 3], velocity: [f64; 3]) -> RelativeMotion<f64> {
+    RelativeMotion {
+        position: Vector(position),
+        rotation: Matrix::identity(),
+        velocity: Vector(velocity),
+        angular_velocity: Vector::zero(),
+    }
+}
+
+fn spring() -> ShearSpring {
+    ShearSpring {
+        name: "spring".to_owned(),
+        preload: 2000.0,
+        stiffness: 1e5,
+        shear_stiffness: 7e4,
+        damping: 300.0,
+        solid: Some(Solid {
+            at: -0.03,
+            stiffness: 4e6,
+        }),
+    }
+}
+
+fn stop() -> Stop {
+    Stop {
+        name: "stop".to_owned(),
+        clearances: [0.004, 0.006],
+        stiffness: 2e6,
+        damping: 500.0,
+    }
+}
+
+fn rim() -> RadialStop {
+    RadialStop {
+        name: "rim".to_owned(),
+        clearance: 0.005,
+        stiffness: 2e6,
+        damping: 500.0,
+    }
+}
+
+#[test]
+fn analytic_a_spring_pushes_shears_goes_solid_and_lifts_off() {
+    let spring = spring();
+    let force = |position, velocity| spring.evaluate(&motion(position, velocity)).force.0;
+    let close = |found: [f64; 3], expected: [f64; 3]| {
+        for (found, expected) in found.iter().zip(expected) {
+            assert!(
+                (found - expected).abs() < 1e-9 * (1.0 + expected.abs()),
+                "{found} {expected}"
+            );
+        }
+    };
+    close(force([0.0; 3], [0.0; 3]), [0.0, 0.0, 2000.0]);
+    close(force([0.01, -0.02, 0.005], [0.0; 3]), [-700.0, 1400.0, 1500.0]);
+    close(force([0.0; 3], [0.1, 0.2, -0.3]), [-30.0, -60.0, 2090.0]);
+    // 0.01 m beyond solid.
+    close(force([0.0, 0.0, -0.04], [0.0; 3]), [0.0, 0.0, 6000.0 + 40_000.0]);
+    // Half of the last 5 % of the preload: half of the shear and of the damping.
+    close(
+        force([0.01, 0.0, 0.0195], [0.0, 0.0, 1.0]),
+        [-350.0, 0.0, 50.0 - 150.0],
+    );
+    close(force([0.01, 0.02, 0.021], [1.0, 2.0, 3.0]), [0.0; 3]);
+}
+
+#[test]
+fn analytic_stops_leave_their_clearance_and_never_pull() {
+    let stop = stop();
+    let force = |x: f64, v: f64| stop.evaluate(&motion([x, 0.1, -0.2], [v, 3.0, 4.0])).force.0;
+    assert_eq!(force(0.0059, 1.0), [0.0; 3]);
+    assert_eq!(force(-0.0039, -1.0), [0.0; 3]);
+    assert!((force(0.007, 0.1)[0] + 2050.0).abs() < 1e-6);
+    assert!((force(-0.005, -0.1)[0] - 2050.0).abs() < 1e-6);
+    assert_eq!(force(0.007, -10.0), [0.0; 3]);
+    let open = Stop {
+        clearances: [f64::INFINITY, 0.0],
+        ..stop.clone()
+    };
+    assert_eq!(
+        open.evaluate(&motion([-5.0, 0.0, 0.0], [0.0; 3])).force.0,
+        [0.0; 3]
+    );
+    let rim = rim();
+    let force = rim.evaluate(&motion([0.0048, 0.0064, 0.3], [0.0; 3])).force.0;
+    // 0.008 m from the axis: 6000 N along (-0.6, -0.8).
+    for (found, expected) in force.iter().zip([-3600.0, -4800.0, 0.0]) {
+        assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+    }
+    assert_eq!(rim.evaluate(&motion([0.0; 3], [1.0; 3])).force.0, [0.0; 3]);
+}
+
+/// The power of the force is minus the rate of the stored energy, less the power lost.
+#[test]
+fn energy_rate_and_loss_of_each_law_make_its_power() {
+    fn check(law: &impl Element, random: &mut Random, size: f64) {
+        let mut acted = 0;
+        for _ in 0..2000 {
+            let (position, velocity) = (random.vector::<3>(size), random.vector::<3>(1.0));
+            let wrench = law.evaluate(&motion(position, velocity));
+            let h = 1e-8;
+            let at = |sign: f64| {
+                let moved = std::array::from_fn(|i| position[i] + sign * h * velocity[i]);
+                law.energy(&motion(moved, velocity))
+            };
+            let rate = (at(1.0) - at(-1.0)) / (2.0 * h);
+            let power: f64 = wrench.force.dot::<f64, f64>(Vector(velocity));
+            let size = 1.0 + power.abs() + rate.abs();
+            assert!(
+                (power + rate + wrench.powers[0]).abs() < 1e-4 * size,
+                "{position:?} {velocity:?}"
+            );
+            acted += usize::from(power != 0.0);
+        }
+        assert!(
+            acted > 100,
+            "{} acted in {acted} of 2000 motions only",
+            law.name()
+        );
+    }
+    let mut random = Random(7);
+    check(&spring(), &mut random, 0.05);
+    check(&stop(), &mut random, 0.05);
+    check(&rim(), &mut random, 0.02);
+}
+
+/// Two free bodies, every element between them at turned markers.
+fn pair(random: &mut Random) -> System {
+    let body = |name, at| Body::free(name, 20.0, [0.3, 0.5, 0.4], at);
+    let first = [0.0, 0.0, 0.3, 0.01, -0.02, 0.03];
+    let mut model = Model::new(vec![body("seat", [0.0; 6]), body("carried", first)], [0.0; 3]);
+    let turned = |angles| Marker::new([0.0, 0.05, 0.3], angles);
+    let at = Marker::new([0.001, 0.049, -0.002], [0.0; 3]);
+    model.add(spring(), (1, at), (0, turned(random.vector(0.1))));
+    model.add(stop(), (1, at), (0, turned(random.vector(3.0))));
+    model.add(rim(), (1, at), (0, turned(random.vector(3.0))));
+    System::new(model).unwrap()
+}
+
+#[test]
+fn analytic_derivatives_of_both_ends_against_differences() {
+    for seed in 0..12 {
+        let mut random = Random(seed);
+        let mut system = pair(&mut random);
+        let mut x = system.initial_state();
+        let n = x.len();
+        for value in &mut x[..12] {
+            *value += random.between(-0.008, 0.008);
+        }
+        for value in &mut x[12..24] {
+            *value = random.between(-0.5, 0.5);
+        }
+        let direction = random.vector::<24>(1.0);
+        let h = 1e-8;
+        let mut value = |sign: f64| {
+            let mut moved = x.clone();
+            for (x, y) in moved.iter_mut().zip(direction) {
+                *x += sign * h * y;
+            }
+            let mut dx = vec![0.0; n];
+            system.derivative(0.0, &moved, &mut dx);
+            dx
+        };
+        let (up, down) = (value(1.0), value(-1.0));
+        let dx = value(0.0);
+        system.linearize(0.0, &x, &dx, &mut vec![0.0; n]);
+        let shift = 1000.0;
+        system.factor(shift).unwrap();
+        let mut right: Vec<f64> = (0..n)
+            .map(|i| shift * direction.get(i).unwrap_or(&0.0) - (up[i] - down[i]) / (2.0 * h))
+            .collect();
+        system.solve(&mut right);
+        for (found, expected) in right.iter().zip(direction) {
+            assert!((found - expected).abs() < 1e-3, "{found} {expected}, seed {seed}");
+        }
+    }
+}
+
+#[test]
+fn energy_and_momentum_of_two_free_bodies_are_kept() {
+    let mut system = pair(&mut Random(3));
+    let mut x = system.initial_state();
+    x[12..24].copy_from_slice(&[0.3, -0.2, 0.1, 1.0, -2.0, 0.5, -0.4, 0.2, -0.6, -1.0, 1.5, 0.7]);
+    let momentum = |system: &mut System, time: f64, x: &[f64]| -> [f64; 6] {
+        let observation = system.observe(time, x);
+        let mut sum = [0.0; 6];
+        for body in &observation.bodies {
+            let own: Vector<f64> = body.rotation.apply_transposed(body.angular_velocity);
+            let spin = Vector([0.3 * own.0[0], 0.5 * own.0[1], 0.4 * own.0[2]]);
+            let spin: Vector<f64> = body.rotation.apply(spin);
+            let linear: Vector<f64> = body.velocity.scale(20.0);
+            let orbital: Vector<f64> = body.center_of_gravity.cross(linear);
+            for k in 0..3 {
+                sum[k] += linear.0[k];
+                sum[3 + k] += orbital.0[k] + spin.0[k];
+            }
+        }
+        sum
+    };
+    let before = momentum(&mut system, 0.0, &x);
+    let start = system.observe(0.0, &x).energies.total();
+    let options = Options {
+        relative_tolerance: 1e-10,
+        ..Options::default()
+    };
+    let mut integrator = Integrator::new(system.clone(), options, 0.0, &x).unwrap();
+    while integrator.time() < 0.5 {
+        integrator.step_to(0.5).unwrap();
+    }
+    let after = momentum(&mut system, 0.5, integrator.x());
+    for (before, after) in before.iter().zip(after) {
+        assert!((before - after).abs() < 1e-8, "{before} {after}");
+    }
+    let observation = system.observe(0.5, integrator.x());
+    let residual = observation.residual(start);
+    assert!(
+        observation.losses > 0.01 * start,
+        "{} of {start} J lost",
+        observation.losses
+    );
+    assert!(residual.abs() < 1e-5 * start, "residual {residual} of {start} J");
+}
