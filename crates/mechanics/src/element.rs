@@ -5,12 +5,17 @@
 //! does the rest: forces on both bodies, the Jacobian of both ends (from numbers with derivatives), the work
 //! of prescribed motions, the energy ledger, observation. `examples/custom_element.rs` adds a bushing.
 //!
+//! One of its two bodies must have free coordinates, whichever.
+//!
 //! Limits: such an element has no internal states and no events of its own; contact faces have both.
+
+mod reversed;
 
 use std::fmt::Debug;
 
 use numerics::scalar::{Dual, Real};
 
+use self::reversed::Reversed;
 use crate::link::{Marker, RelativeMotion};
 use crate::tangent::Tangent;
 use crate::vector::Vector;
@@ -103,18 +108,20 @@ impl Scalar for Dual<1> {
     }
 }
 
-/// An element with its marker A.
+/// An element with the marker on the body that it carries: marker A, or marker B of a reversed one.
 #[derive(Debug)]
 pub(crate) struct Marked {
     pub element: Box<dyn AnyElement>,
     pub marker: Marker,
+    /// Whether marker A is on the other body, which has no free coordinates.
+    pub reversed: bool,
 }
 
 impl Clone for Marked {
     fn clone(&self) -> Self {
         Self {
             element: self.element.boxed(),
-            marker: self.marker,
+            ..*self
         }
     }
 }
@@ -145,20 +152,39 @@ pub struct Placement {
     pub(crate) ends: [usize; 2],
     pub(crate) markers: [Marker; 2],
     pub(crate) element: Box<dyn AnyElement>,
+    pub(crate) reversed: Box<dyn AnyElement>,
 }
 
 impl Clone for Placement {
     fn clone(&self) -> Self {
         Self {
             element: self.element.boxed(),
+            reversed: self.reversed.boxed(),
             ..*self
         }
     }
 }
 
 impl Placement {
-    /// Returns an element between marker A on body `a`, which must have free coordinates, and marker B on
-    /// body `b`.
+    /// Returns the bodies with the element's markers: first the one that it carries, which must have free
+    /// coordinates. If that with marker A has none, but the other one has, the element is reversed.
+    pub(crate) fn mounted(self, is_free: impl Fn(usize) -> bool) -> ([usize; 2], Marker, Marked) {
+        let ([a, b], [marker_a, marker_b]) = (self.ends, self.markers);
+        let reversed = !is_free(a) && is_free(b);
+        let (ends, seat, element, marker) = match reversed {
+            false => ([a, b], marker_b, self.element, marker_a),
+            true => ([b, a], marker_a, self.reversed, marker_b),
+        };
+        let marked = Marked {
+            element,
+            marker,
+            reversed,
+        };
+        (ends, seat, marked)
+    }
+
+    /// Returns an element between marker A on body `a` and marker B on body `b`; one of them must have free
+    /// coordinates.
     pub fn new(
         element: impl Element,
         (a, marker_a): (usize, Marker),
@@ -167,6 +193,7 @@ impl Placement {
         Self {
             ends: [a, b],
             markers: [marker_a, marker_b],
+            reversed: Box::new(Reversed(element.clone())),
             element: Box::new(element),
         }
     }

@@ -404,3 +404,69 @@ fn input_kinematics_that_do_not_fit_are_refused() {
     let error = System::new(Model::new(vec![turned], [0.0; 3])).unwrap_err();
     assert!(matches!(error, ModelError::Layout { .. }), "{error}");
 }
+
+/// An element whose marker A is on a prescribed, moving body gives the free body the same accelerations as the
+/// same element on a free body that is so heavy that it keeps this motion; and the loads that it reports on
+/// the body with marker A are the opposite of those on the free body.
+#[test]
+fn analytic_either_body_of_an_element_may_be_prescribed() {
+    let mut random = Random(11);
+    let frame = moving(&mut random);
+    let carried = free("carried", &mut random, Frame::fixed([0.1, 0.0, 0.2], [0.0; 3]));
+    let [a, b] = [0, 1].map(|_| Marker::new(random.vector(0.3), random.vector(0.4)));
+    let build = |driver: Body, torsion: f64| {
+        let mut model = Model::new(vec![driver, carried.clone()], [0.0; 3]);
+        model.add(Bushing { torsion, ..BUSHING }, (0, a), (1, b));
+        model.add(Strut(coil()), (0, a), (1, b));
+        System::new(model).unwrap()
+    };
+    let mut heavy = Body::free("driver", 1e12, [1e12; 3], [0.0; 6]);
+    heavy.frame = frame.clone();
+    let driver = Body::prescribed("driver", frame);
+    let mut prescribed = build(driver.clone(), BUSHING.torsion);
+    let mut heavy = build(heavy, BUSHING.torsion);
+    let (time, x) = (0.3, state(&prescribed, &mut random));
+    let n = prescribed.layout().speeds;
+    let mut both = heavy.initial_state();
+    both[6..6 + n].copy_from_slice(&x[..n]);
+    both[18..18 + n].copy_from_slice(&x[n..2 * n]);
+    prescribed.next_time_discontinuity(0.0);
+    heavy.next_time_discontinuity(0.0);
+    let (mut dx, mut d_both) = (vec![0.0; x.len()], vec![0.0; both.len()]);
+    prescribed.derivative(time, &x, &mut dx);
+    heavy.derivative(time, &both, &mut d_both);
+    for (found, expected) in dx[n..2 * n].iter().zip(&d_both[18..]) {
+        assert!(
+            (found - expected).abs() < 1e-9 * (1.0 + expected.abs()),
+            "{found} {expected}"
+        );
+    }
+    let (found, expected) = (prescribed.observe(time, &x), heavy.observe(time, &both));
+    for (found, expected) in found.elements.iter().zip(&expected.elements) {
+        for k in 0..3 {
+            assert!((found.force.0[k] - expected.force.0[k]).abs() < 1e-6);
+            assert!((found.moment.0[k] - expected.moment.0[k]).abs() < 1e-6);
+        }
+        assert!((found.energy - expected.energy).abs() < 1e-9 * expected.energy);
+        assert!(found.force.0.iter().any(|f| f.abs() > 1.0));
+    }
+    // The ledger closes, with the work of the driver. (The bushing's torsion keeps no energy at large angles.)
+    let mut prescribed = build(driver, 0.0);
+    let start = prescribed.observe(0.0, &x).energies.total();
+    let mut integrator = Integrator::new(prescribed.clone(), Options::default(), 0.0, &x).unwrap();
+    while integrator.time() < 0.5 {
+        integrator.step_to(0.5).unwrap();
+    }
+    let end = prescribed.observe(0.5, integrator.x());
+    assert!(
+        end.work.abs() > 0.05 && end.losses > 1.0,
+        "{} {}",
+        end.work,
+        end.losses
+    );
+    assert!(
+        end.residual(start).abs() < 1e-7 * (start + end.losses),
+        "{}",
+        end.residual(start)
+    );
+}

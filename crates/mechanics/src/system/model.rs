@@ -13,7 +13,7 @@ use crate::body::{Body, COORDINATES, Kinematics};
 use crate::coil::Coil;
 use crate::connection::{self, Connection, ConnectionError, Options};
 use crate::contact::{ContactFace, Points};
-use crate::element::{Element, Marked, Placement};
+use crate::element::{Element, Placement};
 use crate::frame::Frame;
 use crate::link::{Marker, RelativeFrame, Translation};
 use crate::motion::Motion;
@@ -52,8 +52,8 @@ impl Model {
         }
     }
 
-    /// Adds a force element between marker A on one body (its number), which must have free coordinates, and
-    /// marker B on another.
+    /// Adds a force element between marker A on one body (its number) and marker B on another. One of the two
+    /// bodies must have free coordinates.
     pub fn add(&mut self, element: impl Element, a: (usize, Marker), b: (usize, Marker)) {
         self.elements.push(Placement::new(element, a, b));
     }
@@ -70,7 +70,7 @@ pub enum ModelError {
         /// How many bodies there are.
         count: usize,
     },
-    /// An element carries a body without free coordinates.
+    /// A face or a coil carries a body without free coordinates, or an element joins two such bodies.
     #[error("{body} carries an element, but none of its coordinates is free")]
     NotFree {
         /// The body's name.
@@ -289,19 +289,12 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     }
 
     let mut mounted_elements = Vec::new();
-    for Placement {
-        ends: [body, on],
-        markers: [marker_a, marker_b],
-        element,
-    } in elements
-    {
-        let name = element.name().to_owned();
+    for placement in elements {
+        let is_free = |body: usize| matches!(free_number.get(body), Some(Some(_)));
+        let ([body, on], marker, marked) = placement.mounted(is_free);
+        let name = marked.element.name().to_owned();
         let kinds = [Some(EnergyTermKind::ElementLoss), None];
-        let marked = Marked {
-            element,
-            marker: marker_a,
-        };
-        mounted_elements.push(assembler.attach(marked, &name, body, on, marker_b, kinds, 0)?);
+        mounted_elements.push(assembler.attach(marked, &name, body, on, marker, kinds, 0)?);
     }
 
     for (index, connection) in connections.iter().enumerate() {

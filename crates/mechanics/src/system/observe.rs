@@ -333,9 +333,17 @@ impl System {
         let body: RelativeMotion<f64> = mounted.relative_frame.relative(&self.kinematics[mounted.body]);
         let wrench = mounted.element.on_body(&body);
         let (axes, _) = self.marker_pose(mounted.on, &mounted.marker);
+        let (mut force, mut moment): (Vector<f64>, Vector<f64>) =
+            (axes.apply(wrench.force), axes.apply(wrench.moment));
+        if mounted.element.reversed {
+            let origin =
+                |body: usize| self.kinematics[body].point_position(&self.frames[body].motion, Vector::zero());
+            let arm = origin(mounted.body) - origin(mounted.on);
+            (force, moment) = (-force, -(moment + arm.cross::<f64, f64>(force)));
+        }
         ElementState {
-            force: axes.apply(wrench.force),
-            moment: axes.apply(wrench.moment),
+            force,
+            moment,
             energy: self.element_energy(mounted),
         }
     }
