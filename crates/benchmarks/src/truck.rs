@@ -6,16 +6,14 @@
 //! side frame stands on each axle by two points with bristle friction (the adapter). Wedges meet a column and
 //! the bolster's slope by four corners a face, with bristle friction.
 //!
-//! A load or control coil is one coil along z, and two across it, 40 in long and without force at the nominal
-//! place, which give it its shear stiffness and take back the geometric stiffness of its preload. Those
-//! across lie outwards, so that the truck is symmetric. Stops (gibs, lands, pocket sides, adapter stops) are
+//! Load and control coils are springs with shear stiffness. Stops (gibs, lands, pocket sides, adapter stops) are
 //! left out: no motion here reaches them.
 
 use std::f64::consts::PI;
 
 use mechanics::body::Body;
-use mechanics::coil::{Coil, CoilLaw};
 use mechanics::contact::{ContactFace, ContactPoint};
+use mechanics::elements::{ShearSpring, Solid};
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
@@ -46,9 +44,6 @@ const AXLE: f64 = 35.0;
 /// Height and width of a wedge, in.
 const WEDGE_HEIGHT: f64 = 6.125;
 const WEDGE_WIDTH: f64 = 10.5;
-/// Length of a coil, and of those across it, in.
-const COIL_LENGTH: f64 = 10.0;
-const ACROSS_LENGTH: f64 = 40.0;
 
 /// The number of the first wedge among the bodies, and of the bolster and of the left side frame.
 const BOLSTER: usize = 1;
@@ -105,25 +100,6 @@ pub const RIGS: [Rig; 8] = {
     ]
 };
 
-/// Preload (lbf), stiffness and shear stiffness (lbf/in), damping (lbf·s/in).
-struct Spring {
-    preload: f64,
-    stiffness: f64,
-    shear: f64,
-    damping: f64,
-}
-
-impl Spring {
-    fn new([preload, stiffness, shear]: [f64; 3], damping: f64) -> Self {
-        Self {
-            preload,
-            stiffness,
-            shear,
-            damping,
-        }
-    }
-}
-
 impl Rig {
     /// The truck as a system, faces in contact without load, coils at their static loads.
     ///
@@ -142,8 +118,7 @@ impl Rig {
             adapters(&mut model, side_frame, side);
             for (x, y) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
                 let at = [3.75 * x, SIDE * side + 3.75 * y, 13.0];
-                // The bolster stands on it, so the side frame is pushed down.
-                add_spring(&mut model, side_frame, BOLSTER, at, -1.0, &self.load_coil());
+                add_spring(&mut model, BOLSTER, side_frame, at, self.load_coil());
             }
         }
         for (number, (end, side)) in PLACES.into_iter().enumerate() {
@@ -187,17 +162,18 @@ impl Rig {
         bodies
     }
 
-    fn load_coil(&self) -> Spring {
-        match self.damping {
-            Damping::Constant => Spring::new([15_403.8, 6468.7, 4450.0], 0.0),
-            Damping::Variable => Spring::new([12_252.1, 5369.5, 3616.0], 0.0),
-        }
+    fn load_coil(&self) -> ShearSpring {
+        let (law, solid) = match self.damping {
+            Damping::Constant => ([15_403.8, 6468.7, 4450.0, 0.0], -1.306),
+            Damping::Variable => ([12_252.1, 5369.5, 3616.0, 0.0], -1.406),
+        };
+        spring("load_coil", law, Some(solid))
     }
 
-    fn control_coil(&self) -> Spring {
+    fn control_coil(&self) -> ShearSpring {
         match self.damping {
-            Damping::Constant => Spring::new([3702.2, 1979.0, 1346.0], 1.0),
-            Damping::Variable => Spring::new([6303.0, 1937.0, 1317.0], 1.0),
+            Damping::Constant => spring("control_coil", [3702.2, 1979.0, 1346.0, 1.0], None),
+            Damping::Variable => spring("control_coil", [6303.0, 1937.0, 1317.0, 1.0], Some(-1.4085)),
         }
     }
 
@@ -246,7 +222,7 @@ impl Rig {
             Damping::Variable => side_frame,
         };
         let bottom = [WEDGE_PLACE * end, SIDE * side, HEIGHT - WEDGE_HEIGHT / 3.0];
-        add_spring(model, wedge, seat, bottom, 1.0, &self.control_coil());
+        add_spring(model, wedge, seat, bottom, self.control_coil());
     }
 }
 
@@ -262,38 +238,29 @@ fn adapters(model: &mut Model, side_frame: usize, side: f64) {
     }
 }
 
-/// A spring between `body` and a seat body at a point (in), which pushes `body` up (1) or down (-1).
-fn add_spring(model: &mut Model, body: usize, on: usize, at: [f64; 3], way: f64, spring: &Spring) {
-    let origin = |body: usize| model.bodies[body].frame.origin;
-    let (body_origin, seat_origin) = (origin(body), origin(on));
-    let end = inches(at);
-    let end = Vector(std::array::from_fn(|k| end[k] - body_origin[k]));
-    let along = (
-        COIL_LENGTH + spring.preload / spring.stiffness,
-        spring.stiffness,
-        spring.damping,
-    );
-    let across = (ACROSS_LENGTH, spring.shear + spring.preload / COIL_LENGTH, 0.0);
-    for ((free_length, stiffness, damping), seat, pulls) in [
-        (along, [0.0, 0.0, -way * COIL_LENGTH], false),
-        (across, [at[0].signum() * ACROSS_LENGTH, 0.0, 0.0], true),
-        (across, [0.0, at[1].signum() * ACROSS_LENGTH, 0.0], true),
-    ] {
-        let seat = inches(std::array::from_fn(|k| at[k] + seat[k]));
-        let seat = std::array::from_fn(|k| seat[k] - seat_origin[k]);
-        let coil = Coil {
-            end,
-            acts_at: end,
-            law: CoilLaw::Linear {
-                stiffness: stiffness * POUND_PER_INCH,
-            },
-            free_length: free_length * INCH,
-            damping: damping * POUND_PER_INCH,
-            rotational_damping: 0.0,
-            pulls,
-        };
-        model.coils.push((body, on, Marker::new(seat, [0.0; 3]), coil));
+/// Preload lbf, stiffness and shear stiffness lbf/in, damping lbf·s/in; where it goes solid, in.
+fn spring(name: &str, [preload, stiffness, shear, damping]: [f64; 4], solid: Option<f64>) -> ShearSpring {
+    ShearSpring {
+        name: name.to_owned(),
+        preload: preload * POUND_FORCE,
+        stiffness: stiffness * POUND_PER_INCH,
+        shear_stiffness: shear * POUND_PER_INCH,
+        damping: damping * POUND_PER_INCH,
+        solid: solid.map(|at| Solid {
+            at: at * INCH,
+            stiffness: 250_000.0 * POUND_PER_INCH,
+        }),
     }
+}
+
+/// Adds a spring that carries `body` on the seat of another at a place (in).
+fn add_spring(model: &mut Model, body: usize, seat: usize, at: [f64; 3], spring: ShearSpring) {
+    let marker = |body: usize| {
+        let (at, origin) = (inches(at), model.bodies[body].frame.origin);
+        Marker::new(std::array::from_fn(|k| at[k] - origin[k]), [0.0; 3])
+    };
+    let ends = [(body, marker(body)), (seat, marker(seat))];
+    model.add(spring, ends[0], ends[1]);
 }
 
 /// Weight lbf, moments of inertia lbf·in·s², place in.
