@@ -4,7 +4,6 @@
 //! and more. Instruction counts (`valgrind --tool=callgrind`) repeat to the last digit for the same binary.
 
 pub mod circle;
-pub mod truck;
 pub mod wedges;
 
 use std::hint::black_box;

@@ -70,7 +70,7 @@ pub const SECTIONS: [Section; 11] = [
     },
     Section {
         heading: "A three-piece truck",
-        about: "Two side frames and four wedges with six coordinates each, 40 contact points with bristles, a prescribed bolster; ten seconds at 1e-5. Newton: steps rejected because a stage could not be solved. \
+        about: "Two side frames and four wedges with six coordinates each, 40 contact points with bristles, a prescribed bolster or a half car on it: its rigs, 5 to 22 s, at 1e-5. Newton: steps rejected because a stage could not be solved. \
                 Residual: the relative residual of the energy ledger.",
         program: &["truck", "1e-5"],
     },

@@ -16,6 +16,7 @@ const FLOORS: &[(&str, &[&str])] = &[
     ("integration", &["integrate", "wheelrail"]),
     ("mechanics", &["mechanics"]),
     ("systems", &["wedge", "nucars"]),
+    ("vehicles", &["truck"]),
     ("asking", &["study"]),
     ("telling", &["report", "fmi"]),
     (

@@ -1,5 +1,4 @@
-//! `truck [TOLERANCE] [NAME-PART] [METHOD]`: the three-piece truck on one core, 10 s of a prescribed bolster,
-//! for example `truck 1e-5 vertical esdirk3`.
+//! `truck [TOLERANCE] [NAME-PART] [METHOD]`: the rigs of the three-piece truck on one core, for example `truck 1e-5 vertical esdirk3`.
 //!
 //! CPU times of integration with contact states recorded, without rows or files. Changes: of contact states,
 //! a second. Newton: steps rejected because a stage could not be solved. Residual: the relative residual of
@@ -8,14 +7,14 @@
 
 use std::process::ExitCode;
 
-use benchmarks::truck::{POUND_FORCE, RIGS, Rig};
 use benchmarks::{costs, cpu_seconds, ledger};
 use integrate::{Integrator, Method, Options};
 use mechanics::energy_balance::EnergyBalance;
 use mechanics::system::System;
+use truck::{RIGS, Rig, Truck};
 
-/// Simulated time, s.
-const DURATION: f64 = 10.0;
+/// lbf, in N.
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
 /// The ledger is looked at each so many seconds.
 const INTERVAL: f64 = 0.05;
 /// Attempts after which a run is given up.
@@ -43,8 +42,8 @@ fn measure_all() -> Result<(), String> {
         Some(name) => vec![name.parse::<Method>().map_err(|error| error.to_string())?],
     };
     println!(
-        "{:26} {:8} {:>8} {:>8} {:>7} {:>9} {:>9} {:>9} {:>10} {:>7} {:>8} {:>9} {:>10}",
-        "truck, 10 s",
+        "{:34} {:8} {:>8} {:>8} {:>7} {:>9} {:>9} {:>9} {:>10} {:>7} {:>8} {:>9} {:>10}",
+        "rig",
         "method",
         "steps",
         "rejected",
@@ -83,7 +82,8 @@ fn measure_all() -> Result<(), String> {
 
 /// Runs one truck and prints its line; returns where it ended.
 fn measure(rig: &Rig, method: Method, tolerance: f64) -> Result<(System, f64, Vec<f64>), String> {
-    let system = rig.system()?;
+    let truck = Truck::new(&rig.parameters()).map_err(|error| error.to_string())?;
+    let system = truck.system.clone();
     let options = Options {
         relative_tolerance: tolerance,
         maximum_steps: MOST_STEPS,
@@ -96,8 +96,8 @@ fn measure(rig: &Rig, method: Method, tolerance: f64) -> Result<(System, f64, Ve
     let begun = cpu_seconds();
     let (mut stopped, mut balance) = (None, EnergyBalance::new(start));
     let (mut row, mut buffer, mut observing) = (1.0, x.clone(), 0.0);
-    while integrator.time() < DURATION {
-        if let Err(error) = integrator.step_to(DURATION) {
+    while integrator.time() < rig.duration {
+        if let Err(error) = integrator.step_to(rig.duration) {
             stopped = Some(error.to_string());
             break;
         }
@@ -116,17 +116,10 @@ fn measure(rig: &Rig, method: Method, tolerance: f64) -> Result<(System, f64, Ve
     observer.segment_like(integrator.problem());
     let observation = observer.observe(time, &x);
     let residual = balance.relative_residual();
-    let column: f64 = observation
-        .faces
-        .iter()
-        .zip(observer.faces())
-        .find(|(_, face)| face.element.name == "column")
-        .map_or(0.0, |(face, _)| {
-            face.points.iter().map(|point| point.normal).sum()
-        });
+    let column = truck.loads(&observation).wedges[0].column_normal;
     let s = integrator.statistics();
     println!(
-        "{:26} {:8} {:8} {:8} {:7} {:9} {:9} {:9} {:10.0} {:7.2} {:8.1} {:9.1e} {:10.0}",
+        "{:34} {:8} {:8} {:8} {:7} {:9} {:9} {:9} {:10.0} {:7.2} {:8.1} {:9.1e} {:10.0}",
         rig.name,
         method.tableau().name,
         s.steps,

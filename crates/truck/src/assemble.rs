@@ -1,0 +1,371 @@
+//! How bodies and elements make a truck.
+
+use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::PI;
+
+use mechanics::body::Body;
+use mechanics::contact::{ContactFace, ContactPoint};
+use mechanics::elements::{ShearSpring, Solid, Stop};
+use mechanics::frame::Frame;
+use mechanics::link::Marker;
+use mechanics::motion::Motion;
+use mechanics::surface::Plane;
+use mechanics::system::{Model, ModelError, System};
+use mechanics::vector::Vector;
+use wedge::parameters::{Contact, Damping, FaceFriction};
+
+use crate::parameters::{Clearance, Parameters, RigidBody, Spring, Wedge};
+use crate::units::INCH;
+use crate::{PLACES, WEDGE_NAMES};
+
+/// Number of the leading wheelset among the bodies; the trailing one follows.
+pub const WHEELSETS: usize = 0;
+/// Number of the bolster.
+pub const BOLSTER: usize = 2;
+/// Number of the left side frame; the right one follows.
+pub const SIDE_FRAMES: usize = 3;
+/// Number of the first wedge.
+pub const WEDGES: usize = 5;
+
+/// Height of the wedges' centers of gravity and of the gibs, m.
+const HEIGHT: f64 = 18.0 * INCH;
+/// Height at which load coils act, m.
+const SEAT_HEIGHT: f64 = 13.0 * INCH;
+/// Height of the adapters, m, and the places of their two points, of their two stops and of the lands.
+const ADAPTER_HEIGHT: f64 = 22.5 * INCH;
+const ADAPTER_POINTS: f64 = 3.0 * INCH;
+const ADAPTER_STOPS: f64 = 1.56 * INCH;
+const LANDS: [f64; 2] = [7.0 * INCH, 3.0 * INCH];
+
+/// What an element of the suspension is to the truck.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    LoadCoil,
+    /// Of this wedge.
+    ControlCoil,
+    PocketSide,
+    Land,
+    Gib,
+    /// Of the leading (0) or the trailing (1) wheelset.
+    AdapterStop(usize),
+}
+
+/// The law of an element of the suspension.
+#[derive(Clone, Debug)]
+pub(crate) enum Law {
+    Spring(ShearSpring),
+    Stop(Stop),
+}
+
+/// An element of the suspension: its bodies with markers A and B.
+#[derive(Clone, Debug)]
+pub(crate) struct Suspended {
+    pub role: Role,
+    pub law: Law,
+    pub ends: [(usize, Marker); 2],
+}
+
+/// A truck, ready to be integrated.
+#[derive(Clone, Debug)]
+pub struct Truck {
+    /// The equations of motion. Faces: column and slope of each wedge, then, with wheelsets, the adapters of
+    /// each side frame, leading and trailing.
+    pub system: System,
+    pub(crate) damping: Damping,
+    pub(crate) axle: f64,
+    pub(crate) suspension: Vec<Suspended>,
+}
+
+impl Truck {
+    /// Returns the truck with these parameters.
+    ///
+    /// # Errors
+    /// The parameters make no system: a mass that is zero, say, or nothing that is free.
+    pub fn new(parameters: &Parameters) -> Result<Self, ModelError> {
+        let builder = Builder {
+            parameters,
+            model: Model::new(bodies(parameters), [0.0, 0.0, -parameters.gravity]),
+            suspension: Vec::new(),
+        };
+        let (mut model, suspension) = builder.build();
+        for element in &suspension {
+            let [a, b] = element.ends;
+            // Between two prescribed bodies nothing depends on a force; `loads` computes it.
+            if model.bodies[a.0].is_prescribed() && model.bodies[b.0].is_prescribed() {
+                continue;
+            }
+            match &element.law {
+                Law::Spring(spring) => model.add(spring.clone(), a, b),
+                Law::Stop(stop) => model.add(stop.clone(), a, b),
+            }
+        }
+        Ok(Self {
+            system: System::new(model)?,
+            damping: parameters.damping,
+            axle: parameters.distances[2],
+            suspension,
+        })
+    }
+}
+
+/// A body with free coordinates, or one with prescribed motions, at a place.
+fn rigid(name: &str, body: &RigidBody, place: [f64; 3], motion: Option<&[Motion; 6]>) -> Body {
+    let mut frame = Frame::fixed(place, [0.0; 3]);
+    if let Some(motion) = motion {
+        frame.motions.clone_from(motion);
+        return Body::prescribed(name, frame);
+    }
+    let mut free = Body::free(name, body.mass, body.inertia, [0.0; 6]);
+    free.frame = frame;
+    free
+}
+
+fn bodies(parameters: &Parameters) -> Vec<Body> {
+    let [side, place, axle] = parameters.distances;
+    let start = parameters.start();
+    let mut bodies = Vec::new();
+    for (number, name) in ["leading_wheelset", "trailing_wheelset"].into_iter().enumerate() {
+        let mut frame = Frame::fixed([[axle, -axle][number], 0.0, HEIGHT], [0.0; 3]);
+        if let Some(wheelsets) = &parameters.wheelsets {
+            frame.motions.clone_from(&wheelsets.motions[number]);
+        }
+        bodies.push(Body::prescribed(name, frame));
+    }
+    let bolster = &parameters.bolster;
+    let is_free = bolster.free.contains(&true);
+    let motion = (!is_free).then_some(&bolster.motion);
+    let mut body = rigid("bolster", &bolster.body, [0.0, 0.0, bolster.body.height], motion);
+    if is_free {
+        body.free = bolster.free;
+        body.initial[..3].copy_from_slice(&start);
+    }
+    bodies.push(body);
+    let names = ["left_side_frame", "right_side_frame"];
+    for ((name, frame), way) in names.into_iter().zip(&parameters.side_frames).zip([1.0, -1.0]) {
+        let place = [0.0, side * way, frame.body.height];
+        bodies.push(rigid(name, &frame.body, place, frame.motion.as_ref()));
+    }
+    for ((name, wedge), [end, way]) in WEDGE_NAMES.into_iter().zip(&parameters.wedges).zip(PLACES) {
+        let mass = RigidBody {
+            mass: wedge.mass,
+            inertia: wedge.inertia,
+            height: HEIGHT,
+        };
+        let name = format!("{name}_wedge");
+        let mut body = rigid(&name, &mass, [place * end, side * way, HEIGHT], None);
+        body.free = wedge.free;
+        body.initial[..3].copy_from_slice(&start);
+        bodies.push(body);
+    }
+    bodies
+}
+
+struct Builder<'p> {
+    parameters: &'p Parameters,
+    model: Model,
+    suspension: Vec<Suspended>,
+}
+
+impl Builder<'_> {
+    fn build(mut self) -> (Model, Vec<Suspended>) {
+        for number in 0..4 {
+            self.wedge(number);
+        }
+        for number in 0..2 {
+            self.adapters(number);
+        }
+        for (number, side) in [1.0, -1.0].into_iter().enumerate() {
+            self.nest(number, side * self.parameters.distances[0]);
+        }
+        (self.model, self.suspension)
+    }
+
+    /// Returns the marker of a body at a place (m), turned about z (rad).
+    fn marker(&self, body: usize, at: [f64; 3], yaw: f64) -> (usize, Marker) {
+        let origin = self.model.bodies[body].frame.origin;
+        let place = std::array::from_fn(|k| at[k] - origin[k]);
+        (body, Marker::new(place, [0.0, 0.0, yaw]))
+    }
+
+    /// Adds a spring that carries body `a` on the seat of body `b`.
+    fn spring(&mut self, role: Role, name: String, [a, b]: [usize; 2], at: [f64; 3], spring: &Spring) {
+        let law = ShearSpring {
+            name,
+            preload: spring.preload,
+            stiffness: spring.stiffness,
+            shear_stiffness: spring.shear_stiffness,
+            damping: spring.damping,
+            solid: spring.solid.map(|[travel, stiffness]| Solid {
+                at: -travel,
+                stiffness,
+            }),
+        };
+        self.suspension.push(Suspended {
+            role,
+            law: Law::Spring(law),
+            ends: [self.marker(a, at, 0.0), self.marker(b, at, 0.0)],
+        });
+    }
+
+    /// Adds a stop between bodies `a` and `b`, along x of `b` or, with a quarter turn, along its y.
+    fn stop(
+        &mut self,
+        role: Role,
+        name: String,
+        [a, b]: [usize; 2],
+        at: [f64; 3],
+        yaw: f64,
+        clearance: &Clearance,
+    ) {
+        let law = Stop {
+            name,
+            clearances: [clearance.clearance; 2],
+            stiffness: clearance.stiffness,
+            damping: clearance.damping,
+        };
+        self.suspension.push(Suspended {
+            role,
+            law: Law::Stop(law),
+            ends: [self.marker(a, at, 0.0), self.marker(b, at, yaw)],
+        });
+    }
+
+    /// A wedge's two faces, its control coil and the sides of its pocket.
+    fn wedge(&mut self, number: usize) {
+        let parameters = self.parameters;
+        let ([end, way], [side, place, _]) = (PLACES[number], parameters.distances);
+        let wedge = &parameters.wedges[number];
+        let (body, name) = (WEDGES + number, WEDGE_NAMES[number]);
+        let side_frame = SIDE_FRAMES + usize::from(way < 0.0);
+        let length = wedge.height * libm::tan(wedge.angle);
+        let middle = HEIGHT + wedge.height / 6.0;
+        let at = place + length / 3.0;
+        // Wedges at the leading end are turned by half a turn about z, and so are the normals that they meet.
+        let pitch = |pitch: f64| if end > 0.0 { PI - pitch } else { pitch };
+        let faces = [
+            (side_frame, "column", at, pitch(wedge.toe), &wedge.column_friction),
+            (
+                BOLSTER,
+                "slope",
+                at - 0.5 * length,
+                pitch(PI - wedge.angle),
+                &wedge.slope_friction,
+            ),
+        ];
+        for (on, face, x, pitch, friction) in faces {
+            let lower = if face == "column" { -1.0 } else { 2.0 };
+            let points = wedge_points(wedge, end, lower * length / 3.0, -length / 3.0);
+            let (_, place) = self.marker(on, [end * x, side * way, middle], 0.0);
+            let marker = Marker::new(place.origin.0, [0.0, pitch, 0.0]);
+            let face = plane(format!("{name}_{face}"), points, friction);
+            self.model.faces.push((body, on, marker, face));
+        }
+        let seat = match parameters.damping {
+            Damping::Constant => BOLSTER,
+            Damping::Variable => side_frame,
+        };
+        let center = [place * end, side * way, HEIGHT];
+        let bottom = [center[0], center[1], HEIGHT - wedge.height / 3.0];
+        let coil = format!("{name}_control_coil");
+        self.spring(Role::ControlCoil, coil, [body, seat], bottom, &wedge.control_coil);
+        let sides = format!("{name}_pocket_sides");
+        self.stop(
+            Role::PocketSide,
+            sides,
+            [body, BOLSTER],
+            center,
+            FRAC_PI_2,
+            &wedge.pocket_sides,
+        );
+    }
+
+    /// Load coils, gib and lands of one side.
+    fn nest(&mut self, number: usize, y: f64) {
+        let (parameters, side_frame) = (self.parameters, SIDE_FRAMES + number);
+        let ends = [BOLSTER, side_frame];
+        let side = ["left", "right"][number];
+        for (i, coil) in parameters.load_coils[number].iter().enumerate() {
+            let at = [coil.place[0], y + coil.place[1], SEAT_HEIGHT];
+            let name = format!("{side}_load_coil_{}", i + 1);
+            self.spring(Role::LoadCoil, name, ends, at, &coil.spring);
+        }
+        let gib = format!("{side}_gib");
+        self.stop(Role::Gib, gib, ends, [0.0, y, HEIGHT], FRAC_PI_2, &parameters.gib);
+        for (end, end_name) in [(1.0, "leading"), (-1.0, "trailing")] {
+            for (i, (across, up)) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
+                .into_iter()
+                .enumerate()
+            {
+                let x = end * parameters.distances[1];
+                let at = [x, y + across * LANDS[0], HEIGHT + up * LANDS[1]];
+                let name = format!("{end_name}_{side}_land_{}", i + 1);
+                self.stop(Role::Land, name, ends, at, 0.0, &parameters.lands);
+            }
+        }
+    }
+
+    /// Where a side frame stands on both axles.
+    fn adapters(&mut self, number: usize) {
+        let parameters = self.parameters;
+        let Some(wheelsets) = &parameters.wheelsets else {
+            return;
+        };
+        let (adapter, side_frame) = (&wheelsets.adapter, SIDE_FRAMES + number);
+        let side = ["left", "right"][number];
+        let y = parameters.distances[0] * [1.0, -1.0][number];
+        for (axle, end, end_name) in [(0, 1.0, "leading"), (1, -1.0, "trailing")] {
+            let x = parameters.distances[2] * end;
+            let height = ADAPTER_HEIGHT - parameters.side_frames[number].body.height;
+            let points =
+                [ADAPTER_POINTS, -ADAPTER_POINTS].map(|y| point([x, y, height], &adapter.contact, 0.5));
+            let top = ADAPTER_HEIGHT + adapter.preload / adapter.contact.stiffness;
+            let (wheelset, place) = self.marker(WHEELSETS + axle, [x, y, top], 0.0);
+            let marker = Marker::new(place.origin.0, [0.0, -FRAC_PI_2, 0.0]);
+            let name = format!("{end_name}_{side}_adapter");
+            let face = plane(name.clone(), points.to_vec(), &adapter.friction);
+            self.model.faces.push((side_frame, wheelset, marker, face));
+            let (role, ends) = (Role::AdapterStop(axle), [side_frame, wheelset]);
+            for across in [ADAPTER_STOPS, -ADAPTER_STOPS] {
+                let at = [x, y + across, ADAPTER_HEIGHT];
+                let name = format!("{name}_longitudinal_stop");
+                self.stop(role, name, ends, at, 0.0, &adapter.longitudinal);
+            }
+            let (name, at) = (format!("{name}_lateral_stop"), [x, y, ADAPTER_HEIGHT]);
+            self.stop(role, name, ends, at, FRAC_PI_2, &adapter.lateral);
+        }
+    }
+}
+
+/// The four corners of a wedge's face: lower right, lower left, upper right, upper left, with the lower and the
+/// upper edge's x in the wedge's own axes.
+fn wedge_points(wedge: &Wedge, end: f64, lower: f64, upper: f64) -> Vec<ContactPoint> {
+    let (bottom, top) = (-wedge.height / 3.0, 2.0 * wedge.height / 3.0);
+    let half = 0.5 * wedge.width;
+    [
+        [lower, -half, bottom],
+        [lower, half, bottom],
+        [upper, -half, top],
+        [upper, half, top],
+    ]
+    .map(|[x, y, z]| point([-end * x, -end * y, z], &wedge.contact, 0.25))
+    .to_vec()
+}
+
+fn point(place: [f64; 3], contact: &Contact, share: f64) -> ContactPoint {
+    ContactPoint {
+        position: Vector(place),
+        stiffness: contact.stiffness,
+        damping: contact.damping,
+        share,
+    }
+}
+
+fn plane(name: String, points: Vec<ContactPoint>, friction: &FaceFriction) -> ContactFace<Plane> {
+    ContactFace {
+        name,
+        points,
+        surface: Plane,
+        coefficient: friction.coefficient,
+        law: friction.law,
+    }
+}

@@ -1,0 +1,37 @@
+//! The three-piece truck with four wedges that have mass, as data for the multibody core.
+//!
+//! Axes: x forward, y left, z up from the top of rail, origin at the truck's center. The nominal layout is
+//! the loaded one: coils carry their static loads there and faces just touch. Bodies and elements, and where
+//! their numbers come from: [`Parameters`]. What is done to a truck: [`Rig`]. How it becomes a system of
+//! bodies: [`Truck`]. What one sees of it: [`Loads`].
+//!
+//! ```
+//! use truck::{Rig, Truck};
+//! let rig = Rig::named("truck_vertical_variable").ok_or("no such rig")?;
+//! let mut truck = Truck::new(&rig.parameters())?;
+//! let observation = truck.system.observe(0.0, &truck.system.initial_state());
+//! let loads = truck.loads(&observation);
+//! assert!(loads.nest_vertical[0] > 200e3); // N
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+#![warn(missing_docs)]
+
+mod assemble;
+mod loads;
+mod parameters;
+mod rigs;
+mod units;
+
+pub use assemble::{BOLSTER, SIDE_FRAMES, Truck, WEDGES, WHEELSETS};
+pub use loads::{Loads, WarpMoment, WedgeLoads};
+pub use parameters::{
+    Adapter, Bolster, Clearance, NestCoil, Parameters, RigidBody, SideFrame, Spring, Wedge, Wheelsets,
+};
+pub use rigs::{RIGS, Rig};
+
+/// The names of the wedges in the order of all arrays of four: end (leading, trailing), then side.
+pub const WEDGE_NAMES: [&str; 4] = ["leading_left", "leading_right", "trailing_left", "trailing_right"];
+
+/// Ends (leading 1, trailing -1) and sides (left 1, right -1) of the wedges.
+pub(crate) const PLACES: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];

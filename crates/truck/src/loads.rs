@@ -1,0 +1,185 @@
+//! What a truck's elements do, from an observation of its system.
+//!
+//! Signs: the *warp angle* is the mean yaw of the side frames less that of the bolster. The *warp moment* acts
+//! on the bolster, about z through the truck's center. The *inter-axle shear moment* is the axle's distance
+//! from the center times the difference of the lateral forces that the leading and the trailing wheelset
+//! exert. The *vertical load of a nest* acts on the side frame, from all that bolster, wedges and coils exert,
+//! positive down. Column friction acts on the side frame, positive up.
+
+use mechanics::element::{Element, Wrench};
+use mechanics::link::{Marker, RelativeMotion};
+use mechanics::system::{BodyState, FaceState, Observation};
+use mechanics::vector::{Matrix, Vector};
+use wedge::parameters::Damping;
+
+use crate::assemble::{BOLSTER, Law, Role, SIDE_FRAMES, Suspended, Truck, WEDGES};
+
+/// The moment about z that elements exert on the bolster, by kind of element, N·m.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WarpMoment {
+    /// Load coils.
+    pub load_coils: f64,
+    /// Control coils that stand on the bolster.
+    pub control_coils: f64,
+    /// Slopes of the pockets: normal forces and friction.
+    pub slopes: f64,
+    /// Sides of the pockets.
+    pub pocket_sides: f64,
+    /// Lands.
+    pub lands: f64,
+    /// Gibs.
+    pub gibs: f64,
+}
+
+impl WarpMoment {
+    /// Returns the sum.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.load_coils + self.control_coils + self.slopes + self.pocket_sides + self.lands + self.gibs
+    }
+}
+
+/// A wedge.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WedgeLoads {
+    /// Normal force of the column, N.
+    pub column_normal: f64,
+    /// Vertical part of the column's friction alone, on the side frame, N.
+    pub column_friction_z: f64,
+    /// Normal force of the slope, N.
+    pub slope_normal: f64,
+    /// Displacement of the center of gravity from its nominal place, m.
+    pub displacement: [f64; 3],
+    /// Roll, pitch, yaw, rad.
+    pub angles: [f64; 3],
+}
+
+/// Loads and angles of a truck, SI.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Loads {
+    /// Warp angle, rad.
+    pub warp_angle: f64,
+    /// Warp moment on the bolster.
+    pub warp_moment: WarpMoment,
+    /// Inter-axle shear moment, N·m; zero without wheelsets.
+    pub interaxle_shear_moment: f64,
+    /// Vertical loads of the left and of the right nest, N.
+    pub nest_vertical: [f64; 2],
+    /// The wedges, in the order of [`WEDGE_NAMES`](crate::WEDGE_NAMES).
+    pub wedges: [WedgeLoads; 4],
+}
+
+impl Truck {
+    /// Returns the loads at an observation of [`Truck::system`].
+    #[must_use]
+    pub fn loads(&self, observation: &Observation) -> Loads {
+        let bodies = &observation.bodies;
+        let yaw = |body: usize| {
+            let Matrix(r) = bodies[body].rotation;
+            libm::atan2(r[1][0], r[0][0])
+        };
+        let mut loads = Loads {
+            warp_angle: 0.5 * (yaw(SIDE_FRAMES) + yaw(SIDE_FRAMES + 1)) - yaw(BOLSTER),
+            ..Loads::default()
+        };
+        let arm = self.axle;
+        for (number, wedge) in loads.wedges.iter_mut().enumerate() {
+            let [column, slope] = [0, 1].map(|face| &observation.faces[2 * number + face]);
+            let body = &bodies[WEDGES + number];
+            *wedge = WedgeLoads {
+                column_normal: normal(column),
+                column_friction_z: -total(&column.friction_forces).0[2],
+                slope_normal: normal(slope),
+                displacement: body.travel.0,
+                angles: [3, 4, 5].map(|k| body.coordinates[k]),
+            };
+            let side = number % 2;
+            let on_wedge = total(&column.friction_forces) + total(&column.normal_forces);
+            loads.nest_vertical[side] += on_wedge.0[2];
+            for (i, place) in slope.point_positions.iter().enumerate() {
+                let force = slope.normal_forces[i] + slope.friction_forces[i];
+                loads.warp_moment.slopes -= about_z(*place, force);
+            }
+        }
+        for element in &self.suspension {
+            self.add(&mut loads, element, bodies);
+        }
+        for (i, adapter) in observation.faces[8..].iter().enumerate() {
+            let on_side_frame = total(&adapter.friction_forces) + total(&adapter.normal_forces);
+            loads.interaxle_shear_moment += [arm, -arm][i % 2] * on_side_frame.0[1];
+        }
+        loads
+    }
+
+    /// Adds what one element of the suspension does.
+    fn add(&self, loads: &mut Loads, element: &Suspended, bodies: &[BodyState]) {
+        let [(a, marker_a), (b, marker_b)] = &element.ends;
+        let (place, force) = at_marker((&bodies[*a], marker_a), (&bodies[*b], marker_b), &element.law);
+        // On the bolster, and on the side frame of that side, N.
+        let moment = match (*a == BOLSTER, *b == BOLSTER) {
+            (true, _) => about_z(place, force),
+            (_, true) => -about_z(place, force),
+            _ => 0.0,
+        };
+        let parts = &mut loads.warp_moment;
+        let part = match element.role {
+            Role::LoadCoil => &mut parts.load_coils,
+            Role::ControlCoil => &mut parts.control_coils,
+            Role::PocketSide => &mut parts.pocket_sides,
+            Role::Land => &mut parts.lands,
+            Role::Gib => &mut parts.gibs,
+            Role::AdapterStop(axle) => {
+                loads.interaxle_shear_moment += [self.axle, -self.axle][axle] * force.0[1];
+                return;
+            }
+        };
+        *part += moment;
+        debug_assert!(
+            element.role != Role::ControlCoil || (*b == BOLSTER) == (self.damping == Damping::Constant)
+        );
+        // What acts on a side frame is the reaction on body B.
+        if let Some(side) = b.checked_sub(SIDE_FRAMES).filter(|side| *side < 2) {
+            loads.nest_vertical[side] += force.0[2];
+        }
+    }
+}
+
+/// Returns the place of marker A and the force on it, in fixed axes.
+fn at_marker(
+    (a, marker_a): (&BodyState, &Marker),
+    (b, marker_b): (&BodyState, &Marker),
+    law: &Law,
+) -> (Vector<f64>, Vector<f64>) {
+    let axes: Matrix<f64> = b.rotation.times(marker_b.rotation);
+    let arm: Vector<f64> = a.rotation.apply(marker_a.origin);
+    let seat: Vector<f64> = b.rotation.apply(marker_b.origin);
+    let place = a.origin + arm;
+    let own: Vector<f64> = a.angular_velocity.cross(arm);
+    let carried: Vector<f64> = b.angular_velocity.cross(place - b.origin);
+    let motion = RelativeMotion {
+        position: axes.apply_transposed(place - b.origin - seat),
+        rotation: axes
+            .transpose()
+            .times::<f64, f64>(a.rotation.times(marker_a.rotation)),
+        velocity: axes.apply_transposed(a.velocity + own - b.velocity - carried),
+        angular_velocity: axes.apply_transposed(a.angular_velocity - b.angular_velocity),
+    };
+    let wrench: Wrench<f64> = match law {
+        Law::Spring(spring) => spring.evaluate(&motion),
+        Law::Stop(stop) => stop.evaluate(&motion),
+    };
+    (place, axes.apply(wrench.force))
+}
+
+fn total(forces: &[Vector<f64>]) -> Vector<f64> {
+    forces.iter().fold(Vector::zero(), |sum, force| sum + *force)
+}
+
+fn normal(face: &FaceState) -> f64 {
+    face.points.iter().map(|point| point.normal).sum()
+}
+
+/// Returns the moment of a force at a place about z, N·m.
+fn about_z(place: Vector<f64>, force: Vector<f64>) -> f64 {
+    place.0[0] * force.0[1] - place.0[1] * force.0[0]
+}
