@@ -148,13 +148,17 @@ fn broken_inputs(workspace: &Workspace) -> Outcome {
     Ok(None)
 }
 
-/// Example programs, which check what they print.
-const EXAMPLES: [&str; 2] = ["custom_element", "stick_slip"];
+/// Example programs, which check what they print, with their crates.
+const EXAMPLES: [(&str, &str); 3] = [
+    ("mechanics", "custom_element"),
+    ("mechanics", "stick_slip"),
+    ("truck", "warp"),
+];
 
 fn doc_tests(workspace: &Workspace) -> Outcome {
     shell::run(&mut workspace.cargo(["test", "--workspace", "--release", "--no-fail-fast", "--doc"]))?;
-    for example in EXAMPLES {
-        shell::run(&mut workspace.cargo(["run", "--release", "-p", "mechanics", "--example", example]))?;
+    for (package, example) in EXAMPLES {
+        shell::run(&mut workspace.cargo(["run", "--release", "-p", package, "--example", example]))?;
     }
     Ok(None)
 }
