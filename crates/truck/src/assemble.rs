@@ -2,10 +2,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use mechanics::body::Body;
 use mechanics::contact::{ContactFace, ContactPoint};
-use mechanics::elements::{ShearSpring, Solid, Stop};
+use mechanics::elements::{RadialStop, ShearSpring, Solid, Stop};
 use mechanics::frame::Frame;
 use mechanics::link::Marker;
 use mechanics::motion::Motion;
@@ -14,7 +15,7 @@ use mechanics::system::{Model, ModelError, System};
 use mechanics::vector::Vector;
 use wedge::parameters::{Contact, Damping, FaceFriction};
 
-use crate::parameters::{Clearance, Parameters, RigidBody, Spring, Wedge};
+use crate::parameters::{CarBody, Clearance, Parameters, RigidBody, SideBearing, Spring, Wedge};
 use crate::units::INCH;
 use crate::{PLACES, WEDGE_NAMES};
 
@@ -26,6 +27,8 @@ pub const BOLSTER: usize = 2;
 pub const SIDE_FRAMES: usize = 3;
 /// Number of the first wedge.
 pub const WEDGES: usize = 5;
+/// Number of the car body, if there is one.
+pub const CAR_BODY: usize = 9;
 
 /// Height of the wedges' centers of gravity and of the gibs, m.
 const HEIGHT: f64 = 18.0 * INCH;
@@ -48,6 +51,8 @@ pub(crate) enum Role {
     Gib,
     /// Of the leading (0) or the trailing (1) wheelset.
     AdapterStop(usize),
+    /// Rim or roller side bearing: between car body and bolster.
+    CarBody,
 }
 
 /// The law of an element of the suspension.
@@ -55,6 +60,7 @@ pub(crate) enum Role {
 pub(crate) enum Law {
     Spring(ShearSpring),
     Stop(Stop),
+    Rim(RadialStop),
 }
 
 /// An element of the suspension: its bodies with markers A and B.
@@ -68,9 +74,14 @@ pub(crate) struct Suspended {
 /// A truck, ready to be integrated.
 #[derive(Clone, Debug)]
 pub struct Truck {
-    /// The equations of motion. Faces: column and slope of each wedge, then, with wheelsets, the adapters of
-    /// each side frame, leading and trailing.
+    /// The equations of motion. Faces: column and slope of each wedge; with wheelsets the adapters of each side
+    /// frame, leading and trailing; with a car body the center plate, and constant-contact side bearings.
     pub system: System,
+    /// The faces of the adapters.
+    pub(crate) adapters: Range<usize>,
+    /// The face of the center plate, and its height, m.
+    pub(crate) center_plate: Option<usize>,
+    pub(crate) plate_height: f64,
     pub(crate) damping: Damping,
     pub(crate) axle: f64,
     pub(crate) suspension: Vec<Suspended>,
@@ -97,10 +108,16 @@ impl Truck {
             match &element.law {
                 Law::Spring(spring) => model.add(spring.clone(), a, b),
                 Law::Stop(stop) => model.add(stop.clone(), a, b),
+                Law::Rim(rim) => model.add(rim.clone(), a, b),
             }
         }
+        let adapters = 8..if parameters.wheelsets.is_some() { 12 } else { 8 };
+        let car = parameters.car_body.as_ref();
         Ok(Self {
             system: System::new(model)?,
+            center_plate: car.map(|_| adapters.end),
+            plate_height: car.map_or(0.0, |car| car.center_plate.height),
+            adapters,
             damping: parameters.damping,
             axle: parameters.distances[2],
             suspension,
@@ -157,6 +174,12 @@ fn bodies(parameters: &Parameters) -> Vec<Body> {
         body.initial[..3].copy_from_slice(&start);
         bodies.push(body);
     }
+    if let Some(car) = &parameters.car_body {
+        let mut body = rigid("car_body", &car.body, [0.0, 0.0, car.body.height], None);
+        body.free = car.free;
+        body.initial[..3].copy_from_slice(&start);
+        bodies.push(body);
+    }
     bodies
 }
 
@@ -176,6 +199,12 @@ impl Builder<'_> {
         }
         for (number, side) in [1.0, -1.0].into_iter().enumerate() {
             self.nest(number, side * self.parameters.distances[0]);
+        }
+        if let Some(car) = &self.parameters.car_body {
+            self.center_plate(car);
+            for (side, name) in [(1.0, "left"), (-1.0, "right")] {
+                self.side_bearing(car, side * car.side_bearings.distance, name);
+            }
         }
         (self.model, self.suspension)
     }
@@ -300,6 +329,99 @@ impl Builder<'_> {
                 let at = [x, y + across * LANDS[0], HEIGHT + up * LANDS[1]];
                 let name = format!("{end_name}_{side}_land_{}", i + 1);
                 self.stop(Role::Land, name, ends, at, 0.0, &parameters.lands);
+            }
+        }
+    }
+
+    /// Adds a face whose points (m, truck's axes) on the car body touch a plane of the bolster, with a
+    /// penetration of `depth` (m) in the nominal layout.
+    fn car_face(
+        &mut self,
+        name: String,
+        places: &[[f64; 3]],
+        depth: f64,
+        contact: &Contact,
+        friction: &FaceFriction,
+    ) {
+        let share = 1.0 / places.len() as f64;
+        let points = places.iter().map(|place| {
+            let (_, marker) = self.marker(CAR_BODY, *place, 0.0);
+            point(marker.origin.0, contact, share)
+        });
+        let points = points.collect();
+        let [.., height] = places[0];
+        let (_, marker) = self.marker(BOLSTER, [0.0, 0.0, height + depth], 0.0);
+        let marker = Marker::new(marker.origin.0, [0.0, -FRAC_PI_2, 0.0]);
+        let face = plane(name, points, friction);
+        self.model.faces.push((CAR_BODY, BOLSTER, marker, face));
+    }
+
+    fn center_plate(&mut self, car: &CarBody) {
+        let plate = &car.center_plate;
+        let mut places = Vec::new();
+        for radius in &plate.rings {
+            for i in 0..plate.points {
+                let (sine, cosine) = libm::sincos(2.0 * PI * i as f64 / plate.points as f64);
+                places.push([radius * cosine, radius * sine, plate.height]);
+            }
+        }
+        let weight = car.body.mass * self.parameters.gravity;
+        let depth = (weight - car.side_bearings.preload()) / (places.len() as f64 * plate.contact.stiffness);
+        self.car_face(
+            "center_plate".to_owned(),
+            &places,
+            depth,
+            &plate.contact,
+            &plate.friction,
+        );
+        let rim = RadialStop {
+            name: "center_plate_rim".to_owned(),
+            clearance: plate.rim.clearance,
+            stiffness: plate.rim.stiffness,
+            damping: plate.rim.damping,
+        };
+        let at = [0.0, 0.0, plate.height];
+        self.suspension.push(Suspended {
+            role: Role::CarBody,
+            law: Law::Rim(rim),
+            ends: [self.marker(CAR_BODY, at, 0.0), self.marker(BOLSTER, at, 0.0)],
+        });
+    }
+
+    fn side_bearing(&mut self, car: &CarBody, y: f64, side: &str) {
+        let (name, at) = (format!("{side}_side_bearing"), [0.0, y, car.center_plate.height]);
+        match &car.side_bearings.kind {
+            SideBearing::Roller(clearance) => {
+                let (_, place) = self.marker(BOLSTER, at, 0.0);
+                let law = Stop {
+                    name,
+                    clearances: [clearance.clearance, f64::INFINITY],
+                    stiffness: clearance.stiffness,
+                    damping: clearance.damping,
+                };
+                // The x axis of the marker is the bolster's z axis.
+                let upright = Marker::new(place.origin.0, [0.0, -FRAC_PI_2, 0.0]);
+                self.suspension.push(Suspended {
+                    role: Role::CarBody,
+                    law: Law::Stop(law),
+                    ends: [self.marker(CAR_BODY, at, 0.0), (BOLSTER, upright)],
+                });
+            }
+            SideBearing::ConstantContact {
+                preload,
+                contact,
+                travel,
+                solid,
+                friction,
+            } => {
+                self.car_face(
+                    name.clone(),
+                    &[at],
+                    preload / contact.stiffness,
+                    contact,
+                    friction,
+                );
+                self.car_face(format!("{name}_solid"), &[at], -travel, solid, friction);
             }
         }
     }

@@ -23,10 +23,11 @@ mod parameters;
 mod rigs;
 mod units;
 
-pub use assemble::{BOLSTER, SIDE_FRAMES, Truck, WEDGES, WHEELSETS};
-pub use loads::{Loads, WarpMoment, WedgeLoads};
+pub use assemble::{BOLSTER, CAR_BODY, SIDE_FRAMES, Truck, WEDGES, WHEELSETS};
+pub use loads::{CenterPlateLoads, Loads, WarpMoment, WedgeLoads};
 pub use parameters::{
-    Adapter, Bolster, Clearance, NestCoil, Parameters, RigidBody, SideFrame, Spring, Wedge, Wheelsets,
+    Adapter, Bolster, CarBody, CenterPlate, Clearance, NestCoil, Parameters, RigidBody, SideBearing,
+    SideBearings, SideFrame, Spring, Wedge, Wheelsets,
 };
 pub use rigs::{RIGS, Rig};
 

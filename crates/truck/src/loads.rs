@@ -54,6 +54,16 @@ pub struct WedgeLoads {
     pub angles: [f64; 3],
 }
 
+/// The center plate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CenterPlateLoads {
+    /// Normal force of all points, N.
+    pub load: f64,
+    /// Moment on the bolster about the truck's z axis and the plate's height (roll, pitch, turning), fixed axes,
+    /// N·m.
+    pub moment: [f64; 3],
+}
+
 /// Loads and angles of a truck, SI.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Loads {
@@ -67,6 +77,8 @@ pub struct Loads {
     pub nest_vertical: [f64; 2],
     /// The wedges, in the order of [`WEDGE_NAMES`](crate::WEDGE_NAMES).
     pub wedges: [WedgeLoads; 4],
+    /// The center plate; zero without a car body.
+    pub center_plate: CenterPlateLoads,
 }
 
 impl Truck {
@@ -104,9 +116,21 @@ impl Truck {
         for element in &self.suspension {
             self.add(&mut loads, element, bodies);
         }
-        for (i, adapter) in observation.faces[8..].iter().enumerate() {
+        for (i, adapter) in observation.faces[self.adapters.clone()].iter().enumerate() {
             let on_side_frame = total(&adapter.friction_forces) + total(&adapter.normal_forces);
             loads.interaxle_shear_moment += [arm, -arm][i % 2] * on_side_frame.0[1];
+        }
+        if let Some(plate) = self.center_plate {
+            let face = &observation.faces[plate];
+            let mut moment = Vector::zero();
+            for (i, place) in face.point_positions.iter().enumerate() {
+                let arm = *place - Vector([0.0, 0.0, self.plate_height]);
+                moment = moment - arm.cross::<f64, f64>(face.normal_forces[i] + face.friction_forces[i]);
+            }
+            loads.center_plate = CenterPlateLoads {
+                load: normal(face),
+                moment: moment.0,
+            };
         }
         loads
     }
@@ -128,6 +152,7 @@ impl Truck {
             Role::PocketSide => &mut parts.pocket_sides,
             Role::Land => &mut parts.lands,
             Role::Gib => &mut parts.gibs,
+            Role::CarBody => return,
             Role::AdapterStop(axle) => {
                 loads.interaxle_shear_moment += [self.axle, -self.axle][axle] * force.0[1];
                 return;
@@ -167,6 +192,7 @@ fn at_marker(
     let wrench: Wrench<f64> = match law {
         Law::Spring(spring) => spring.evaluate(&motion),
         Law::Stop(stop) => stop.evaluate(&motion),
+        Law::Rim(rim) => rim.evaluate(&motion),
     };
     (place, axes.apply(wrench.force))
 }

@@ -136,6 +136,124 @@ pub struct Wedge {
     pub pocket_sides: Clearance,
 }
 
+/// What stands on the truck: half a car's body on the center plate and the side bearings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CarBody {
+    /// Its mass properties.
+    pub body: RigidBody,
+    /// Which of x, y, z, roll, pitch, yaw are free; the others are held. Half a car on one truck falls over in
+    /// pitch.
+    pub free: [bool; 6],
+    /// The center plate.
+    pub center_plate: CenterPlate,
+    /// The side bearings.
+    pub side_bearings: SideBearings,
+}
+
+/// A flat center plate: rings of points with friction, and a rim.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CenterPlate {
+    /// Height of its surface above the top of rail, m.
+    pub height: f64,
+    /// Radii of the rings, m.
+    pub rings: Vec<f64>,
+    /// Points of a ring.
+    pub points: usize,
+    /// Contact of each point.
+    pub contact: Contact,
+    /// Friction of all points together.
+    pub friction: FaceFriction,
+    /// The rim: its clearance is on the radius.
+    pub rim: Clearance,
+}
+
+/// Side bearings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SideBearings {
+    /// From the truck's center, y, m.
+    pub distance: f64,
+    /// What they are.
+    pub kind: SideBearing,
+}
+
+/// A side bearing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SideBearing {
+    /// A roller: a vertical clearance, no friction.
+    Roller(Clearance),
+    /// Constant contact: a preloaded spring that goes solid after a travel, with friction.
+    ConstantContact {
+        /// Load in the nominal layout, N.
+        preload: f64,
+        /// Stiffness (N/m) until solid, and damping.
+        contact: Contact,
+        /// Travel until solid, m.
+        travel: f64,
+        /// Stiffness (N/m) and damping when solid.
+        solid: Contact,
+        /// Friction.
+        friction: FaceFriction,
+    },
+}
+
+impl SideBearings {
+    /// Returns rollers with a clearance of 0.25 in.
+    #[must_use]
+    pub fn rollers() -> Self {
+        Self {
+            distance: 25.0 * INCH,
+            kind: SideBearing::Roller(clearance([0.25, 1e6, 500.0])),
+        }
+    }
+
+    /// Returns constant-contact side bearings of 6,000 lbf with 5/8 in of travel.
+    #[must_use]
+    pub fn constant_contact() -> Self {
+        Self {
+            distance: 25.0 * INCH,
+            kind: SideBearing::ConstantContact {
+                preload: 6000.0 * POUND_FORCE,
+                contact: contact(6000.0, 0.0),
+                travel: 0.625 * INCH,
+                solid: contact(1e6, 500.0),
+                friction: bristle(0.3, 1e5, 100.0),
+            },
+        }
+    }
+
+    /// Returns the load of both in the nominal layout, N.
+    #[must_use]
+    pub fn preload(&self) -> f64 {
+        match self.kind {
+            SideBearing::Roller(_) => 0.0,
+            SideBearing::ConstantContact { preload, .. } => 2.0 * preload,
+        }
+    }
+}
+
+impl CarBody {
+    /// Returns half of the loaded body of a car of 263,000 lbf, free to bounce and to roll, on a center plate of
+    /// 14 in with a friction of 0.2.
+    ///
+    /// The plate's stiffness (3e6 lbf/in a point) and the rim's clearance (0.1875 in) are guesses.
+    #[must_use]
+    pub fn loaded(side_bearings: SideBearings) -> Self {
+        Self {
+            body: body(121_730.0, [0.905e6, 8.12e6, 8.12e6], 83.75),
+            free: [false, false, true, true, false, false],
+            center_plate: CenterPlate {
+                height: 30.0 * INCH,
+                rings: vec![7.0 * INCH, 7.0 * INCH / 3.0],
+                points: 8,
+                contact: contact(3e6, 500.0),
+                friction: bristle(0.2, 16e6, 16e3),
+                rim: clearance([0.1875, 1e6, 500.0]),
+            },
+            side_bearings,
+        }
+    }
+}
+
 /// A truck.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameters {
@@ -159,6 +277,8 @@ pub struct Parameters {
     pub gib: Clearance,
     /// Longitudinal stops between bolster and side frame, four a column.
     pub lands: Clearance,
+    /// What stands on the bolster, as a body of its own.
+    pub car_body: Option<CarBody>,
 }
 
 /// No motion.
@@ -286,6 +406,7 @@ impl Parameters {
             load_coils: [nest.clone(), nest],
             gib: clearance([0.5, 4e6, 1000.0]),
             lands: clearance([0.21, 5e5, 50.0]),
+            car_body: None,
         }
     }
 
