@@ -19,6 +19,7 @@
 
 mod assemble;
 mod loads;
+pub mod nest;
 mod parameters;
 mod rigs;
 mod units;

@@ -1,0 +1,86 @@
+//! Nests of single coils against the four groups that stand for them.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+use common::{INCH, POUND_FORCE};
+use mechanics::system::StaticFriction;
+use truck::nest::{CatalogCoil, springs, whole_nest};
+use truck::{BOLSTER, Parameters, Rig, Truck};
+use wedge::parameters::Damping;
+
+/// Load of the load coils of a nest and their number (outer, inner).
+const NESTS: [(Damping, f64, f64, [usize; 2]); 2] = [
+    (Damping::Constant, 4.0 * 15_403.8, 0.688, [9, 5]),
+    (Damping::Variable, 4.0 * 12_252.1, 0.674, [6, 7]),
+];
+
+#[test]
+fn reproduction_single_coils_make_the_stiffness_and_solid_height_of_the_groups() {
+    for (damping, load, ratio, counts) in NESTS {
+        let coils = whole_nest(damping);
+        let count = |kind| coils.iter().filter(|(coil, _)| *coil == kind).count();
+        assert_eq!([count(CatalogCoil::D5Outer), count(CatalogCoil::D5Inner)], counts);
+        let nest = springs(&coils, load * POUND_FORCE, ratio);
+        let groups = &Parameters::new(damping).load_coils[0];
+        let sum = |nest: &[truck::NestCoil], value: fn(&truck::Spring) -> f64| -> f64 {
+            nest.iter().map(|coil| value(&coil.spring)).sum()
+        };
+        for value in [
+            |s: &truck::Spring| s.stiffness,
+            |s: &truck::Spring| s.shear_stiffness,
+        ] {
+            let (found, expected) = (sum(&nest, value), sum(groups, value));
+            assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
+        }
+        let (found, expected) = (sum(&nest, |s| s.preload), sum(groups, |s| s.preload));
+        assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+        let [travel, expected] = [&nest, groups].map(|nest| nest[0].spring.solid.unwrap()[0] / INCH);
+        assert!((travel - expected).abs() < 2e-3, "{travel} {expected} in");
+        // The nest's load is centered.
+        for k in 0..2 {
+            let moment: f64 = nest.iter().map(|coil| coil.spring.preload * coil.place[k]).sum();
+            assert!(moment.abs() < 1e-9 * load);
+        }
+    }
+}
+
+/// A half car on a nest without the coils at one corner settles by the share of stiffness that is missing.
+#[test]
+fn limits_missing_coils_let_the_car_settle() {
+    let (damping, load, ratio, _) = NESTS[0];
+    let mut parameters = Rig::named("truck_drop_constant")
+        .unwrap()
+        .parameters()
+        .with_wedge_friction(0.0);
+    parameters.bolster.lift = 0.0;
+    let whole = springs(&whole_nest(damping), load * POUND_FORCE, ratio);
+    let rest_with = |left: Vec<truck::NestCoil>| {
+        let mut parameters = parameters.clone();
+        parameters.load_coils = [left, whole.clone()];
+        let mut truck = Truck::new(&parameters).unwrap();
+        let x = truck.system.initial_state();
+        let rest = truck
+            .system
+            .equilibrium(0.0, &x, StaticFriction::Without)
+            .unwrap();
+        rest[truck.system.position_of(BOLSTER, 2).unwrap()] / INCH
+    };
+    let z = rest_with(whole.clone());
+    assert!(z.abs() < 1e-3, "{z} in");
+    let left = whole
+        .iter()
+        .filter(|coil| coil.place != whole[0].place)
+        .copied()
+        .collect::<Vec<_>>();
+    let missing: f64 = whole.iter().map(|coil| coil.spring.stiffness).sum::<f64>()
+        - left.iter().map(|coil| coil.spring.stiffness).sum::<f64>();
+    let lost = missing / whole.iter().map(|coil| coil.spring.stiffness).sum::<f64>();
+    let z = rest_with(left);
+    // The bolster cannot roll on this rig: both nests give way alike, and one has lost that share of its load.
+    let expected = -lost * load / (2.0 - lost) / (load / 2.3816);
+    assert!(
+        (z / expected - 1.0).abs() < 0.02,
+        "{z} in, {expected} in expected"
+    );
+}

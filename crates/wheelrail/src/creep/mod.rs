@@ -1,1 +1,0 @@
-//! Creep forces.

@@ -1,1 +1,0 @@
-//! Elastic contact of two curved bodies.
