@@ -13,7 +13,7 @@ use crate::shell::Workspace;
 const FLOORS: &[(&str, &[&str])] = &[
     ("reading", &["input"]),
     ("ground", &["numerics", "quantity"]),
-    ("integration", &["integrate"]),
+    ("integration", &["integrate", "wheelrail"]),
     ("mechanics", &["mechanics"]),
     ("systems", &["wedge", "nucars"]),
     ("vehicles", &["truck"]),

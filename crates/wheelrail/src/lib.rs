@@ -1,0 +1,27 @@
+//! Contact of wheel and rail. The crate knows no vehicle.
+//!
+//! | what | where |
+//! |---|---|
+//! | elastic contact of two curved bodies | [`hertz`] |
+//! | creep forces: Kalker's coefficients and linear theory, Shen-Hedrick-Elkins, Polach, FASTSIM | [`creep`] |
+//!
+//! SI units. Axes of a contact: x in the rolling direction, y in the tangent plane, z along the normal. All
+//! laws are written over a scalar, so that derivatives come from the same lines.
+//!
+//! ```
+//! use wheelrail::creep::{Creepage, Patch, polach};
+//! use wheelrail::hertz::{Hertz, Material};
+//! // A 36 in wheel on a rail crown of 10 in, 160 kN.
+//! let steel = Material { youngs_modulus: 207e9, poisson: 0.27 };
+//! let hertz = Hertz::new(steel, 1.0 / 0.4572, 1.0 / 0.254)?;
+//! let patch = Patch::new(&hertz, 160e3, 0.3);
+//! let creepage = Creepage { longitudinal: 1e-3, lateral: 0.0, spin: 0.0 };
+//! let forces = polach::forces(&patch, &creepage, polach::DRY);
+//! assert!(forces.x < 0.0 && forces.x > -0.3 * 160e3);
+//! # Ok::<(), wheelrail::hertz::HertzError>(())
+//! ```
+
+#![warn(missing_docs)]
+
+pub mod creep;
+pub mod hertz;
