@@ -1,9 +1,10 @@
-//! Contact of wheel and rail. The crate knows no vehicle.
+//! Contact of wheel and rail, and track. The crate knows no vehicle.
 //!
 //! | what | where |
 //! |---|---|
 //! | elastic contact of two curved bodies | [`hertz`] |
 //! | creep forces: Kalker's coefficients and linear theory, Shen-Hedrick-Elkins, Polach, FASTSIM | [`creep`] |
+//! | center line of a track: tangents, spirals, curves; mid-chord offsets | [`track`] |
 //!
 //! SI units. Axes of a contact: x in the rolling direction, y in the tangent plane, z along the normal. All
 //! laws are written over a scalar, so that derivatives come from the same lines.
@@ -25,3 +26,4 @@
 
 pub mod creep;
 pub mod hertz;
+pub mod track;

@@ -1,0 +1,371 @@
+//! The center line of a track: tangents, spirals and curves, with superelevation and grade.
+//!
+//! In a spiral curvature and superelevation change linearly with the distance (a clothoid, as in AREMA's
+//! recommendation), so that curvature, heading and position are continuous by construction. The heading is a
+//! quadratic of the distance in each segment; the position is its integral, exact for tangents and curves and by
+//! Gauss's rule with 8 points on pieces of at most 20 m of a spiral. Grades change linearly between given places.
+//! Before its start and beyond its end the track goes on as it is there, without a change of curvature.
+
+use thiserror::Error;
+
+/// 100 ft, m: the chord of the degree of curve.
+const DEGREE_CHORD: f64 = 30.48;
+/// Longest piece of a spiral for one application of Gauss's rule, m.
+const LONGEST_PIECE: f64 = 20.0;
+/// Points of Gauss's rule on -1 .. 1 and their weights (half of them; the others are symmetric).
+const GAUSS: [[f64; 2]; 4] = [
+    [0.183_434_642_495_649_8, 0.362_683_783_378_362],
+    [0.525_532_409_916_329, 0.313_706_645_877_887_3],
+    [0.796_666_477_413_626_7, 0.222_381_034_453_374_5],
+    [0.960_289_856_497_536_2, 0.101_228_536_290_376_3],
+];
+
+/// Curvature and superelevation of a curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CurveElements {
+    /// Curvature, 1/m: positive to the left.
+    pub curvature: f64,
+    /// Height of the right rail above the left one, m.
+    pub superelevation: f64,
+}
+
+impl CurveElements {
+    /// Returns a curve of a degree of curve (rad: the angle of a chord of 100 ft, positive to the left) and a
+    /// superelevation (m).
+    #[must_use]
+    pub fn of_degree(degree: f64, superelevation: f64) -> Self {
+        Self {
+            curvature: 2.0 * libm::sin(0.5 * degree) / DEGREE_CHORD,
+            superelevation,
+        }
+    }
+}
+
+/// A segment of a center line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Segment {
+    /// A straight piece of a length (m).
+    Tangent(f64),
+    /// From the curvature before it to that of the segment after it, within a length (m).
+    Spiral(f64),
+    /// A curve of a length (m).
+    Curve(f64, CurveElements),
+}
+
+/// Why a track cannot be.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum TrackError {
+    /// There is no segment.
+    #[error("a track needs at least one segment, such as a tangent")]
+    Empty,
+    /// A length is not positive.
+    #[error("segment {segment} (from 1) is {length} m long; its length must be positive")]
+    Length {
+        /// The segment, from 1.
+        segment: usize,
+        /// Its length, m.
+        length: f64,
+    },
+    /// Curvature or superelevation would jump.
+    #[error(
+        "curvature or superelevation jumps from {before:?} to {after:?} at the start of segment {segment} (from 1): put a \
+         spiral between"
+    )]
+    Jump {
+        /// The segment, from 1.
+        segment: usize,
+        /// Before it.
+        before: CurveElements,
+        /// In it.
+        after: CurveElements,
+    },
+    /// A spiral has no segment beside it.
+    #[error("segment {segment} (from 1) is a spiral {place}: it needs a tangent or a curve on both sides")]
+    LooseSpiral {
+        /// The segment, from 1.
+        segment: usize,
+        /// Where it stands.
+        place: &'static str,
+    },
+    /// Superelevation as large as the distance of the rails.
+    #[error(
+        "segment {segment} (from 1) has a superelevation of {superelevation} m, but its rails are {distance} m apart"
+    )]
+    Superelevation {
+        /// The segment, from 1.
+        segment: usize,
+        /// Its superelevation, m.
+        superelevation: f64,
+        /// The distance of the rails' centers, m.
+        distance: f64,
+    },
+    /// Places of grades do not rise, or a number is not finite.
+    #[error("grade {number} (from 1) lies at {place} m, which is not beyond the one before it")]
+    Grade {
+        /// The grade, from 1.
+        number: usize,
+        /// Its place, m.
+        place: f64,
+    },
+}
+
+/// A piece on which curvature and superelevation are linear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Piece {
+    start: f64,
+    /// Curvature and superelevation at its start, and their rates by the distance.
+    curvature: [f64; 2],
+    superelevation: [f64; 2],
+    heading: f64,
+    place: [f64; 2],
+}
+
+/// A center line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CenterLine {
+    pieces: Vec<Piece>,
+    length: f64,
+    rail_distance: f64,
+    /// Distance (m), grade, and height (m) at given places.
+    grades: Vec<[f64; 3]>,
+}
+
+/// The center line at a distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Station {
+    /// Place, m.
+    pub position: [f64; 3],
+    /// Heading, rad.
+    pub heading: f64,
+    /// Curvature, 1/m, and its rate by the distance, 1/m².
+    pub curvature: [f64; 2],
+    /// Superelevation, m, and its rate by the distance.
+    pub superelevation: [f64; 2],
+    /// Rise by the distance.
+    pub grade: f64,
+    /// Roll of the track's plane, rad: positive where the left rail is raised, about the forward axis.
+    pub roll: f64,
+}
+
+impl Piece {
+    /// Returns heading at a distance (m) from the start of the track.
+    fn heading(&self, distance: f64) -> f64 {
+        let t = distance - self.start;
+        self.heading + t * (self.curvature[0] + 0.5 * t * self.curvature[1])
+    }
+
+    /// Returns the place in plan, m.
+    fn place(&self, distance: f64) -> [f64; 2] {
+        let t = distance - self.start;
+        let [x, y] = self.place;
+        if self.curvature[1] == 0.0 {
+            // Chord and direction of an arc.
+            let half = 0.5 * t * self.curvature[0];
+            let chord = if half.abs() < 1e-4 {
+                t * (1.0 - half * half / 6.0)
+            } else {
+                t * libm::sin(half) / half
+            };
+            let (sine, cosine) = libm::sincos(self.heading + half);
+            return [x + chord * cosine, y + chord * sine];
+        }
+        let count = (t.abs() / LONGEST_PIECE).ceil().max(1.0);
+        let half = 0.5 * t / count;
+        let mut sum = [0.0; 2];
+        for i in 0..count as usize {
+            let middle = self.start + half * (2.0 * i as f64 + 1.0);
+            for [abscissa, weight] in GAUSS {
+                for side in [-abscissa, abscissa] {
+                    let (sine, cosine) = libm::sincos(self.heading(middle + half * side));
+                    sum[0] += weight * cosine;
+                    sum[1] += weight * sine;
+                }
+            }
+        }
+        [x + half * sum[0], y + half * sum[1]]
+    }
+}
+
+impl CenterLine {
+    /// Returns the center line of these segments; the centers of the rails are `rail_distance` (m) apart (59.5 in
+    /// in North America). `grades` holds places (m, rising) and the grade there; between them it is linear,
+    /// beyond them constant.
+    ///
+    /// # Errors
+    /// [`TrackError`]: with the segment and what to do.
+    pub fn new(segments: &[Segment], rail_distance: f64, grades: &[[f64; 2]]) -> Result<Self, TrackError> {
+        if segments.is_empty() {
+            return Err(TrackError::Empty);
+        }
+        let own = |index: usize| match segments.get(index)? {
+            Segment::Tangent(_) => Some(CurveElements::default()),
+            Segment::Curve(_, elements) => Some(*elements),
+            Segment::Spiral(_) => None,
+        };
+        let mut pieces = Vec::new();
+        let (mut start, mut heading, mut place) = (0.0, 0.0, [0.0; 2]);
+        let mut before = own(0);
+        for (index, segment) in segments.iter().enumerate() {
+            let number = index + 1;
+            let (Segment::Tangent(length) | Segment::Spiral(length) | Segment::Curve(length, _)) = *segment;
+            if !(length > 0.0 && length.is_finite()) {
+                return Err(TrackError::Length {
+                    segment: number,
+                    length,
+                });
+            }
+            let loose = |place| TrackError::LooseSpiral {
+                segment: number,
+                place,
+            };
+            let [from, to] = match own(index) {
+                Some(elements) => [before.unwrap_or(elements), elements],
+                None => {
+                    let from = before.ok_or(loose("at the start"))?;
+                    [
+                        from,
+                        own(index + 1).ok_or(loose("before the end or another spiral"))?,
+                    ]
+                }
+            };
+            let spiral = matches!(segment, Segment::Spiral(_));
+            if !spiral && from != to {
+                return Err(TrackError::Jump {
+                    segment: number,
+                    before: from,
+                    after: to,
+                });
+            }
+            let superelevation = to.superelevation;
+            if superelevation.is_nan() || superelevation.abs() >= rail_distance {
+                return Err(TrackError::Superelevation {
+                    segment: number,
+                    superelevation,
+                    distance: rail_distance,
+                });
+            }
+            let linear = |from: f64, to: f64| [from, (to - from) / length];
+            let piece = Piece {
+                start,
+                curvature: linear(from.curvature, to.curvature),
+                superelevation: linear(from.superelevation, superelevation),
+                heading,
+                place,
+            };
+            start += length;
+            (heading, place) = (piece.heading(start), piece.place(start));
+            pieces.push(piece);
+            before = Some(to);
+        }
+        Ok(Self {
+            pieces,
+            length: start,
+            rail_distance,
+            grades: heights(grades)?,
+        })
+    }
+
+    /// Returns the length of the segments, m.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Returns the center line at a distance (m).
+    #[must_use]
+    pub fn at(&self, distance: f64) -> Station {
+        let number = self
+            .pieces
+            .partition_point(|piece| piece.start <= distance)
+            .max(1)
+            - 1;
+        let mut piece = self.pieces[number];
+        if distance < 0.0 || distance > self.length {
+            // As at the end, without a change.
+            let end = distance.clamp(0.0, self.length);
+            let t = end - piece.start;
+            piece = Piece {
+                start: end,
+                curvature: [piece.curvature[0] + t * piece.curvature[1], 0.0],
+                superelevation: [piece.superelevation[0] + t * piece.superelevation[1], 0.0],
+                heading: piece.heading(end),
+                place: piece.place(end),
+            };
+        }
+        let t = distance - piece.start;
+        let at = |[value, rate]: [f64; 2]| [value + t * rate, rate];
+        let superelevation = at(piece.superelevation);
+        let [x, y] = piece.place(distance);
+        let [grade, z] = self.grade_and_height(distance);
+        Station {
+            position: [x, y, z],
+            heading: piece.heading(distance),
+            curvature: at(piece.curvature),
+            superelevation,
+            grade,
+            roll: -libm::asin(superelevation[0] / self.rail_distance),
+        }
+    }
+
+    fn grade_and_height(&self, distance: f64) -> [f64; 2] {
+        let number = self.grades.partition_point(|[place, ..]| *place <= distance);
+        let before = number.checked_sub(1).and_then(|number| self.grades.get(number));
+        match (before, self.grades.get(number)) {
+            (Some([s0, g0, z0]), Some([s1, g1, _])) => {
+                let t = distance - s0;
+                let rate = (g1 - g0) / (s1 - s0);
+                [g0 + t * rate, z0 + t * (g0 + 0.5 * t * rate)]
+            }
+            (Some([s, g, z]), None) | (None, Some([s, g, z])) => [*g, z + g * (distance - s)],
+            (None, None) => [0.0; 2],
+        }
+    }
+
+    /// Returns the distance (m) at which the center line's normal plane holds a point (x, y in m), by Newton's
+    /// method from a distance nearby.
+    #[must_use]
+    pub fn project(&self, point: [f64; 2], nearby: f64) -> f64 {
+        let mut distance = nearby;
+        for _ in 0..30 {
+            let station = self.at(distance);
+            let (sine, cosine) = libm::sincos(station.heading);
+            let offset = [point[0] - station.position[0], point[1] - station.position[1]];
+            let along = offset[0] * cosine + offset[1] * sine;
+            let across = offset[1] * cosine - offset[0] * sine;
+            // The derivative of `along` by the distance; it vanishes at the center of the curve.
+            let slope = (1.0 - station.curvature[0] * across).max(0.1);
+            let step = along / slope;
+            distance += step;
+            if step.abs() < 1e-12 * (1.0 + distance.abs()) {
+                break;
+            }
+        }
+        distance
+    }
+}
+
+/// Returns places, grades and heights of a profile whose height is zero at distance zero or, if it begins later,
+/// at its first place.
+fn heights(grades: &[[f64; 2]]) -> Result<Vec<[f64; 3]>, TrackError> {
+    let mut out: Vec<[f64; 3]> = Vec::new();
+    for (index, &[place, grade]) in grades.iter().enumerate() {
+        let height = match out.last() {
+            None => 0.0,
+            Some([before, ..]) if place <= *before => {
+                return Err(TrackError::Grade {
+                    number: index + 1,
+                    place,
+                });
+            }
+            Some([before, slope, height]) => height + 0.5 * (slope + grade) * (place - before),
+        };
+        if !place.is_finite() || !grade.is_finite() {
+            return Err(TrackError::Grade {
+                number: index + 1,
+                place,
+            });
+        }
+        out.push([place, grade, height]);
+    }
+    Ok(out)
+}

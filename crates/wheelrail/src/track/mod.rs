@@ -1,0 +1,10 @@
+//! Track: its center line, and what inspectors measure of irregularities.
+//!
+//! Distance s along the track is measured in plan, from its start. Curvature is positive in curves to the left,
+//! superelevation is positive where the right rail is raised (the outer rail of a curve to the left). Axes: x and
+//! y in plan, z up; at the start the track leads along x at the origin.
+
+pub mod center_line;
+pub mod chord;
+
+pub use center_line::{CenterLine, CurveElements, Segment, Station, TrackError};
