@@ -6,5 +6,6 @@
 
 pub mod center_line;
 pub mod chord;
+pub mod spectrum;
 
 pub use center_line::{CenterLine, CurveElements, Segment, Station, TrackError};
