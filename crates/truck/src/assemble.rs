@@ -82,7 +82,6 @@ pub struct Truck {
     /// The face of the center plate, and its height, m.
     pub(crate) center_plate: Option<usize>,
     pub(crate) plate_height: f64,
-    pub(crate) damping: Damping,
     pub(crate) axle: f64,
     pub(crate) suspension: Vec<Suspended>,
 }
@@ -118,7 +117,6 @@ impl Truck {
             center_plate: car.map(|_| adapters.end),
             plate_height: car.map_or(0.0, |car| car.center_plate.height),
             adapters,
-            damping: parameters.damping,
             axle: parameters.distances[2],
             suspension,
         })

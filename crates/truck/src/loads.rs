@@ -10,7 +10,6 @@ use mechanics::element::{Element, Wrench};
 use mechanics::link::{Marker, RelativeMotion};
 use mechanics::system::{BodyState, FaceState, Observation};
 use mechanics::vector::{Matrix, Vector};
-use wedge::parameters::Damping;
 
 use crate::assemble::{BOLSTER, Law, Role, SIDE_FRAMES, Suspended, Truck, WEDGES};
 
@@ -159,9 +158,6 @@ impl Truck {
             }
         };
         *part += moment;
-        debug_assert!(
-            element.role != Role::ControlCoil || (*b == BOLSTER) == (self.damping == Damping::Constant)
-        );
         // What acts on a side frame is the reaction on body B.
         if let Some(side) = b.checked_sub(SIDE_FRAMES).filter(|side| *side < 2) {
             loads.nest_vertical[side] += force.0[2];
