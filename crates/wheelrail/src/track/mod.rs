@@ -6,6 +6,7 @@
 
 pub mod center_line;
 pub mod chord;
+pub mod shape;
 pub mod spectrum;
 
 pub use center_line::{CenterLine, CurveElements, Segment, Station, TrackError};
