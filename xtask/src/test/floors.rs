@@ -189,10 +189,10 @@ mod tests {
 
     #[test]
     fn the_same_floor_is_refused() {
-        let found = wrong_with("integrate", "[dependencies]\nquantity.workspace = true");
+        let found = wrong_with("numerics", "[dependencies]\nquantity.workspace = true");
         assert_eq!(
             found,
-            ["`integrate` (floor 1, ground) depends on `quantity` (floor 1, ground), on the same floor."]
+            ["`numerics` (floor 1, ground) depends on `quantity` (floor 1, ground), on the same floor."]
         );
         assert_eq!(
             wrong_with("wedgelab-py", "[dependencies]\nwedgelab = { path = 'w' }").len(),
@@ -208,7 +208,7 @@ mod tests {
         );
         assert_eq!(found.len(), 2);
         assert!(
-            found[0].contains("`study` (floor 4, asking), on a higher floor"),
+            found[0].contains("`study` (floor 6, asking), on a higher floor"),
             "{found:?}"
         );
     }
