@@ -266,3 +266,30 @@ fn analytic_derivatives_against_differences() {
     let value = fastsim::forces(&plain(at[3]), &creepage([at[0], at[1], at[2]]), coarse).x;
     assert!((fastsim::forces(&patch, &dual, coarse).x.value - value).abs() < 1e-9 * value.abs());
 }
+
+/// Without friction there are no forces; with much spin on a slender ellipse Polach's stay within μN.
+#[test]
+fn limits_no_friction_and_slender_patches_with_spin() {
+    let slippery = Patch {
+        friction: 0.0,
+        ..traction()
+    };
+    for (name, law) in laws().into_iter().skip(1) {
+        let forces = law(&slippery, &creepage([1e-3, -2e-3, 0.3]));
+        assert!(forces.x == 0.0 && forces.y == 0.0, "{name}: {forces:?}");
+        assert!(forces.spin_moment.is_finite(), "{name}: {forces:?}");
+    }
+    for ratio in [0.12, 0.14, 0.2, 0.5, 1.0, 5.0] {
+        let patch = patch([ratio * 8e-3, 8e-3], 80e3, 0.3);
+        for lateral in [1e-4, 1e-3, 1e-2, 0.1, 1.0] {
+            for spin in [0.1, 1.0, 10.0, 100.0] {
+                let forces = polach::forces(&patch, &creepage([0.0, lateral, spin]), polach::DRY);
+                let share = forces.x.hypot(forces.y) / patch.limit();
+                assert!(
+                    share <= 1.0 + 1e-12,
+                    "a/b {ratio}, {lateral}, {spin}: {share} of μN"
+                );
+            }
+        }
+    }
+}

@@ -38,6 +38,19 @@ pub struct CreepForces<S> {
     pub spin_moment: S,
 }
 
+impl<S: Real> CreepForces<S> {
+    /// No forces.
+    #[must_use]
+    pub fn none() -> Self {
+        let zero = S::zero();
+        Self {
+            x: zero,
+            y: zero,
+            spin_moment: zero,
+        }
+    }
+}
+
 /// A loaded contact patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch<S> {

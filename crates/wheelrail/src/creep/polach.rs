@@ -15,6 +15,8 @@
 //! |ξy| and |ξy + φ a|, is a smooth maximum, at most 1 % larger; creepages of 1e-8 are added to roots. Kalker's
 //! linear spin moment is reduced by the same factor as the force; the paper gives none.
 //!
+//! Forces are cut off at μN, which spin on a slender ellipse exceeds by a little.
+//!
 //! Defects: the force opposes the creepage; Kalker's is turned where C11 and C22 differ and the creepage is
 //! oblique (the sizes agree). The force does not saturate fully (0.96 μN at twice the creepage of linear saturation) unless kS is
 //! larger than kA. The reduction factors for wet and dry rails (kA, kS) are remembered from the literature,
@@ -51,6 +53,9 @@ const SMALL: f64 = 1e-16;
 pub fn forces<S: Real>(patch: &Patch<S>, creepage: &Creepage<S>, reduction: Reduction) -> CreepForces<S> {
     let [a, b] = patch.axes;
     let (c, limit) = (&patch.coefficients, patch.limit());
+    if limit.value() <= 0.0 {
+        return CreepForces::none();
+    }
     let (x, y) = (creepage.longitudinal, creepage.lateral);
     let with_spin = y + creepage.spin * a;
     let (own, other) = (y * y, with_spin * with_spin);
@@ -74,9 +79,15 @@ pub fn forces<S: Real>(patch: &Patch<S>, creepage: &Creepage<S>, reduction: Redu
     let spin = spin_force(patch, lateral_square.sqrt());
     let linear = linear::forces(patch, creepage);
     let saturation = force / (total * stiffness * coefficient * (4.0 / PI));
+    let (mut fx, mut fy) = (-(force * x) / total, -(force * y + spin * creepage.spin) / total);
+    let size = fx * fx + fy * fy;
+    if size.value() > limit.value() * limit.value() {
+        let factor = limit / size.sqrt();
+        (fx, fy) = (fx * factor, fy * factor);
+    }
     CreepForces {
-        x: -(force * x) / total,
-        y: -(force * y + spin * creepage.spin) / total,
+        x: fx,
+        y: fy,
         spin_moment: linear.spin_moment * saturation,
     }
 }

@@ -15,6 +15,9 @@ use super::{CreepForces, Creepage, Patch, linear};
 pub fn forces<S: Real>(patch: &Patch<S>, creepage: &Creepage<S>) -> CreepForces<S> {
     let linear = linear::forces(patch, creepage);
     let limit = patch.limit();
+    if limit.value() <= 0.0 {
+        return CreepForces::none();
+    }
     let square = linear.x * linear.x + linear.y * linear.y;
     if square.value() == 0.0 {
         return linear;
