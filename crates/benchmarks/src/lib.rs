@@ -14,7 +14,7 @@ use mechanics::system::Observation;
 use mechanics::system::System;
 use nucars::truck::Choices;
 use rustix::time::{ClockId, clock_gettime};
-use study::truck::catalog;
+use study::half_truck::catalog;
 use wedge::parameters::Damping;
 use wedge::{BuildError, Wedge, thesis};
 

@@ -16,7 +16,7 @@ use fmi::source::Source;
 use fmi::{limits, package, resources};
 use serde_json::{Value, json};
 use study::case::{Case, builtin};
-use study::truck::files::Settings;
+use study::half_truck::files::Settings;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 

@@ -24,10 +24,10 @@ mod remarks;
 use mechanics::quasi_static::{Direction, QuasiStaticWedge};
 use study::case::Case;
 use study::closed_form;
+use study::half_truck::HalfTruckResult;
+use study::half_truck::catalog::{Entry, ToeCase, WedgeType, YawCase};
 use study::metrics::{Cycle, mean};
 use study::result::RunResult;
-use study::truck::TruckResult;
-use study::truck::catalog::{Entry, ToeCase, WedgeType, YawCase};
 use wedge::parameters::{Damping, Parameters};
 
 use quantity::Kind;
@@ -40,12 +40,12 @@ pub(crate) use remarks::percent;
 pub const COMPONENT: &str = "127";
 
 /// A run of the half-truck.
-pub type TruckOutcome = (Entry, TruckResult);
+pub type TruckOutcome = (Entry, HalfTruckResult);
 
 /// A column of the half-truck's table under the name of the stand-alone wedge's column that stands for the
 /// same; any other name is the half-truck's own.
 #[must_use]
-pub fn truck_column<'r>(result: &'r TruckResult, name: &str) -> Option<&'r [f64]> {
+pub fn truck_column<'r>(result: &'r HalfTruckResult, name: &str) -> Option<&'r [f64]> {
     let wedge = |what: &str| result.column(&format!("wedge_{COMPONENT}_{what}"));
     match name {
         "bolster_vertical" => result.column("input_vertical"),
@@ -270,7 +270,7 @@ fn stand_alone(case: &Case, result: &RunResult, cycle: &Cycle) -> Option<Numbers
     })
 }
 
-fn truck(case: &Case, entry: &Entry, result: &TruckResult, cycle: &Cycle) -> Option<Numbers> {
+fn truck(case: &Case, entry: &Entry, result: &HalfTruckResult, cycle: &Cycle) -> Option<Numbers> {
     let column = |name| truck_column(result, name);
     let times = column("time")?;
     let friction = column("vertical_wedge_force")?;
@@ -346,7 +346,7 @@ fn element(case: &Case, wedges: WedgeType) -> Parameters {
     parameters
 }
 
-fn stroke(case: &Case, entry: &Entry, result: &TruckResult, cycle: &Cycle, found: f64) -> Option<Stroke> {
+fn stroke(case: &Case, entry: &Entry, result: &HalfTruckResult, cycle: &Cycle, found: f64) -> Option<Stroke> {
     let column = |name| truck_column(result, name);
     let (times, strokes) = (column("time")?, column("wedge_z")?);
     let (start, _, cycles) = cycle.window(*times.last()?)?;
@@ -415,7 +415,7 @@ fn loop_area(cycle: &Cycle, times: &[f64], displacement: &[f64], force: &[f64]) 
 
 /// Mean yaw of the bolster after the first half period of its input (s: the input's files have π), rad.
 #[must_use]
-pub fn mean_yaw(result: &TruckResult) -> Option<f64> {
+pub fn mean_yaw(result: &HalfTruckResult) -> Option<f64> {
     let settled = rows(result.column("time")?, 0.5 * std::f64::consts::PI, f64::INFINITY);
     let yaw = result.column("body_1_yaw")?.get(settled)?;
     (!yaw.is_empty()).then(|| yaw.iter().sum::<f64>() / yaw.len() as f64)
@@ -425,7 +425,7 @@ pub fn mean_yaw(result: &TruckResult) -> Option<f64> {
 /// direction of the input (the stroke's own rings, and would change branch with each swing). Gives at each
 /// row the column's friction on the side frame (N, positive up) and its force along the track (N).
 #[must_use]
-pub fn equation_5_1(case: &Case, result: &TruckResult) -> Option<Vec<[f64; 2]>> {
+pub fn equation_5_1(case: &Case, result: &HalfTruckResult) -> Option<Vec<[f64; 2]>> {
     let wedge: QuasiStaticWedge = closed_form::wedge(&case.parameters);
     let coil = truck_column(result, "coil_force")?;
     let rates = truck_column(result, "bolster_vertical_rate")?;

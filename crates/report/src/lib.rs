@@ -12,7 +12,7 @@
 //! - [`figures`]: the report's figures.
 //! - [`view`]: the data of the page's interactive part.
 //! - [`run_files`]: the files of a run.
-//! - [`truck_files`]: the files of a half-truck's run.
+//! - [`half_truck_files`]: the files of a half-truck's run.
 //! - [`table`]: tables of results, read back.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
 //!   [`study_digest`] what their page shows.
@@ -29,6 +29,7 @@ pub mod drawing;
 pub mod figures;
 pub mod files;
 pub mod fit_files;
+pub mod half_truck_files;
 pub mod mat;
 pub mod mat5;
 mod overlay;
@@ -43,5 +44,4 @@ pub mod study_work;
 pub mod summary;
 pub mod table;
 pub mod thin;
-pub mod truck_files;
 pub mod view;

@@ -12,9 +12,9 @@ use report::claims::{Claims, Evidence, Group, Row, Verdict, evaluate};
 use report::figures::{Exhibit, Outcome, comparison};
 use report::page::{self, Comparison, Contents};
 use study::case::builtin;
+use study::half_truck::catalog::{self, ToeCase, WedgeType, YawCase};
+use study::half_truck::{HalfTruckResult, run};
 use study::run::Run;
-use study::truck::catalog::{self, ToeCase, WedgeType, YawCase};
-use study::truck::{TruckResult, run};
 use wedge::parameters::Damping;
 
 const POUND: f64 = 4.448_221_615_260_5;
@@ -60,7 +60,7 @@ fn numbers(group: &Agreement, model: ComparedModel) -> Numbers {
     *group.models.iter().find(|own| own.model == model).unwrap()
 }
 
-fn truck(wedges: WedgeType, damping: Damping, yaw: YawCase) -> &'static TruckResult {
+fn truck(wedges: WedgeType, damping: Damping, yaw: YawCase) -> &'static HalfTruckResult {
     let found = runs().1.iter().find(|(entry, _)| {
         entry.wedges == wedges && entry.damping == damping && entry.yaw == yaw && entry.toe == ToeCase::Out
     });

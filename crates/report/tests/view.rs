@@ -13,9 +13,9 @@ use report::view::View;
 use report::view::run::{Detail, Recording};
 use serde_json::Value;
 use study::case::builtin;
+use study::half_truck::catalog;
+use study::half_truck::{HalfTruckResult, run as run_truck};
 use study::run::Run;
-use study::truck::catalog;
-use study::truck::{TruckResult, run as run_truck};
 
 /// A run to its end, which figures need, or a short one.
 fn outcome(name: &str, set: &[&str]) -> Outcome {
@@ -317,7 +317,7 @@ fn the_page_takes_viewer_and_data_or_does_without() {
 }
 
 /// A half-truck's run of two seconds.
-fn truck(name: &str, detail: Detail) -> (Value, TruckResult) {
+fn truck(name: &str, detail: Detail) -> (Value, HalfTruckResult) {
     let entry = catalog::entry(name).unwrap();
     let case = entry.case(&nucars::truck::Choices::default(), 2.0).unwrap();
     let result = run_truck::run(&case, |_| ()).unwrap();

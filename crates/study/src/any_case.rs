@@ -8,13 +8,13 @@ use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
 use crate::case::{Case, CaseError, Problem};
+use crate::half_truck::files::{FilesError, Settings, case_of_run};
+use crate::half_truck::{HalfTruckCase, HalfTruckResult, catalog};
 use crate::measures::{self, Definitions, Judged, Unmeasured, half_truck};
 use crate::metrics::Cycle;
 use crate::result::RunResult;
 use crate::run::{Run, RunError};
 use crate::summary::Stopped;
-use crate::truck::files::{FilesError, Settings, case_of_run};
-use crate::truck::{self, TruckCase, TruckResult, catalog};
 
 /// A case of any model.
 #[derive(Clone, Debug)]
@@ -22,7 +22,7 @@ pub enum AnyCase {
     /// A wedge's.
     Wedge(Box<Case>),
     /// A half-truck's.
-    HalfTruck(Box<TruckCase>),
+    HalfTruck(Box<HalfTruckCase>),
 }
 
 impl AnyCase {
@@ -60,7 +60,7 @@ impl AnyCase {
     pub fn cycle(&self) -> Option<Cycle> {
         match self {
             Self::Wedge(case) => Cycle::of(&case.parameters),
-            Self::HalfTruck(case) => truck::run::cycle(case),
+            Self::HalfTruck(case) => crate::half_truck::run::cycle(case),
         }
     }
 
@@ -100,7 +100,7 @@ pub enum AnyResult {
     /// Of a wedge.
     Wedge(Box<RunResult>),
     /// Of a half-truck.
-    HalfTruck(Box<TruckResult>),
+    HalfTruck(Box<HalfTruckResult>),
 }
 
 impl AnyResult {

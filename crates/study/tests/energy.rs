@@ -8,9 +8,9 @@ mod runs;
 use mechanics::energy_balance::Verdict;
 use nucars::truck::Choices;
 use study::case::{Case, builtin};
+use study::half_truck::catalog::entry;
 use study::result::RunResult;
 use study::run::Run;
-use study::truck::catalog::entry;
 use study::{energy, truck};
 
 #[test]

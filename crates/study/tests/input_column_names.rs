@@ -8,9 +8,9 @@ use std::collections::BTreeSet;
 use mechanics::output::Column;
 use quantity::System;
 use study::case::builtin;
-use study::truck::catalog::entry;
-use study::truck::files::Settings;
-use study::truck::run::run;
+use study::half_truck::catalog::entry;
+use study::half_truck::files::Settings;
+use study::half_truck::run::run;
 use wedge::outputs::Outputs;
 
 const PAGE: &str = include_str!("../../../docs/conventions.md");

@@ -10,12 +10,12 @@ use nucars::truck::Choices;
 use quantity::Number;
 use runs::{LBF, LBF_IN, column};
 use study::case::builtin;
+use study::half_truck::catalog::entry;
 use study::measures::{Unmeasured, measure};
 use study::progress::state_name;
 use study::result::RunResult;
 use study::run::Run;
 use study::stepping::{SteppedWedge, SteppingError};
-use study::truck::catalog::entry;
 use wedge::Wedge;
 
 fn run(name: &str) -> RunResult {

@@ -9,7 +9,7 @@ use report::drawing::{Curve, Figure, Line, Panel};
 use report::figures::{Exhibit, Outcome};
 use report::sections::{self, Plan};
 use study::case::builtin;
-use study::truck::catalog;
+use study::half_truck::catalog;
 
 use crate::errors::{guarded, simple};
 use crate::outcome::NativeResult;

@@ -2,7 +2,7 @@
 //!
 //! Python code in `python/wedgelab` gives it names, types and tables; the work is done by lower floors. One
 //! module a thing: `case`, `outcome` (results), `run` and `many` (running), `step` (users' own loops),
-//! `study`, `figures`, `nucars` and `truck`, `quasi_static`, `quantity`, and `values` and `errors` for the
+//! `study`, `figures`, `nucars` and `half_truck`, `quasi_static`, `quantity`, and `values` and `errors` for the
 //! way between the languages.
 //!
 //! Nothing panics through: what calls into lower floors runs in `errors::guarded`.
@@ -12,6 +12,7 @@ use pyo3::prelude::*;
 mod case;
 mod errors;
 mod figures;
+mod half_truck;
 mod many;
 mod nucars;
 mod outcome;
@@ -20,7 +21,6 @@ mod quasi_static;
 mod run;
 mod step;
 mod study;
-mod truck;
 mod values;
 
 /// The native part of `wedgelab`.
@@ -35,6 +35,8 @@ mod _wedgelab {
     #[pymodule_export]
     use crate::figures::{report_figures, run_figures};
     #[pymodule_export]
+    use crate::half_truck::{NativeHalfTruckCase, built_in_half_trucks};
+    #[pymodule_export]
     use crate::many::run_many;
     #[pymodule_export]
     use crate::nucars::{NativeFile, check_files, read_file};
@@ -48,8 +50,6 @@ mod _wedgelab {
     use crate::step::NativeWedge;
     #[pymodule_export]
     use crate::study::{NativeStudy, NativeStudyFolder};
-    #[pymodule_export]
-    use crate::truck::{NativeTruckCase, built_in_trucks};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

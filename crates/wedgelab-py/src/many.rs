@@ -8,12 +8,12 @@ use std::time::Duration;
 
 use pyo3::prelude::*;
 use study::case::Case;
-use study::truck::TruckCase;
+use study::half_truck::HalfTruckCase;
 
 use crate::case::NativeCase;
+use crate::half_truck::NativeHalfTruckCase;
 use crate::outcome::{NativeResult, Table};
 use crate::run::{Failure, outcome};
-use crate::truck::{self, NativeTruckCase};
 
 /// How often Python is asked for signals.
 const INTERVAL: Duration = Duration::from_millis(50);
@@ -21,7 +21,7 @@ const INTERVAL: Duration = Duration::from_millis(50);
 /// A case of either kind.
 enum Work {
     Wedge(Arc<Case>),
-    Truck(Arc<TruckCase>),
+    Truck(Arc<HalfTruckCase>),
 }
 
 impl Work {
@@ -46,7 +46,7 @@ impl Work {
                 table.keep(columns);
                 Ok(table)
             }
-            Self::Truck(case) => truck::outcome(case, columns, go_on),
+            Self::Truck(case) => half_truck::outcome(case, columns, go_on),
         }
     }
 }
@@ -69,7 +69,7 @@ pub fn run_many(
         if let Ok(case) = case.cast::<NativeCase>() {
             return Ok(Work::Wedge(Arc::clone(&case.get().case)));
         }
-        let case = case.cast::<NativeTruckCase>()?;
+        let case = case.cast::<NativeHalfTruckCase>()?;
         Ok(Work::Truck(Arc::clone(&case.get().case)))
     });
     let work: Vec<Work> = work.collect::<PyResult<_>>()?;

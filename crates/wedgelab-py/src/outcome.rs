@@ -13,9 +13,9 @@ use report::files::Folder;
 use report::run_files;
 use serde::{Deserialize, Serialize};
 use study::case::Case;
+use study::half_truck::{HalfTruckResult, HalfTruckSummary};
 use study::result::RunResult;
 use study::summary::Summary;
-use study::truck::{TruckResult, TruckSummary};
 
 use crate::case::NativeCase;
 use crate::errors::{guarded, simple};
@@ -27,7 +27,7 @@ pub enum AnySummary {
     /// Of the wedge.
     Wedge(Box<Summary>),
     /// Of a half-truck.
-    Truck(Box<TruckSummary>),
+    Truck(Box<HalfTruckSummary>),
 }
 
 /// The table of a run and its summary.
@@ -61,7 +61,7 @@ impl Table {
     }
 
     /// Of a half-truck's run.
-    pub fn of_truck(result: TruckResult) -> Self {
+    pub fn of_truck(result: HalfTruckResult) -> Self {
         Self {
             columns: result.columns,
             values: result.values,
@@ -134,11 +134,11 @@ impl NativeResult {
     }
 
     /// The half-truck's result as lower floors have it; `None` for wedges.
-    pub fn truck(&self) -> Option<TruckResult> {
+    pub fn truck(&self) -> Option<HalfTruckResult> {
         let AnySummary::Truck(summary) = &self.table.summary else {
             return None;
         };
-        Some(TruckResult {
+        Some(HalfTruckResult {
             columns: self.table.columns.clone(),
             values: self.table.values.clone(),
             summary: (**summary).clone(),
@@ -308,7 +308,11 @@ impl NativeResult {
 
     /// The half-truck's result that was taken apart.
     #[staticmethod]
-    fn truck_of_parts(py: Python<'_>, header: &[u8], values: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
+    fn half_truck_of_parts(
+        py: Python<'_>,
+        header: &[u8],
+        values: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<Self> {
         Self::of_parts(py, None, header, &values)
     }
 

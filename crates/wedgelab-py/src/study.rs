@@ -18,8 +18,8 @@ use report::study_work;
 
 use crate::case::NativeCase;
 use crate::errors::{case_error, guarded, internal, panic_text, raise, shown, simple};
+use crate::half_truck;
 use crate::outcome::from_saved;
-use crate::truck;
 
 /// How often Python is asked for signals and told of progress.
 const INTERVAL: Duration = Duration::from_millis(50);
@@ -142,7 +142,7 @@ impl NativeStudy {
                 AnyCase::Wedge(case) => Ok(Py::new(py, NativeCase::new(*case))?.into_any()),
                 AnyCase::HalfTruck(_) => {
                     let set = self.study.overrides(number);
-                    let case = truck::of_source(py, &self.study.source().case, set)?;
+                    let case = half_truck::of_source(py, &self.study.source().case, set)?;
                     Ok(Py::new(py, case)?.into_any())
                 }
             }

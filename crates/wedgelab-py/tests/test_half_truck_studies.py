@@ -21,13 +21,13 @@ wedges.column_friction = 0.45
 
 
 def test_values_set_over_the_files_count() -> None:
-    case = wl.TruckCase("nucars_69_constant_toe_out", duration="0.3 s", set={"wedges.column_friction": 0.3})
+    case = wl.HalfTruckCase("nucars_69_constant_toe_out", duration="0.3 s", set={"wedges.column_friction": 0.3})
     assert any("wedges.column_friction=0.3" in line for line in case.assumptions)
-    other = wl.TruckCase("nucars_69_constant_toe_out", duration="0.3 s")
+    other = wl.HalfTruckCase("nucars_69_constant_toe_out", duration="0.3 s")
     column = "wedge_127_column_friction"
     assert abs(case.run()[column]).max() < 0.9 * abs(other.run()[column]).max()
     with pytest.raises(wl.NucarsError, match="did you mean column_friction"):
-        wl.TruckCase("nucars_69_constant_toe_out", set={"wedges.column_fricton": 0.3})
+        wl.HalfTruckCase("nucars_69_constant_toe_out", set={"wedges.column_fricton": 0.3})
 
 
 def test_studies_of_half_trucks_are_those_of_their_runs(tmp_path: Path) -> None:
@@ -38,6 +38,6 @@ def test_studies_of_half_trucks_are_those_of_their_runs(tmp_path: Path) -> None:
     outcome = study.run(tmp_path / "half")
     assert outcome.complete == 2
     case = study.case(1)
-    assert isinstance(case, wl.TruckCase)
+    assert isinstance(case, wl.HalfTruckCase)
     assert case.duration == 0.3
     assert any("wedges.column_friction=0.45" in line for line in case.assumptions)

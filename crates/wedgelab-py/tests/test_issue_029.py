@@ -62,17 +62,17 @@ def test_results_edited_by_hand(short: wl.Result) -> None:
 
 
 def test_trucks_edited_by_hand() -> None:
-    case = wl.nucars.TruckCase("nucars_68_variable_toe_in", duration=0.1)
+    case = wl.nucars.HalfTruckCase("nucars_68_variable_toe_in", duration=0.1)
     saved = case._native.saved()
 
     def use(data: bytes) -> None:
-        again = nucars._truck_case(data)
+        again = nucars._half_truck_case(data)
         assert again.duration > 0.0 and again.assumptions and repr(again)
 
     refused, taken = tally(damaged(saved, 60), use)
     assert refused > 500 and taken > 5
     with pytest.raises(wl.WedgelabError, match=f"more than the {MOST} that are read"):
-        nucars._truck_case(bytes(MOST + 1))
+        nucars._half_truck_case(bytes(MOST + 1))
 
 
 def test_states_of_wedges_edited_by_hand() -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import wedgelab as wl
-from wedgelab import NucarsError, TruckCase, nucars
+from wedgelab import NucarsError, HalfTruckCase, nucars
 
 RUN = "bolst_wedge_sf_bolst-vert-displ_69_const.run"
 FILES = (RUN, "bolst_wedge_sf_69_const.sys", "sngl_trk_69.dat", "bolst_displ_input3.inp")
@@ -46,7 +46,7 @@ def test_input_checks_have_places(folder: Path) -> None:
     assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
     assert nucars.read(folder / FILES[1], strict=False).has_errors
     with pytest.raises(NucarsError, match="cannot be run"):
-        TruckCase(folder / RUN)
+        HalfTruckCase(folder / RUN)
 
 
 def test_input_is_explained(tmp_path: Path) -> None:
@@ -56,30 +56,30 @@ def test_input_is_explained(tmp_path: Path) -> None:
         (lambda: nucars.read(tmp_path), "is a folder"),
         (lambda: nucars.read(tmp_path / "notes.txt"), "is no file of NUCARS"),
         (lambda: nucars.check(), "at least one"),
-        (lambda: TruckCase("nucars_69_constant_toe_ou"), "did you mean nucars_69_constant_toe_out"),
-        (lambda: TruckCase("nucars_69_constant_toe_out", duration=-1), "must be positive"),
-        (lambda: TruckCase("nucars_69_constant_toe_out", duration=float("nan")), "must be positive"),
-        (lambda: TruckCase("nucars_69_constant_toe_out", interval=0), "must be positive"),
-        (lambda: TruckCase("nucars_69_constant_toe_out", relative_tolerance=2), "between 0 and 1"),
-        (lambda: TruckCase("nucars_69_constant_toe_out", units="metric"), '"us", "si"'),
-        (lambda: TruckCase("nucars_69_constant_toe_out", start="lying"), '"drawn"'),
-        (lambda: TruckCase("nucars_69_constant_toe_out", yaw="drop"), "does not fit"),
-        (lambda: TruckCase("nucars_69_constant_toe_out", yaw="much"), '"printed"'),
-        (lambda: TruckCase("nucars_69_constant_toe_out", options={"bent": "linear"}), "did you mean bend"),
-        (lambda: TruckCase("nucars_69_constant_toe_out", options={"bend": 3}), "half_cosine or linear"),
-        (lambda: TruckCase("nucars_69_constant_toe_out", system="x.sys"), "its own files"),
+        (lambda: HalfTruckCase("nucars_69_constant_toe_ou"), "did you mean nucars_69_constant_toe_out"),
+        (lambda: HalfTruckCase("nucars_69_constant_toe_out", duration=-1), "must be positive"),
+        (lambda: HalfTruckCase("nucars_69_constant_toe_out", duration=float("nan")), "must be positive"),
+        (lambda: HalfTruckCase("nucars_69_constant_toe_out", interval=0), "must be positive"),
+        (lambda: HalfTruckCase("nucars_69_constant_toe_out", relative_tolerance=2), "between 0 and 1"),
+        (lambda: HalfTruckCase("nucars_69_constant_toe_out", units="metric"), '"us", "si"'),
+        (lambda: HalfTruckCase("nucars_69_constant_toe_out", start="lying"), '"drawn"'),
+        (lambda: HalfTruckCase("nucars_69_constant_toe_out", yaw="drop"), "does not fit"),
+        (lambda: HalfTruckCase("nucars_69_constant_toe_out", yaw="much"), '"printed"'),
+        (lambda: HalfTruckCase("nucars_69_constant_toe_out", options={"bent": "linear"}), "did you mean bend"),
+        (lambda: HalfTruckCase("nucars_69_constant_toe_out", options={"bend": 3}), "half_cosine or linear"),
+        (lambda: HalfTruckCase("nucars_69_constant_toe_out", system="x.sys"), "its own files"),
     ):
         with pytest.raises(NucarsError) as caught:
             call()
         assert said in str(caught.value), str(caught.value)
     with pytest.raises(wl.UnitError, match="a time is expected"):
-        TruckCase("nucars_69_constant_toe_out", duration="3 in")
+        HalfTruckCase("nucars_69_constant_toe_out", duration="3 in")
 
 
 def test_reproduction_of_the_built_in_run_from_its_files(folder: Path) -> None:
     assert "nucars_69_constant_toe_out" in nucars.built_in()
-    built_in = TruckCase("nucars_69_constant_toe_out", duration="1 s")
-    from_files = TruckCase(folder / RUN, duration=1.0)
+    built_in = HalfTruckCase("nucars_69_constant_toe_out", duration="1 s")
+    from_files = HalfTruckCase(folder / RUN, duration=1.0)
     a, b = built_in.run(), from_files.run()
     assert a.keys() == b.keys() and all(np.array_equal(a[name], b[name]) for name in a)
     assert a.units == "us" and a.summary.wedges and built_in.duration == 1.0
@@ -90,7 +90,7 @@ def test_reproduction_of_the_built_in_run_from_its_files(folder: Path) -> None:
 
 
 def test_trucks_pickle_without_their_files(folder: Path) -> None:
-    case = TruckCase(folder / RUN, duration="0.2 s", options={"bend": "linear"})
+    case = HalfTruckCase(folder / RUN, duration="0.2 s", options={"bend": "linear"})
     data = pickle.dumps(case)
     for name in list(folder.iterdir()):
         name.unlink()
@@ -100,5 +100,5 @@ def test_trucks_pickle_without_their_files(folder: Path) -> None:
     assert all(np.array_equal(a[name], b[name]) for name in a)
     c = pickle.loads(pickle.dumps(b))
     assert c.summary.to_dict() == b.summary.to_dict() and np.array_equal(c["time"], b["time"])
-    built_in = pickle.loads(pickle.dumps(TruckCase("nucars_68_variable_toe_in", duration=0.1)))
+    built_in = pickle.loads(pickle.dumps(HalfTruckCase("nucars_68_variable_toe_in", duration=0.1)))
     assert built_in.name == "nucars_68_variable_toe_in"

@@ -156,7 +156,7 @@ def test_ctrl_c_stops_a_run_and_many_runs() -> None:
         with pytest.raises(KeyboardInterrupt):
             work()
         timer.join()
-    truck = wl.TruckCase("nucars_69_constant_toe_out", duration="5000 s", interval="1 s")
+    truck = wl.HalfTruckCase("nucars_69_constant_toe_out", duration="5000 s", interval="1 s")
     timer = _interrupt_soon()
     with pytest.raises(KeyboardInterrupt):
         truck.run()

@@ -5,13 +5,13 @@ use std::time::{Duration, Instant};
 
 use quantity::Number;
 use report::files::Folder;
-use report::{run_files, truck_files};
+use report::{half_truck_files, run_files};
 use study::case::Case;
+use study::half_truck::{HalfTruckCase, HalfTruckResult, HalfTruckSummary};
 use study::progress::{WHAT_TO_TRY, WHAT_TO_TRY_WITH_FILES};
 use study::result::RunResult;
 use study::run::{Run, RunCase};
 use study::summary::{Stopped, Summary, SummaryValue};
-use study::truck::{TruckCase, TruckResult, TruckSummary};
 
 use crate::failure::{Failure, Message, say};
 use crate::interrupt;
@@ -77,14 +77,14 @@ pub fn execute_whole(case: &Case, folder: &Folder, progress: &Progress) -> Resul
 
 /// Writes the files of a half-truck's run; `script_interval` (s) is that of the array for the thesis's
 /// scripts.
-pub fn write_truck(
-    done: &Done<TruckResult>,
-    case: &TruckCase,
+pub fn write_half_truck(
+    done: &Done<HalfTruckResult>,
+    case: &HalfTruckCase,
     folder: &Folder,
     script_interval: f64,
     progress: &Progress,
 ) -> Result<(), Failure> {
-    truck_files::write(folder, case, &done.result, script_interval)?;
+    half_truck_files::write(folder, case, &done.result, script_interval)?;
     let summary = &done.result.summary;
     let how = match &summary.stopped {
         Some(stopped) => format!("stopped at {} s", Number(stopped.time)),
@@ -104,7 +104,7 @@ pub fn unsound(summary: &Summary, folder: &Path) -> Option<Failure> {
 }
 
 /// The same of a half-truck's run.
-pub fn unsound_truck(summary: &TruckSummary, folder: &Path) -> Option<Failure> {
+pub fn unsound_half_truck(summary: &HalfTruckSummary, folder: &Path) -> Option<Failure> {
     if let Some(stopped) = &summary.stopped {
         return Some(stopped_run(
             &summary.name,

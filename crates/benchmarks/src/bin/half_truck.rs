@@ -12,8 +12,8 @@ use std::time::Instant;
 use benchmarks::{costs, sliding_truck};
 use integrate::Problem;
 use nucars::truck::Choices;
-use study::truck::catalog::{DURATION, entries};
-use study::truck::run::run;
+use study::half_truck::catalog::{DURATION, entries};
+use study::half_truck::run::run;
 
 fn main() -> ExitCode {
     match measure_all() {

@@ -6,7 +6,7 @@ use mechanics::body::COORDINATES;
 use mechanics::connection::Law;
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, System};
-use study::truck::TruckCase;
+use study::half_truck::HalfTruckCase;
 
 use super::start_option;
 use crate::element::{Entries, Entry};
@@ -21,7 +21,7 @@ pub(super) const MOTION: usize = 0;
 pub(super) const START: usize = 1;
 
 /// Returns all quantities of a half-truck and its ports; `table` are the columns of its results.
-pub(super) fn all(case: &TruckCase, system: &System, table: &[Column]) -> (Entries, Ports) {
+pub(super) fn all(case: &HalfTruckCase, system: &System, table: &[Column]) -> (Entries, Ports) {
     let layout = system.layout();
     let mut ports = Ports::default();
     let mut inputs = Vec::new();
@@ -72,7 +72,7 @@ pub(super) fn all(case: &TruckCase, system: &System, table: &[Column]) -> (Entri
     (entries, ports)
 }
 
-fn options(case: &TruckCase) -> Vec<Entry> {
+fn options(case: &HalfTruckCase) -> Vec<Entry> {
     vec![
         Entry::integer(
             "motion",
@@ -103,7 +103,7 @@ fn options(case: &TruckCase) -> Vec<Entry> {
 }
 
 /// Value and rate of every prescribed coordinate that the files move; they start where the files say.
-fn motion_inputs(case: &TruckCase, inputs: &mut Vec<Entry>, ports: &mut Vec<MotionPort>) {
+fn motion_inputs(case: &HalfTruckCase, inputs: &mut Vec<Entry>, ports: &mut Vec<MotionPort>) {
     let truck = &case.truck;
     for (body, own) in truck.model.bodies.iter().enumerate() {
         for (coordinate, motion) in own.frame.motions.iter().enumerate() {
@@ -136,7 +136,7 @@ fn motion_inputs(case: &TruckCase, inputs: &mut Vec<Entry>, ports: &mut Vec<Moti
 }
 
 /// Force and moment along every free coordinate.
-fn load_inputs(case: &TruckCase, inputs: &mut Vec<Entry>, ports: &mut Vec<LoadPort>) {
+fn load_inputs(case: &HalfTruckCase, inputs: &mut Vec<Entry>, ports: &mut Vec<LoadPort>) {
     let truck = &case.truck;
     for (body, own) in truck.model.bodies.iter().enumerate() {
         let number = truck.bodies[body];
@@ -151,7 +151,7 @@ fn load_inputs(case: &TruckCase, inputs: &mut Vec<Entry>, ports: &mut Vec<LoadPo
     }
 }
 
-fn states(case: &TruckCase, system: &System) -> Vec<Entry> {
+fn states(case: &HalfTruckCase, system: &System) -> Vec<Entry> {
     let truck = &case.truck;
     let mut states = motions(system, |body| format!("body_{}", truck.bodies[body]));
     for state in &mut states {
@@ -190,7 +190,7 @@ fn states(case: &TruckCase, system: &System) -> Vec<Entry> {
 }
 
 /// Returns the name of a connection: wedges are called so.
-fn connection(case: &TruckCase, place: usize) -> String {
+fn connection(case: &HalfTruckCase, place: usize) -> String {
     let kind = match case.truck.model.connections[place].law {
         Law::Wedge(_) => "wedge",
         _ => "connection",
@@ -199,7 +199,7 @@ fn connection(case: &TruckCase, place: usize) -> String {
 }
 
 /// Contact states and event indicators of all connections with friction.
-fn contacts(case: &TruckCase, system: &System) -> (Vec<Entry>, Vec<Entry>) {
+fn contacts(case: &HalfTruckCase, system: &System) -> (Vec<Entry>, Vec<Entry>) {
     let names = system.frictional_connections().iter();
     names
         .map(|place| {
@@ -223,7 +223,7 @@ fn contacts(case: &TruckCase, system: &System) -> (Vec<Entry>, Vec<Entry>) {
 }
 
 /// Returns whether no wedge acts on a body that inputs move.
-fn outputs_of_states(case: &TruckCase) -> bool {
+fn outputs_of_states(case: &HalfTruckCase) -> bool {
     let truck = &case.truck;
     let is_driven = |body: usize| truck.model.bodies[body].is_moving_prescribed();
     truck.wedges().all(|place| {

@@ -12,9 +12,9 @@ use mechanics::system::System;
 use nucars::Severity;
 use nucars::together::{RunFiles, Texts};
 use serde::{Deserialize, Serialize};
-use study::truck::columns::Columns;
-use study::truck::files::{Settings, case_of_run};
-use study::truck::{TruckCase, TruckStart, catalog};
+use study::half_truck::columns::Columns;
+use study::half_truck::files::{Settings, case_of_run};
+use study::half_truck::{HalfTruckCase, HalfTruckStart, catalog};
 
 use crate::Error;
 use crate::element::Setting;
@@ -47,7 +47,7 @@ enum Origin {
 /// A run of a half-truck, and what it is made of.
 #[derive(Clone, Debug)]
 pub struct HalfTruck {
-    case: TruckCase,
+    case: HalfTruckCase,
     text: String,
 }
 
@@ -125,7 +125,7 @@ impl HalfTruck {
 
     /// Returns the run.
     #[must_use]
-    pub fn case(&self) -> &TruckCase {
+    pub fn case(&self) -> &HalfTruckCase {
         &self.case
     }
 
@@ -186,7 +186,7 @@ fn check(settings: &Settings) -> Result<(), Error> {
     }
 }
 
-fn of_texts(texts: &Texts, settings: &Settings) -> Result<TruckCase, Error> {
+fn of_texts(texts: &Texts, settings: &Settings) -> Result<HalfTruckCase, Error> {
     let files = RunFiles::of_texts(texts).map_err(|error| Error::new(error.to_string()))?;
     let mut all = files.findings().flat_map(|findings| findings.list());
     if let Some(first) = all.find(|one| one.severity() == Severity::Error) {
@@ -201,9 +201,9 @@ fn of_texts(texts: &Texts, settings: &Settings) -> Result<TruckCase, Error> {
 }
 
 /// Returns how an option says the start of a run.
-fn start_option(start: TruckStart) -> i32 {
+fn start_option(start: HalfTruckStart) -> i32 {
     match start {
-        TruckStart::Drawn => 0,
-        TruckStart::Equilibrium => 1,
+        HalfTruckStart::Drawn => 0,
+        HalfTruckStart::Equilibrium => 1,
     }
 }

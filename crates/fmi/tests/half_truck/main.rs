@@ -12,7 +12,7 @@ use fmi::half_truck::HalfTruck;
 use fmi::instance::Instance;
 use fmi::source::Source;
 use nucars::truck::Choices;
-use study::truck::files::Settings;
+use study::half_truck::files::Settings;
 
 /// A run of the thesis whose wedges have coils in the bolster and a toe.
 const NAME: &str = "nucars_69_constant_toe_out";

@@ -5,9 +5,9 @@ use fmi::half_truck::HalfTruck;
 use mechanics::body::COORDINATES;
 use mechanics::motion::Motion;
 use quantity::Kind;
-use study::truck::TruckResult;
-use study::truck::files::Settings;
-use study::truck::run::run;
+use study::half_truck::HalfTruckResult;
+use study::half_truck::files::Settings;
+use study::half_truck::run::run;
 
 use super::{NAME, Part, half_truck, settings};
 
@@ -26,7 +26,7 @@ fn with_tolerance(name: &str) -> HalfTruck {
     HalfTruck::built_in(name, &settings).unwrap()
 }
 
-fn the_run(name: &str) -> TruckResult {
+fn the_run(name: &str) -> HalfTruckResult {
     run(with_tolerance(name).case(), |_| {}).unwrap()
 }
 
@@ -35,7 +35,7 @@ fn the_run(name: &str) -> TruckResult {
 /// zero). `before_step` receives the time at the end of a step.
 fn differences(
     part: &mut Part,
-    result: &TruckResult,
+    result: &HalfTruckResult,
     mut before_step: impl FnMut(&mut Part, f64),
 ) -> Vec<(String, f64)> {
     let outputs = part.description.entries.outputs.iter();

@@ -3,7 +3,7 @@
 use fmi::half_truck::HalfTruck;
 use nucars::builtin;
 use nucars::together::{Text, Texts};
-use study::truck::files::Settings;
+use study::half_truck::files::Settings;
 
 use super::{Outcome, Reader, refused_as_written};
 

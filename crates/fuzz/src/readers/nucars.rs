@@ -8,7 +8,7 @@ use nucars::read::{AnyFile, FileKind, Read, read, read_data, read_input, read_ru
 use nucars::source::SourceText;
 use nucars::tree::{DataFile, InputFile, RunFile, SystemFile};
 use nucars::{Findings, builtin, check, show, write};
-use study::truck::files::{self, Files, Settings};
+use study::half_truck::files::{self, Files, Settings};
 
 use super::{Outcome, Reader, refused_as_written};
 use crate::shown;

@@ -4,7 +4,7 @@ use nucars::truck::Choices;
 use quantity::{Kind, Quantity, Unit, UnitError};
 use study::case::builtin;
 use study::fit::Free;
-use study::truck::options;
+use study::half_truck::options;
 
 use super::cases::outcome;
 use super::{Outcome, Reader, refused_as_written};

@@ -9,9 +9,9 @@ use fmi::instance::{Instance, Saved};
 use fmi::source::Source;
 use serde::Deserialize;
 use study::case::{Case, builtin};
+use study::half_truck::files::Settings;
 use study::run::{Counts, Run, RunState};
 use study::stepping::{Neighbours, SteppedState, SteppedWedge};
-use study::truck::files::Settings;
 
 use super::{Outcome, Reader};
 

@@ -2,7 +2,7 @@
 //! runs (contact states, strokes, motions of the bodies); the numbers are those of the runs at hand.
 
 use quantity::{Kind, System as Units};
-use study::truck::catalog::WedgeType;
+use study::half_truck::catalog::WedgeType;
 use wedge::parameters::Damping;
 
 use super::{ComparedModel, Group, Stroke};

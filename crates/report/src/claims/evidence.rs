@@ -7,10 +7,10 @@ use std::fmt;
 use mechanics::motion::Motion;
 use quantity::{Kind, System as Units};
 use study::case::Case;
+use study::half_truck::HalfTruckResult;
+use study::half_truck::catalog::{Entry, ToeCase, WedgeType, YawCase};
 use study::metrics::Cycle;
 use study::result::RunResult;
-use study::truck::TruckResult;
-use study::truck::catalog::{Entry, ToeCase, WedgeType, YawCase};
 use wedge::parameters::Damping;
 
 use crate::agreement::{COMPONENT, truck_column};
@@ -106,7 +106,7 @@ impl fmt::Display for RunId {
 /// `69` at the end for the half-truck with wedges of that type.
 #[allow(non_upper_case_globals)] // They stand for the names of arguments.
 pub(super) mod runs {
-    use study::truck::catalog::WedgeType;
+    use study::half_truck::catalog::WedgeType;
 
     use super::{EvidenceSource, RunId, Toe};
 
@@ -151,7 +151,7 @@ pub(super) mod runs {
 #[derive(Clone, Debug, Default)]
 pub struct Evidence<'a> {
     runs: BTreeMap<RunId, (&'a Case, &'a RunResult)>,
-    trucks: BTreeMap<(RunId, WedgeType), &'a TruckResult>,
+    trucks: BTreeMap<(RunId, WedgeType), &'a HalfTruckResult>,
 }
 
 impl<'a> Evidence<'a> {
@@ -169,7 +169,7 @@ impl<'a> Evidence<'a> {
     /// The same with runs of the half-truck; those with yaw as printed are not looked at. A run of the
     /// half-truck is compared with the stand-alone run of its damping, toe and yaw, which tells the cycle.
     #[must_use]
-    pub fn with_trucks(mut self, trucks: impl IntoIterator<Item = (&'a Entry, &'a TruckResult)>) -> Self {
+    pub fn with_trucks(mut self, trucks: impl IntoIterator<Item = (&'a Entry, &'a HalfTruckResult)>) -> Self {
         let known = trucks
             .into_iter()
             .filter_map(|(entry, result)| Some(((RunId::of_truck(entry)?, entry.wedges), result)));
@@ -238,7 +238,7 @@ impl<'a> Evidence<'a> {
 #[derive(Clone, Copy)]
 enum TableOf<'a> {
     Alone(&'a RunResult),
-    Truck(&'a TruckResult),
+    Truck(&'a HalfTruckResult),
 }
 
 impl<'a> TableOf<'a> {

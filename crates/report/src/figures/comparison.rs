@@ -8,9 +8,9 @@
 use mechanics::quasi_static::Direction;
 use quantity::{Kind, System as Units};
 use study::closed_form;
+use study::half_truck::HalfTruckResult;
+use study::half_truck::catalog::WedgeType;
 use study::metrics::Cycle;
-use study::truck::TruckResult;
-use study::truck::catalog::WedgeType;
 use wedge::parameters::Damping;
 
 use super::thesis::{Windows, cut_text, windows};
@@ -211,7 +211,7 @@ impl<'o> Sheet<'o> {
 
     fn truck_curve(
         &self,
-        result: &TruckResult,
+        result: &HalfTruckResult,
         x: &str,
         values: impl Iterator<Item = f64>,
         kind: Kind,

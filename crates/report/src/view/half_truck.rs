@@ -12,7 +12,7 @@ use mechanics::connection::{ColumnFace as Face, Law, Wedge};
 use mechanics::output::Column;
 use nucars::truck::Truck;
 use quantity::Kind;
-use study::truck::TruckResult;
+use study::half_truck::HalfTruckResult;
 use wedge::parameters::Damping;
 
 use super::run::Plot;
@@ -82,7 +82,7 @@ fn wedges(truck: &Truck) -> Vec<Seen<'_>> {
 /// Columns that the scene needs and the table does not have: parts of forces in the fixed axes, states of
 /// slopes, the wedges' shift.
 #[must_use]
-pub fn drawn(truck: &Truck, result: &TruckResult) -> (Vec<Column>, Vec<Vec<f64>>) {
+pub fn drawn(truck: &Truck, result: &HalfTruckResult) -> (Vec<Column>, Vec<Vec<f64>>) {
     let (mut columns, mut values) = (Vec::new(), Vec::new());
     for wedge in wedges(truck) {
         let id = wedge.id();

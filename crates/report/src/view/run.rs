@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use mechanics::output::Column;
 use serde::Serialize;
-use study::truck::{TruckCase, TruckResult};
+use study::half_truck::{HalfTruckCase, HalfTruckResult};
 use wedge::outputs::{CORNERS, FACES};
 
 use super::data::{Data, Precision};
@@ -88,7 +88,7 @@ impl Recording {
 
     /// Of a half-truck.
     #[must_use]
-    pub fn of_truck(case: &TruckCase, result: &TruckResult, detail: Detail) -> Self {
+    pub fn of_truck(case: &HalfTruckCase, result: &HalfTruckResult, detail: Detail) -> Self {
         let (columns, values) = half_truck::drawn(&case.truck, result);
         let mut all = table(&result.columns, &result.values);
         all.extend(table(&columns, &values));

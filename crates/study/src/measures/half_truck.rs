@@ -7,11 +7,11 @@ use mechanics::body::COORDINATES;
 use quantity::{Kind, System as Units};
 
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
+use crate::half_truck::{HalfTruckCase, HalfTruckSummary, WedgeSummary};
 use crate::plausibility;
 use crate::progress;
 use crate::run::Run;
 use crate::summary;
-use crate::truck::{TruckCase, TruckSummary, WedgeSummary};
 
 /// What is measured of a wedge: its name after `wedge_NUMBER_`, kind, text, and where it stands in the
 /// summary.
@@ -56,7 +56,7 @@ fn value(measure: Option<&summary::SummaryValue>) -> Option<f64> {
 
 /// Returns the measures of a half-truck's runs.
 #[must_use]
-pub fn definitions(case: &TruckCase) -> Definitions {
+pub fn definitions(case: &HalfTruckCase) -> Definitions {
     let define = |name: String, kind, text: &str, always| Measure {
         name: Cow::Owned(name),
         text: Cow::Owned(text.to_owned()),
@@ -98,7 +98,7 @@ pub fn definitions(case: &TruckCase) -> Definitions {
 }
 
 /// Returns names and coordinates of the free bodies' displacements, as the summary has them.
-fn displacements(case: &TruckCase) -> Vec<(String, usize)> {
+fn displacements(case: &HalfTruckCase) -> Vec<(String, usize)> {
     let bodies = case.truck.bodies.iter().zip(&case.truck.model.bodies);
     bodies
         .flat_map(|(number, body)| {
@@ -113,9 +113,9 @@ fn displacements(case: &TruckCase) -> Vec<(String, usize)> {
 ///
 /// # Errors
 /// The run cannot begin or does not come to its end.
-pub fn judge(case: &TruckCase) -> Result<Judged, Unmeasured> {
+pub fn judge(case: &HalfTruckCase) -> Result<Judged, Unmeasured> {
     // The summary's numbers are in the units of the results.
-    let case = TruckCase {
+    let case = HalfTruckCase {
         units: Units::Si,
         ..case.clone()
     };
@@ -133,7 +133,7 @@ pub fn judge(case: &TruckCase) -> Result<Judged, Unmeasured> {
     })
 }
 
-fn of_summary(case: &TruckCase, summary: &TruckSummary) -> Measures {
+fn of_summary(case: &HalfTruckCase, summary: &HalfTruckSummary) -> Measures {
     let or_none = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let energies = summary
         .wedges

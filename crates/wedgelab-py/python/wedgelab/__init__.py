@@ -24,9 +24,9 @@ from .errors import (
 )
 from .figures import Curve, Figure, Mark, Panel, report_figures
 from .many import run_many
-from .nucars import TruckCase
+from .nucars import HalfTruckCase
 from .quasi_static import Sliding, quasi_static
-from .result import Column, DataTable, Record, Result, TruckResult, UnknownColumn
+from .result import Column, DataTable, Record, Result, HalfTruckResult, UnknownColumn
 from .sections import (
     BolsterSection,
     Constant,
@@ -90,8 +90,8 @@ __all__ = [
     "SweptSine",
     "Table",
     "Triangle",
-    "TruckCase",
-    "TruckResult",
+    "HalfTruckCase",
+    "HalfTruckResult",
     "UnitError",
     "UnknownColumn",
     "Wedge",

@@ -7,12 +7,12 @@ import sys
 from collections.abc import Callable, Iterable
 from typing import Any, Union, overload
 
-from ._wedgelab import NativeCase, NativeTruckCase
+from ._wedgelab import NativeCase, NativeHalfTruckCase
 from ._wedgelab import run_many as _run_many
 from .case import Case, _names
 from .errors import RunError, WedgelabError
-from .nucars import TruckCase
-from .result import AnyResult, Result, TruckResult, is_sound, unsound_error, warn
+from .nucars import HalfTruckCase
+from .result import AnyResult, Result, HalfTruckResult, is_sound, unsound_error, warn
 
 __all__ = ["run_many"]
 
@@ -30,15 +30,15 @@ def run_many(
 ) -> list[Result]: ...
 @overload
 def run_many(
-    cases: Iterable[TruckCase],
+    cases: Iterable[HalfTruckCase],
     *,
     workers: int | None = None,
     columns: Iterable[str] | None = None,
     progress: Progress = False,
     errors: str = "raise",
-) -> list[TruckResult]: ...
+) -> list[HalfTruckResult]: ...
 def run_many(
-    cases: Iterable[Case] | Iterable[TruckCase],
+    cases: Iterable[Case] | Iterable[HalfTruckCase],
     *,
     workers: int | None = None,
     columns: Iterable[str] | None = None,
@@ -55,10 +55,10 @@ def run_many(
     Runs that cannot begin or go on: with ``errors="raise"`` all others are finished, then the first of them is raised, with everything
     that came out as its ``results``; with ``errors="keep"`` the list has the exceptions in their places.
     """
-    natives: list[NativeCase | NativeTruckCase] = []
+    natives: list[NativeCase | NativeHalfTruckCase] = []
     for place, case in enumerate(cases):
-        if not isinstance(case, (Case, TruckCase)):
-            raise WedgelabError(f"cases[{place}] is a {type(case).__name__}; a Case or TruckCase is expected")
+        if not isinstance(case, (Case, HalfTruckCase)):
+            raise WedgelabError(f"cases[{place}] is a {type(case).__name__}; a Case or HalfTruckCase is expected")
         natives.append(case._native)
     count = _workers(workers)
     if errors not in ("raise", "keep"):
@@ -85,7 +85,7 @@ def _workers(workers: int | None) -> int:
 def _finished(one: Any) -> AnyResult | WedgelabError:
     if isinstance(one, WedgelabError):
         return one
-    result: AnyResult = TruckResult(one) if one.case is None else Result(one)
+    result: AnyResult = HalfTruckResult(one) if one.case is None else Result(one)
     if not is_sound(result):
         return unsound_error(result)
     warn(result, stacklevel=4)

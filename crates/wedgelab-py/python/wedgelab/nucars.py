@@ -10,13 +10,13 @@ from typing import Any, Union
 
 from ._optional import need
 from ._units import si
-from ._wedgelab import NativeTruckCase, built_in_trucks, check_files, read_file
+from ._wedgelab import NativeHalfTruckCase, built_in_half_trucks, check_files, read_file
 from .case import _names
 from .errors import Finding, NucarsError
-from .result import TruckResult, checked
+from .result import HalfTruckResult, checked
 from .sections import QuantityLike
 
-__all__ = ["Checked", "NucarsFile", "ShownTable", "TruckCase", "built_in", "check", "read"]
+__all__ = ["Checked", "NucarsFile", "ShownTable", "HalfTruckCase", "built_in", "check", "read"]
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -117,10 +117,10 @@ def check(
 
 def built_in() -> dict[str, str]:
     """Names and titles of the built-in runs of the thesis's half-truck."""
-    return dict(built_in_trucks())
+    return dict(built_in_half_trucks())
 
 
-class TruckCase:
+class HalfTruckCase:
     """A half-truck's run, ready to be made.
 
     ``path`` is a run file (.RUN), with the files it names, or the name of a built-in run; ``system``, ``data``, ``input`` are
@@ -152,7 +152,7 @@ class TruckCase:
     ) -> None:
         choices = [(str(name), _option(value)) for name, value in (options or {}).items()]
         time = None if duration is None else si(duration, "time", "duration")
-        self._native = NativeTruckCase.read(
+        self._native = NativeHalfTruckCase.read(
             path,
             system,
             data,
@@ -169,7 +169,7 @@ class TruckCase:
         )
 
     @classmethod
-    def _of(cls, native: NativeTruckCase) -> TruckCase:
+    def _of(cls, native: NativeHalfTruckCase) -> HalfTruckCase:
         case = cls.__new__(cls)
         case._native = native
         return case
@@ -200,23 +200,23 @@ class TruckCase:
         columns: Iterable[str] | None = None,
         progress: Callable[[float], object] | None = None,
         incomplete: str = "raise",
-    ) -> TruckResult:
+    ) -> HalfTruckResult:
         """Runs it to its end; see `Case.run`."""
         interruptible = threading.current_thread() is threading.main_thread()
-        result: TruckResult = checked(
-            TruckResult(self._native.run(_names(columns), progress, interruptible)), incomplete
+        result: HalfTruckResult = checked(
+            HalfTruckResult(self._native.run(_names(columns), progress, interruptible)), incomplete
         )
         return result
 
     def __repr__(self) -> str:
-        return f"<TruckCase {self.name}: {self.title}>"
+        return f"<HalfTruckCase {self.name}: {self.title}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_truck_case, (self._native.saved(),))
+        return (_half_truck_case, (self._native.saved(),))
 
 
-def _truck_case(saved: bytes) -> TruckCase:
-    return TruckCase._of(NativeTruckCase.load(saved))
+def _half_truck_case(saved: bytes) -> HalfTruckCase:
+    return HalfTruckCase._of(NativeHalfTruckCase.load(saved))
 
 
 def _option(value: str | float | bool) -> str:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from .case import Case
 
-__all__ = ["AnyResult", "Column", "DataTable", "Record", "Result", "TruckResult"]
+__all__ = ["AnyResult", "Column", "DataTable", "Record", "Result", "HalfTruckResult"]
 
 Floats = npt.NDArray[np.float64]
 
@@ -389,7 +389,7 @@ class Result(_Base):
         return (_result_of_parts, (None if native is None else native.to_toml(), header, values))
 
 
-class TruckResult(_Base):
+class HalfTruckResult(_Base):
     """What came out of a half-truck's run; columns and their units as in `Result`."""
 
     __slots__ = ()
@@ -416,13 +416,13 @@ class TruckResult(_Base):
 
     def __repr__(self) -> str:
         how = "" if self.is_complete else ", incomplete"
-        return f"<TruckResult of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
+        return f"<HalfTruckResult of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_truck_of_parts, self._native.parts())
+        return (_half_truck_of_parts, self._native.parts())
 
 
-AnyResult = Union[Result, TruckResult]
+AnyResult = Union[Result, HalfTruckResult]
 
 
 def _result_of_parts(case: str | None, header: bytes, values: Floats) -> Result:
@@ -432,8 +432,8 @@ def _result_of_parts(case: str | None, header: bytes, values: Floats) -> Result:
     return Result(native.result_of_parts(header, values))
 
 
-def _truck_of_parts(header: bytes, values: Floats) -> TruckResult:
-    return TruckResult(NativeResult.truck_of_parts(header, values))
+def _half_truck_of_parts(header: bytes, values: Floats) -> HalfTruckResult:
+    return HalfTruckResult(NativeResult.half_truck_of_parts(header, values))
 
 
 def checked(result: Any, incomplete: str) -> Any:

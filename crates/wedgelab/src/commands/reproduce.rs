@@ -21,7 +21,7 @@ use report::view::run::{Detail, Recording};
 use report::{beyond, run_files, sections};
 use study::case::{Case, builtin};
 
-use crate::execute::{TABLE_NOTE, execute_whole, table, unsound, unsound_truck};
+use crate::execute::{TABLE_NOTE, execute_whole, table, unsound, unsound_half_truck};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -150,7 +150,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         }
     }
     for (_, result) in &half_trucks {
-        if let Some(failure) = unsound_truck(&result.summary, &planned.runs.join(&result.summary.name)) {
+        if let Some(failure) = unsound_half_truck(&result.summary, &planned.runs.join(&result.summary.name)) {
             code = failure.report();
         }
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use clap::Args;
 use fmi::half_truck::HalfTruck;
-use study::truck::files::Settings;
+use study::half_truck::files::Settings;
 
 use crate::commands::nucars::files::Instead;
 use crate::commands::nucars::run::{RunToMake, YawArgument, built_in, check_built_in, choices, read_run};

@@ -9,14 +9,14 @@ use nucars::Severity;
 use nucars::together::{self, RunFiles, find, kind, load};
 use nucars::truck::{Choices, Yaw};
 use quantity::{Kind, Quantity, System as Units, nearest};
-use report::truck_files;
-use study::truck::catalog::{self, Entry, OUTPUT_INTERVAL, YawCase};
-use study::truck::files::{Settings, case_of_run};
-use study::truck::{TruckCase, TruckStart, TruckSummary, options};
+use report::half_truck_files;
+use study::half_truck::catalog::{self, Entry, OUTPUT_INTERVAL, YawCase};
+use study::half_truck::files::{Settings, case_of_run};
+use study::half_truck::{HalfTruckCase, HalfTruckStart, HalfTruckSummary, options};
 
 use super::files::Instead;
 use super::load::tell;
-use crate::execute::{compute, unsound_truck, write_truck};
+use crate::execute::{compute, unsound_half_truck, write_half_truck};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -131,11 +131,11 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         None => arguments.of_files(file, &settings)?,
     };
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
-    let folder = folders::check(path, &truck_files::NAMES, arguments.force)?;
+    let folder = folders::check(path, &half_truck_files::NAMES, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
     let done = compute(&case, &progress)
-        .and_then(|done| write_truck(&done, &case, &folder, script_interval, &progress).map(|()| done));
+        .and_then(|done| write_half_truck(&done, &case, &folder, script_interval, &progress).map(|()| done));
     progress.finish();
     let summary = &done?.result.summary;
     for warning in &summary.warnings {
@@ -153,9 +153,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
          change of stored energy.\n\nWritten into {}: {}.",
         summary.largest_relative_residual,
         folder.path().display(),
-        truck_files::NAMES.join(", ")
+        half_truck_files::NAMES.join(", ")
     )?;
-    match unsound_truck(summary, folder.path()) {
+    match unsound_half_truck(summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
     }
@@ -167,9 +167,9 @@ impl Arguments {
         Ok(Settings {
             choices,
             start: if self.equilibrium {
-                TruckStart::Equilibrium
+                HalfTruckStart::Equilibrium
             } else {
-                TruckStart::Drawn
+                HalfTruckStart::Drawn
             },
             all_outputs: self.all_outputs,
             interval: self.interval.to_si(),
@@ -182,7 +182,7 @@ impl Arguments {
         })
     }
 
-    fn built_in(&self, entry: Entry, settings: Settings) -> Result<TruckCase, Message> {
+    fn built_in(&self, entry: Entry, settings: Settings) -> Result<HalfTruckCase, Message> {
         check_built_in(entry, &self.instead, self.yaw)?;
         entry.case_with(&settings).map_err(|error| {
             let advice = "choose another interval, option or value; `wedgelab nucars run --help` lists them";
@@ -191,7 +191,7 @@ impl Arguments {
     }
 
     /// The case of a run file, and its own interval of results, s.
-    fn of_files(&self, file: &Path, settings: &Settings) -> Result<(TruckCase, f64), Failure> {
+    fn of_files(&self, file: &Path, settings: &Settings) -> Result<(HalfTruckCase, f64), Failure> {
         let instead = self.instead.files();
         let RunToMake { path, files, again } = read_run(file, &instead)?;
         let case = case_of_run(&path, &files, settings).map_err(|error| {
@@ -331,7 +331,7 @@ Mean force: column friction on the side frame, positive up, over the branch in w
 lost in friction at the column. Jammed: share of the output times without steady sliding, held by the limit alone.";
 
 /// The table of wedges.
-fn table(summary: &TruckSummary) -> Table {
+fn table(summary: &HalfTruckSummary) -> Table {
     let units = summary.units;
     let (force, energy) = (Kind::Force.label(units), Kind::Energy.label(units));
     let mut table = Table::new(

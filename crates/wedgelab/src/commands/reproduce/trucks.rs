@@ -2,18 +2,18 @@
 
 use std::path::Path;
 
-use crate::execute::{compute, write_truck};
+use crate::execute::{compute, write_half_truck};
 use nucars::truck::Choices;
 use rayon::prelude::*;
 use report::agreement::TruckOutcome;
 use report::files::Folder;
+use report::half_truck_files;
 use report::page::Viewer;
-use report::truck_files;
 use report::view::run::{Detail, Recording};
 use study::energy;
+use study::half_truck::HalfTruckCase;
+use study::half_truck::catalog::{self, Entry};
 use study::plausibility;
-use study::truck::TruckCase;
-use study::truck::catalog::{self, Entry};
 
 use crate::failure::{Failure, Message, say};
 use crate::folders;
@@ -25,7 +25,7 @@ const DURATION: f64 = 10.0;
 /// A run to be made, and where it is written.
 pub struct Planned {
     entry: Entry,
-    case: TruckCase,
+    case: HalfTruckCase,
     folder: Folder,
 }
 
@@ -48,9 +48,12 @@ pub fn plan(out: &Path, force: bool) -> Result<Vec<Planned>, Failure> {
             Ok((entry, case))
         })
         .collect::<Result<Vec<_>, Failure>>()?;
-    let wanted = cases
-        .iter()
-        .map(|(_, case)| (out.join("runs").join(&case.name), truck_files::NAMES.as_slice()));
+    let wanted = cases.iter().map(|(_, case)| {
+        (
+            out.join("runs").join(&case.name),
+            half_truck_files::NAMES.as_slice(),
+        )
+    });
     let folders = folders::check_all(wanted, force)?;
     let planned = cases.into_iter().zip(folders);
     Ok(planned
@@ -80,7 +83,7 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<ReproducedTruck>,
     if interrupt::is_reason(done.result.summary.stopped.as_ref()) {
         return Ok(None);
     }
-    write_truck(&done, &case, &folder, catalog::OUTPUT_INTERVAL, progress)?;
+    write_half_truck(&done, &case, &folder, catalog::OUTPUT_INTERVAL, progress)?;
     let result = done.result;
     let warnings = &result.summary.warnings;
     for warning in energy::among(warnings).chain(plausibility::among(warnings)) {

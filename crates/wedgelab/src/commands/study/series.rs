@@ -6,12 +6,12 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use report::study_folder::SERIES;
-use report::{run_files, truck_files};
+use report::{half_truck_files, run_files};
 use study::any_case::AnyCase;
 use study::design::Study;
-use study::truck::catalog;
+use study::half_truck::catalog;
 
-use crate::execute::{compute, execute_whole, unsound, unsound_truck, write_truck};
+use crate::execute::{compute, execute_whole, unsound, unsound_half_truck, write_half_truck};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -26,7 +26,7 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
     );
     let names: &[&str] = match study.base {
         AnyCase::Wedge(_) => &run_files::NAMES,
-        AnyCase::HalfTruck(_) => &truck_files::NAMES,
+        AnyCase::HalfTruck(_) => &half_truck_files::NAMES,
     };
     let (mut written, mut failures) = (Vec::new(), Vec::new());
     for number in numbers {
@@ -48,8 +48,8 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
                 if interrupt::is_reason(stopped) {
                     None
                 } else {
-                    write_truck(&done, &case, &folder, catalog::OUTPUT_INTERVAL, &progress)?;
-                    Some(unsound_truck(&done.result.summary, folder.path()))
+                    write_half_truck(&done, &case, &folder, catalog::OUTPUT_INTERVAL, &progress)?;
+                    Some(unsound_half_truck(&done.result.summary, folder.path()))
                 }
             }
         };

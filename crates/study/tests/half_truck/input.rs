@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 
 use mechanics::connection::Law;
 use mechanics::system::System;
-use study::truck::TruckStart;
-use study::truck::catalog::{ToeCase, WedgeType, YawCase, entries, entry};
-use study::truck::files::Settings;
-use study::truck::run::run;
+use study::half_truck::HalfTruckStart;
+use study::half_truck::catalog::{ToeCase, WedgeType, YawCase, entries, entry};
+use study::half_truck::files::Settings;
+use study::half_truck::run::run;
 
 use crate::common::case;
 
@@ -90,7 +90,7 @@ fn input_values_set_over_files_reach_model_run_and_assumptions() {
     .unwrap();
     assert_eq!((case.duration, case.interval), (1.5, 0.05));
     assert_eq!(case.relative_tolerance, 1e-6);
-    assert_eq!(case.start, TruckStart::Equilibrium);
+    assert_eq!(case.start, HalfTruckStart::Equilibrium);
     assert_eq!(case.units, quantity::System::Si);
     for place in case.truck.wedges() {
         match &case.truck.model.connections[place].law {

@@ -12,10 +12,10 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
 use serde::{Deserialize, Serialize};
 use study::any_case::CaseSource;
-use study::truck::catalog::{self, Entry, YawCase};
-use study::truck::files::{Settings, case_of_run};
-use study::truck::run::run_while;
-use study::truck::{TruckCase, TruckStart, options};
+use study::half_truck::catalog::{self, Entry, YawCase};
+use study::half_truck::files::{Settings, case_of_run};
+use study::half_truck::run::run_while;
+use study::half_truck::{HalfTruckCase, HalfTruckStart, options};
 
 use crate::errors::{findings, guarded, raise, simple};
 use crate::nucars::load_error;
@@ -37,10 +37,10 @@ enum Origin {
 }
 
 /// A half-truck's case.
-#[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeTruckCase")]
-pub struct NativeTruckCase {
+#[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeHalfTruckCase")]
+pub struct NativeHalfTruckCase {
     /// The case.
-    pub case: Arc<TruckCase>,
+    pub case: Arc<HalfTruckCase>,
     origin: Origin,
 }
 
@@ -48,7 +48,7 @@ fn refused(py: Python<'_>, message: &str, help: &str) -> PyErr {
     simple(py, "NucarsError", message, help)
 }
 
-fn make(py: Python<'_>, origin: Origin) -> PyResult<NativeTruckCase> {
+fn make(py: Python<'_>, origin: Origin) -> PyResult<NativeHalfTruckCase> {
     let case = match &origin {
         Origin::BuiltIn { name, settings } => {
             let entry = entry(py, name)?;
@@ -67,14 +67,14 @@ fn make(py: Python<'_>, origin: Origin) -> PyResult<NativeTruckCase> {
             of_files(py, path, &files, settings)?
         }
     };
-    Ok(NativeTruckCase {
+    Ok(NativeHalfTruckCase {
         case: Arc::new(case),
         origin,
     })
 }
 
 /// A study's half-truck with these values set over it.
-pub fn of_source(py: Python<'_>, source: &CaseSource, set: Vec<String>) -> PyResult<NativeTruckCase> {
+pub fn of_source(py: Python<'_>, source: &CaseSource, set: Vec<String>) -> PyResult<NativeHalfTruckCase> {
     let settings = Settings {
         set,
         ..Settings::default()
@@ -108,7 +108,7 @@ fn entry(py: Python<'_>, name: &str) -> PyResult<Entry> {
     })
 }
 
-fn of_files(py: Python<'_>, path: &Path, files: &RunFiles, settings: &Settings) -> PyResult<TruckCase> {
+fn of_files(py: Python<'_>, path: &Path, files: &RunFiles, settings: &Settings) -> PyResult<HalfTruckCase> {
     if files.has_errors() {
         let all = files.findings().flat_map(|findings| findings.list());
         let errors: Vec<_> = all
@@ -135,7 +135,7 @@ fn of_files(py: Python<'_>, path: &Path, files: &RunFiles, settings: &Settings) 
 }
 
 #[pymethods]
-impl NativeTruckCase {
+impl NativeHalfTruckCase {
     /// From a run file, or the name of a built-in run.
     #[classmethod]
     #[pyo3(signature = (path, system, data, input, yaw, options, duration, interval, start, all_outputs, units, tolerance, set))]
@@ -170,8 +170,8 @@ impl NativeTruckCase {
         }
         let mut settings = Settings {
             start: match start {
-                "drawn" => TruckStart::Drawn,
-                "equilibrium" => TruckStart::Equilibrium,
+                "drawn" => HalfTruckStart::Drawn,
+                "equilibrium" => HalfTruckStart::Equilibrium,
                 other => return Err(unknown("start", other, "\"drawn\", \"equilibrium\"")),
             },
             all_outputs,
@@ -297,7 +297,7 @@ impl NativeTruckCase {
 
 /// Runs a case; panics become failures.
 pub fn outcome(
-    case: &TruckCase,
+    case: &HalfTruckCase,
     columns: Option<&[String]>,
     mut progress: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Table, Failure> {
@@ -315,7 +315,7 @@ pub fn outcome(
 
 /// Names and titles of the built-in runs.
 #[pyfunction]
-pub fn built_in_trucks() -> Vec<(String, String)> {
+pub fn built_in_half_trucks() -> Vec<(String, String)> {
     let entries = catalog::entries();
     entries
         .iter()

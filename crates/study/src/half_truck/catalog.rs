@@ -11,7 +11,7 @@ use nucars::tree::{DataFile, InputFile, Law, SystemFile, Toe};
 use nucars::truck::{Choices, Yaw};
 use wedge::parameters::Damping;
 
-use super::TruckCase;
+use super::HalfTruckCase;
 use super::files::{self, Files, FilesError, Settings};
 
 /// The type of the wedges.
@@ -173,7 +173,7 @@ impl Entry {
     ///
     /// # Errors
     /// None happen with the built-in files, which the tests read.
-    pub fn case(&self, choices: &Choices, duration: f64) -> Result<TruckCase, FilesError> {
+    pub fn case(&self, choices: &Choices, duration: f64) -> Result<HalfTruckCase, FilesError> {
         self.case_with(&Settings {
             choices: choices.clone(),
             duration: Some(duration),
@@ -185,7 +185,7 @@ impl Entry {
     ///
     /// # Errors
     /// A value of the settings is wrong; the built-in files have no mistakes.
-    pub fn case_with(&self, settings: &Settings) -> Result<TruckCase, FilesError> {
+    pub fn case_with(&self, settings: &Settings) -> Result<HalfTruckCase, FilesError> {
         let [system, input, data] = self.files();
         let mut system = tree_of::<SystemFile>(system)?;
         let input = tree_of::<InputFile>(input)?;

@@ -2,25 +2,25 @@
 #![allow(dead_code, clippy::unwrap_used)]
 
 use nucars::truck::Choices;
-use study::truck::catalog::{Entry, entries, entry};
-use study::truck::run::run;
-use study::truck::{TruckCase, TruckResult};
+use study::half_truck::catalog::{Entry, entries, entry};
+use study::half_truck::run::run;
+use study::half_truck::{HalfTruckCase, HalfTruckResult};
 
 pub const INCH: f64 = 0.0254;
 pub const POUND: f64 = 4.448_221_615_260_5;
 pub const POUND_INCH: f64 = POUND * INCH;
 
-pub fn case(name: &str, duration: f64) -> TruckCase {
+pub fn case(name: &str, duration: f64) -> HalfTruckCase {
     let entry: Entry = entry(name).unwrap();
     entry.case(&Choices::default(), duration).unwrap()
 }
 
-pub fn result(name: &str, duration: f64) -> TruckResult {
+pub fn result(name: &str, duration: f64) -> HalfTruckResult {
     run(&case(name, duration), |_| ()).unwrap()
 }
 
 /// Runs all entries that are chosen, several at a time.
-pub fn run_all(duration: f64, choose: impl Fn(&Entry) -> bool) -> Vec<(Entry, TruckResult)> {
+pub fn run_all(duration: f64, choose: impl Fn(&Entry) -> bool) -> Vec<(Entry, HalfTruckResult)> {
     let chosen: Vec<Entry> = entries().into_iter().filter(choose).collect();
     let half = chosen.len().div_ceil(2);
     std::thread::scope(|scope| {

@@ -13,7 +13,7 @@ use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
 use super::table::{Table, input_motion};
-use super::{SCHEMA, TruckCase, TruckResult, TruckStart, TruckSummary, WedgeSummary};
+use super::{HalfTruckCase, HalfTruckResult, HalfTruckStart, HalfTruckSummary, SCHEMA, WedgeSummary};
 use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::metrics::{Cycle, mean};
@@ -28,11 +28,11 @@ use crate::summary::{Stopped, SummaryValue};
 ///
 /// # Errors
 /// There is no equilibrium.
-pub fn start(system: &mut System, start: TruckStart) -> Result<Vec<f64>, NoEquilibrium> {
+pub fn start(system: &mut System, start: HalfTruckStart) -> Result<Vec<f64>, NoEquilibrium> {
     let drawn = system.initial_state();
     match start {
-        TruckStart::Drawn => Ok(drawn),
-        TruckStart::Equilibrium => system.equilibrium(0.0, &drawn, StaticFriction::Without),
+        HalfTruckStart::Drawn => Ok(drawn),
+        HalfTruckStart::Equilibrium => system.equilibrium(0.0, &drawn, StaticFriction::Without),
     }
 }
 
@@ -41,7 +41,7 @@ pub fn start(system: &mut System, start: TruckStart) -> Result<Vec<f64>, NoEquil
 ///
 /// # Errors
 /// The run cannot begin.
-pub fn run(case: &TruckCase, progress: impl FnMut(f64)) -> Result<TruckResult, RunError> {
+pub fn run(case: &HalfTruckCase, progress: impl FnMut(f64)) -> Result<HalfTruckResult, RunError> {
     Ok(Run::new(case)?.finish(progress))
 }
 
@@ -51,14 +51,14 @@ pub fn run(case: &TruckCase, progress: impl FnMut(f64)) -> Result<TruckResult, R
 /// # Errors
 /// The run cannot begin.
 pub fn run_while(
-    case: &TruckCase,
+    case: &HalfTruckCase,
     progress: impl FnMut(f64) -> ControlFlow<String>,
-) -> Result<TruckResult, RunError> {
+) -> Result<HalfTruckResult, RunError> {
     Ok(Run::new(case)?.finish_while(progress))
 }
 
 /// Records a half-truck's run: its table, and the work of its wedges' friction.
-pub struct TruckRecorder {
+pub struct HalfTruckRecorder {
     table: Table,
     values: Vec<Vec<f64>>,
     works: Works,
@@ -68,9 +68,9 @@ pub struct TruckRecorder {
     row: Vec<f64>,
 }
 
-impl RunCase for TruckCase {
-    type Recorder = TruckRecorder;
-    type Output = TruckResult;
+impl RunCase for HalfTruckCase {
+    type Recorder = HalfTruckRecorder;
+    type Output = HalfTruckResult;
 
     const WHERE_TO_LOOK: &'static str =
         "look for values that are out of proportion; `wedgelab nucars show` prints them as tables";
@@ -95,13 +95,13 @@ impl RunCase for TruckCase {
         }
     }
 
-    fn begin(&self) -> Result<Beginning<TruckRecorder>, RunError> {
+    fn begin(&self) -> Result<Beginning<HalfTruckRecorder>, RunError> {
         let mut system = System::new(self.truck.model.clone())?;
         let x = start(&mut system, self.start)?;
         let table = Table::new(&self.truck, &system, &self.requests);
         let frictional = system.frictional_connections().iter();
         Ok(Beginning {
-            recorder: TruckRecorder {
+            recorder: HalfTruckRecorder {
                 values: vec![Vec::new(); table.columns.len()],
                 row: Vec::with_capacity(table.columns.len()),
                 works: Works::new(self),
@@ -114,19 +114,19 @@ impl RunCase for TruckCase {
         })
     }
 
-    fn output(run: Run<Self>, stopped: Option<Stopped>) -> TruckResult {
+    fn output(run: Run<Self>, stopped: Option<Stopped>) -> HalfTruckResult {
         output(run, stopped)
     }
 }
 
-impl Recorder for TruckRecorder {
-    type Counts = TruckCounts;
+impl Recorder for HalfTruckRecorder {
+    type Counts = HalfTruckCounts;
 
-    fn counts(&self) -> TruckCounts {
+    fn counts(&self) -> HalfTruckCounts {
         self.works.counts.clone()
     }
 
-    fn restore(&mut self, counts: TruckCounts, time: f64) -> Result<(), RunError> {
+    fn restore(&mut self, counts: HalfTruckCounts, time: f64) -> Result<(), RunError> {
         check_length("counts.works", counts.works.len(), self.works.wedges.len())?;
         counts
             .works
@@ -171,15 +171,15 @@ impl Recorder for TruckRecorder {
     }
 }
 
-fn output(run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
+fn output(run: Run<HalfTruckCase>, stopped: Option<Stopped>) -> HalfTruckResult {
     let complete = stopped.is_none() && run.is_finished();
     let case = run.case.clone();
     let balance = run.energy_balance;
     let joules = |value| SummaryValue::new(value, Kind::Energy, case.units);
-    let mut result = TruckResult {
+    let mut result = HalfTruckResult {
         columns: run.recorder.table.columns.clone(),
         values: run.recorder.values.clone(),
-        summary: TruckSummary {
+        summary: HalfTruckSummary {
             schema: SCHEMA.to_owned(),
             program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
             name: case.name.clone(),
@@ -217,7 +217,7 @@ fn output(run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
 }
 
 /// The first number of a summary that is not finite, in words.
-fn first_not_finite(summary: &TruckSummary) -> Option<String> {
+fn first_not_finite(summary: &HalfTruckSummary) -> Option<String> {
     let wedge = |wedge: &WedgeSummary| {
         let measures = [
             &wedge.energy_per_cycle,
@@ -239,7 +239,7 @@ fn first_not_finite(summary: &TruckSummary) -> Option<String> {
 }
 
 /// Returns the cycle of the vertical input, if it is one sine.
-pub(crate) fn cycle(case: &TruckCase) -> Option<Cycle> {
+pub(crate) fn cycle(case: &HalfTruckCase) -> Option<Cycle> {
     match input_motion(&case.truck.model)? {
         Motion::Sine {
             amplitude,
@@ -255,13 +255,13 @@ pub(crate) fn cycle(case: &TruckCase) -> Option<Cycle> {
 struct Works {
     window: Option<(f64, f64, u32)>,
     wedges: Vec<usize>,
-    counts: TruckCounts,
+    counts: HalfTruckCounts,
     powers: [Vec<f64>; 3],
 }
 
 /// What is counted along a half-truck's run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct TruckCounts {
+pub struct HalfTruckCounts {
     /// Work of each wedge's friction at the column in the averaging window, J.
     pub works: Vec<f64>,
     /// Until when it is taken, s.
@@ -269,13 +269,13 @@ pub struct TruckCounts {
 }
 
 impl Works {
-    fn new(case: &TruckCase) -> Self {
+    fn new(case: &HalfTruckCase) -> Self {
         let wedges: Vec<usize> = case.truck.wedges().collect();
         let none = vec![0.0; wedges.len()];
         Self {
             window: cycle(case).and_then(|cycle| cycle.window(case.duration)),
             powers: [none.clone(), none.clone(), none.clone()],
-            counts: TruckCounts {
+            counts: HalfTruckCounts {
                 works: none,
                 reached: 0.0,
             },
@@ -316,7 +316,7 @@ impl Works {
     }
 }
 
-fn summarize(case: &TruckCase, system: &System, works: &Works, result: &mut TruckResult) {
+fn summarize(case: &HalfTruckCase, system: &System, works: &Works, result: &mut HalfTruckResult) {
     let units = case.units;
     let times = result.column("time").unwrap_or_default().to_vec();
     let mut wedges = BTreeMap::new();
@@ -378,7 +378,7 @@ fn summarize(case: &TruckCase, system: &System, works: &Works, result: &mut Truc
     summary.ledger = ledger;
 }
 
-fn wedge(case: &TruckCase, result: &TruckResult, works: &Works, place: usize) -> WedgeSummary {
+fn wedge(case: &HalfTruckCase, result: &HalfTruckResult, works: &Works, place: usize) -> WedgeSummary {
     use mechanics::connection::Law;
     use wedge::parameters::Damping;
 

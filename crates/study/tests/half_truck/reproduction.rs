@@ -3,14 +3,14 @@
 
 use std::f64::consts::PI;
 
-use study::truck::TruckResult;
-use study::truck::run::run;
+use study::half_truck::HalfTruckResult;
+use study::half_truck::run::run;
 
 use crate::common::{INCH, POUND_INCH, case};
 
 /// Cycles of the input, from the first loading on: energy at the column (lbf in), lowest and highest stroke
 /// (in).
-fn cycles(result: &TruckResult, number: u32) -> Vec<[f64; 3]> {
+fn cycles(result: &HalfTruckResult, number: u32) -> Vec<[f64; 3]> {
     let column = |what: &str| result.column(&format!("wedge_{number}_{what}")).unwrap();
     let (friction, stroke) = (column("column_friction"), column("stroke"));
     let times = result.column("time").unwrap();
@@ -37,7 +37,7 @@ fn cycles(result: &TruckResult, number: u32) -> Vec<[f64; 3]> {
         .collect()
 }
 
-fn fine(name: &str) -> TruckResult {
+fn fine(name: &str) -> HalfTruckResult {
     let mut case = case(name, 20.0);
     case.interval = 0.001;
     run(&case, |_| ()).unwrap()

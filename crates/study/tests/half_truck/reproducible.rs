@@ -2,9 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use serde_json::Value;
+use study::half_truck::run::HalfTruckCounts;
+use study::half_truck::{HalfTruckCase, HalfTruckResult};
 use study::run::{Run, RunError, RunState};
-use study::truck::run::TruckCounts;
-use study::truck::{TruckCase, TruckResult};
 
 use super::common::{case, result};
 
@@ -14,7 +14,7 @@ fn bits(values: &[Vec<f64>]) -> Vec<Vec<u64>> {
 }
 
 /// Runs it in pieces, each saved as text and read again.
-fn in_pieces(case: &TruckCase, length: f64) -> (TruckResult, u32) {
+fn in_pieces(case: &HalfTruckCase, length: f64) -> (HalfTruckResult, u32) {
     let mut run = Run::new(case).unwrap();
     let mut values: Option<Vec<Vec<f64>>> = None;
     let mut pieces = 1;
@@ -35,7 +35,7 @@ fn in_pieces(case: &TruckCase, length: f64) -> (TruckResult, u32) {
             piece.values = values.unwrap_or_default();
             return (piece, pieces);
         }
-        let state: RunState<TruckCounts> = serde_json::from_str(&text).unwrap();
+        let state: RunState<HalfTruckCounts> = serde_json::from_str(&text).unwrap();
         run = Run::resume(case, state).unwrap();
         pieces += 1;
     }
@@ -71,7 +71,7 @@ fn input_damaged_states_are_refused_with_their_member() {
     }
     let good = serde_json::to_value(run.state()).unwrap();
     let resume = |state: &Value| {
-        let state: RunState<TruckCounts> = serde_json::from_value(state.clone()).unwrap();
+        let state: RunState<HalfTruckCounts> = serde_json::from_value(state.clone()).unwrap();
         Run::resume(&case, state).map(|_| ())
     };
     assert!(resume(&good).is_ok());

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::set::{self, SetError};
-use super::{TruckCase, TruckStart, requests, yaw};
+use super::{HalfTruckCase, HalfTruckStart, requests, yaw};
 
 /// The trees of the files of a run.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +34,7 @@ pub struct Settings {
     /// What the files leave open.
     pub choices: Choices,
     /// How the run begins.
-    pub start: TruckStart,
+    pub start: HalfTruckStart,
     /// Whether sections of the data file that are switched off are written too.
     pub all_outputs: bool,
     /// How long the run is, s; otherwise as the run file says.
@@ -54,7 +54,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             choices: Choices::default(),
-            start: TruckStart::Drawn,
+            start: HalfTruckStart::Drawn,
             all_outputs: false,
             duration: None,
             interval: 0.01,
@@ -105,7 +105,12 @@ pub enum FilesError {
 ///
 /// # Errors
 /// What [`FilesError`] names.
-pub fn case(name: &str, title: &str, files: Files<'_>, settings: &Settings) -> Result<TruckCase, FilesError> {
+pub fn case(
+    name: &str,
+    title: &str,
+    files: Files<'_>,
+    settings: &Settings,
+) -> Result<HalfTruckCase, FilesError> {
     let (mut settings, mut system, mut input) = (
         settings.clone(),
         Cow::Borrowed(files.system),
@@ -135,8 +140,8 @@ pub fn case(name: &str, title: &str, files: Files<'_>, settings: &Settings) -> R
     let mut assumptions = choices.describe();
     assumptions.push(
         match settings.start {
-            TruckStart::Drawn => "start: at rest in the drawn layout, springs and wedges without history",
-            TruckStart::Equilibrium => {
+            HalfTruckStart::Drawn => "start: at rest in the drawn layout, springs and wedges without history",
+            HalfTruckStart::Equilibrium => {
                 "start: at rest in static equilibrium without friction, input bodies where they are at time zero"
             }
         }
@@ -169,7 +174,7 @@ pub fn case(name: &str, title: &str, files: Files<'_>, settings: &Settings) -> R
         }
         None => Vec::new(),
     };
-    Ok(TruckCase {
+    Ok(HalfTruckCase {
         name: name.to_owned(),
         title: title.to_owned(),
         truck,
@@ -188,7 +193,7 @@ pub fn case(name: &str, title: &str, files: Files<'_>, settings: &Settings) -> R
 ///
 /// # Errors
 /// What [`FilesError`] names.
-pub fn case_of_run(path: &Path, files: &RunFiles, settings: &Settings) -> Result<TruckCase, FilesError> {
+pub fn case_of_run(path: &Path, files: &RunFiles, settings: &Settings) -> Result<HalfTruckCase, FilesError> {
     let mut name = path
         .file_stem()
         .map_or_else(|| "nucars".to_owned(), |stem| stem.to_string_lossy().into_owned());

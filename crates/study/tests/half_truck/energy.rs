@@ -1,7 +1,7 @@
 //! The energy ledger of all runs closes.
 
 use mechanics::system::EnergyTermKind;
-use study::truck::catalog::{Entry, ToeCase, YawCase};
+use study::half_truck::catalog::{Entry, ToeCase, YawCase};
 
 use crate::common::run_all;
 

@@ -1,7 +1,7 @@
 //! Results at the usual tolerance against those at tighter ones.
 #![allow(clippy::unwrap_used)]
 
-use study::truck::run::run;
+use study::half_truck::run::run;
 
 use crate::common::{INCH, POUND, case};
 

@@ -6,7 +6,7 @@ use nucars::truck::Truck;
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
-use super::TruckResult;
+use super::HalfTruckResult;
 use crate::summary::SummaryValue;
 
 /// The share of the commanded yaw below which it counts as not reached.
@@ -45,7 +45,7 @@ pub fn is_commanded(truck: &Truck) -> bool {
 }
 
 /// Commanded and reached yaw of a run, if one is commanded.
-pub(super) fn summary(truck: &Truck, result: &TruckResult, units: Units) -> Option<YawSummary> {
+pub(super) fn summary(truck: &Truck, result: &HalfTruckResult, units: Units) -> Option<YawSummary> {
     let (input, body) = drive(&truck.model)?;
     let motions = &truck.model.bodies[input].frame.motions;
     let number = truck.bodies[body];

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use mechanics::motion::Motion;
+use study::half_truck::run::run;
 use study::plausibility;
-use study::truck::run::run;
 
 use crate::common::{POUND, case, result, run_all};
 

@@ -31,7 +31,7 @@ use std::io::{self, Write};
 
 use mechanics::connection::{Accumulator, Law};
 use quantity::{Kind, System as Units};
-use study::truck::{TruckCase, TruckResult, yaw};
+use study::half_truck::{HalfTruckCase, HalfTruckResult, yaw};
 
 use crate::csv::converted;
 use crate::files::{FileError, Folder};
@@ -52,7 +52,7 @@ pub struct ScriptArray {
 impl ScriptArray {
     /// The array of a run; `None` without wedges of type 6.8 or 6.9.
     #[must_use]
-    pub fn of(case: &TruckCase) -> Option<Self> {
+    pub fn of(case: &HalfTruckCase) -> Option<Self> {
         let place = case.truck.wedges().next()?;
         let law = &case.truck.model.connections[place].law;
         let Law::Wedge(wedge) = law else { return None };
@@ -91,7 +91,7 @@ impl ScriptArray {
     }
 
     /// Its values, with a row each `interval` seconds.
-    fn values(&self, result: &TruckResult, interval: f64) -> io::Result<Vec<Vec<f64>>> {
+    fn values(&self, result: &HalfTruckResult, interval: f64) -> io::Result<Vec<Vec<f64>>> {
         let missing = |name: &str| io::Error::other(format!("the result has no column `{name}`"));
         let times = result.column("time").ok_or_else(|| missing("time"))?;
         let last = times.last().copied().unwrap_or_default();
@@ -138,8 +138,8 @@ fn sample(times: &[f64], values: &[f64], time: f64) -> f64 {
 /// A file cannot be written.
 pub fn write(
     folder: &Folder,
-    case: &TruckCase,
-    result: &TruckResult,
+    case: &HalfTruckCase,
+    result: &HalfTruckResult,
     script_interval: f64,
 ) -> Result<(), FileError> {
     folder.write(|files| {
@@ -160,8 +160,8 @@ pub fn write(
 /// # Errors
 /// The writer's.
 pub fn write_mat(
-    case: &TruckCase,
-    result: &TruckResult,
+    case: &HalfTruckCase,
+    result: &HalfTruckResult,
     script_interval: f64,
     out: &mut dyn Write,
 ) -> io::Result<()> {

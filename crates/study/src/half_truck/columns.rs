@@ -3,7 +3,7 @@
 use mechanics::output::Column;
 use mechanics::system::{Observation, System};
 
-use super::TruckCase;
+use super::HalfTruckCase;
 use super::table::Table;
 
 /// The columns of the results of a half-truck, to be evaluated at any instant.
@@ -13,7 +13,7 @@ impl Columns {
     /// Returns the columns that a run of the case writes; `system` is that of its model. The residual of the
     /// energy ledger is not meaningful among them: it counts from a start with no stored energy.
     #[must_use]
-    pub fn new(case: &TruckCase, system: &System) -> Self {
+    pub fn new(case: &HalfTruckCase, system: &System) -> Self {
         Self(Table::new(&case.truck, system, &case.requests))
     }
 

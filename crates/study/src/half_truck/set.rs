@@ -16,7 +16,7 @@ use nucars::tree::{InputFile, SystemFile};
 use quantity::{Kind, Quantity, System as Units, nearest};
 use thiserror::Error;
 
-use super::TruckStart;
+use super::HalfTruckStart;
 use super::files::Settings;
 use super::options::{self, OptionError};
 
@@ -135,8 +135,8 @@ fn simulation(settings: &mut Settings, name: &str, value: &str) -> Result<(), Se
         }
         "start" => {
             settings.start = match value {
-                "drawn" => TruckStart::Drawn,
-                "equilibrium" => TruckStart::Equilibrium,
+                "drawn" => HalfTruckStart::Drawn,
+                "equilibrium" => HalfTruckStart::Equilibrium,
                 _ => return Err(wrong()),
             };
         }

@@ -1,8 +1,8 @@
 //! Runs of the half-truck of the comparison program's files.
 //!
 //! [`catalog`] lists the thesis's runs, [`files`] makes a run of any files, with single values [`mod@set`]
-//! over them. [`TruckCase`] is a model made from files with what a run needs besides, [`run`](run::run) runs
-//! it, [`requests`] holds what a data file asks for, and [`TruckResult`] what came out.
+//! over them. [`HalfTruckCase`] is a model made from files with what a run needs besides, [`run`](run::run) runs
+//! it, [`requests`] holds what a data file asks for, and [`HalfTruckResult`] what came out.
 
 pub mod catalog;
 pub mod columns;
@@ -29,7 +29,7 @@ pub use yaw::YawSummary;
 /// How a run begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum TruckStart {
+pub enum HalfTruckStart {
     /// At rest in the drawn layout.
     #[default]
     Drawn,
@@ -39,7 +39,7 @@ pub enum TruckStart {
 
 /// A run to be made.
 #[derive(Clone, Debug)]
-pub struct TruckCase {
+pub struct HalfTruckCase {
     /// Its name: results go into a folder of that name.
     pub name: String,
     /// One line for people.
@@ -51,7 +51,7 @@ pub struct TruckCase {
     /// What is written besides time, wedges and energies.
     pub requests: Vec<Request>,
     /// How it begins.
-    pub start: TruckStart,
+    pub start: HalfTruckStart,
     /// How long it is, s.
     pub duration: f64,
     /// Time between two rows, s.
@@ -64,16 +64,16 @@ pub struct TruckCase {
 
 /// What came out of a run.
 #[derive(Clone, Debug)]
-pub struct TruckResult {
+pub struct HalfTruckResult {
     /// The columns of the table.
     pub columns: Vec<Column>,
     /// The values (SI), one vector a column.
     pub values: Vec<Vec<f64>>,
     /// The summary.
-    pub summary: TruckSummary,
+    pub summary: HalfTruckSummary,
 }
 
-impl TruckResult {
+impl HalfTruckResult {
     /// The values (SI) of the column with this name (without unit).
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {
@@ -87,7 +87,7 @@ pub const SCHEMA: &str = "wedgelab.truck/2";
 
 /// The summary of a half-truck's run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TruckSummary {
+pub struct HalfTruckSummary {
     /// [`SCHEMA`].
     pub schema: String,
     /// Version of the program that wrote it.
