@@ -30,7 +30,7 @@
 use std::io::{self, Write};
 
 use mechanics::connection::{Accumulator, Law};
-use quantity::{Kind, System as Units};
+use quantity::System as Units;
 use study::half_truck::{HalfTruckCase, HalfTruckResult, yaw};
 
 use crate::csv::converted;
@@ -168,12 +168,7 @@ pub fn write_mat(
     let own = &result.summary;
     mat5::header(&format!("{}, case {}", own.program, own.name), out)?;
     let mut about = format!("{}: {}\nwritten by {}\n", own.name, own.title, own.program);
-    if let Some(stopped) = &own.stopped {
-        about.push_str(&format!("incomplete: the run stopped at {} s\n", stopped.time));
-    }
-    if let Some(reason) = &own.failed {
-        about.push_str(&format!("failed: {reason}\n"));
-    }
+    about += &mat::soundness(own);
     if let Some(array) = ScriptArray::of(case).filter(|_| script_interval > 0.0) {
         let values = array.values(result, script_interval)?;
         let columns: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
@@ -184,19 +179,7 @@ pub fn write_mat(
             array.columns.join(", ")
         ));
     }
-    for (column, values) in result.columns.iter().zip(&result.values) {
-        let name = column.full_name(own.units);
-        let values: Vec<f64> = values
-            .iter()
-            .map(|si| converted(*si, column.kind, own.units))
-            .collect();
-        mat5::matrix(&name, &[&values], out)?;
-        let unit = match column.kind {
-            Kind::Count => String::new(),
-            kind => format!(" ({})", kind.label(own.units)),
-        };
-        about.push_str(&format!("{name}{unit}: {}\n", column.text));
-    }
+    mat::write_columns(result, &mut about, out)?;
     mat5::text("about", about.trim_end(), out)
 }
 

@@ -33,6 +33,8 @@ use std::io::{self, Write};
 use quantity::{Kind, System as Units};
 use study::case::Case;
 use study::result::RunResult;
+use study::summary::RunSummary;
+use study::truck::run::TruckResult;
 use wedge::outputs::CORNERS;
 use wedge::parameters::Damping;
 
@@ -71,6 +73,55 @@ pub fn write(case: &Case, result: &RunResult, out: &mut dyn Write) -> io::Result
         mat5::matrix(variable.name, &columns, out)?;
     }
     mat5::text("about", &about(result, &variables), out)
+}
+
+/// Writes the columns of a table under their full names, in the units of its summary, and appends a line on each
+/// to `about`.
+///
+/// # Errors
+/// The writer's.
+pub fn write_columns<S: RunSummary>(
+    result: &RunResult<S>,
+    about: &mut String,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let units = result.summary.units();
+    for (column, values) in result.columns.iter().zip(&result.values) {
+        let name = column.full_name(units);
+        let values: Vec<f64> = values
+            .iter()
+            .map(|si| converted(*si, column.kind, units))
+            .collect();
+        mat5::matrix(&name, &[&values], out)?;
+        let unit = match column.kind {
+            Kind::Count => String::new(),
+            kind => format!(" ({})", kind.label(units)),
+        };
+        about.push_str(&format!("{name}{unit}: {}\n", column.text));
+    }
+    Ok(())
+}
+
+/// Returns what the text on a run says if the run is incomplete or has failed.
+pub fn soundness(summary: &impl RunSummary) -> String {
+    let stopped = summary
+        .stopped()
+        .map(|stopped| format!("incomplete: the run stopped at {} s\n", stopped.time));
+    let failed = summary.failed().map(|reason| format!("failed: {reason}\n"));
+    stopped.into_iter().chain(failed).collect()
+}
+
+/// Writes the file of a truck's run: every column of its table under its full name, and a text on them.
+///
+/// # Errors
+/// The writer's.
+pub fn write_truck(result: &TruckResult, out: &mut dyn Write) -> io::Result<()> {
+    let own = &result.summary;
+    mat5::header(&format!("{}, case {}", own.program, own.name), out)?;
+    let mut about = format!("{}: {}\nwritten by {}\n", own.name, own.title, own.program);
+    about += &soundness(own);
+    write_columns(result, &mut about, out)?;
+    mat5::text("about", about.trim_end(), out)
 }
 
 fn variables(case: &Case, result: &RunResult) -> io::Result<Vec<Variable>> {

@@ -1,15 +1,73 @@
 //! The files of a run: the table, the same under the thesis's names, the completed case, the summary.
 
 use study::case::Case;
+use study::half_truck::{HalfTruckCase, HalfTruckResult};
 use study::result::RunResult;
+use study::run::RunCase;
+use study::summary::RunSummary;
+use study::truck::TruckCase;
+use study::truck::run::TruckResult;
 
 use crate::files::{FileError, Folder};
-use crate::{csv, mat, summary};
+use crate::{csv, half_truck_files, mat, summary};
 
 /// The name of the case's file.
 pub const CASE_FILE_NAME: &str = "case.toml";
 /// The files of a run.
 pub const NAMES: [&str; 4] = [csv::FILE_NAME, mat::FILE_NAME, CASE_FILE_NAME, summary::FILE_NAME];
+
+/// A case whose runs are written as files.
+pub trait RunFiles: RunCase<Output = RunResult<Self::Summary>> {
+    /// The summary of its runs.
+    type Summary: RunSummary;
+    /// The files of a run.
+    const FILES: &'static [&'static str];
+
+    /// Writes the files of a run, all of them or none.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    fn write(&self, folder: &Folder, result: &Self::Output) -> Result<(), FileError>;
+}
+
+impl RunFiles for Case {
+    type Summary = study::summary::Summary;
+    const FILES: &'static [&'static str] = &NAMES;
+
+    fn write(&self, folder: &Folder, result: &RunResult) -> Result<(), FileError> {
+        write(folder, self, result)
+    }
+}
+
+impl RunFiles for HalfTruckCase {
+    type Summary = study::half_truck::HalfTruckSummary;
+    const FILES: &'static [&'static str] = &half_truck_files::NAMES;
+
+    fn write(&self, folder: &Folder, result: &HalfTruckResult) -> Result<(), FileError> {
+        half_truck_files::write(folder, self, result, self.script_interval)
+    }
+}
+
+impl RunFiles for TruckCase {
+    type Summary = study::truck::summary::TruckSummary;
+    const FILES: &'static [&'static str] = &NAMES;
+
+    fn write(&self, folder: &Folder, result: &TruckResult) -> Result<(), FileError> {
+        let units = self.simulation.output_units;
+        folder.write(|files| {
+            files.add(csv::FILE_NAME, |out| {
+                csv::write_columns(&result.columns, &result.values, units, out)
+            })?;
+            files.add(mat::FILE_NAME, |out| mat::write_truck(result, out))?;
+            files.add(CASE_FILE_NAME, |out| {
+                out.write_all(self.to_toml_embedded().as_bytes())
+            })?;
+            files.add(summary::FILE_NAME, |out| {
+                summary::write_json(&result.summary, out)
+            })
+        })
+    }
+}
 
 /// Writes the files of a run, all of them or none.
 ///

@@ -2,19 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
+use mechanics::output::Column;
 use nucars::Severity;
 use nucars::together::{Instead, LoadError, RunFiles, Texts, find};
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
-use crate::case::{Case, CaseError, Problem};
+use crate::case::problem::{Problems, TomlSource};
+use crate::case::{Case, CaseError, FieldSection, Problem, Tables, builtin, overrides, text_of, tree};
 use crate::half_truck::files::{FilesError, Settings, case_of_run};
-use crate::half_truck::{HalfTruckCase, HalfTruckResult, catalog};
+use crate::half_truck::{HalfTruckCase, catalog};
 use crate::measures::{self, Definitions, Judged, Unmeasured, half_truck};
 use crate::metrics::Cycle;
 use crate::result::RunResult;
-use crate::run::{Run, RunError};
-use crate::summary::Stopped;
+use crate::run::{Run, RunCase, RunError};
+use crate::summary::{RunSummary, Stopped};
+use crate::truck::{self, TruckCase};
 
 /// A case of any model.
 #[derive(Clone, Debug)]
@@ -23,25 +26,76 @@ pub enum AnyCase {
     Wedge(Box<Case>),
     /// A half-truck's.
     HalfTruck(Box<HalfTruckCase>),
+    /// A truck's.
+    Truck(Box<TruckCase>),
+}
+
+/// Does the same with the case of whatever model.
+macro_rules! each {
+    ($any:expr, $case:ident => $do:expr) => {
+        match $any {
+            AnyCase::Wedge($case) => $do,
+            AnyCase::HalfTruck($case) => $do,
+            AnyCase::Truck($case) => $do,
+        }
+    };
 }
 
 impl AnyCase {
+    /// Reads a case file of a wedge or of a truck (`model = "truck"`) and lays `--set` overrides
+    /// (`path.key=value`) over it.
+    ///
+    /// # Errors
+    /// As [`Case::read`].
+    pub fn read(path: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        let text = text_of(path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&path.display().to_string(), &text, folder, overrides)
+    }
+
+    /// As [`AnyCase::read`], from a text, as [`Case::parse`].
+    ///
+    /// # Errors
+    /// As [`Case::parse`].
+    pub fn parse<'t>(
+        source: &str,
+        text: &str,
+        tables: impl Into<Tables<'t>>,
+        overrides: &[String],
+    ) -> Result<Self, CaseError> {
+        Ok(if names_truck(source, text, overrides) {
+            Self::Truck(Box::new(TruckCase::parse(source, text, tables, overrides)?))
+        } else {
+            Self::Wedge(Box::new(Case::parse(source, text, tables, overrides)?))
+        })
+    }
+
+    /// The built-in case of this name, of a wedge or of a truck; `None` if there is none.
+    ///
+    /// # Errors
+    /// An override is wrong.
+    pub fn built_in(name: &str, overrides: &[String]) -> Result<Option<Self>, CaseError> {
+        if builtin::names().any(|own| own == name) {
+            let case = builtin::case_with(name, overrides)?;
+            return Ok(Some(Self::Wedge(Box::new(case))));
+        }
+        if truck::builtin::names().any(|own| own == name) {
+            let case = truck::builtin::case_with(name, overrides)?;
+            return Ok(Some(Self::Truck(Box::new(case))));
+        }
+        Ok(None)
+    }
+
     /// Returns its name.
     #[must_use]
     pub fn name(&self) -> &str {
-        match self {
-            Self::Wedge(case) => &case.name,
-            Self::HalfTruck(case) => &case.name,
-        }
+        each!(self, case => &case.name)
     }
 
     /// Returns the units of its results.
     #[must_use]
     pub fn units(&self) -> Units {
-        match self {
-            Self::Wedge(case) => case.simulation.output_units,
-            Self::HalfTruck(case) => case.units,
-        }
+        each!(self, case => RunCase::units(&**case))
     }
 
     /// Runs it to its end.
@@ -49,10 +103,7 @@ impl AnyCase {
     /// # Errors
     /// The run cannot begin.
     pub fn run(&self) -> Result<AnyResult, RunError> {
-        Ok(match self {
-            Self::Wedge(case) => AnyResult::Wedge(Box::new(Run::new(&**case)?.finish(|_| ()))),
-            Self::HalfTruck(case) => AnyResult::HalfTruck(Box::new(Run::new(&**case)?.finish(|_| ()))),
-        })
+        each!(self, case => Ok(AnyResult::of(Run::new(&**case)?.finish(|_| ()))))
     }
 
     /// Returns the cycle of its vertical motion, if that is one sine or triangle.
@@ -61,6 +112,7 @@ impl AnyCase {
         match self {
             Self::Wedge(case) => Cycle::of(&case.parameters),
             Self::HalfTruck(case) => crate::half_truck::run::cycle(case),
+            Self::Truck(case) => Cycle::of_motion(&case.parameters.bolster.motion.coordinates[2]),
         }
     }
 
@@ -69,7 +121,28 @@ impl AnyCase {
     pub fn wedge(&self) -> Option<&Case> {
         match self {
             Self::Wedge(case) => Some(case),
+            _ => None,
+        }
+    }
+
+    /// Returns its fields as its case file has them; none of a half-truck, which is made of other files.
+    #[must_use]
+    pub fn fields(&self) -> Vec<FieldSection> {
+        match self {
+            Self::Wedge(case) => case.document.fields(),
+            Self::HalfTruck(_) => Vec::new(),
+            Self::Truck(case) => case.fields().to_vec(),
+        }
+    }
+
+    /// Returns the whole case as a commented case file, with the points of tables from other files in it; `None`
+    /// of a half-truck, which is made of other files.
+    #[must_use]
+    pub fn to_toml(&self) -> Option<String> {
+        match self {
+            Self::Wedge(case) => Some(case.document.clone().with_tables_embedded().to_toml()),
             Self::HalfTruck(_) => None,
+            Self::Truck(case) => Some(case.to_toml_embedded().to_owned()),
         }
     }
 
@@ -79,6 +152,7 @@ impl AnyCase {
         match self {
             Self::Wedge(_) => measures::of_wedges().clone(),
             Self::HalfTruck(case) => half_truck::definitions(case),
+            Self::Truck(_) => measures::truck::definitions(),
         }
     }
 
@@ -90,71 +164,82 @@ impl AnyCase {
         match self {
             Self::Wedge(case) => measures::judge(case),
             Self::HalfTruck(case) => half_truck::judge(case),
+            Self::Truck(case) => measures::truck::judge(case),
         }
     }
 }
 
+/// Returns whether a case file says `model = "truck"`, or an override does.
+fn names_truck(source: &str, text: &str, overrides: &[String]) -> bool {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let Ok(mut tree) = tree::parse(&TomlSource::new(source, text)) else {
+        return false;
+    };
+    overrides::apply(&mut tree, overrides);
+    truck::model(&tree, &mut Problems::new()) == Some(truck::Model::Truck)
+}
+
 /// What came out of a run of any model.
 #[derive(Clone, Debug)]
-pub enum AnyResult {
-    /// Of a wedge.
-    Wedge(Box<RunResult>),
-    /// Of a half-truck.
-    HalfTruck(Box<HalfTruckResult>),
+pub struct AnyResult {
+    columns: Vec<Column>,
+    values: Vec<Vec<f64>>,
+    stopped: Option<Stopped>,
+    warnings: Vec<String>,
+    failed: Option<String>,
+    largest_relative_residual: f64,
 }
 
 impl AnyResult {
+    fn of<S: RunSummary>(result: RunResult<S>) -> Self {
+        Self {
+            columns: result.columns,
+            values: result.values,
+            stopped: result.summary.stopped().cloned(),
+            warnings: result.summary.warnings().to_vec(),
+            failed: result.summary.failed().map(str::to_owned),
+            largest_relative_residual: result.summary.largest_relative_residual(),
+        }
+    }
+
     /// Returns the values (SI) of the column with this name (without unit).
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {
-        match self {
-            Self::Wedge(result) => result.column(name),
-            Self::HalfTruck(result) => result.column(name),
-        }
+        let index = self.columns.iter().position(|column| column.name == name)?;
+        Some(&self.values[index])
     }
 
     /// Returns why and when the run stopped, if it did not come to its end.
     #[must_use]
     pub fn stopped(&self) -> Option<&Stopped> {
-        match self {
-            Self::Wedge(result) => result.summary.stopped.as_ref(),
-            Self::HalfTruck(result) => result.summary.stopped.as_ref(),
-        }
+        self.stopped.as_ref()
     }
 
     /// Returns what makes the numbers doubtful.
     #[must_use]
     pub fn warnings(&self) -> &[String] {
-        match self {
-            Self::Wedge(result) => &result.summary.warnings,
-            Self::HalfTruck(result) => &result.summary.warnings,
-        }
+        &self.warnings
     }
 
     /// Returns why the numbers are not to be used, if so.
     #[must_use]
     pub fn failed(&self) -> Option<&str> {
-        match self {
-            Self::Wedge(result) => result.summary.failed.as_deref(),
-            Self::HalfTruck(result) => result.summary.failed.as_deref(),
-        }
+        self.failed.as_deref()
     }
 
     /// Returns the relative residual of the energy ledger.
     #[must_use]
     pub fn largest_relative_residual(&self) -> f64 {
-        match self {
-            Self::Wedge(result) => result.summary.ledger.largest_relative_residual,
-            Self::HalfTruck(result) => result.summary.largest_relative_residual,
-        }
+        self.largest_relative_residual
     }
 }
 
 /// Where a case comes from: all that is needed to make it, or a variant of it, again on another machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CaseSource {
-    /// The text of a wedge's case.
-    Wedge {
+    /// The text of a case file: of a wedge or of a truck.
+    #[serde(alias = "Wedge")]
+    File {
         /// The case file's name.
         name: String,
         /// Its text.
@@ -206,10 +291,7 @@ impl CaseSource {
             ..Settings::default()
         };
         let case = match self {
-            Self::Wedge { name, text, folder } => {
-                let case = Case::parse(name, text, &**folder, overrides)?;
-                return Ok(AnyCase::Wedge(Box::new(case)));
-            }
+            Self::File { name, text, folder } => return AnyCase::parse(name, text, &**folder, overrides),
             Self::BuiltInHalfTruck(name) => {
                 let entry = catalog::entry(name)
                     .ok_or_else(|| Problem::new(format!("there is no built-in half-truck {name}")))?;
@@ -233,10 +315,8 @@ impl CaseSource {
 
     /// Returns what decides which case it is, as text.
     pub(crate) fn description(&self, base: &AnyCase) -> String {
-        match base {
-            AnyCase::Wedge(case) => case.document.clone().with_tables_embedded().to_toml(),
-            AnyCase::HalfTruck(_) => serde_json::to_string(self).unwrap_or_default(),
-        }
+        let files = || serde_json::to_string(self).unwrap_or_default();
+        base.to_toml().unwrap_or_else(files)
     }
 }
 

@@ -23,3 +23,4 @@ mod rows;
 pub mod run;
 pub mod stepping;
 pub mod summary;
+pub mod truck;

@@ -38,6 +38,12 @@ impl Cycle {
     /// The cycle of the bolster's vertical motion, if it is one sine or triangle (plus constants).
     #[must_use]
     pub fn of(parameters: &Parameters) -> Option<Self> {
+        Self::of_motion(&parameters.bolster.coordinates[2])
+    }
+
+    /// The cycle of a motion, if it is one sine or triangle (plus constants).
+    #[must_use]
+    pub fn of_motion(motion: &Motion) -> Option<Self> {
         fn find(motion: &Motion) -> Option<Cycle> {
             match motion {
                 Motion::Sine {
@@ -68,8 +74,7 @@ impl Cycle {
                 _ => None,
             }
         }
-        find(&parameters.bolster.coordinates[2])
-            .filter(|cycle| cycle.amplitude > 0.0 && cycle.angular_frequency > 0.0)
+        find(motion).filter(|cycle| cycle.amplitude > 0.0 && cycle.angular_frequency > 0.0)
     }
 
     /// Period, s.

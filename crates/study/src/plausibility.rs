@@ -41,6 +41,35 @@ pub fn warnings<C: RunCase>(run: &Run<C>) -> Vec<String> {
     findings.iter().map(words).collect()
 }
 
+/// Returns the same, of each kind the first only, with the number of places that have it: a model of many parts
+/// says everything many times.
+#[must_use]
+pub fn warnings_by_kind<C: RunCase>(run: &Run<C>) -> Vec<String> {
+    let (units, findings) = (run.case.units(), findings(run));
+    let kind = |finding: &Finding| std::mem::discriminant(&finding.kind);
+    let mut warnings = Vec::new();
+    for (number, finding) in findings.iter().enumerate() {
+        if findings[..number]
+            .iter()
+            .any(|other| kind(other) == kind(finding))
+        {
+            continue;
+        }
+        let words = run.recorder.describe(&run.system, finding, units);
+        warnings.push(
+            match findings
+                .iter()
+                .filter(|other| kind(other) == kind(finding))
+                .count()
+            {
+                1 => words,
+                count => format!("{words} (and the same at {} more places)", count - 1),
+            },
+        );
+    }
+    warnings
+}
+
 /// Returns why a run is nonsense: the first finding after which results mean nothing. Returns `None` if there
 /// is none.
 #[must_use]

@@ -7,16 +7,16 @@ use crate::summary::Summary;
 
 /// A run's result: the table of outputs and the summary. Values in SI units.
 #[derive(Clone, Debug)]
-pub struct RunResult {
+pub struct RunResult<S = Summary> {
     /// The columns of the table.
     pub columns: Vec<Column>,
     /// The values, one vector a column.
     pub values: Vec<Vec<f64>>,
     /// The summary, in the case's output units.
-    pub summary: Summary,
+    pub summary: S,
 }
 
-impl RunResult {
+impl<S> RunResult<S> {
     /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {

@@ -42,6 +42,22 @@ pub enum RunError {
     /// Bodies and elements make no system.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// The parameters make no truck.
+    #[error(transparent)]
+    Truck(#[from] truck::BuildError),
+    /// A force is so large that it would tear the model apart.
+    #[error(
+        "the normal force of `{element}` is {force:.3e} N at {time} s, which would tear the truck apart: lower the motion \
+         that presses its parts together, or give them more clearance"
+    )]
+    TornApart {
+        /// The element.
+        element: String,
+        /// Its force, N.
+        force: f64,
+        /// The time, s.
+        time: f64,
+    },
     /// There is no equilibrium to start from.
     #[error("no static equilibrium was found to start from: {0}")]
     Equilibrium(#[from] NoEquilibrium),
@@ -175,8 +191,8 @@ pub trait Recorder {
     /// Takes an output time. Returns the entries of the energy ledger.
     ///
     /// # Errors
-    /// A value is not finite; the row has not been taken.
-    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, NotFinite>;
+    /// A value is not finite, or the model has been torn apart; the row has not been taken.
+    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError>;
     /// Returns what is implausible in words, with the places as the user knows them.
     fn describe(&self, system: &System, finding: &Finding, units: Units) -> String;
     /// Returns these contact states in words, by contact.

@@ -37,6 +37,57 @@ impl SummaryValue {
     }
 }
 
+/// What the summaries of all models have.
+pub trait RunSummary {
+    /// Returns the case's name.
+    fn name(&self) -> &str;
+    /// Returns the units of its numbers.
+    fn units(&self) -> Units;
+    /// Returns why and when the run stopped, if it did not come to its end.
+    fn stopped(&self) -> Option<&Stopped>;
+    /// Returns why the numbers are not to be used, if so.
+    fn failed(&self) -> Option<&str>;
+    /// Returns what makes the numbers doubtful.
+    fn warnings(&self) -> &[String];
+    /// Returns the relative residual of the energy ledger.
+    fn largest_relative_residual(&self) -> f64;
+}
+
+/// Implements [`RunSummary`]; the residual is found under `$residual`.
+macro_rules! run_summary {
+    ($summary:ty, $($residual:ident).+) => {
+        impl $crate::summary::RunSummary for $summary {
+            fn name(&self) -> &str {
+                &self.name
+            }
+
+            fn units(&self) -> quantity::System {
+                self.units
+            }
+
+            fn stopped(&self) -> Option<&$crate::summary::Stopped> {
+                self.stopped.as_ref()
+            }
+
+            fn failed(&self) -> Option<&str> {
+                self.failed.as_deref()
+            }
+
+            fn warnings(&self) -> &[String] {
+                &self.warnings
+            }
+
+            fn largest_relative_residual(&self) -> f64 {
+                self.$($residual).+
+            }
+        }
+    };
+}
+
+pub(crate) use run_summary;
+
+run_summary!(Summary, ledger.largest_relative_residual);
+
 /// The summary of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {

@@ -11,7 +11,7 @@ use study::case::{Case, builtin};
 use study::half_truck::catalog::entry;
 use study::result::RunResult;
 use study::run::Run;
-use study::{energy, truck};
+use study::{energy, half_truck};
 
 #[test]
 fn all_cases_beyond_the_thesis_close_their_ledgers() {
@@ -94,7 +94,7 @@ fn energy_the_measure_is_what_a_hand_computes_from_the_columns() {
     }
     for name in ["nucars_68_variable_toe_out", "nucars_69_constant_toe_in_yaw"] {
         let case = entry(name).unwrap().case(&Choices::default(), 2.0).unwrap();
-        let result = truck::run::run(&case, |_| ()).unwrap();
+        let result = half_truck::run::run(&case, |_| ()).unwrap();
         let losses: Vec<&str> = result
             .columns
             .iter()
@@ -161,7 +161,7 @@ fn energy_half_trucks_warn_and_fail_by_the_same_limits() {
     ] {
         let mut case = entry(name).unwrap().case(&Choices::default(), 20.0).unwrap();
         case.relative_tolerance = 0.9;
-        let summary = truck::run::run(&case, |_| ()).unwrap().summary;
+        let summary = half_truck::run::run(&case, |_| ()).unwrap().summary;
         let residual = summary.largest_relative_residual;
         assert_eq!(Verdict::of(residual), verdict, "{name}: {residual}");
         assert_eq!(energy::among(&summary.warnings).count(), 1);

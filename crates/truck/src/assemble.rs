@@ -1,23 +1,15 @@
-//! How bodies and elements make a truck.
+//! How parameters become a truck, and where it starts.
 
-use std::f64::consts::FRAC_PI_2;
-use std::f64::consts::PI;
 use std::ops::Range;
 
-use mechanics::body::Body;
-use mechanics::contact::{ContactFace, ContactPoint};
-use mechanics::elements::{RadialStop, ShearSpring, Solid, Stop};
-use mechanics::frame::Frame;
-use mechanics::link::Marker;
+use mechanics::friction::FrictionLaw;
 use mechanics::motion::Motion;
-use mechanics::surface::Plane;
-use mechanics::system::{Model, ModelError, System};
-use mechanics::vector::Vector;
-use wedge::parameters::{Contact, Damping, FaceFriction};
+use mechanics::system::{ModelError, NoEquilibrium, StaticFriction, System};
+use thiserror::Error;
+use wedge::parameters::{FaceFriction, Start};
 
-use crate::parameters::{CarBody, Clearance, Parameters, RigidBody, SideBearing, Spring, Wedge};
-use crate::units::INCH;
-use crate::{PLACES, WEDGE_NAMES};
+use crate::elements::{Law, Suspended, model};
+use crate::parameters::{Adapter, Parameters, SideBearing};
 
 /// Number of the leading wheelset among the bodies; the trailing one follows.
 pub const WHEELSETS: usize = 0;
@@ -30,53 +22,14 @@ pub const WEDGES: usize = 5;
 /// Number of the car body, if there is one.
 pub const CAR_BODY: usize = 9;
 
-/// Height of the wedges' centers of gravity and of the gibs, m.
-const HEIGHT: f64 = 18.0 * INCH;
-/// Height at which load coils act, m.
-const SEAT_HEIGHT: f64 = 13.0 * INCH;
-/// Height of the adapters, m, and the places of their two points, of their two stops and of the lands.
-const ADAPTER_HEIGHT: f64 = 22.5 * INCH;
-const ADAPTER_POINTS: f64 = 3.0 * INCH;
-const ADAPTER_STOPS: f64 = 1.56 * INCH;
-const LANDS: [f64; 2] = [7.0 * INCH, 3.0 * INCH];
-
-/// What an element of the suspension is to the truck.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Role {
-    LoadCoil,
-    /// Of this wedge.
-    ControlCoil,
-    PocketSide,
-    Land,
-    Gib,
-    /// Of the leading (0) or the trailing (1) wheelset.
-    AdapterStop(usize),
-    /// Rim or roller side bearing: between car body and bolster.
-    CarBody,
-}
-
-/// The law of an element of the suspension.
-#[derive(Clone, Debug)]
-pub(crate) enum Law {
-    Spring(ShearSpring),
-    Stop(Stop),
-    Rim(RadialStop),
-}
-
-/// An element of the suspension: its bodies with markers A and B.
-#[derive(Clone, Debug)]
-pub(crate) struct Suspended {
-    pub role: Role,
-    pub law: Law,
-    pub ends: [(usize, Marker); 2],
-}
-
 /// A truck, ready to be integrated.
 #[derive(Clone, Debug)]
 pub struct Truck {
     /// The equations of motion. Faces: column and slope of each wedge; with wheelsets the adapters of each side
     /// frame, leading and trailing; with a car body the center plate, and constant-contact side bearings.
     pub system: System,
+    /// The state at time zero.
+    pub initial_state: Vec<f64>,
     /// The faces of the adapters.
     pub(crate) adapters: Range<usize>,
     /// The face of the center plate, and its height, m.
@@ -86,18 +39,50 @@ pub struct Truck {
     pub(crate) suspension: Vec<Suspended>,
 }
 
+/// Why parameters define no truck.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum BuildError {
+    /// Bodies and elements make no system: a mass that is zero, say, or nothing that is free.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// There is no equilibrium to start from.
+    #[error("cannot start from equilibrium: {0}; start.kind = \"rest\" or \"touching\" needs none")]
+    Equilibrium(#[from] NoEquilibrium),
+}
+
 impl Truck {
-    /// Returns the truck with these parameters.
+    /// Returns the truck with these parameters, and its start.
     ///
     /// # Errors
-    /// The parameters make no system: a mass that is zero, say, or nothing that is free.
-    pub fn new(parameters: &Parameters) -> Result<Self, ModelError> {
-        let builder = Builder {
-            parameters,
-            model: Model::new(bodies(parameters), [0.0, 0.0, -parameters.gravity]),
-            suspension: Vec::new(),
-        };
-        let (mut model, suspension) = builder.build();
+    /// The parameters make no system, or there is no equilibrium to start from.
+    pub fn new(parameters: &Parameters) -> Result<Self, BuildError> {
+        let truck = Self::with_gaps(parameters, [[0.0; 2]; 4])?;
+        match parameters.start {
+            Start::Rest => Ok(truck),
+            Start::Touching => {
+                let mut system = truck.system;
+                let observation = system.observe(0.0, &system.initial_state());
+                let depth = |face: usize| {
+                    let points = observation.faces[face].points.iter();
+                    points.fold(0.0, |depth: f64, point| depth.max(-point.gap))
+                };
+                let gaps = [0, 1, 2, 3].map(|wedge| [0, 1].map(|face| depth(2 * wedge + face)));
+                Ok(Self::with_gaps(parameters, gaps)?)
+            }
+            Start::Equilibrium => {
+                let mut truck = truck;
+                let mut still = Self::with_gaps(&without_friction(&held(parameters)), [[0.0; 2]; 4])?.system;
+                let rest = still.equilibrium(0.0, &still.initial_state(), StaticFriction::Without)?;
+                let positions = truck.system.layout().speeds;
+                truck.initial_state[..positions].copy_from_slice(&rest[..positions]);
+                Ok(truck)
+            }
+        }
+    }
+
+    /// Returns the truck with column and slope of each wedge moved away by so much (m) along their normals.
+    fn with_gaps(parameters: &Parameters, gaps: [[f64; 2]; 4]) -> Result<Self, ModelError> {
+        let (mut model, suspension) = model(parameters, gaps);
         for element in &suspension {
             let [a, b] = element.ends;
             // Between two prescribed bodies nothing depends on a force; `loads` computes it.
@@ -110,10 +95,16 @@ impl Truck {
                 Law::Rim(rim) => model.add(rim.clone(), a, b),
             }
         }
-        let adapters = 8..if parameters.wheelsets.is_some() { 12 } else { 8 };
+        let with_friction = matches!(
+            &parameters.wheelsets,
+            Some(wheelsets) if matches!(wheelsets.adapter, Adapter::Friction(_))
+        );
+        let adapters = 8..if with_friction { 12 } else { 8 };
         let car = parameters.car_body.as_ref();
+        let system = System::new(model)?;
         Ok(Self {
-            system: System::new(model)?,
+            initial_state: system.initial_state(),
+            system,
             center_plate: car.map(|_| adapters.end),
             plate_height: car.map_or(0.0, |car| car.center_plate.height),
             adapters,
@@ -123,369 +114,47 @@ impl Truck {
     }
 }
 
-/// A body with free coordinates, or one with prescribed motions, at a place.
-fn rigid(name: &str, body: &RigidBody, place: [f64; 3], motion: Option<&[Motion; 6]>) -> Body {
-    let mut frame = Frame::fixed(place, [0.0; 3]);
-    if let Some(motion) = motion {
-        frame.motions.clone_from(motion);
-        return Body::prescribed(name, frame);
+/// Returns the same truck with all that is prescribed held where it is at time zero.
+#[must_use]
+pub fn held(parameters: &Parameters) -> Parameters {
+    let mut held = parameters.clone();
+    let mut motions = vec![&mut held.bolster.motion];
+    motions.extend(
+        held.side_frames
+            .iter_mut()
+            .map(|side_frame| &mut side_frame.motion),
+    );
+    motions.extend(
+        held.wheelsets
+            .iter_mut()
+            .flat_map(|wheelsets| &mut wheelsets.motions),
+    );
+    for motion in motions.into_iter().flat_map(|motion| &mut motion.coordinates) {
+        *motion = Motion::Constant(motion.evaluate(0.0, 0.0)[0]);
     }
-    let mut free = Body::free(name, body.mass, body.inertia, [0.0; 6]);
-    free.frame = frame;
-    free
+    held
 }
 
-fn bodies(parameters: &Parameters) -> Vec<Body> {
-    let [side, place, axle] = parameters.distances;
-    let start = parameters.start();
-    let mut bodies = Vec::new();
-    for (number, name) in ["leading_wheelset", "trailing_wheelset"].into_iter().enumerate() {
-        let mut frame = Frame::fixed([[axle, -axle][number], 0.0, HEIGHT], [0.0; 3]);
-        if let Some(wheelsets) = &parameters.wheelsets {
-            frame.motions.clone_from(&wheelsets.motions[number]);
-        }
-        bodies.push(Body::prescribed(name, frame));
+fn without_friction(parameters: &Parameters) -> Parameters {
+    let none = FaceFriction {
+        coefficient: 0.0,
+        law: FrictionLaw::Tanh { reference_speed: 1.0 },
+    };
+    let mut parameters = parameters.clone();
+    for wedge in &mut parameters.wedges {
+        wedge.column_friction = none;
+        wedge.slope_friction = none;
     }
-    let bolster = &parameters.bolster;
-    let is_free = bolster.free.contains(&true);
-    let motion = (!is_free).then_some(&bolster.motion);
-    let mut body = rigid("bolster", &bolster.body, [0.0, 0.0, bolster.body.height], motion);
-    if is_free {
-        body.free = bolster.free;
-        body.initial[..3].copy_from_slice(&start);
+    if let Some(wheelsets) = &mut parameters.wheelsets
+        && let Adapter::Friction(adapter) = &mut wheelsets.adapter
+    {
+        adapter.friction = none;
     }
-    bodies.push(body);
-    let names = ["left_side_frame", "right_side_frame"];
-    for ((name, frame), way) in names.into_iter().zip(&parameters.side_frames).zip([1.0, -1.0]) {
-        let place = [0.0, side * way, frame.body.height];
-        bodies.push(rigid(name, &frame.body, place, frame.motion.as_ref()));
-    }
-    for ((name, wedge), [end, way]) in WEDGE_NAMES.into_iter().zip(&parameters.wedges).zip(PLACES) {
-        let mass = RigidBody {
-            mass: wedge.mass,
-            inertia: wedge.inertia,
-            height: HEIGHT,
-        };
-        let name = format!("{name}_wedge");
-        let mut body = rigid(&name, &mass, [place * end, side * way, HEIGHT], None);
-        body.free = wedge.free;
-        body.initial[..3].copy_from_slice(&start);
-        bodies.push(body);
-    }
-    if let Some(car) = &parameters.car_body {
-        let mut body = rigid("car_body", &car.body, [0.0, 0.0, car.body.height], None);
-        body.free = car.free;
-        body.initial[..3].copy_from_slice(&start);
-        bodies.push(body);
-    }
-    bodies
-}
-
-struct Builder<'p> {
-    parameters: &'p Parameters,
-    model: Model,
-    suspension: Vec<Suspended>,
-}
-
-impl Builder<'_> {
-    fn build(mut self) -> (Model, Vec<Suspended>) {
-        for number in 0..4 {
-            self.wedge(number);
-        }
-        for number in 0..2 {
-            self.adapters(number);
-        }
-        for (number, side) in [1.0, -1.0].into_iter().enumerate() {
-            self.nest(number, side * self.parameters.distances[0]);
-        }
-        if let Some(car) = &self.parameters.car_body {
-            self.center_plate(car);
-            for (side, name) in [(1.0, "left"), (-1.0, "right")] {
-                self.side_bearing(car, side * car.side_bearings.distance, name);
-            }
-        }
-        (self.model, self.suspension)
-    }
-
-    /// Returns the marker of a body at a place (m), turned about z (rad).
-    fn marker(&self, body: usize, at: [f64; 3], yaw: f64) -> (usize, Marker) {
-        let origin = self.model.bodies[body].frame.origin;
-        let place = std::array::from_fn(|k| at[k] - origin[k]);
-        (body, Marker::new(place, [0.0, 0.0, yaw]))
-    }
-
-    /// Adds a spring that carries body `a` on the seat of body `b`.
-    fn spring(&mut self, role: Role, name: String, [a, b]: [usize; 2], at: [f64; 3], spring: &Spring) {
-        let law = ShearSpring {
-            name,
-            preload: spring.preload,
-            stiffness: spring.stiffness,
-            shear_stiffness: spring.shear_stiffness,
-            damping: spring.damping,
-            solid: spring.solid.map(|[travel, stiffness]| Solid {
-                at: -travel,
-                stiffness,
-            }),
-        };
-        self.suspension.push(Suspended {
-            role,
-            law: Law::Spring(law),
-            ends: [self.marker(a, at, 0.0), self.marker(b, at, 0.0)],
-        });
-    }
-
-    /// Adds a stop between bodies `a` and `b`, along x of `b` or, with a quarter turn, along its y.
-    fn stop(
-        &mut self,
-        role: Role,
-        name: String,
-        [a, b]: [usize; 2],
-        at: [f64; 3],
-        yaw: f64,
-        clearance: &Clearance,
-    ) {
-        let law = Stop {
-            name,
-            clearances: [clearance.clearance; 2],
-            stiffness: clearance.stiffness,
-            damping: clearance.damping,
-        };
-        self.suspension.push(Suspended {
-            role,
-            law: Law::Stop(law),
-            ends: [self.marker(a, at, 0.0), self.marker(b, at, yaw)],
-        });
-    }
-
-    /// A wedge's two faces, its control coil and the sides of its pocket.
-    fn wedge(&mut self, number: usize) {
-        let parameters = self.parameters;
-        let ([end, way], [side, place, _]) = (PLACES[number], parameters.distances);
-        let wedge = &parameters.wedges[number];
-        let (body, name) = (WEDGES + number, WEDGE_NAMES[number]);
-        let side_frame = SIDE_FRAMES + usize::from(way < 0.0);
-        let length = wedge.height * libm::tan(wedge.angle);
-        let middle = HEIGHT + wedge.height / 6.0;
-        let at = place + length / 3.0;
-        // Wedges at the leading end are turned by half a turn about z, and so are the normals that they meet.
-        let pitch = |pitch: f64| if end > 0.0 { PI - pitch } else { pitch };
-        let faces = [
-            (side_frame, "column", at, pitch(wedge.toe), &wedge.column_friction),
-            (
-                BOLSTER,
-                "slope",
-                at - 0.5 * length,
-                pitch(PI - wedge.angle),
-                &wedge.slope_friction,
-            ),
-        ];
-        for (on, face, x, pitch, friction) in faces {
-            let lower = if face == "column" { -1.0 } else { 2.0 };
-            let points = wedge_points(wedge, end, lower * length / 3.0, -length / 3.0);
-            let (_, place) = self.marker(on, [end * x, side * way, middle], 0.0);
-            let marker = Marker::new(place.origin.0, [0.0, pitch, 0.0]);
-            let face = plane(format!("{name}_{face}"), points, friction);
-            self.model.faces.push((body, on, marker, face));
-        }
-        let seat = match parameters.damping {
-            Damping::Constant => BOLSTER,
-            Damping::Variable => side_frame,
-        };
-        let center = [place * end, side * way, HEIGHT];
-        let bottom = [center[0], center[1], HEIGHT - wedge.height / 3.0];
-        let coil = format!("{name}_control_coil");
-        self.spring(Role::ControlCoil, coil, [body, seat], bottom, &wedge.control_coil);
-        let sides = format!("{name}_pocket_sides");
-        self.stop(
-            Role::PocketSide,
-            sides,
-            [body, BOLSTER],
-            center,
-            FRAC_PI_2,
-            &wedge.pocket_sides,
-        );
-    }
-
-    /// Load coils, gib and lands of one side.
-    fn nest(&mut self, number: usize, y: f64) {
-        let (parameters, side_frame) = (self.parameters, SIDE_FRAMES + number);
-        let ends = [BOLSTER, side_frame];
-        let side = ["left", "right"][number];
-        for (i, coil) in parameters.load_coils[number].iter().enumerate() {
-            let at = [coil.place[0], y + coil.place[1], SEAT_HEIGHT];
-            let name = format!("{side}_load_coil_{}", i + 1);
-            self.spring(Role::LoadCoil, name, ends, at, &coil.spring);
-        }
-        let gib = format!("{side}_gib");
-        self.stop(Role::Gib, gib, ends, [0.0, y, HEIGHT], FRAC_PI_2, &parameters.gib);
-        for (end, end_name) in [(1.0, "leading"), (-1.0, "trailing")] {
-            for (i, (across, up)) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
-                .into_iter()
-                .enumerate()
-            {
-                let x = end * parameters.distances[1];
-                let at = [x, y + across * LANDS[0], HEIGHT + up * LANDS[1]];
-                let name = format!("{end_name}_{side}_land_{}", i + 1);
-                self.stop(Role::Land, name, ends, at, 0.0, &parameters.lands);
-            }
+    if let Some(car) = &mut parameters.car_body {
+        car.center_plate.friction = none;
+        if let SideBearing::ConstantContact { friction, .. } = &mut car.side_bearings.kind {
+            *friction = none;
         }
     }
-
-    /// Adds a face whose points (m, truck's axes) on the car body touch a plane of the bolster, with a
-    /// penetration of `depth` (m) in the nominal layout.
-    fn car_face(
-        &mut self,
-        name: String,
-        places: &[[f64; 3]],
-        depth: f64,
-        contact: &Contact,
-        friction: &FaceFriction,
-    ) {
-        let share = 1.0 / places.len() as f64;
-        let points = places.iter().map(|place| {
-            let (_, marker) = self.marker(CAR_BODY, *place, 0.0);
-            point(marker.origin.0, contact, share)
-        });
-        let points = points.collect();
-        let [.., height] = places[0];
-        let (_, marker) = self.marker(BOLSTER, [0.0, 0.0, height + depth], 0.0);
-        let marker = Marker::new(marker.origin.0, [0.0, -FRAC_PI_2, 0.0]);
-        let face = plane(name, points, friction);
-        self.model.faces.push((CAR_BODY, BOLSTER, marker, face));
-    }
-
-    fn center_plate(&mut self, car: &CarBody) {
-        let plate = &car.center_plate;
-        let mut places = Vec::new();
-        for radius in &plate.rings {
-            for i in 0..plate.points {
-                let (sine, cosine) = libm::sincos(2.0 * PI * i as f64 / plate.points as f64);
-                places.push([radius * cosine, radius * sine, plate.height]);
-            }
-        }
-        let weight = car.body.mass * self.parameters.gravity;
-        let depth = (weight - car.side_bearings.preload()) / (places.len() as f64 * plate.contact.stiffness);
-        self.car_face(
-            "center_plate".to_owned(),
-            &places,
-            depth,
-            &plate.contact,
-            &plate.friction,
-        );
-        let rim = RadialStop {
-            name: "center_plate_rim".to_owned(),
-            clearance: plate.rim.clearance,
-            stiffness: plate.rim.stiffness,
-            damping: plate.rim.damping,
-        };
-        let at = [0.0, 0.0, plate.height];
-        self.suspension.push(Suspended {
-            role: Role::CarBody,
-            law: Law::Rim(rim),
-            ends: [self.marker(CAR_BODY, at, 0.0), self.marker(BOLSTER, at, 0.0)],
-        });
-    }
-
-    fn side_bearing(&mut self, car: &CarBody, y: f64, side: &str) {
-        let (name, at) = (format!("{side}_side_bearing"), [0.0, y, car.center_plate.height]);
-        match &car.side_bearings.kind {
-            SideBearing::Roller(clearance) => {
-                let (_, place) = self.marker(BOLSTER, at, 0.0);
-                let law = Stop {
-                    name,
-                    clearances: [clearance.clearance, f64::INFINITY],
-                    stiffness: clearance.stiffness,
-                    damping: clearance.damping,
-                };
-                // The x axis of the marker is the bolster's z axis.
-                let upright = Marker::new(place.origin.0, [0.0, -FRAC_PI_2, 0.0]);
-                self.suspension.push(Suspended {
-                    role: Role::CarBody,
-                    law: Law::Stop(law),
-                    ends: [self.marker(CAR_BODY, at, 0.0), (BOLSTER, upright)],
-                });
-            }
-            SideBearing::ConstantContact {
-                preload,
-                contact,
-                travel,
-                solid,
-                friction,
-            } => {
-                self.car_face(
-                    name.clone(),
-                    &[at],
-                    preload / contact.stiffness,
-                    contact,
-                    friction,
-                );
-                self.car_face(format!("{name}_solid"), &[at], -travel, solid, friction);
-            }
-        }
-    }
-
-    /// Where a side frame stands on both axles.
-    fn adapters(&mut self, number: usize) {
-        let parameters = self.parameters;
-        let Some(wheelsets) = &parameters.wheelsets else {
-            return;
-        };
-        let (adapter, side_frame) = (&wheelsets.adapter, SIDE_FRAMES + number);
-        let side = ["left", "right"][number];
-        let y = parameters.distances[0] * [1.0, -1.0][number];
-        for (axle, end, end_name) in [(0, 1.0, "leading"), (1, -1.0, "trailing")] {
-            let x = parameters.distances[2] * end;
-            let height = ADAPTER_HEIGHT - parameters.side_frames[number].body.height;
-            let points =
-                [ADAPTER_POINTS, -ADAPTER_POINTS].map(|y| point([x, y, height], &adapter.contact, 0.5));
-            let top = ADAPTER_HEIGHT + adapter.preload / adapter.contact.stiffness;
-            let (wheelset, place) = self.marker(WHEELSETS + axle, [x, y, top], 0.0);
-            let marker = Marker::new(place.origin.0, [0.0, -FRAC_PI_2, 0.0]);
-            let name = format!("{end_name}_{side}_adapter");
-            let face = plane(name.clone(), points.to_vec(), &adapter.friction);
-            self.model.faces.push((side_frame, wheelset, marker, face));
-            let (role, ends) = (Role::AdapterStop(axle), [side_frame, wheelset]);
-            for across in [ADAPTER_STOPS, -ADAPTER_STOPS] {
-                let at = [x, y + across, ADAPTER_HEIGHT];
-                let name = format!("{name}_longitudinal_stop");
-                self.stop(role, name, ends, at, 0.0, &adapter.longitudinal);
-            }
-            let (name, at) = (format!("{name}_lateral_stop"), [x, y, ADAPTER_HEIGHT]);
-            self.stop(role, name, ends, at, FRAC_PI_2, &adapter.lateral);
-        }
-    }
-}
-
-/// The four corners of a wedge's face: lower right, lower left, upper right, upper left, with the lower and the
-/// upper edge's x in the wedge's own axes.
-fn wedge_points(wedge: &Wedge, end: f64, lower: f64, upper: f64) -> Vec<ContactPoint> {
-    let (bottom, top) = (-wedge.height / 3.0, 2.0 * wedge.height / 3.0);
-    let half = 0.5 * wedge.width;
-    [
-        [lower, -half, bottom],
-        [lower, half, bottom],
-        [upper, -half, top],
-        [upper, half, top],
-    ]
-    .map(|[x, y, z]| point([-end * x, -end * y, z], &wedge.contact, 0.25))
-    .to_vec()
-}
-
-fn point(place: [f64; 3], contact: &Contact, share: f64) -> ContactPoint {
-    ContactPoint {
-        position: Vector(place),
-        stiffness: contact.stiffness,
-        damping: contact.damping,
-        share,
-    }
-}
-
-fn plane(name: String, points: Vec<ContactPoint>, friction: &FaceFriction) -> ContactFace<Plane> {
-    ContactFace {
-        name,
-        points,
-        surface: Plane,
-        coefficient: friction.coefficient,
-        law: friction.law,
-    }
+    parameters
 }

@@ -2,13 +2,13 @@
 //!
 //! Axes: x forward, y left, z up from the top of rail, origin at the truck's center. The nominal layout is
 //! the loaded one: coils carry their static loads there and faces just touch. Bodies and elements, and where
-//! their numbers come from: [`Parameters`]. What is done to a truck: [`Rig`]. How it becomes a system of
-//! bodies: [`Truck`]. What one sees of it: [`Loads`].
+//! their numbers come from: [`Parameters`]. How it becomes a system of bodies: [`Truck`]. What one sees of it:
+//! [`Loads`].
 //!
 //! ```
-//! use truck::{Rig, Truck};
-//! let rig = Rig::named("truck_vertical_variable").ok_or("no such rig")?;
-//! let mut truck = Truck::new(&rig.parameters())?;
+//! use truck::{Parameters, Truck};
+//! use wedge::parameters::Damping;
+//! let mut truck = Truck::new(&Parameters::new(Damping::Variable))?;
 //! let observation = truck.system.observe(0.0, &truck.system.initial_state());
 //! let loads = truck.loads(&observation);
 //! assert!(loads.nest_vertical[0] > 200e3); // N
@@ -18,19 +18,20 @@
 #![warn(missing_docs)]
 
 mod assemble;
+mod bodies;
+mod defaults;
+mod elements;
 mod loads;
 pub mod nest;
 mod parameters;
-mod rigs;
 mod units;
 
-pub use assemble::{BOLSTER, CAR_BODY, SIDE_FRAMES, Truck, WEDGES, WHEELSETS};
+pub use assemble::{BOLSTER, BuildError, CAR_BODY, SIDE_FRAMES, Truck, WEDGES, WHEELSETS, held};
 pub use loads::{CenterPlateLoads, Loads, WarpMoment, WedgeLoads};
 pub use parameters::{
-    Adapter, Bolster, CarBody, CenterPlate, Clearance, NestCoil, Parameters, RigidBody, SideBearing,
-    SideBearings, SideFrame, Spring, Wedge, Wheelsets,
+    Adapter, AdapterPad, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter, Lading,
+    NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Spring, Wedge, Wheelsets,
 };
-pub use rigs::{RIGS, Rig};
 
 /// The names of the wedges in the order of all arrays of four: end (leading, trailing), then side.
 pub const WEDGE_NAMES: [&str; 4] = ["leading_left", "leading_right", "trailing_left", "trailing_right"];

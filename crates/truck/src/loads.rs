@@ -11,7 +11,8 @@ use mechanics::link::{Marker, RelativeMotion};
 use mechanics::system::{BodyState, FaceState, Observation};
 use mechanics::vector::{Matrix, Vector};
 
-use crate::assemble::{BOLSTER, Law, Role, SIDE_FRAMES, Suspended, Truck, WEDGES};
+use crate::assemble::{BOLSTER, SIDE_FRAMES, Truck, WEDGES};
+use crate::elements::{Law, Role, Suspended};
 
 /// The moment about z that elements exert on the bolster, by kind of element, N·m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -115,6 +116,18 @@ impl Truck {
         for element in &self.suspension {
             self.add(&mut loads, element, bodies);
         }
+        // Coils of the thesis: one a wedge, in the same order.
+        for (mounted, coil) in self.system.coils().iter().zip(&observation.coils) {
+            let arm = bodies[mounted.body]
+                .rotation
+                .apply::<f64, f64>(mounted.element.end);
+            match mounted.on.checked_sub(SIDE_FRAMES).filter(|side| *side < 2) {
+                Some(side) => loads.nest_vertical[side] += coil.force.0[2],
+                None => {
+                    loads.warp_moment.control_coils -= about_z(bodies[mounted.body].origin + arm, coil.force)
+                }
+            }
+        }
         for (i, adapter) in observation.faces[self.adapters.clone()].iter().enumerate() {
             let on_side_frame = total(&adapter.friction_forces) + total(&adapter.normal_forces);
             loads.interaxle_shear_moment += [arm, -arm][i % 2] * on_side_frame.0[1];
@@ -152,7 +165,7 @@ impl Truck {
             Role::Land => &mut parts.lands,
             Role::Gib => &mut parts.gibs,
             Role::CarBody => return,
-            Role::AdapterStop(axle) => {
+            Role::Adapter(axle) => {
                 loads.interaxle_shear_moment += [self.axle, -self.axle][axle] * force.0[1];
                 return;
             }

@@ -6,13 +6,9 @@
 //! the damping of contacts (25 lbf·s/in a corner, so that runs converge), bristles instead of tanh (a loaded
 //! truck must not creep), the clearances of pocket sides (0.25 in) and lands (0.21 in: 30 mrad of warp).
 
-use std::f64::consts::PI;
-
-use mechanics::friction::FrictionLaw;
-use mechanics::motion::Motion;
-use wedge::parameters::{Contact, Damping, FaceFriction, STANDARD_GRAVITY};
-
-use crate::units::{INCH, POUND, POUND_FORCE, POUND_INCH, POUND_PER_INCH, inches};
+use wedge::parameters::{
+    Contact, ControlCoil as ThesisCoil, Damping, FaceFriction, NeighbourMotion, Start, Wear,
+};
 
 /// Mass and principal moments of inertia about the center of gravity, along the truck's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,13 +26,11 @@ pub struct RigidBody {
 pub struct Bolster {
     /// Its mass properties.
     pub body: RigidBody,
-    /// Which of x, y, z, roll, pitch, yaw are free; all others follow [`Bolster::motion`] (if none is free)
-    /// or are held.
+    /// Which of x, y, z, roll, pitch, yaw are free; the others are held. If none is free, the motion is
+    /// prescribed.
     pub free: [bool; 6],
-    /// Prescribed motions of x, y, z (m), roll, pitch, yaw (rad) of its center of gravity, if nothing is free.
-    pub motion: [Motion; 6],
-    /// Height above the nominal layout from which a free bolster starts, with the wedges, m.
-    pub lift: f64,
+    /// The prescribed motion, about the center of gravity if no center is given.
+    pub motion: NeighbourMotion,
 }
 
 /// A side frame.
@@ -44,21 +38,23 @@ pub struct Bolster {
 pub struct SideFrame {
     /// Its mass properties.
     pub body: RigidBody,
-    /// Prescribed motions of its center of gravity; `None`: all six coordinates are free.
-    pub motion: Option<[Motion; 6]>,
+    /// As [`Bolster::free`].
+    pub free: [bool; 6],
+    /// As [`Bolster::motion`].
+    pub motion: NeighbourMotion,
 }
 
 /// The wheelsets, which are prescribed, and the adapters on them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wheelsets {
-    /// Motions of the leading and of the trailing one.
-    pub motions: [[Motion; 6]; 2],
+    /// Motions of the leading and of the trailing one, about their centers if no others are given.
+    pub motions: [NeighbourMotion; 2],
     /// The adapters.
     pub adapter: Adapter,
 }
 
 /// A coil spring on a seat: see [`mechanics::elements::ShearSpring`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spring {
     /// Load in the nominal layout, N.
     pub preload: f64,
@@ -92,9 +88,34 @@ pub struct Clearance {
     pub damping: f64,
 }
 
+/// What stands between side frame and bearing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Adapter {
+    /// Steel on steel.
+    Friction(FrictionAdapter),
+    /// An elastomeric pad.
+    Pad(AdapterPad),
+}
+
+/// An elastomeric pad: two springs beside each other, which push, and hold sideways while they do; no stops. Its
+/// stiffness in yaw is the shear stiffness times the square of their half distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AdapterPad {
+    /// Static load, N.
+    pub preload: f64,
+    /// Vertical stiffness, N/m.
+    pub stiffness: f64,
+    /// Stiffness along and across, N/m.
+    pub shear_stiffness: f64,
+    /// Half the distance of its springs, m.
+    pub half_distance: f64,
+    /// Damping of each direction, N·s/m.
+    pub damping: f64,
+}
+
 /// An adapter: two points with friction between side frame and bearing, and stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Adapter {
+pub struct FrictionAdapter {
     /// Static load of a point, N.
     pub preload: f64,
     /// Stiffness (N/m) and damping (N·s/m) of a point.
@@ -130,10 +151,31 @@ pub struct Wedge {
     pub column_friction: FaceFriction,
     /// Friction on the slope.
     pub slope_friction: FaceFriction,
+    /// Wear of the column with the wedge's vertical face, and of the pocket's slope with the wedge's slope.
+    pub wear: Wear,
     /// Its control coil.
-    pub control_coil: Spring,
+    pub control_coil: ControlCoil,
     /// The sides of its pocket.
     pub pocket_sides: Clearance,
+}
+
+/// A control coil.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ControlCoil {
+    /// A spring with shear stiffness below the wedge's center of gravity.
+    Shear(Spring),
+    /// The coil of Steets (2007): its force acts along the line from the seat to the wedge; with the place of
+    /// the wedge's center of gravity from the coil's end (x towards the bolster, y, z), m.
+    Thesis(ThesisCoil, [f64; 3]),
+}
+
+/// Whether a car carries its load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lading {
+    /// A car of 263,000 lbf.
+    Loaded,
+    /// The same car without load: 62,600 lbf.
+    Empty,
 }
 
 /// What stands on the truck: half a car's body on the center plate and the side bearings.
@@ -196,64 +238,6 @@ pub enum SideBearing {
     },
 }
 
-impl SideBearings {
-    /// Returns rollers with a clearance of 0.25 in.
-    #[must_use]
-    pub fn rollers() -> Self {
-        Self {
-            distance: 25.0 * INCH,
-            kind: SideBearing::Roller(clearance([0.25, 1e6, 500.0])),
-        }
-    }
-
-    /// Returns constant-contact side bearings of 6,000 lbf with 5/8 in of travel.
-    #[must_use]
-    pub fn constant_contact() -> Self {
-        Self {
-            distance: 25.0 * INCH,
-            kind: SideBearing::ConstantContact {
-                preload: 6000.0 * POUND_FORCE,
-                contact: contact(6000.0, 0.0),
-                travel: 0.625 * INCH,
-                solid: contact(1e6, 500.0),
-                friction: bristle(0.3, 1e5, 100.0),
-            },
-        }
-    }
-
-    /// Returns the load of both in the nominal layout, N.
-    #[must_use]
-    pub fn preload(&self) -> f64 {
-        match self.kind {
-            SideBearing::Roller(_) => 0.0,
-            SideBearing::ConstantContact { preload, .. } => 2.0 * preload,
-        }
-    }
-}
-
-impl CarBody {
-    /// Returns half of the loaded body of a car of 263,000 lbf, free to bounce and to roll, on a center plate of
-    /// 14 in with a friction of 0.2.
-    ///
-    /// The plate's stiffness (3e6 lbf/in a point) and the rim's clearance (0.1875 in) are guesses.
-    #[must_use]
-    pub fn loaded(side_bearings: SideBearings) -> Self {
-        Self {
-            body: body(121_730.0, [0.905e6, 8.12e6, 8.12e6], 83.75),
-            free: [false, false, true, true, false, false],
-            center_plate: CenterPlate {
-                height: 30.0 * INCH,
-                rings: vec![7.0 * INCH, 7.0 * INCH / 3.0],
-                points: 8,
-                contact: contact(3e6, 500.0),
-                friction: bristle(0.2, 16e6, 16e3),
-                rim: clearance([0.1875, 1e6, 500.0]),
-            },
-            side_bearings,
-        }
-    }
-}
-
 /// A truck.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameters {
@@ -279,151 +263,82 @@ pub struct Parameters {
     pub lands: Clearance,
     /// What stands on the bolster, as a body of its own.
     pub car_body: Option<CarBody>,
+    /// Where a run starts.
+    pub start: Start,
+    /// Height above the nominal layout at which a free bolster starts, with wedges and car body, m.
+    pub lift: f64,
 }
 
-/// No motion.
-pub(crate) fn still() -> [Motion; 6] {
-    std::array::from_fn(|_| Motion::Constant(0.0))
-}
-
-/// Weight lbf, moments of inertia lbf·in·s², height in.
-pub(crate) fn body(weight: f64, inertia: [f64; 3], height: f64) -> RigidBody {
-    RigidBody {
-        mass: weight * POUND,
-        inertia: inertia.map(|i| i * POUND_INCH),
-        height: height * INCH,
+impl Bolster {
+    /// Returns whether its motion is prescribed.
+    #[must_use]
+    pub fn is_prescribed(&self) -> bool {
+        !self.free.contains(&true)
     }
 }
 
-/// Clearance in, stiffness lbf/in, damping lbf·s/in.
-fn clearance([clearance, stiffness, damping]: [f64; 3]) -> Clearance {
-    Clearance {
-        clearance: clearance * INCH,
-        stiffness: stiffness * POUND_PER_INCH,
-        damping: damping * POUND_PER_INCH,
+impl SideBearings {
+    /// Returns the load of both in the nominal layout, N.
+    #[must_use]
+    pub fn preload(&self) -> f64 {
+        match self.kind {
+            SideBearing::Roller(_) => 0.0,
+            SideBearing::ConstantContact { preload, .. } => 2.0 * preload,
+        }
     }
 }
 
-/// Preload lbf, stiffness and shear stiffness lbf/in, damping lbf·s/in; travel to solid height, in.
-fn spring([preload, stiffness, shear, damping]: [f64; 4], solid: Option<f64>) -> Spring {
-    Spring {
-        preload: preload * POUND_FORCE,
-        stiffness: stiffness * POUND_PER_INCH,
-        shear_stiffness: shear * POUND_PER_INCH,
-        damping: damping * POUND_PER_INCH,
-        solid: solid.map(|travel| [travel * INCH, 250_000.0 * POUND_PER_INCH]),
-    }
-}
-
-/// Stiffness lbf/in and damping lbf·s/in of a point.
-fn contact(stiffness: f64, damping: f64) -> Contact {
-    Contact {
-        stiffness: stiffness * POUND_PER_INCH,
-        damping: damping * POUND_PER_INCH,
-    }
-}
-
-/// Bristle stiffness lbf/in and damping lbf·s/in of a face.
-fn bristle(coefficient: f64, stiffness: f64, damping: f64) -> FaceFriction {
-    FaceFriction {
-        coefficient,
-        law: FrictionLaw::Bristle {
-            stiffness: stiffness * POUND_PER_INCH,
-            damping: damping * POUND_PER_INCH,
-        },
+impl Adapter {
+    /// Returns the load of an adapter in the nominal layout, N.
+    #[must_use]
+    pub fn preload(&self) -> f64 {
+        match self {
+            Self::Friction(adapter) => 2.0 * adapter.preload,
+            Self::Pad(pad) => pad.preload,
+        }
     }
 }
 
 impl Parameters {
-    /// Returns a new truck of a loaded car of 263,000 lbf: bolster held, side frames free on wheelsets that
-    /// stand still.
-    #[must_use]
-    pub fn new(damping: Damping) -> Self {
-        let (degrees, coil, control) = match damping {
-            Damping::Constant => (
-                37.5,
-                spring([15_403.8, 6468.7, 4450.0, 0.0], Some(1.306)),
-                spring([3702.2, 1979.0, 1346.0, 1.0], None),
-            ),
-            Damping::Variable => (
-                32.0,
-                spring([12_252.1, 5369.5, 3616.0, 0.0], Some(1.406)),
-                spring([6303.0, 1937.0, 1317.0, 1.0], Some(1.4085)),
-            ),
-        };
-        let angle = degrees * PI / 180.0;
-        let prism = body(50.0, [1.461, 0.3756, 1.295], 18.0);
-        let wedge = Wedge {
-            angle,
-            height: 6.125 * INCH,
-            width: 10.5 * INCH,
-            mass: prism.mass,
-            inertia: prism.inertia,
-            free: [true; 6],
-            toe: 0.0,
-            contact: contact(2.5e5, 25.0),
-            column_friction: bristle(0.4, 1e6, 1e3),
-            slope_friction: bristle(0.4, 1e6, 1e3),
-            control_coil: control,
-            pocket_sides: clearance([0.25, 1e6, 100.0]),
-        };
-        let quarter = |x: f64, y: f64| NestCoil {
-            place: inches([3.75 * x, 3.75 * y]),
-            spring: coil,
-        };
-        let nest = vec![
-            quarter(1.0, 1.0),
-            quarter(1.0, -1.0),
-            quarter(-1.0, 1.0),
-            quarter(-1.0, -1.0),
-        ];
-        let side_frame = SideFrame {
-            body: body(1150.5, [900.0, 1370.0, 1370.0], 18.0),
-            motion: None,
-        };
-        Self {
-            damping,
-            gravity: STANDARD_GRAVITY,
-            distances: inches([39.5, 8.5, 35.0]),
-            bolster: Bolster {
-                body: body(1300.0, [2915.0, 142.0, 2930.0], 22.0),
-                free: [false; 6],
-                motion: still(),
-                lift: 0.0,
-            },
-            side_frames: [side_frame.clone(), side_frame],
-            wheelsets: Some(Wheelsets {
-                motions: [still(), still()],
-                adapter: Adapter {
-                    preload: 15_691.0 * POUND_FORCE,
-                    contact: contact(5e5, 1000.0),
-                    friction: bristle(0.5, 2e6, 2e3),
-                    longitudinal: clearance([0.0468, 5e5, 50.0]),
-                    lateral: clearance([0.25, 1e6, 100.0]),
-                },
-            }),
-            wedges: [wedge.clone(), wedge.clone(), wedge.clone(), wedge],
-            load_coils: [nest.clone(), nest],
-            gib: clearance([0.5, 4e6, 1000.0]),
-            lands: clearance([0.21, 5e5, 50.0]),
-            car_body: None,
-        }
-    }
-
-    /// Sets the friction of all wedges on both faces.
-    #[must_use]
-    pub fn with_wedge_friction(mut self, coefficient: f64) -> Self {
-        for wedge in &mut self.wedges {
-            wedge.column_friction.coefficient = coefficient;
-            wedge.slope_friction.coefficient = coefficient;
-        }
-        self
-    }
-
-    /// Returns the displacement of the bolster at the start, x, y, z, m, which the wedges take over.
-    pub(crate) fn start(&self) -> [f64; 3] {
-        let mut start = [0, 1, 2].map(|k| self.bolster.motion[k].evaluate(0.0, 0.0)[0]);
-        start[2] += self.bolster.lift;
+    /// Returns the displacement of the bolster at the start, x, y, z, m, which wedges and car body take over.
+    pub(crate) fn displacement_at_start(&self) -> [f64; 3] {
+        let motions = &self.bolster.motion.coordinates;
+        let mut start = [0, 1, 2].map(|k| motions[k].evaluate(0.0, 0.0)[0]);
+        start[2] += self.lift;
         start
+    }
+
+    /// Returns how much more the coils carry in the nominal layout than stands on them, N: zero for a truck that
+    /// rests there. `None` if the bolster's motion is prescribed.
+    #[must_use]
+    pub fn surplus(&self) -> Option<f64> {
+        if self.bolster.is_prescribed() {
+            return None;
+        }
+        let wedges: f64 = self.wedges.iter().map(|wedge| wedge.mass).sum();
+        let car = self.car_body.as_ref().map_or(0.0, |car| car.body.mass);
+        let weight = (self.bolster.body.mass + wedges + car) * self.gravity;
+        let load: f64 = self
+            .load_coils
+            .iter()
+            .flatten()
+            .map(|coil| coil.spring.preload)
+            .sum();
+        let control: f64 = match self.damping {
+            Damping::Constant => 0.0,
+            Damping::Variable => self.wedges.iter().map(|wedge| wedge.control_coil.preload()).sum(),
+        };
+        Some(load + control - weight)
+    }
+}
+
+impl ControlCoil {
+    /// Returns its force in the nominal layout, N.
+    #[must_use]
+    pub fn preload(&self) -> f64 {
+        match self {
+            Self::Shear(spring) => spring.preload,
+            Self::Thesis(coil, _) => coil.law.force(coil.free_length - coil.nominal_length),
+        }
     }
 }

@@ -6,12 +6,12 @@ mod common;
 use common::{INCH, KIP_INCH, POUND_FORCE, Ran, run};
 use integrate::{Method, Problem};
 use mechanics::motion::{Motion, RampProfile};
-use truck::{CAR_BODY, CarBody, Parameters, SideBearings, Truck};
+use truck::{CAR_BODY, CarBody, Lading, Parameters, SideBearings, Truck};
 use wedge::parameters::Damping;
 
 fn parameters(side_bearings: SideBearings) -> Parameters {
     Parameters {
-        car_body: Some(CarBody::loaded(side_bearings)),
+        car_body: Some(CarBody::new(Lading::Loaded, side_bearings)),
         ..Parameters::new(Damping::Variable)
     }
 }
@@ -42,7 +42,7 @@ fn analytic_plate_and_side_bearings_carry_the_body() {
 /// The bolster turns or rolls (coordinate 5 or 3) by `angle` (rad) within a second.
 fn turned(coordinate: usize, angle: f64, bearings: SideBearings, free: [bool; 6]) -> Ran {
     let mut parameters = parameters(bearings);
-    parameters.bolster.motion[coordinate] = Motion::Ramp {
+    parameters.bolster.motion.coordinates[coordinate] = Motion::Ramp {
         amplitude: angle,
         start: 0.1,
         duration: 1.0,

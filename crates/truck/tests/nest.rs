@@ -6,7 +6,7 @@ mod common;
 use common::{INCH, POUND_FORCE};
 use mechanics::system::StaticFriction;
 use truck::nest::{CatalogCoil, springs, whole_nest};
-use truck::{BOLSTER, Parameters, Rig, Truck};
+use truck::{BOLSTER, Bolster, Lading, Parameters, Truck};
 use wedge::parameters::Damping;
 
 /// Load of the load coils of a nest and their number (outer, inner).
@@ -49,11 +49,10 @@ fn reproduction_single_coils_make_the_stiffness_and_solid_height_of_the_groups()
 #[test]
 fn limits_missing_coils_let_the_car_settle() {
     let (damping, load, ratio, _) = NESTS[0];
-    let mut parameters = Rig::named("truck_drop_constant")
-        .unwrap()
-        .parameters()
-        .with_wedge_friction(0.0);
-    parameters.bolster.lift = 0.0;
+    let parameters = Parameters {
+        bolster: Bolster::with_half_car(Lading::Loaded),
+        ..Parameters::new(damping).with_wedge_friction(0.0)
+    };
     let whole = springs(&whole_nest(damping), load * POUND_FORCE, ratio);
     let rest_with = |left: Vec<truck::NestCoil>| {
         let mut parameters = parameters.clone();

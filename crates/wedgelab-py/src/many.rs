@@ -11,7 +11,7 @@ use study::case::Case;
 use study::half_truck::HalfTruckCase;
 
 use crate::case::NativeCase;
-use crate::half_truck::NativeHalfTruckCase;
+use crate::half_truck::{self, NativeHalfTruckCase};
 use crate::outcome::{NativeResult, Table};
 use crate::run::{Failure, outcome};
 

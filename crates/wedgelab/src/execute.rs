@@ -5,13 +5,10 @@ use std::time::{Duration, Instant};
 
 use quantity::Number;
 use report::files::Folder;
-use report::{half_truck_files, run_files};
-use study::case::Case;
-use study::half_truck::{HalfTruckCase, HalfTruckResult, HalfTruckSummary};
-use study::progress::{WHAT_TO_TRY, WHAT_TO_TRY_WITH_FILES};
+use report::run_files::RunFiles;
 use study::result::RunResult;
 use study::run::{Run, RunCase};
-use study::summary::{Stopped, Summary, SummaryValue};
+use study::summary::{RunSummary, Stopped, Summary, SummaryValue};
 
 use crate::failure::{Failure, Message, say};
 use crate::interrupt;
@@ -47,74 +44,60 @@ pub fn compute<C: RunCase>(case: &C, progress: &Progress) -> Result<Done<C::Outp
     })
 }
 
-/// Writes the files of a run.
-pub fn write(done: &Done, case: &Case, folder: &Folder, progress: &Progress) -> Result<(), Failure> {
-    run_files::write(folder, case, &done.result)?;
-    let summary = &done.result.summary;
-    let how = match &summary.stopped {
-        Some(stopped) => format!("stopped at {} s", Number(stopped.time)),
-        None => format!("{:.2} s", done.wall.as_secs_f64()),
-    };
-    progress.done(&case.name, &how);
-    for warning in &summary.warnings {
-        say(&format!("warning: {}: {warning}", case.name));
+/// Writes the files of a run, and says what makes its numbers doubtful.
+pub fn write<C: RunFiles>(
+    done: &Done<C::Output>,
+    case: &C,
+    folder: &Folder,
+    progress: &Progress,
+) -> Result<(), Failure> {
+    write_quietly(done, case, folder, progress)?;
+    for warning in done.result.summary.warnings() {
+        say(&format!("warning: {}: {warning}", case.name()));
     }
     Ok(())
 }
 
+/// Writes the files of a run.
+pub fn write_quietly<C: RunFiles>(
+    done: &Done<C::Output>,
+    case: &C,
+    folder: &Folder,
+    progress: &Progress,
+) -> Result<(), Failure> {
+    case.write(folder, &done.result)?;
+    let how = match done.result.summary.stopped() {
+        Some(stopped) => format!("stopped at {} s", Number(stopped.time)),
+        None => format!("{:.2} s", done.wall.as_secs_f64()),
+    };
+    progress.done(case.name(), &how);
+    Ok(())
+}
+
 /// Runs a case and writes its files; `None` if it was interrupted, of which nothing is written then.
-pub fn execute_whole(case: &Case, folder: &Folder, progress: &Progress) -> Result<Option<Done>, Failure> {
+pub fn execute_whole<C: RunFiles>(
+    case: &C,
+    folder: &Folder,
+    progress: &Progress,
+) -> Result<Option<Done<C::Output>>, Failure> {
     if interrupt::wanted() {
         return Ok(None);
     }
     let done = compute(case, progress)?;
-    if interrupt::is_reason(done.result.summary.stopped.as_ref()) {
+    if interrupt::is_reason(done.result.summary.stopped()) {
         return Ok(None);
     }
     write(&done, case, folder, progress)?;
     Ok(Some(done))
 }
 
-/// Writes the files of a half-truck's run; `script_interval` (s) is that of the array for the thesis's
-/// scripts.
-pub fn write_half_truck(
-    done: &Done<HalfTruckResult>,
-    case: &HalfTruckCase,
-    folder: &Folder,
-    script_interval: f64,
-    progress: &Progress,
-) -> Result<(), Failure> {
-    half_truck_files::write(folder, case, &done.result, script_interval)?;
-    let summary = &done.result.summary;
-    let how = match &summary.stopped {
-        Some(stopped) => format!("stopped at {} s", Number(stopped.time)),
-        None => format!("{:.2} s", done.wall.as_secs_f64()),
-    };
-    progress.done(&case.name, &how);
-    Ok(())
-}
-
 /// Why a run is incomplete or has failed, for its user; `None` if it is sound.
-pub fn unsound(summary: &Summary, folder: &Path) -> Option<Failure> {
-    if let Some(stopped) = &summary.stopped {
-        return Some(stopped_run(&summary.name, stopped, folder, WHAT_TO_TRY));
+pub fn unsound<C: RunFiles>(summary: &C::Summary, folder: &Path) -> Option<Failure> {
+    if let Some(stopped) = summary.stopped() {
+        return Some(stopped_run(summary.name(), stopped, folder, C::WHAT_TO_TRY));
     }
-    let reason = summary.failed.as_ref()?;
-    Some(failed_run(&summary.name, reason, folder))
-}
-
-/// The same of a half-truck's run.
-pub fn unsound_half_truck(summary: &HalfTruckSummary, folder: &Path) -> Option<Failure> {
-    if let Some(stopped) = &summary.stopped {
-        return Some(stopped_run(
-            &summary.name,
-            stopped,
-            folder,
-            WHAT_TO_TRY_WITH_FILES,
-        ));
-    }
-    let reason = summary.failed.as_ref()?;
-    Some(failed_run(&summary.name, reason, folder))
+    let reason = summary.failed()?;
+    Some(failed_run(summary.name(), reason, folder))
 }
 
 /// A run that came to its end but failed, and whose files are written.

@@ -39,9 +39,15 @@ pub struct BuiltIn {
 
 impl BuiltIn {
     /// `body` is the case file without name and title.
-    fn new(name: String, title: String, body: &str) -> Self {
+    pub(crate) fn new(name: String, title: String, body: &str) -> Self {
         let text = format!("name = \"{name}\"\ntitle = \"{title}\"\n{body}");
         Self { name, title, text }
+    }
+
+    /// Its case file.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
     }
 }
 

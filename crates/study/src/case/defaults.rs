@@ -7,7 +7,7 @@ use super::tree::{self, Table};
 use integrate::Method;
 
 /// The name of these values as a source.
-pub(super) const SOURCE: &str = "the thesis's values";
+pub(crate) const SOURCE: &str = "the thesis's values";
 
 /// What both dampings share (Steets 2007, tables 3-1 to 3-4).
 const COMMON: &str = r#"

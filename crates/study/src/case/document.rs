@@ -239,7 +239,7 @@ macro_rules! named {
         }
 
         impl $name {
-            pub(super) const NAMES: Names<Self> = &[$(($text, Self::$variant)),+];
+            pub(crate) const NAMES: Names<Self> = &[$(($text, Self::$variant)),+];
 
             /// Its name in case files.
             pub fn name(self) -> &'static str {
@@ -310,14 +310,18 @@ named! {
 }
 
 /// Names of the unit systems.
-pub(super) const SYSTEMS: Names<System> = &[("us", System::Us), ("si", System::Si)];
+pub(crate) const SYSTEMS: Names<System> = &[("us", System::Us), ("si", System::Si)];
 
 /// Names of the integration methods.
-pub(super) const METHODS: Names<Method> = &[
+pub(crate) const METHODS: Names<Method> = &[
     ("rodas5p", Method::Rodas5P),
     ("tr-bdf2", Method::TrBdf2),
     ("esdirk3", Method::Esdirk3),
 ];
 
 /// Names of the ramp profiles.
-pub(super) const PROFILES: Names<Profile> = &[("smooth", Profile::Smooth), ("linear", Profile::Linear)];
+pub(crate) const PROFILES: Names<Profile> = &[
+    ("smooth", Profile::Smooth),
+    ("linear", Profile::Linear),
+    ("half_cosine", Profile::HalfCosine),
+];

@@ -113,7 +113,7 @@ pub struct InUnits {
 
 /// How a range is suggested.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Reach {
+pub(crate) enum Reach {
     /// From half of a positive value to its double.
     Positive,
     /// From a tenth of a positive value to ten times it.
@@ -127,13 +127,14 @@ pub(super) enum Reach {
 }
 
 /// A value of a case, as text and as what it is.
-pub(super) struct Written {
+#[derive(Clone)]
+pub(crate) struct Written {
     pub toml: String,
     pub input: Input,
 }
 
 impl Measured {
-    pub(super) fn of(quantity: &Quantity, kind: Kind, reach: Reach) -> Self {
+    pub(crate) fn of(quantity: &Quantity, kind: Kind, reach: Reach) -> Self {
         let (value, si) = (quantity.value(), quantity.to_si());
         // All units that can be typed are multiples of the SI unit.
         let unit = Quantity::new(1.0, quantity.unit_text()).map_or(1.0, |one| one.to_si());
@@ -274,7 +275,7 @@ impl Written {
 }
 
 /// A text as TOML.
-pub(super) fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     toml::Value::from(text).to_string()
 }
 

@@ -9,22 +9,22 @@
 
 pub mod bounds;
 pub mod builtin;
-mod defaults;
-mod document;
-mod field;
-mod motion;
+pub(crate) mod defaults;
+pub(crate) mod document;
+pub(crate) mod field;
+pub(crate) mod motion;
 pub(crate) mod name;
-mod overrides;
+pub(crate) mod overrides;
 pub(crate) mod problem;
-mod read;
-mod resolve;
+pub(crate) mod read;
+pub(crate) mod resolve;
 pub(crate) mod section;
 mod table;
-mod tables;
+pub(crate) mod tables;
 pub(crate) mod tree;
-mod units;
+pub(crate) mod units;
 mod values;
-mod write;
+pub(crate) mod write;
 
 pub use document::{
     ActsAt, CaseDocument, CoilForce, CoilSection, ContactSection, Coordinate, Damping, EnvironmentSection,
@@ -44,6 +44,8 @@ use problem::{Problems, TomlSource};
 use quantity::System;
 use std::path::Path;
 use wedge::parameters::Parameters;
+
+use crate::truck::{Model, model};
 
 /// A case that is ready to run.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,11 +106,7 @@ impl Case {
     ) -> Result<Self, CaseError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut tree = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
-        if let Some(study) = STUDY_KEYS.iter().find_map(|key| tree.entry(key)) {
-            let problem = Problem::new(format!("{source} is a study file; a case file is expected"));
-            let problem = problem.at(&study.key_place).label("only a study has this");
-            return Err(problem.help(FileType::Study.advice(source)).into());
-        }
+        refuse_study(&tree, source)?;
         let problems = overrides::apply(&mut tree, overrides);
         let nothing_given = !tree.gives_values();
         let case = Self::of_tree(tree, source, tables.into(), problems)?;
@@ -125,15 +123,18 @@ impl Case {
         tables: Tables<'_>,
         mut problems: Problems,
     ) -> Result<Self, CaseError> {
-        let stem = Path::new(source)
-            .file_stem()
-            .and_then(|stem| stem.to_str())
-            .unwrap_or("");
-        let default_name = if name::problem(stem).is_none() {
-            stem
-        } else {
-            "case"
-        };
+        if model(&tree, &mut problems) == Some(Model::Truck) {
+            let problem = Problem::new(format!(
+                "{source} is the case of a truck; a single wedge's is expected"
+            ));
+            let problem = problem.help("`wedgelab run` takes both; here leave out model = \"truck\"");
+            problems.push(match tree.place_of("model") {
+                Some(place) => problem.at(place).label("a truck"),
+                None => problem,
+            });
+            return Err(CaseError::new(problems));
+        }
+        let default_name = name::of_source(source);
         let document = read::document(&mut tree, default_name, tables, &mut problems);
         let Some(document) = document.filter(|_| problems.is_empty()) else {
             return Err(CaseError::new(problems));
@@ -168,6 +169,16 @@ impl Case {
         case.document = document.clone();
         Ok(case)
     }
+}
+
+/// Refuses a study file where a case is expected.
+pub(crate) fn refuse_study(tree: &tree::Table, source: &str) -> Result<(), CaseError> {
+    let Some(study) = STUDY_KEYS.iter().find_map(|key| tree.entry(key)) else {
+        return Ok(());
+    };
+    let problem = Problem::new(format!("{source} is a study file; a case file is expected"));
+    let problem = problem.at(&study.key_place).label("only a study has this");
+    Err(problem.help(FileType::Study.advice(source)).into())
 }
 
 /// Keys that only a study has.

@@ -57,6 +57,13 @@ pub enum Motion {
     Table(QuantityTable),
     /// A sum of motions.
     Sum(Vec<Motion>),
+    /// Nothing until a time, then a motion that counts its time from there.
+    From {
+        /// When it begins.
+        start: Quantity,
+        /// The motion.
+        motion: Box<Motion>,
+    },
 }
 
 /// The shape of a ramp.
@@ -66,6 +73,8 @@ pub enum Profile {
     Smooth,
     /// Constant rate.
     Linear,
+    /// Half a period of a cosine: the rate is zero at both ends.
+    HalfCosine,
 }
 
 const SHAPES: [&str; 6] = ["constant", "sine", "triangle", "swept_sine", "ramp", "table"];
@@ -73,7 +82,7 @@ const EXAMPLE: &str = "write for example { shape = \"sine\", amplitude = \"1 in\
                        or one held value";
 
 /// Reads a motion whose values measure `kind`. `tables` says where those in files lie.
-pub(super) fn read(
+pub(crate) fn read(
     node: &Node,
     path: &str,
     kind: Kind,
@@ -122,11 +131,11 @@ fn read_shape(
     let (shape, node) = section.text("shape", problems)?;
     let (keys, optional): (&[&str], &[&str]) = match shape {
         "constant" => (&["value"], &[]),
-        "sine" => (&["amplitude", "frequency"], &["phase"]),
-        "triangle" => (&["amplitude", "frequency"], &[]),
+        "sine" => (&["amplitude", "frequency"], &["phase", "start"]),
+        "triangle" => (&["amplitude", "frequency"], &["start"]),
         "swept_sine" => (
             &["amplitude", "start_frequency", "end_frequency", "duration"],
-            &[],
+            &["start"],
         ),
         "ramp" => (&["amplitude", "duration"], &["start", "profile"]),
         "table" => (&[], &["file", "points"]),
@@ -143,6 +152,25 @@ fn read_shape(
     };
     let known: Vec<&str> = ["shape"].iter().chain(keys).chain(optional).copied().collect();
     section.allow(&known, &[], problems);
+    if shape != "ramp" && section.table.get("start").is_some() {
+        let start = section.quantity("start", Kind::Time, Range::NotNegative, problems);
+        let motion = Box::new(read_known_shape(shape, section, kind, tables, problems)?);
+        return Some(Motion::From {
+            start: start?,
+            motion,
+        });
+    }
+    read_known_shape(shape, section, kind, tables, problems)
+}
+
+/// Reads a motion of this shape, without the time that it starts at.
+fn read_known_shape(
+    shape: &str,
+    section: &Section<'_>,
+    kind: Kind,
+    tables: Tables<'_>,
+    problems: &mut Problems,
+) -> Option<Motion> {
     let mut quantity = |key: &str, kind, range| section.quantity(key, kind, range, problems);
     match shape {
         "constant" => Some(Motion::Constant(quantity("value", kind, Range::Any)?)),
@@ -205,7 +233,7 @@ fn read_shape(
 impl Motion {
     /// As written in a case file, without the key; its values measure `kind`. In the units of a system, or as
     /// typed.
-    pub(super) fn to_toml_in(&self, kind: Kind, system: Option<System>) -> String {
+    pub(crate) fn to_toml_in(&self, kind: Kind, system: Option<System>) -> String {
         system.map_or_else(|| self.to_toml(), |system| self.in_system(kind, system).to_toml())
     }
 
@@ -224,6 +252,7 @@ impl Motion {
                     *part = part.in_system(kind, system);
                 }
             }
+            Motion::From { motion, .. } => **motion = motion.in_system(kind, system),
         }
         own
     }
@@ -293,6 +322,11 @@ impl Motion {
                 let parts: Vec<String> = parts.iter().map(Motion::to_toml).collect();
                 format!("[\n    {},\n]", parts.join(",\n    "))
             }
+            Motion::From { start, motion } => {
+                let line = motion.to_toml();
+                let open = line.strip_suffix(" }").unwrap_or(&line);
+                format!("{open}, start = {} }}", text(start))
+            }
         }
     }
 
@@ -328,24 +362,31 @@ impl Motion {
                 duration,
                 ..
             } => vec![("amplitude", amplitude), ("start", start), ("duration", duration)],
+            Motion::From { start, motion } => {
+                let mut parts = motion.parts();
+                parts.push(("start", start));
+                parts
+            }
             Motion::Constant(_) | Motion::Table(_) | Motion::Sum(_) => Vec::new(),
         }
     }
 
     /// The tables in it, to be changed.
-    pub(super) fn tables_mut(&mut self) -> Vec<&mut QuantityTable> {
+    pub(crate) fn tables_mut(&mut self) -> Vec<&mut QuantityTable> {
         match self {
             Motion::Table(table) => vec![table],
             Motion::Sum(parts) => parts.iter_mut().flat_map(Motion::tables_mut).collect(),
+            Motion::From { motion, .. } => motion.tables_mut(),
             _ => Vec::new(),
         }
     }
 
     /// The tables in it.
-    pub(super) fn tables(&self) -> Vec<&QuantityTable> {
+    pub(crate) fn tables(&self) -> Vec<&QuantityTable> {
         match self {
             Motion::Table(table) => vec![table],
             Motion::Sum(parts) => parts.iter().flat_map(Motion::tables).collect(),
+            Motion::From { motion, .. } => motion.tables(),
             _ => Vec::new(),
         }
     }

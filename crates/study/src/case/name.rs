@@ -1,10 +1,32 @@
 //! Names of cases, which are also names of folders.
 
-use super::problem::Problem;
+use std::path::Path;
+
+use super::problem::{Problem, Problems};
+use super::section::Section;
 
 /// Names that Windows keeps for itself, whatever their ending.
 const RESERVED: [&str; 4] = ["con", "prn", "aux", "nul"];
+/// The longest name.
 const LONGEST: usize = 100;
+
+/// The name of a case that has none: that of its file, if it can be a folder's.
+pub(crate) fn of_source(source: &str) -> &str {
+    let stem = Path::new(source).file_stem().and_then(|stem| stem.to_str());
+    stem.filter(|stem| problem(stem).is_none()).unwrap_or("case")
+}
+
+/// Reads the name of a case.
+pub(crate) fn read(top: &Section<'_>, default: &str, problems: &mut Problems) -> Option<String> {
+    if top.table.get("name").is_none() {
+        return Some(default.to_owned());
+    }
+    let (text, node) = top.text("name", problems)?;
+    let bad = problem(text);
+    let valid = bad.is_none();
+    problems.extend(bad.map(|problem| problem.at(&node.place)));
+    valid.then(|| text.to_owned())
+}
 
 /// Why a name cannot be a folder's on every system; still without a place.
 pub(crate) fn problem(name: &str) -> Option<Problem> {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 pub(super) const SOURCE: &str = "--set";
 
 /// Lays every override over the tree; the problems are those of the overrides themselves.
-pub(super) fn apply(tree: &mut Table, overrides: &[String]) -> Problems {
+pub(crate) fn apply(tree: &mut Table, overrides: &[String]) -> Problems {
     let mut problems = Problems::new();
     for text in overrides {
         match parse(text).and_then(|(path, entry)| set(tree, &path, entry)) {

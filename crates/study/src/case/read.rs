@@ -95,11 +95,11 @@ const KEYS: &[(&str, &[&str])] = &[
 
 /// Wedge angles and toes that make sense, rad.
 const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
-const ANGLE: Range = Range::Between(0.0, RIGHT_ANGLE, "between 0 deg and 90 deg, both excluded");
+pub(crate) const ANGLE: Range = Range::Between(0.0, RIGHT_ANGLE, "between 0 deg and 90 deg, both excluded");
 const TOE: Range = Range::Between(-RIGHT_ANGLE / 4.0, RIGHT_ANGLE / 4.0, "below 22.5 deg");
-const COEFFICIENT: Range = Range::UpTo(bounds::FRICTION, "between 0 and 10");
+pub(crate) const COEFFICIENT: Range = Range::UpTo(bounds::FRICTION, "between 0 and 10");
 /// Numbers have sixteen digits; a narrower tolerance is never met.
-const TOLERANCE: Range = Range::Between(1e-15, 1.0, "between 1e-15 and 1, both excluded");
+pub(crate) const TOLERANCE: Range = Range::Between(1e-15, 1.0, "between 1e-15 and 1, both excluded");
 
 /// Completes the tree and reads it; notes what is wrong.
 pub(super) fn document(
@@ -115,7 +115,7 @@ pub(super) fn document(
         place: None,
     };
     let sections: Vec<&str> = KEYS.iter().map(|(section, _)| *section).collect();
-    let known: Vec<&str> = ["name", "title"]
+    let known: Vec<&str> = ["name", "title", "model"]
         .into_iter()
         .chain(sections.iter().copied())
         .collect();
@@ -129,15 +129,7 @@ pub(super) fn document(
             section.allow(keys, KEYS, problems);
         }
     }
-    let name = match tree.get("name") {
-        Some(_) => top.text("name", problems).and_then(|(text, node)| {
-            let bad = name::problem(text);
-            let valid = bad.is_none();
-            problems.extend(bad.map(|problem| problem.at(&node.place)));
-            valid.then(|| text.to_string())
-        }),
-        None => Some(default_name.to_string()),
-    };
+    let name = name::read(&top, default_name, problems);
     let title = top.text("title", problems).map(|(text, _)| text.to_string());
     let mut section = |key: &str| top.section(key, problems);
     let (wedge, coil, contact) = (section("wedge"), section("control_coil"), section("contact"));
@@ -329,29 +321,13 @@ fn rotational_damping(damping: &Quantity) -> Option<Quantity> {
 }
 
 fn read_friction(s: &Section<'_>, problems: &mut Problems) -> Option<FrictionSection> {
-    let laws = match &s.table.get("law")?.value {
-        Value::Table(table) => {
-            let place = s.table.entry("law").map(|entry| entry.key_place.clone());
-            let faces = Section {
-                path: s.path_of("law"),
-                table,
-                place,
-            };
-            faces.allow(&["column", "slope"], &[], problems);
-            let column = faces.choice("column", FrictionLaw::NAMES, problems);
-            let slope = faces.choice("slope", FrictionLaw::NAMES, problems);
-            column.zip(slope)
-        }
-        _ => s
-            .choice("law", FrictionLaw::NAMES, problems)
-            .map(|law| (law, law)),
-    };
+    let laws = read_laws(s, problems);
     let column = s.number("column", COEFFICIENT, "0.4", problems);
     let slope = s.number("slope", COEFFICIENT, "0.4", problems);
     let reference_speed = s.quantity("reference_speed", Kind::Speed, Range::Positive, problems);
     let bristle_stiffness = s.quantity("bristle_stiffness", Kind::Stiffness, Range::Positive, problems);
     let bristle_damping = s.quantity("bristle_damping", Kind::Damping, Range::Positive, problems);
-    let (column_law, slope_law) = laws?;
+    let [column_law, slope_law] = laws?;
     Some(FrictionSection {
         column_law,
         slope_law,
@@ -363,7 +339,26 @@ fn read_friction(s: &Section<'_>, problems: &mut Problems) -> Option<FrictionSec
     })
 }
 
-fn read_toe(s: &Section<'_>, problems: &mut Problems) -> Option<Toe> {
+/// Reads the laws of friction at column and slope.
+pub(crate) fn read_laws(s: &Section<'_>, problems: &mut Problems) -> Option<[FrictionLaw; 2]> {
+    match &s.table.get("law")?.value {
+        Value::Table(table) => {
+            let place = s.table.entry("law").map(|entry| entry.key_place.clone());
+            let faces = Section {
+                path: s.path_of("law"),
+                table,
+                place,
+            };
+            faces.allow(&["column", "slope"], &[], problems);
+            let column = faces.choice("column", FrictionLaw::NAMES, problems);
+            let slope = faces.choice("slope", FrictionLaw::NAMES, problems);
+            Some([column?, slope?])
+        }
+        _ => s.choice("law", FrictionLaw::NAMES, problems).map(|law| [law; 2]),
+    }
+}
+
+pub(crate) fn read_toe(s: &Section<'_>, problems: &mut Problems) -> Option<Toe> {
     const HELP: &str = "write for example \"0.2 deg out\" (the gap between column and bolster opens downwards), \
                         \"0.2 deg in\", or \"0 deg\"";
     let node = s.require("toe", HELP, problems)?;
@@ -464,29 +459,7 @@ fn read_simulation(s: &Section<'_>, problems: &mut Problems) -> Option<Simulatio
     let output_units = s.choice("output_units", SYSTEMS, problems);
     let method = s.choice("method", METHODS, problems);
     if let (Some(duration), Some(interval)) = (&duration, &output_interval) {
-        let problem = if interval.to_si() > duration.to_si() {
-            let message =
-                format!("`simulation.output_interval` ({interval}) is longer than the duration ({duration})");
-            let help = "write an interval that is shorter, for example \"0.01 s\", or a longer duration";
-            Some(Problem::new(message).label("longer than the run").help(help))
-        } else if duration.to_si() / interval.to_si() >= limits::OUTPUT_ROWS as f64 {
-            let most = limits::OUTPUT_ROWS;
-            let message = format!("{duration} in steps of {interval} are more than {most} output times");
-            let least = duration.to_si() / (most / 2) as f64;
-            let help = format!("write a longer interval, for example \"{least:.1e} s\"");
-            Some(Problem::new(message).label("too short").help(help))
-        } else {
-            None
-        };
-        // Shown where the user wrote one of the two, not in the thesis's values.
-        let mut places = ["output_interval", "duration"]
-            .into_iter()
-            .filter_map(|key| s.table.place_of(key));
-        let place = places.find(|place| place.source.name() != defaults::SOURCE);
-        problems.extend(problem.map(|problem| match place {
-            Some(place) => problem.at(place),
-            None => problem,
-        }));
+        check_rows(s, duration, interval, problems);
     }
     Some(SimulationSection {
         duration: duration?,
@@ -496,6 +469,33 @@ fn read_simulation(s: &Section<'_>, problems: &mut Problems) -> Option<Simulatio
         output_units: output_units?,
         method: method?,
     })
+}
+
+/// Notes an output interval that is longer than the run, or gives too many rows.
+pub(crate) fn check_rows(s: &Section<'_>, duration: &Quantity, interval: &Quantity, problems: &mut Problems) {
+    let problem = if interval.to_si() > duration.to_si() {
+        let message =
+            format!("`simulation.output_interval` ({interval}) is longer than the duration ({duration})");
+        let help = "write an interval that is shorter, for example \"0.01 s\", or a longer duration";
+        Some(Problem::new(message).label("longer than the run").help(help))
+    } else if duration.to_si() / interval.to_si() >= limits::OUTPUT_ROWS as f64 {
+        let most = limits::OUTPUT_ROWS;
+        let message = format!("{duration} in steps of {interval} are more than {most} output times");
+        let least = duration.to_si() / (most / 2) as f64;
+        let help = format!("write a longer interval, for example \"{least:.1e} s\"");
+        Some(Problem::new(message).label("too short").help(help))
+    } else {
+        None
+    };
+    // Shown where the user wrote one of the two, not in the thesis's values.
+    let mut places = ["output_interval", "duration"]
+        .into_iter()
+        .filter_map(|key| s.table.place_of(key));
+    let place = places.find(|place| place.source.name() != defaults::SOURCE);
+    problems.extend(problem.map(|problem| match place {
+        Some(place) => problem.at(place),
+        None => problem,
+    }));
 }
 
 /// Notes tables of motions that do not last as long as the run.
@@ -508,28 +508,44 @@ fn check_cover(
     problems: &mut Problems,
 ) {
     for (key, motion) in NeighbourSection::COORDINATES.iter().zip(&neighbour.coordinates) {
-        for table in motion.tables() {
-            let (Some([first, _]), Some([last, _])) = (table.rows.first(), table.rows.last()) else {
-                continue;
-            };
-            if first.to_si() <= 0.0 && last.to_si() >= duration.to_si() {
-                continue;
-            }
-            let path = format!("{section}.{key}");
-            let message = match &table.file {
-                Some(file) if !tables.may_quote() => {
-                    format!("`{path}`: {file} does not last from 0 to {duration}, as the run does")
-                }
-                _ => format!(
-                    "`{path}` is given from {first} to {last}, but the run lasts from 0 to {duration}"
-                ),
-            };
-            let help = "add rows to the table, or shorten simulation.duration";
-            let problem = Problem::new(message).label("does not cover the run").help(help);
-            problems.push(match tree.place_of(&path) {
-                Some(place) => problem.at(place),
-                None => problem,
-            });
+        check_motion_covers(
+            &format!("{section}.{key}"),
+            motion,
+            duration,
+            tree,
+            tables,
+            problems,
+        );
+    }
+}
+
+/// Notes a table in a motion that does not last as long as the run.
+pub(crate) fn check_motion_covers(
+    path: &str,
+    motion: &motion::Motion,
+    duration: &Quantity,
+    tree: &Table,
+    tables: Tables<'_>,
+    problems: &mut Problems,
+) {
+    for table in motion.tables() {
+        let (Some([first, _]), Some([last, _])) = (table.rows.first(), table.rows.last()) else {
+            continue;
+        };
+        if first.to_si() <= 0.0 && last.to_si() >= duration.to_si() {
+            continue;
         }
+        let message = match &table.file {
+            Some(file) if !tables.may_quote() => {
+                format!("`{path}`: {file} does not last from 0 to {duration}, as the run does")
+            }
+            _ => format!("`{path}` is given from {first} to {last}, but the run lasts from 0 to {duration}"),
+        };
+        let help = "add rows to the table, or shorten simulation.duration";
+        let problem = Problem::new(message).label("does not cover the run").help(help);
+        problems.push(match tree.place_of(path) {
+            Some(place) => problem.at(place),
+            None => problem,
+        });
     }
 }

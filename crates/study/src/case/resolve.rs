@@ -7,7 +7,7 @@ use super::table::QuantityTable;
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
-use mechanics::motion::{Motion, RampProfile};
+use mechanics::motion::{Motion, Piece, RampProfile};
 use mechanics::spline::Spline;
 use quantity::{Quantity, STANDARD_GRAVITY};
 use wedge::parameters::{
@@ -159,7 +159,8 @@ fn neighbour(path: &str, section: &typed::NeighbourSection) -> Result<NeighbourM
     })
 }
 
-fn motion(typed: &TypedMotion) -> Result<Motion, String> {
+/// Returns a motion, SI.
+pub(crate) fn motion(typed: &TypedMotion) -> Result<Motion, String> {
     Ok(match typed {
         TypedMotion::Constant(value) => Motion::Constant(value.to_si()),
         TypedMotion::Sine {
@@ -198,10 +199,15 @@ fn motion(typed: &TypedMotion) -> Result<Motion, String> {
             profile: match profile {
                 Profile::Smooth => RampProfile::Smooth,
                 Profile::Linear => RampProfile::Linear,
+                Profile::HalfCosine => RampProfile::HalfCosine,
             },
         },
         TypedMotion::Table(table) => Motion::Table(spline(table)?),
         TypedMotion::Sum(parts) => Motion::Sum(parts.iter().map(motion).collect::<Result<_, _>>()?),
+        TypedMotion::From { start, motion: own } => Motion::Sequence(vec![Piece {
+            start: start.to_si(),
+            motion: motion(own)?,
+        }]),
     })
 }
 

@@ -258,10 +258,10 @@ impl CaseDocument {
         page.section(
             "bolster",
             "The bolster. A motion is one held value, a list of motions to be added up, or one of\n\
-             # { shape = \"sine\", amplitude, frequency, phase }                frequency in rad/s, Hz or rpm\n\
-             # { shape = \"triangle\", amplitude, frequency }\n\
+             # { shape = \"sine\", amplitude, frequency, phase, start }         frequency in rad/s, Hz or rpm\n\
+             # { shape = \"triangle\", amplitude, frequency, start }\n\
              # { shape = \"swept_sine\", amplitude, start_frequency, end_frequency, duration }   then end_frequency\n\
-             # { shape = \"ramp\", amplitude, start, duration, profile }            profile \"smooth\" or \"linear\"; then held\n\
+             # { shape = \"ramp\", amplitude, start, duration, profile }            profile \"smooth\", \"linear\" or \"half_cosine\"; then held\n\
              # { shape = \"table\", file = \"motion.csv\" }                            a cubic spline; \
              or points = [[time, value], ...]",
         );
@@ -320,14 +320,14 @@ impl CaseDocument {
 }
 
 /// Angles of wedges that are built, 20 to 55 deg, rad.
-const ANGLES: Reach = Reach::Between(0.349_065_850_398_865_9, 0.959_931_088_596_881_3);
+pub(crate) const ANGLES: Reach = Reach::Between(0.349_065_850_398_865_9, 0.959_931_088_596_881_3);
 /// A depth of wear that is thought of first, m.
-const WEAR: f64 = 0.25 * 0.0254;
+pub(crate) const WEAR: f64 = 0.25 * 0.0254;
 /// A toe or turn that is thought of first, rad.
-const TURN: f64 = 0.02;
-const FRICTION: Reach = Reach::Between(0.0, 1.0);
+pub(crate) const TURN: f64 = 0.02;
+pub(crate) const FRICTION: Reach = Reach::Between(0.0, 1.0);
 
-fn toe(toe: &Toe) -> Written {
+pub(crate) fn toe(toe: &Toe) -> Written {
     let mut number = Measured::of(&toe.angle, Kind::Angle, Reach::Signed(TURN));
     if toe.direction == Some(ToeDirection::In) {
         number.value = -number.value;
@@ -377,7 +377,7 @@ fn write_neighbour(page: &mut Page, section: &NeighbourSection, center: &str) {
 
 /// Fields of the quantities of a motion, also of each part of a sum: `vertical.amplitude`,
 /// `vertical.0.amplitude`.
-fn write_motion(page: &mut Page, path: &str, motion: &Motion, kind: Kind, most: f64) {
+pub(crate) fn write_motion(page: &mut Page, path: &str, motion: &Motion, kind: Kind, most: f64) {
     let signed = Reach::Signed(most);
     for (part, value) in motion.parts() {
         let written = match part {
@@ -434,9 +434,9 @@ fn write_points(page: &mut Page, path: &str, table: &QuantityTable, kind: Kind, 
 
 /// The text and the fields so far.
 #[derive(Default)]
-struct Page {
-    text: String,
-    sections: Vec<FieldSection>,
+pub(crate) struct Page {
+    pub text: String,
+    pub sections: Vec<FieldSection>,
 }
 
 /// Comments begin in this column where the value leaves room.
@@ -448,7 +448,7 @@ const WIDEST: usize = 118;
 impl Page {
     // Writing to a String cannot fail, so results of `write!` are dropped below.
 
-    fn section(&mut self, name: &str, about: &str) {
+    pub fn section(&mut self, name: &str, about: &str) {
         self.text.push('\n');
         if !about.is_empty() {
             self.comment(about);
@@ -465,7 +465,7 @@ impl Page {
         let _ = writeln!(self.text, "# {comment}");
     }
 
-    fn line(&mut self, key: &str, value: Written, comment: &str) {
+    pub fn line(&mut self, key: &str, value: Written, comment: &str) {
         self.field(key, &value, comment);
         let line = format!("{key} = {}", value.toml);
         if comment.is_empty() {
@@ -479,14 +479,14 @@ impl Page {
     }
 
     /// A key that is left out, with an example.
-    fn absent(&mut self, key: &str, example: &str, comment: &str) {
+    pub fn absent(&mut self, key: &str, example: &str, comment: &str) {
         self.comment(comment);
         self.comment(&format!("{key} = {example}"));
         self.field(key, &Written::toml(String::new()), comment);
     }
 
     /// A field that is no line of its own.
-    fn field(&mut self, key: &str, value: &Written, comment: &str) {
+    pub fn field(&mut self, key: &str, value: &Written, comment: &str) {
         if self.sections.is_empty() {
             self.sections.push(FieldSection {
                 name: String::new(),

@@ -16,6 +16,7 @@ use crate::case::problem::{Problem, Problems, TomlLocation, TomlSource};
 use crate::case::section::{Names, Section};
 use crate::case::tree::{self, Node, Table, Value as Toml};
 use crate::case::{CASE_FILE, CaseDocument, CaseError};
+use crate::truck;
 use vary::{RANGE_HELP, TRIED, assignments, check_paths, factors, variants};
 
 const KEYS: [&str; 10] = [
@@ -134,10 +135,10 @@ pub(super) fn text(
     let (Some(kind), Some(accuracy), Some(source)) = (kind, accuracy, source) else {
         return Err(failed(problems));
     };
-    let is_wedge = matches!(source, CaseSource::Wedge { .. });
-    if let (Accuracy::Engineering, false, Some(node)) = (accuracy, is_wedge, tree.get("accuracy")) {
+    let is_file = matches!(source, CaseSource::File { .. });
+    if let (Accuracy::Engineering, false, Some(node)) = (accuracy, is_file, tree.get("accuracy")) {
         let problem =
-            Problem::new("engineering accuracy is a choice for wedges, and the case is a half-truck");
+            Problem::new("engineering accuracy is a choice for case files, and the case is a half-truck");
         let help = "take `accuracy` out; simulation.relative_tolerance below [set] says how tightly half-trucks are integrated";
         problems.push(problem.at(&node.place).label("not here").help(help));
         return Err(failed(problems));
@@ -364,23 +365,23 @@ fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) 
         }
     }
     if !path.is_file()
-        && let Ok(text) = builtin::text(case)
+        && let Ok(text) = builtin::text(case).or_else(|_| truck::builtin::text(case))
     {
-        return Some(CaseSource::Wedge {
+        return Some(CaseSource::File {
             name: format!("{case}.toml"),
             text: text.to_owned(),
             folder: folder.to_owned(),
         });
     }
     match read_text(&path, &CASE_FILE) {
-        Ok(text) => Some(CaseSource::Wedge {
+        Ok(text) => Some(CaseSource::File {
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),
             name: path.display().to_string(),
             text,
         }),
         Err(error) => {
             let shown = path.display();
-            let (message, help) = match quantity::nearest(case, builtin::names()) {
+            let (message, help) = match quantity::nearest(case, builtin::names().chain(truck::builtin::names())) {
                 _ if !matches!(error.reason, Reason::NotFound) => {
                     (error.to_string(), error.help().unwrap_or_default())
                 }

@@ -311,7 +311,7 @@ fn bound_warning(found: &Found) -> String {
 
 /// Where the case stands, as far as it lies well within the bounds; the middle otherwise.
 fn start(case: &AnyCase, free: &[Free]) -> Vec<f64> {
-    let sections = case.wedge().map_or(Vec::new(), |case| case.document.fields());
+    let sections = case.fields();
     free.iter()
         .map(|free| {
             let mut fields = sections.iter().flat_map(|section| &section.fields);

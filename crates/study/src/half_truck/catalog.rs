@@ -205,6 +205,7 @@ impl Entry {
             run: None,
         };
         let mut case = files::case(&self.name(), &self.title(), files, &settings)?;
+        case.script_interval = OUTPUT_INTERVAL;
         if !self.is_printed() {
             case.assumptions
                 .push("made from the printed files of the same type and damping by toe and yaw".to_owned());

@@ -183,6 +183,7 @@ pub fn case(
         start: settings.start,
         duration,
         interval,
+        script_interval: stepping.map_or(0.0, |stepping| *stepping.output),
         relative_tolerance: settings.relative_tolerance,
         units: settings.units,
     })

@@ -17,12 +17,12 @@ pub mod yaw;
 use std::collections::BTreeMap;
 
 use integrate::Statistics;
-use mechanics::output::Column;
 use nucars::truck::Truck;
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
-use crate::summary::{Stopped, SummaryValue};
+use crate::result::RunResult;
+use crate::summary::{Stopped, SummaryValue, run_summary};
 use requests::Request;
 pub use yaw::YawSummary;
 
@@ -56,6 +56,9 @@ pub struct HalfTruckCase {
     pub duration: f64,
     /// Time between two rows, s.
     pub interval: f64,
+    /// Time between two rows of the array for the thesis's scripts, s: that of the printed runs, or of the run
+    /// file; zero if it names none.
+    pub script_interval: f64,
     /// Relative tolerance of the integrator.
     pub relative_tolerance: f64,
     /// Units of the results.
@@ -63,24 +66,7 @@ pub struct HalfTruckCase {
 }
 
 /// What came out of a run.
-#[derive(Clone, Debug)]
-pub struct HalfTruckResult {
-    /// The columns of the table.
-    pub columns: Vec<Column>,
-    /// The values (SI), one vector a column.
-    pub values: Vec<Vec<f64>>,
-    /// The summary.
-    pub summary: HalfTruckSummary,
-}
-
-impl HalfTruckResult {
-    /// The values (SI) of the column with this name (without unit).
-    #[must_use]
-    pub fn column(&self, name: &str) -> Option<&[f64]> {
-        let index = self.columns.iter().position(|column| column.name == name)?;
-        Some(&self.values[index])
-    }
-}
+pub type HalfTruckResult = RunResult<HalfTruckSummary>;
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "wedgelab.truck/2";
@@ -135,6 +121,8 @@ pub struct HalfTruckSummary {
     /// What the numbers rest on.
     pub assumptions: Vec<String>,
 }
+
+run_summary!(HalfTruckSummary, largest_relative_residual);
 
 /// A wedge's averages.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

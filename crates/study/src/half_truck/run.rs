@@ -20,7 +20,7 @@ use crate::metrics::{Cycle, mean};
 use crate::plausibility;
 use crate::progress;
 use crate::run::{
-    Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError, append, check_finite, check_length, damaged,
+    Beginning, Recorder, Row, Run, RunCase, RunError, append, check_finite, check_length, damaged,
 };
 use crate::summary::{Stopped, SummaryValue};
 
@@ -144,7 +144,7 @@ impl Recorder for HalfTruckRecorder {
         self.works.add_step(integrator, system, x);
     }
 
-    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, NotFinite> {
+    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
         let seen = system.observe(row.time, row.x);
         self.row.clear();
         self.table.read(&seen, row.start_energy, &mut self.row);

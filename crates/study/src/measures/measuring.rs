@@ -21,7 +21,7 @@ use crate::metrics::{Cycle, first_harmonic};
 use crate::plausibility;
 use crate::progress;
 use crate::run::wedge_run::{contact_states_in_words, friction_losses, options};
-use crate::run::{Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError};
+use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError};
 use crate::summary::Stopped;
 
 /// Why a run has no measures.
@@ -190,7 +190,7 @@ impl Recorder for Measuring {
         }
     }
 
-    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, NotFinite> {
+    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
         if row.time == 0.0 {
             self.clock.start(row.contact_states);
         }

@@ -25,6 +25,7 @@
 mod clock;
 pub mod half_truck;
 mod measuring;
+pub mod truck;
 
 use std::borrow::Cow;
 use std::ops::Deref;

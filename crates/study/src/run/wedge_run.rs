@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use wedge::Wedge;
 use wedge::outputs::{CORNERS, FACES, Outputs};
 
-use super::{Beginning, NotFinite, Recorder, Row, Run, RunCase, RunError, append, summarize};
+use super::{Beginning, Recorder, Row, Run, RunCase, RunError, append, summarize};
 use crate::case::Case;
 use crate::metrics::Cycle;
 use crate::plausibility;
@@ -145,7 +145,7 @@ impl Recorder for WedgeRecorder {
         self.probe(integrator, system, x);
     }
 
-    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, NotFinite> {
+    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
         let seen = system.observe(row.time, row.x);
         self.row.clear();
         let ledger = self

@@ -4,8 +4,11 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::Args;
+use study::any_case::AnyCase;
 use study::case::builtin;
+use study::truck;
 
+use super::run::built_in_names;
 use crate::failure::Failure;
 use crate::select::select;
 use crate::table::Table;
@@ -29,7 +32,8 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     let Some(name) = &arguments.name else {
-        for (index, group) in builtin::groups().iter().enumerate() {
+        let groups = builtin::groups().iter().chain(truck::builtin::groups());
+        for (index, group) in groups.enumerate() {
             let between = if index == 0 { "" } else { "\n" };
             writeln!(out, "{between}{}: {}", group.name, group.title)?;
             let mut table = Table::new(2, &[]);
@@ -43,9 +47,13 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         }
         return Ok(ExitCode::SUCCESS);
     };
-    for name in select(std::slice::from_ref(name), builtin::names())? {
-        let case = builtin::case(name)?;
-        out.write_all(case.document.to_toml().as_bytes())?;
+    for name in select(std::slice::from_ref(name), built_in_names())? {
+        let case = AnyCase::built_in(name, &[])?;
+        out.write_all(
+            case.and_then(|case| case.to_toml())
+                .unwrap_or_default()
+                .as_bytes(),
+        )?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -11,18 +11,20 @@ use report::fit_files::{self, Shown};
 use report::run_files;
 use report::table::{Table as Measurements, TableColumn};
 use study::any_case::{AnyCase, CaseSource};
-use study::case::{Case, CaseError, builtin};
+use study::case::CaseError;
 use study::fit::{Fit, FitError, Free, FreeError, Measured, fit};
 use study::metrics::Cycle;
 
-use super::run::{is_built_in, read};
+use super::run::{is_built_in, read_any};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
 use crate::table::Table;
 
-/// Columns of a wedge that may hold the measured force, the first one found being taken.
-const FORCES: [&str; 5] = [
+/// Columns of a wedge or a truck that may hold the measured force, the first one found being taken.
+const FORCES: [&str; 7] = [
+    "warp_moment",
+    "interaxle_shear_moment",
     "vertical_wedge_force",
     "vertical_force_on_side_frame",
     "net_force_on_bolster_z",
@@ -166,7 +168,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     set.push(format!("simulation.duration={last} s"));
     let base = match &half_truck {
         Some(source) => source.case(&set)?,
-        None => AnyCase::Wedge(Box::new(read(&arguments.case, &set)?)),
+        None => read_any(&arguments.case, &set)?,
     };
     let cycle = base.cycle();
     if !arguments.follow
@@ -193,7 +195,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let all = [&set, more].concat();
         match &half_truck {
             Some(source) => source.case(&all),
-            None => case_with(arguments, &all).map(|case| AnyCase::Wedge(Box::new(case))),
+            None => case_with(arguments, &all),
         }
     };
     let found = fit(&case, &measured, &free, arguments.confidence, &|count, one| {
@@ -207,7 +209,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .collect();
     let fitted = match &half_truck {
         Some(_) => None,
-        None => Some(case_with(arguments, &[arguments.set.clone(), values].concat())?),
+        None => case_with(arguments, &[arguments.set.clone(), values].concat())?.to_toml(),
     };
     let displacement = displacement.map(|values| pick(&values));
     let shown = Shown {
@@ -224,10 +226,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     folder.write(|files| {
         files.add(fit_files::FILE_NAME, |out| fit_files::write(&found, &shown, out))?;
         if let Some(fitted) = &fitted {
-            let document = fitted.document.clone().with_tables_embedded();
-            files.add(run_files::CASE_FILE_NAME, |out| {
-                out.write_all(document.to_toml().as_bytes())
-            })?;
+            files.add(run_files::CASE_FILE_NAME, |out| out.write_all(fitted.as_bytes()))?;
         }
         files.add(fit_files::FIGURE, |out| out.write_all(figure.to_svg().as_bytes()))?;
         files.add(fit_files::PICTURE, |out| out.write_all(&png))
@@ -252,12 +251,15 @@ fn failed_fit(reason: &str, folder: &std::path::Path) -> Failure {
     Failure::Failed(Message::new(message, kept).into())
 }
 
-/// The case with values set; as [`read`], but with the errors of cases alone.
-fn case_with(arguments: &Arguments, set: &[String]) -> Result<Case, CaseError> {
-    if is_built_in(&arguments.case) {
-        return builtin::case_with(arguments.case.to_str().unwrap_or(""), set);
+/// The case with values set; as [`read_any`], but with the errors of cases alone.
+fn case_with(arguments: &Arguments, set: &[String]) -> Result<AnyCase, CaseError> {
+    let name = arguments.case.to_str().unwrap_or("");
+    if is_built_in(&arguments.case)
+        && let Some(case) = AnyCase::built_in(name, set)?
+    {
+        return Ok(case);
     }
-    Case::read(&arguments.case, set)
+    AnyCase::read(&arguments.case, set)
 }
 
 /// The column with the measured force.

@@ -20,8 +20,9 @@ use report::view::View;
 use report::view::run::{Detail, Recording};
 use report::{beyond, run_files, sections};
 use study::case::{Case, builtin};
+use study::half_truck::HalfTruckCase;
 
-use crate::execute::{TABLE_NOTE, execute_whole, table, unsound, unsound_half_truck};
+use crate::execute::{TABLE_NOTE, execute_whole, table, unsound};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -145,12 +146,14 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     out.flush()?;
     let mut code = ExitCode::SUCCESS;
     for ((_, result), folder) in outcomes.iter().zip(&places.runs) {
-        if let Some(failure) = unsound(&result.summary, folder.path()) {
+        if let Some(failure) = unsound::<Case>(&result.summary, folder.path()) {
             code = failure.report();
         }
     }
     for (_, result) in &half_trucks {
-        if let Some(failure) = unsound_half_truck(&result.summary, &planned.runs.join(&result.summary.name)) {
+        if let Some(failure) =
+            unsound::<HalfTruckCase>(&result.summary, &planned.runs.join(&result.summary.name))
+        {
             code = failure.report();
         }
     }

@@ -6,26 +6,32 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use quantity::nearest;
-use report::run_files;
+use quantity::{Kind, nearest};
+use report::run_files::RunFiles;
+use study::any_case::AnyCase;
 use study::case::{Case, builtin};
+use study::truck::run::TruckResult;
+use study::truck::{self, WEDGE_NAMES};
 
-use crate::execute::{TABLE_NOTE, compute, table, unsound, write};
+use crate::execute::{Done, TABLE_NOTE, compute, table, unsound, write};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
+use crate::table::Table;
 
 /// Run one case
 ///
-/// Runs a case file and writes result.csv (the time histories), result.mat (the same under the thesis's
-/// names), case.toml (the case, completed) and summary.json (averages, extremes, events, energy ledger,
+/// Runs a case file, of a wedge or of a truck, and writes result.csv (the time histories), result.mat (the same, of a wedge under the
+/// thesis's names), case.toml (the case, completed) and summary.json (averages, extremes, events, energy ledger,
 /// solver statistics, assumptions) into a folder named as the case.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
   wedgelab run my.toml
   wedgelab run my.toml --set friction.column=0.3 --out softer
+  wedgelab run truck_warp_nest_constant_rising --set truck.condition=worn
+  wedgelab run truck_vertical_variable --set wedge.leading_left.friction.column=0.2
   wedgelab run vdrun_toe_0_psi_0 --set 'wedge.angle=\"35 deg\"' --set 'simulation.duration=\"20 s\"'")]
 pub struct Arguments {
     /// Case file, or, if there is no such file, the name of a built-in case
@@ -47,53 +53,134 @@ pub struct Arguments {
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
-    let case = read(&arguments.case, &arguments.set)?;
-    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
-    let folder = folders::check(path, &run_files::NAMES, arguments.force)?;
+    match read_any(&arguments.case, &arguments.set)? {
+        AnyCase::Wedge(case) => run(&*case, arguments, |done| {
+            (table([(&done.result.summary, done.wall)]), TABLE_NOTE)
+        }),
+        AnyCase::Truck(case) => run(&*case, arguments, |done| (truck_table(&done.result), TRUCK_NOTE)),
+        // Those have a command of their own.
+        AnyCase::HalfTruck(case) => Err(Message::new(
+            format!("{} is a half-truck", case.name),
+            "`wedgelab nucars run` runs it",
+        )
+        .into()),
+    }
+}
+
+/// Runs a case of any model and writes its files; `shown` gives the table to print and what its columns are.
+fn run<C: RunFiles>(
+    case: &C,
+    arguments: &Arguments,
+    shown: impl FnOnce(&Done<C::Output>) -> (Table, &'static str),
+) -> Result<ExitCode, Failure> {
+    let path = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(case.name()));
+    let folder = folders::check(path, C::FILES, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
     let done =
-        compute(&case, &progress).and_then(|done| write(&done, &case, &folder, &progress).map(|()| done));
+        compute(case, &progress).and_then(|done| write(&done, case, &folder, &progress).map(|()| done));
     progress.finish();
     let done = done?;
-    let summary = &done.result.summary;
+    let (table, note) = shown(&done);
     let mut out = io::stdout().lock();
-    table([(summary, done.wall)]).write(&mut out)?;
+    table.write(&mut out)?;
     writeln!(
         out,
-        "\n{TABLE_NOTE}\n\nWritten into {}: {}.",
+        "\n{note}\n\nWritten into {}: {}.",
         folder.path().display(),
-        run_files::NAMES.join(", ")
+        C::FILES.join(", ")
     )?;
-    match unsound(summary, folder.path()) {
+    match unsound::<C>(&done.result.summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
     }
 }
 
+/// What the columns of a truck's table are.
+const TRUCK_NOTE: &str = "\
+Column normal force: of each wedge, its least and largest at any output time. Energy per cycle: lost in friction at column and
+slope, over whole cycles of the first periodic motion after the first one.";
+
+/// The table of a truck's wedges.
+fn truck_table(result: &TruckResult) -> Table {
+    let summary = &result.summary;
+    let [force, energy] = [Kind::Force, Kind::Energy].map(|kind| kind.label(summary.units));
+    let mut table = Table::new(
+        1,
+        &[
+            ("wedge", ""),
+            ("column normal force, least", force),
+            ("largest", force),
+            ("energy per cycle", energy),
+        ],
+    );
+    for name in WEDGE_NAMES {
+        let column = format!("{name}_column_normal_{}", Kind::Force.suffix(summary.units));
+        let extremes = summary.extremes.get(&column);
+        let cell = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
+        let losses = ["column", "slope"].map(|face| {
+            let name = format!("{name}_{face}_friction_loss");
+            summary.cycles.losses.get(&name).map(|loss| loss.value)
+        });
+        let loss = losses[0].zip(losses[1]).map(|(column, slope)| column + slope);
+        table.row([
+            name.replace('_', " "),
+            cell(extremes.map(|found| found.minimum)),
+            cell(extremes.map(|found| found.maximum)),
+            cell(loss),
+        ]);
+    }
+    table
+}
+
+/// The names of all built-in cases: wedges, then trucks.
+pub fn built_in_names() -> impl Iterator<Item = &'static str> {
+    builtin::names().chain(truck::builtin::names())
+}
+
 /// Whether a built-in case is meant. A folder may well have its name: that of its results.
 pub fn is_built_in(path: &Path) -> bool {
     let name = path.to_str().unwrap_or("");
-    (!path.exists() || path.is_dir()) && builtin::names().any(|builtin| builtin == name)
+    (!path.exists() || path.is_dir()) && built_in_names().any(|builtin| builtin == name)
 }
 
-/// The case that a user names, with `--set` overrides.
-pub fn read(path: &Path, set: &[String]) -> Result<Case, Failure> {
+/// The case that a user names, of a wedge or of a truck, with `--set` overrides.
+pub fn read_any(path: &Path, set: &[String]) -> Result<AnyCase, Failure> {
     let name = path.to_str().unwrap_or("");
-    if is_built_in(path) {
-        return Ok(builtin::case_with(name, set)?);
+    if is_built_in(path)
+        && let Some(case) = AnyCase::built_in(name, set)?
+    {
+        return Ok(case);
     }
     if path.is_dir() {
         let advice = format!("name a case file, perhaps {}", path.join("case.toml").display());
         return Err(Message::new(format!("`{name}` is a folder, not a case file"), advice).into());
     }
     if !path.exists() && !name.ends_with(".toml") && path.components().count() == 1 {
-        let advice = match nearest(name, builtin::names()) {
+        let advice = match nearest(name, built_in_names()) {
             Some(near) => format!("did you mean the built-in case {near}? `wedgelab case` lists all"),
             None => "name a TOML file, or one of the cases that `wedgelab case` lists".to_owned(),
         };
         let message = format!("there is neither a case file nor a built-in case `{name}`");
         return Err(Message::new(message, advice).into());
     }
-    Ok(Case::read(path, set)?)
+    Ok(AnyCase::read(path, set)?)
+}
+
+/// The same where only a wedge's case will do.
+pub fn read(path: &Path, set: &[String]) -> Result<Case, Failure> {
+    match read_any(path, set)? {
+        AnyCase::Wedge(case) => Ok(*case),
+        other => Err(Message::new(
+            format!(
+                "{} is a truck, and this command takes a single wedge",
+                other.name()
+            ),
+            "`wedgelab run`, `study`, `fit`, `plot` and `compare` take trucks",
+        )
+        .into()),
+    }
 }

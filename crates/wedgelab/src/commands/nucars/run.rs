@@ -10,13 +10,13 @@ use nucars::together::{self, RunFiles, find, kind, load};
 use nucars::truck::{Choices, Yaw};
 use quantity::{Kind, Quantity, System as Units, nearest};
 use report::half_truck_files;
-use study::half_truck::catalog::{self, Entry, OUTPUT_INTERVAL, YawCase};
+use study::half_truck::catalog::{self, Entry, YawCase};
 use study::half_truck::files::{Settings, case_of_run};
 use study::half_truck::{HalfTruckCase, HalfTruckStart, HalfTruckSummary, options};
 
 use super::files::Instead;
 use super::load::tell;
-use crate::execute::{compute, unsound_half_truck, write_half_truck};
+use crate::execute::{compute, unsound, write};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -126,21 +126,18 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     interrupt::listen();
     let settings = arguments.settings()?;
-    let (case, script_interval) = match built_in(file)? {
-        Some(entry) => (arguments.built_in(entry, settings)?, OUTPUT_INTERVAL),
+    let case = match built_in(file)? {
+        Some(entry) => arguments.built_in(entry, settings)?,
         None => arguments.of_files(file, &settings)?,
     };
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
     let folder = folders::check(path, &half_truck_files::NAMES, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
-    let done = compute(&case, &progress)
-        .and_then(|done| write_half_truck(&done, &case, &folder, script_interval, &progress).map(|()| done));
+    let done =
+        compute(&case, &progress).and_then(|done| write(&done, &case, &folder, &progress).map(|()| done));
     progress.finish();
     let summary = &done?.result.summary;
-    for warning in &summary.warnings {
-        say(&format!("warning: {}: {warning}", case.name));
-    }
     if summary.yaw.as_ref().is_some_and(|yaw| yaw.is_missed()) {
         say("  --yaw drop leaves out the springs that hold it, --yaw drive moves their input bodies along");
     }
@@ -155,7 +152,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         folder.path().display(),
         half_truck_files::NAMES.join(", ")
     )?;
-    match unsound_half_truck(summary, folder.path()) {
+    match unsound::<HalfTruckCase>(summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
     }
@@ -190,18 +187,16 @@ impl Arguments {
         })
     }
 
-    /// The case of a run file, and its own interval of results, s.
-    fn of_files(&self, file: &Path, settings: &Settings) -> Result<(HalfTruckCase, f64), Failure> {
+    /// The case of a run file.
+    fn of_files(&self, file: &Path, settings: &Settings) -> Result<HalfTruckCase, Failure> {
         let instead = self.instead.files();
         let RunToMake { path, files, again } = read_run(file, &instead)?;
-        let case = case_of_run(&path, &files, settings).map_err(|error| {
+        Ok(case_of_run(&path, &files, settings).map_err(|error| {
             Message::new(
                 format!("{} cannot be run: {error}", path.display()),
                 format!("`{again}` tells what is doubtful about the files"),
             )
-        })?;
-        let stepping = files.run().and_then(|run| run.stepping.as_ref());
-        Ok((case, stepping.map_or(0.0, |stepping| *stepping.output)))
+        })?)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::execute::{compute, write_half_truck};
+use crate::execute::{compute, write_quietly};
 use nucars::truck::Choices;
 use rayon::prelude::*;
 use report::agreement::TruckOutcome;
@@ -83,7 +83,7 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<ReproducedTruck>,
     if interrupt::is_reason(done.result.summary.stopped.as_ref()) {
         return Ok(None);
     }
-    write_half_truck(&done, &case, &folder, catalog::OUTPUT_INTERVAL, progress)?;
+    write_quietly(&done, &case, &folder, progress)?;
     let result = done.result;
     let warnings = &result.summary.warnings;
     for warning in energy::among(warnings).chain(plausibility::among(warnings)) {

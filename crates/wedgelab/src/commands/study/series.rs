@@ -5,13 +5,16 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
+use report::files::Folder;
+use report::run_files::RunFiles;
 use report::study_folder::SERIES;
-use report::{half_truck_files, run_files};
 use study::any_case::AnyCase;
+use study::case::Case;
 use study::design::Study;
-use study::half_truck::catalog;
+use study::half_truck::HalfTruckCase;
+use study::truck::TruckCase;
 
-use crate::execute::{compute, execute_whole, unsound, unsound_half_truck, write_half_truck};
+use crate::execute::{execute_whole, unsound};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -24,9 +27,10 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         "stopping: the run under way is not written (once more: ends at once)",
         "the runs that were written before are whole; the same command computes all of them again",
     );
-    let names: &[&str] = match study.base {
-        AnyCase::Wedge(_) => &run_files::NAMES,
-        AnyCase::HalfTruck(_) => &half_truck_files::NAMES,
+    let names = match study.base {
+        AnyCase::Wedge(_) => Case::FILES,
+        AnyCase::HalfTruck(_) => HalfTruckCase::FILES,
+        AnyCase::Truck(_) => TruckCase::FILES,
     };
     let (mut written, mut failures) = (Vec::new(), Vec::new());
     for number in numbers {
@@ -38,20 +42,13 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
             AnyCase::Wedge(mut case) => {
                 case.name = name;
                 case.document.name.clone_from(&case.name);
-                let done = execute_whole(&case, &folder, &progress)?;
-                done.map(|done| unsound(&done.result.summary, folder.path()))
+                one(&*case, &folder, &progress)?
             }
             AnyCase::HalfTruck(mut case) => {
                 case.name = name;
-                let done = compute(&*case, &progress)?;
-                let stopped = done.result.summary.stopped.as_ref();
-                if interrupt::is_reason(stopped) {
-                    None
-                } else {
-                    write_half_truck(&done, &case, &folder, catalog::OUTPUT_INTERVAL, &progress)?;
-                    Some(unsound_half_truck(&done.result.summary, folder.path()))
-                }
+                one(&*case, &folder, &progress)?
             }
+            AnyCase::Truck(case) => one(&case.named(&name), &folder, &progress)?,
         };
         let Some(failure) = whole else {
             progress.finish();
@@ -72,6 +69,16 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         code = failure.report();
     }
     Ok(code)
+}
+
+/// Runs one variant and writes its files; `None` if it was interrupted, else why it is unsound, if so.
+fn one<C: RunFiles>(
+    case: &C,
+    folder: &Folder,
+    progress: &Progress,
+) -> Result<Option<Option<Failure>>, Failure> {
+    let done = execute_whole(case, folder, progress)?;
+    Ok(done.map(|done| unsound::<C>(&done.result.summary, folder.path())))
 }
 
 /// What is kept of these runs, of which so many are written.

@@ -1,0 +1,195 @@
+//! What a study keeps of a truck's run: the numbers of its summary.
+//!
+//! Means and largest values are over the output times of the whole cycles after the first ([`Cycles`]), or of
+//! the whole run where there are none.
+//!
+//! [`Cycles`]: crate::truck::summary::Cycles
+
+use std::borrow::Cow;
+use std::ops::ControlFlow;
+
+use quantity::{Kind, System as Units};
+use truck::WEDGE_NAMES;
+
+use super::{Definitions, Judged, Measure, Measures, Unmeasured};
+use crate::plausibility;
+use crate::progress;
+use crate::run::Run;
+use crate::truck::TruckCase;
+use crate::truck::run::{TruckResult, window};
+use crate::truck::summary::{WARP_ANGLES, warp_stiffness};
+
+/// Measures of all runs.
+const OF_ALL: [(&str, Kind, &str, bool); 9] = [
+    (
+        "work_per_cycle",
+        Kind::Energy,
+        "work of all prescribed motions each cycle",
+        false,
+    ),
+    (
+        "friction_loss_per_cycle",
+        Kind::Energy,
+        "lost in the friction of all wedges each cycle",
+        false,
+    ),
+    (
+        "largest_warp_angle",
+        Kind::Angle,
+        "largest warp angle, without sign",
+        true,
+    ),
+    (
+        "largest_warp_moment",
+        Kind::Moment,
+        "largest warp moment on the bolster, without sign",
+        true,
+    ),
+    (
+        "least_nest_vertical_force",
+        Kind::Force,
+        "least load of a nest at any output time",
+        true,
+    ),
+    (
+        "largest_nest_vertical_force",
+        Kind::Force,
+        "largest load of a nest at any output time",
+        true,
+    ),
+    (
+        "lowest_bolster_z",
+        Kind::Length,
+        "lowest place of the bolster from nominal",
+        true,
+    ),
+    (
+        "ledger_residual",
+        Kind::Dimensionless,
+        "relative residual of the energy ledger: the largest residual over the largest of work, losses and change of stored energy",
+        true,
+    ),
+    ("steps", Kind::Count, "accepted steps of the integrator", true),
+];
+
+/// Measures of each wedge: the ending of their names.
+const OF_WEDGES: [(&str, Kind, &str); 3] = [
+    (
+        "largest_column_normal",
+        Kind::Force,
+        "largest normal force of its column",
+    ),
+    (
+        "mean_column_normal",
+        Kind::Force,
+        "mean normal force of its column",
+    ),
+    (
+        "friction_loss_per_cycle",
+        Kind::Energy,
+        "lost in its friction at column and slope each cycle",
+    ),
+];
+
+/// Returns the measures of trucks' runs.
+#[must_use]
+pub fn definitions() -> Definitions {
+    let define = |name: String, kind, text: String, always| Measure {
+        name: Cow::Owned(name),
+        text: Cow::Owned(text),
+        kind,
+        always,
+    };
+    let all = OF_ALL.iter();
+    let mut measures: Vec<Measure> = all
+        .map(|(name, kind, text, always)| define((*name).to_owned(), *kind, (*text).to_owned(), *always))
+        .collect();
+    for angle in WARP_ANGLES {
+        let name = format!("warp_moment_at_{}_mrad", angle.to_string().replace('.', "_"));
+        let text = format!("growth of the warp moment until the warp angle reaches {angle} mrad first");
+        measures.push(define(name, Kind::Moment, text, false));
+    }
+    for wedge in WEDGE_NAMES {
+        for (name, kind, text) in OF_WEDGES {
+            let always = !name.ends_with("per_cycle");
+            measures.push(define(format!("{wedge}_{name}"), kind, text.to_owned(), always));
+        }
+    }
+    Definitions(measures)
+}
+
+/// Runs a truck, measures it in the order of [`definitions`], and judges whether the measures mean something.
+///
+/// # Errors
+/// The run cannot begin or does not come to its end.
+pub fn judge(case: &TruckCase) -> Result<Judged, Unmeasured> {
+    // The summary's numbers are in the units of the results.
+    let mut case = case.clone();
+    case.simulation.output_units = Units::Si;
+    let mut run = Run::new(&case).map_err(|error| Unmeasured::Refused(error.to_string()))?;
+    let stopped = run.go_on_while(|_| ControlFlow::Continue(()));
+    let nonsense = plausibility::nonsense(&run);
+    let result = run.result(stopped);
+    if let Some(stopped) = &result.summary.stopped {
+        let reason = &stopped.reason;
+        return Err(Unmeasured::Stopped(format!(
+            "{reason}; {}",
+            progress::WHAT_TO_TRY
+        )));
+    }
+    Ok(Judged {
+        measures: measures(&case, &result),
+        nonsense,
+    })
+}
+
+fn measures(case: &TruckCase, result: &TruckResult) -> Measures {
+    let column = |name: &str| result.column(name).unwrap_or_default();
+    let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let nests = ["left", "right"].map(|side| column(&format!("{side}_nest_vertical_force")));
+    let both = nests.into_iter().flatten();
+    let (least, most) = both.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {
+        (least.min(*value), most.max(*value))
+    });
+    let cycles = &result.summary.cycles;
+    let losses_of = |wanted: &dyn Fn(&str) -> bool| {
+        let found = cycles.losses.iter().filter(|(name, _)| wanted(name));
+        let sum: f64 = found.map(|(_, value)| value.value).sum();
+        if cycles.count > 0 { sum } else { f64::NAN }
+    };
+    let of_faces = |name: &str, wedge: &str| {
+        ["column", "slope"]
+            .iter()
+            .any(|face| name == format!("{wedge}_{face}_friction_loss"))
+    };
+    let all = losses_of(&|name| WEDGE_NAMES.iter().any(|wedge| of_faces(name, wedge)));
+    let mut values = vec![
+        cycles.work.as_ref().map_or(f64::NAN, |work| work.value),
+        all,
+        largest(column("warp_angle")),
+        largest(column("warp_moment")),
+        least,
+        most,
+        column("bolster_z")
+            .iter()
+            .fold(f64::INFINITY, |least, value| least.min(*value)),
+        result.summary.ledger.largest_relative_residual,
+        result.summary.statistics.steps as f64,
+    ];
+    for angle in WARP_ANGLES {
+        let stiffness = warp_stiffness(column("warp_angle"), column("warp_moment"), 1e-3 * angle);
+        values.push(stiffness.map_or(f64::NAN, |stiffness| stiffness * 1e-3 * angle));
+    }
+    let times = column("time");
+    let rows = window(case).map_or(0..times.len(), |([start, end], _)| {
+        times.partition_point(|time| *time < start)..times.partition_point(|time| *time <= end)
+    });
+    for wedge in WEDGE_NAMES {
+        let normal = column(&format!("{wedge}_column_normal"));
+        values.push(largest(normal));
+        let rows = &normal[rows.clone()];
+        values.push(rows.iter().sum::<f64>() / rows.len() as f64);
+        values.push(losses_of(&|name| of_faces(name, wedge)));
+    }
+    Measures(values)
+}

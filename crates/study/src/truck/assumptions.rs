@@ -1,0 +1,53 @@
+//! What a truck's numbers rest on, in words.
+
+use truck::Adapter;
+use wedge::parameters::{Damping, Start};
+
+use super::TruckCase;
+
+const INCH: f64 = 0.0254;
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
+
+/// Returns the assumptions behind a run.
+pub(super) fn of(case: &TruckCase) -> Vec<String> {
+    let p = &case.parameters;
+    let [wedge, ..] = &p.wedges;
+    let stiffness = wedge.contact.stiffness * INCH / POUND_FORCE;
+    let mut list = vec![
+        "Bodies are rigid; coils, stops and faces are springs with dampers. Coils act at one point each, with shear \
+         stiffness, and hold nothing when they are off their seats."
+            .to_owned(),
+        format!(
+            "Contact stiffness is {stiffness:.4e} lbf/in per corner: no source gives one. Where a nest locks in warp it \
+             sets the warp moment (twice as stiff: half as much again), and with sticking slopes the stiffness of the \
+             bristles does so too (11 % with variable damping going up)."
+        ),
+        "Clearances of pockets (0.25 in), lands (0.21 in) and center plate's rim, damping of contacts, and inertias of \
+         empty cars are decided, not measured."
+            .to_owned(),
+    ];
+    if p.damping == Damping::Constant {
+        list.push(
+            "Constant damping without toe: slopes stick, the wedges go with the bolster, and the normal forces of the \
+             columns are those that the start locked in."
+                .to_owned(),
+        );
+    }
+    list.push(match p.start {
+        Start::Rest => "The run starts at rest in the nominal layout, whatever penetrates.".to_owned(),
+        Start::Touching => {
+            "The run starts at rest; columns and slopes were moved away until nothing penetrates.".to_owned()
+        }
+        Start::Equilibrium => "The run starts in static equilibrium without friction.".to_owned(),
+    });
+    if case.settle == 0.0 {
+        list.push("The truck does not settle before time zero (start.settle).".to_owned());
+    }
+    if let Some(wheelsets) = &p.wheelsets {
+        list.push(match wheelsets.adapter {
+            Adapter::Friction(_) => "Side frames slide on the bearings with friction up to stops.".to_owned(),
+            Adapter::Pad(_) => "Elastomeric pads are springs without stops.".to_owned(),
+        });
+    }
+    list
+}

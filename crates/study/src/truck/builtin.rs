@@ -1,0 +1,306 @@
+//! The built-in trucks: rigs, in groups. Every one is the text of a case file.
+
+use std::sync::LazyLock;
+
+use quantity::nearest;
+
+use super::TruckCase;
+use crate::case::builtin::{BuiltIn, Group};
+use crate::case::problem::Problem;
+use crate::case::{CaseError, Tables};
+
+/// Dampings, each with the height by which an empty car stands above the loaded one, in.
+const DAMPINGS: [(&str, f64); 2] = [("constant", 1.936), ("variable", 1.976)];
+
+/// A case from its parts; `empty` adds the height of an empty car to the bolster's vertical motion.
+struct Rig {
+    name: String,
+    title: String,
+    damping: &'static str,
+    /// All keys but `truck.damping`, `bolster.vertical`, `start.lift` and `simulation.duration`.
+    body: String,
+    /// Height from which half a car is dropped, in.
+    lift: Option<f64>,
+    /// The bolster's vertical motions.
+    vertical: Vec<String>,
+    duration: f64,
+}
+
+impl Rig {
+    fn lifted(self, lift: f64) -> Self {
+        Self {
+            lift: Some(lift),
+            ..self
+        }
+    }
+
+    fn case(mut self, rise: Option<f64>) -> BuiltIn {
+        if let Some(rise) = rise {
+            self.name += "_empty";
+            self.title += ", empty";
+            match &mut self.lift {
+                Some(lift) => {
+                    *lift += rise;
+                    self.body += "load.lading = \"empty\"\n";
+                }
+                None => self.vertical.insert(0, format!("\"{rise} in\"")),
+            }
+        }
+        let vertical = match self.vertical.as_slice() {
+            [] => String::new(),
+            [one] => format!("bolster.vertical = {one}\n"),
+            several => format!("bolster.vertical = [{}]\n", several.join(", ")),
+        };
+        let lift = self
+            .lift
+            .map_or(String::new(), |lift| format!("start.lift = \"{lift} in\"\n"));
+        let text = format!(
+            "model = \"truck\"\ntruck.damping = \"{}\"\n{vertical}{}{lift}simulation.duration = \"{} s\"\n",
+            self.damping, self.body, self.duration
+        );
+        BuiltIn::new(self.name, self.title, &text)
+    }
+}
+
+/// The yaw of both side frames in warp tests, from 2 s on.
+fn warp_by_nests(amplitude: &str) -> String {
+    format!(
+        "side_frame.free_coordinates = []\n\
+         side_frame.yaw = {{ shape = \"triangle\", amplitude = \"{amplitude}\", frequency = \"0.1 Hz\", start = \"2 s\" }}\n\
+         adapter.kind = \"nothing\"\n"
+    )
+}
+
+/// The bolster comes to height 0 within 0.2 to 1.2 s, from below or from above.
+fn approach(rising: bool) -> Vec<String> {
+    let [from, by] = if rising { ["-0.2", "0.2"] } else { ["0.2", "-0.2"] };
+    vec![
+        format!("\"{from} in\""),
+        format!(
+            "{{ shape = \"ramp\", amplitude = \"{by} in\", start = \"0.2 s\", duration = \"1 s\", profile = \"half_cosine\" }}"
+        ),
+    ]
+}
+
+fn sine(amplitude: &str, frequency: &str) -> String {
+    format!("{{ shape = \"sine\", amplitude = \"{amplitude}\", frequency = \"{frequency}\" }}")
+}
+
+fn bolster(key: &str, motion: &str) -> String {
+    format!("bolster.{key} = {motion}\n")
+}
+
+const HALF_CAR: &str = "load.kind = \"half_car\"\n";
+
+/// The rigs of one damping that have an empty version too.
+fn rigs(damping: &'static str) -> Vec<Rig> {
+    let rig = |name: String, title: &str, body: String, vertical: Vec<String>, duration: f64| Rig {
+        name: format!("truck_{name}"),
+        title: format!("{damping} damping, {title}"),
+        damping,
+        body,
+        lift: None,
+        vertical,
+        duration,
+    };
+    let up_and_down = vec![sine("0.5 in", "2 rad/s")];
+    let axles = "leading_wheelset.lateral = { shape = \"triangle\", amplitude = \"0.7 in\", frequency = \"0.1 Hz\", start = \"2 s\" }\n\
+                 trailing_wheelset.lateral = { shape = \"triangle\", amplitude = \"-0.7 in\", frequency = \"0.1 Hz\", start = \"2 s\" }\n";
+    let toe_out = "side_frame.toe = \"0.2 deg out\"\n".to_owned();
+    vec![
+        rig(
+            format!("vertical_{damping}"),
+            "bolster up and down",
+            String::new(),
+            up_and_down.clone(),
+            10.0,
+        ),
+        rig(
+            format!("vertical_{damping}_toe_out"),
+            "bolster up and down, toe out",
+            toe_out,
+            up_and_down,
+            10.0,
+        ),
+        rig(
+            format!("warp_nest_{damping}_rising"),
+            "side frames yaw after the bolster has risen",
+            warp_by_nests("0.02 rad"),
+            approach(true),
+            22.0,
+        ),
+        rig(
+            format!("warp_nest_{damping}_sinking"),
+            "side frames yaw after the bolster has sunk",
+            warp_by_nests("0.02 rad"),
+            approach(false),
+            22.0,
+        ),
+        rig(
+            format!("warp_axles_{damping}_rising"),
+            "wheelsets move sideways against each other",
+            axles.to_owned(),
+            approach(true),
+            22.0,
+        ),
+        rig(
+            format!("drop_{damping}"),
+            "half a car dropped by 0.5 in",
+            HALF_CAR.to_owned(),
+            Vec::new(),
+            5.0,
+        )
+        .lifted(0.5),
+        rig(
+            format!("roll_{damping}"),
+            "bolster rolls",
+            bolster("roll", &sine("0.01 rad", "0.5 Hz")),
+            Vec::new(),
+            10.0,
+        ),
+        rig(
+            format!("lateral_{damping}"),
+            "bolster moves sideways",
+            bolster("lateral", &sine("0.4 in", "0.5 Hz")),
+            Vec::new(),
+            10.0,
+        ),
+    ]
+}
+
+/// Rigs of one damping that reach what the others do not.
+fn limits(damping: &'static str) -> Vec<Rig> {
+    let rig = |name: &str, title: &str, body: String, vertical: Vec<String>, duration: f64| Rig {
+        name: format!("truck_{name}_{damping}"),
+        title: format!("{damping} damping, {title}"),
+        damping,
+        body,
+        lift: None,
+        vertical,
+        duration,
+    };
+    let pocket = format!(
+        "{}friction.column = 0.5\nfriction.slope = 0.05\n",
+        bolster("lateral", &sine("0.4 in", "0.5 Hz"))
+    );
+    let adapters: String = [("leading", "0.005 rad"), ("trailing", "-0.005 rad")]
+        .map(|(axle, yaw)| {
+            let [lateral, yaw] = ["0.5 in", yaw].map(|amplitude| sine(amplitude, "0.5 Hz"));
+            format!("{axle}_wheelset.lateral = {lateral}\n{axle}_wheelset.yaw = {yaw}\n")
+        })
+        .concat();
+    vec![
+        rig(
+            "lands",
+            "warp by 35 mrad: lands meet",
+            warp_by_nests("0.035 rad"),
+            approach(true),
+            22.0,
+        ),
+        rig(
+            "gibs",
+            "bolster moves sideways by 0.7 in: gibs meet",
+            bolster("lateral", &sine("0.7 in", "0.5 Hz")),
+            Vec::new(),
+            10.0,
+        ),
+        rig(
+            "solid",
+            "half a car dropped by 1.6 in: coils go solid",
+            HALF_CAR.to_owned(),
+            Vec::new(),
+            5.0,
+        )
+        .lifted(1.6),
+        rig(
+            "pocket_sides",
+            "wedges are held by the columns and pushed by the pockets' sides",
+            pocket,
+            Vec::new(),
+            10.0,
+        ),
+        rig(
+            "adapter_stops",
+            "wheelsets move and turn against the adapters' stops",
+            adapters,
+            Vec::new(),
+            10.0,
+        ),
+    ]
+}
+
+static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
+    let all = |rigs: fn(&'static str) -> Vec<Rig>, empty: bool| -> Vec<BuiltIn> {
+        let dampings = DAMPINGS.iter();
+        dampings
+            .flat_map(|(damping, rise)| rigs(damping).into_iter().map(move |rig| (rig, *rise)))
+            .map(|(rig, rise)| rig.case(empty.then_some(rise)))
+            .collect()
+    };
+    vec![
+        Group {
+            name: "truck",
+            title: "A three-piece truck on rigs, loaded",
+            look_at: "Warp: the moment over the angle, its parts, and the normal forces of the columns, which grow where \
+                      the nest locks; `--set truck.condition=worn` has a plateau instead. Vertical, without toe: slopes \
+                      stick and the start sets the normal forces with constant damping; with variable damping they \
+                      follow the coil.",
+            cases: all(rigs, false),
+        },
+        Group {
+            name: "truck_empty",
+            title: "The same rigs with an empty car",
+            look_at: "Coils are longer by the height that an empty car rises, and with variable damping columns carry a \
+                      third of the loaded car's forces. Constant damping keeps them.",
+            cases: all(rigs, true),
+        },
+        Group {
+            name: "truck_limits",
+            title: "Rigs that reach lands, gibs, solid coils, pocket sides and adapter stops",
+            look_at: "Each stop shows as a corner in the loop: warp moment at 30 mrad (lands), lateral force at 0.5 in \
+                      (gibs), nest force at 1.3 to 1.4 in (solid coils). The energy ledger must close there too.",
+            cases: all(limits, false),
+        },
+    ]
+});
+
+/// The groups.
+pub fn groups() -> &'static [Group] {
+    &GROUPS
+}
+
+/// The names of all built-in trucks.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    groups()
+        .iter()
+        .flat_map(|group| &group.cases)
+        .map(|case| case.name.as_str())
+}
+
+/// The built-in truck of this name, with `--set` overrides (`path.key=value`).
+///
+/// # Errors
+/// There is none of this name, or an override is wrong.
+pub fn case_with(name: &str, overrides: &[String]) -> Result<TruckCase, CaseError> {
+    TruckCase::parse(&format!("{name}.toml"), text(name)?, Tables::nowhere(), overrides)
+}
+
+/// The case file of the built-in truck of this name.
+///
+/// # Errors
+/// There is none of this name; the help names the nearest.
+pub fn text(name: &str) -> Result<&'static str, CaseError> {
+    let found = groups()
+        .iter()
+        .flat_map(|group| &group.cases)
+        .find(|case| case.name == name);
+    found.map(BuiltIn::text).ok_or_else(|| {
+        let help = match nearest(name, names()) {
+            Some(near) => format!("did you mean {near}?"),
+            None => "`wedgelab case` lists all".to_owned(),
+        };
+        Problem::new(format!("there is no built-in truck \"{name}\""))
+            .help(help)
+            .into()
+    })
+}

@@ -1,0 +1,294 @@
+//! The columns of a truck's results.
+
+use mechanics::output::Column;
+use mechanics::system::{EnergyTermKind, Observation, System};
+use mechanics::vector::{Matrix, Vector};
+use quantity::Kind;
+use truck::{BOLSTER, CAR_BODY, Loads, Parameters, SIDE_FRAMES, Truck, WEDGE_NAMES, WHEELSETS};
+
+/// What values are taken from: an observation, its loads, and the stored energy at the start, J.
+pub(super) struct Seen<'s> {
+    pub observation: &'s Observation,
+    pub loads: &'s Loads,
+    pub start_energy: f64,
+}
+
+type Value = Box<dyn Fn(&Seen<'_>) -> f64 + Send + Sync>;
+
+/// The table: what its columns are, and how their values are taken.
+pub(super) struct Columns {
+    pub columns: Vec<Column>,
+    values: Vec<Value>,
+}
+
+/// Names of a body's displacements and angles in columns.
+const COORDINATES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
+
+impl Columns {
+    pub fn new(truck: &Truck, parameters: &Parameters) -> Self {
+        let mut own = Self {
+            columns: Vec::new(),
+            values: Vec::new(),
+        };
+        own.add("time", Kind::Time, "time", |seen| seen.observation.time);
+        own.body(truck, BOLSTER, "bolster", &[2]);
+        own.add(
+            "warp_angle",
+            Kind::Angle,
+            "mean yaw of the side frames less that of the bolster",
+            |seen| seen.loads.warp_angle,
+        );
+        let text = "moment about the truck's z axis that all elements exert on the bolster";
+        own.add("warp_moment", Kind::Moment, text, |seen| {
+            seen.loads.warp_moment.total()
+        });
+        let wheelsets = parameters.wheelsets.is_some();
+        if wheelsets {
+            let text = "distance of the axles from the center, times the leading wheelset's lateral force on the side \
+                        frames less the trailing one's";
+            own.add("interaxle_shear_moment", Kind::Moment, text, |seen| {
+                seen.loads.interaxle_shear_moment
+            });
+        }
+        for (side, name) in ["left", "right"].into_iter().enumerate() {
+            let text = "load on the side frame from all that bolster, wedges and coils exert, positive down";
+            own.add(
+                format!("{name}_nest_vertical_force"),
+                Kind::Force,
+                text,
+                move |seen| seen.loads.nest_vertical[side],
+            );
+        }
+        for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
+            own.wedge(number, name);
+        }
+        own.parts_of_warp_moment();
+        own.body(truck, BOLSTER, "bolster", &[0, 1, 3, 4, 5]);
+        let mut others = vec![
+            (SIDE_FRAMES, "left_side_frame"),
+            (SIDE_FRAMES + 1, "right_side_frame"),
+        ];
+        if wheelsets {
+            others.extend([
+                (WHEELSETS, "leading_wheelset"),
+                (WHEELSETS + 1, "trailing_wheelset"),
+            ]);
+        }
+        if parameters.car_body.is_some() {
+            others.push((CAR_BODY, "car_body"));
+            own.center_plate();
+        }
+        for (body, name) in others {
+            own.body(truck, body, name, &[0, 1, 2, 3, 4, 5]);
+        }
+        own.losses_of_wedges(&truck.system);
+        own.energies(&truck.system);
+        own
+    }
+
+    /// Appends the values of all columns, SI.
+    pub fn read(&self, seen: &Seen<'_>, out: &mut Vec<f64>) {
+        out.extend(self.values.iter().map(|value| value(seen)));
+    }
+
+    fn add(
+        &mut self,
+        name: impl Into<String>,
+        kind: Kind,
+        text: &str,
+        value: impl Fn(&Seen<'_>) -> f64 + Send + Sync + 'static,
+    ) {
+        self.columns.push(Column {
+            name: name.into(),
+            kind,
+            frame: "x forward, y left, z up".into(),
+            reference: "".into(),
+            text: text.to_owned(),
+        });
+        self.values.push(Box::new(value));
+    }
+
+    /// Displacements of a body's center of gravity from its nominal place, and its angles.
+    fn body(&mut self, truck: &Truck, body: usize, name: &str, coordinates: &[usize]) {
+        let own = &truck.system.bodies()[body];
+        let nominal: [f64; 3] = std::array::from_fn(|k| own.frame.origin[k] + own.center_of_gravity[k]);
+        for &k in coordinates {
+            let name = format!("{name}_{}", COORDINATES[k]);
+            if k < 3 {
+                let text = "displacement of the center of gravity from its nominal place";
+                self.add(name, Kind::Length, text, move |seen| {
+                    let Vector(place) = seen.observation.bodies[body].center_of_gravity;
+                    place[k] - nominal[k]
+                });
+            } else {
+                self.add(
+                    name,
+                    Kind::Angle,
+                    "angle from the nominal attitude",
+                    move |seen| angles(&seen.observation.bodies[body].rotation)[k - 3],
+                );
+            }
+        }
+    }
+
+    fn wedge(&mut self, number: usize, name: &str) {
+        let text = "normal force of the column";
+        self.add(format!("{name}_column_normal"), Kind::Force, text, move |seen| {
+            seen.loads.wedges[number].column_normal
+        });
+        let text = "friction of the column alone on the side frame, along z, positive up";
+        self.add(
+            format!("{name}_column_friction_z"),
+            Kind::Force,
+            text,
+            move |seen| seen.loads.wedges[number].column_friction_z,
+        );
+        let text = "normal force of the slope";
+        self.add(format!("{name}_slope_normal"), Kind::Force, text, move |seen| {
+            seen.loads.wedges[number].slope_normal
+        });
+        for (k, coordinate) in COORDINATES.into_iter().enumerate() {
+            let name = format!("{name}_{coordinate}");
+            if k < 3 {
+                let text = "displacement of its center of gravity from its nominal place";
+                self.add(name, Kind::Length, text, move |seen| {
+                    seen.loads.wedges[number].displacement[k]
+                });
+            } else {
+                let text = "its angle in truck axes";
+                self.add(name, Kind::Angle, text, move |seen| {
+                    seen.loads.wedges[number].angles[k - 3]
+                });
+            }
+        }
+    }
+
+    fn parts_of_warp_moment(&mut self) {
+        let parts: [(&str, fn(&Loads) -> f64, &str); 6] = [
+            (
+                "load_coils",
+                |loads| loads.warp_moment.load_coils,
+                "the load coils",
+            ),
+            (
+                "control_coils",
+                |loads| loads.warp_moment.control_coils,
+                "control coils that stand on the bolster",
+            ),
+            (
+                "slopes",
+                |loads| loads.warp_moment.slopes,
+                "the slopes of the pockets",
+            ),
+            (
+                "pocket_sides",
+                |loads| loads.warp_moment.pocket_sides,
+                "the sides of the pockets",
+            ),
+            ("lands", |loads| loads.warp_moment.lands, "the lands"),
+            ("gibs", |loads| loads.warp_moment.gibs, "the gibs"),
+        ];
+        for (name, part, text) in parts {
+            let text = format!("part of the warp moment: that of {text}");
+            self.add(format!("warp_moment_{name}"), Kind::Moment, &text, move |seen| {
+                part(seen.loads)
+            });
+        }
+    }
+
+    fn center_plate(&mut self) {
+        let text = "normal force of the center plate";
+        self.add("center_plate_load", Kind::Force, text, |seen| {
+            seen.loads.center_plate.load
+        });
+        for (k, name) in ["roll", "pitch", "turning"].into_iter().enumerate() {
+            let text =
+                "moment of the center plate on the bolster about the truck's axes, at the plate's height";
+            self.add(
+                format!("center_plate_{name}_moment"),
+                Kind::Moment,
+                text,
+                move |seen| seen.loads.center_plate.moment[k],
+            );
+        }
+    }
+
+    fn losses_of_wedges(&mut self, system: &System) {
+        for name in WEDGE_NAMES {
+            for face in ["column", "slope"] {
+                let element = format!("{name}_{face}");
+                let terms = system.energy_terms().iter();
+                let place = terms
+                    .into_iter()
+                    .position(|term| term.element == element && term.kind == EnergyTermKind::FrictionLoss);
+                if let Some(place) = place {
+                    let text = "energy lost in its friction since the start";
+                    self.add(
+                        format!("{element}_friction_loss"),
+                        Kind::Energy,
+                        text,
+                        move |seen| seen.observation.quadratures[place],
+                    );
+                }
+            }
+        }
+    }
+
+    fn energies(&mut self, system: &System) {
+        let of_kind = |kind: EnergyTermKind| -> Vec<usize> {
+            let terms = system.energy_terms().iter().enumerate();
+            terms
+                .filter(|(_, term)| term.kind == kind)
+                .map(|(place, _)| place)
+                .collect()
+        };
+        for (name, kind, text) in [
+            (
+                "motion_work",
+                EnergyTermKind::MotionWork,
+                "work of all prescribed motions since the start",
+            ),
+            (
+                "friction_loss",
+                EnergyTermKind::FrictionLoss,
+                "energy lost in friction since the start",
+            ),
+            (
+                "contact_damping_loss",
+                EnergyTermKind::ContactDampingLoss,
+                "energy lost in the damping of contacts since the start",
+            ),
+            (
+                "element_loss",
+                EnergyTermKind::ElementLoss,
+                "energy lost in coils and stops since the start",
+            ),
+        ] {
+            let places = of_kind(kind);
+            self.add(name, Kind::Energy, text, move |seen| {
+                places
+                    .iter()
+                    .map(|place| seen.observation.quadratures[*place])
+                    .sum()
+            });
+        }
+        let text = "energy stored, less that at the start";
+        self.add("stored_energy_change", Kind::Energy, text, |seen| {
+            seen.observation.energies.total() - seen.start_energy
+        });
+        let text = "work less stored energy and losses";
+        self.add("ledger_residual", Kind::Energy, text, |seen| {
+            -seen.observation.residual(seen.start_energy)
+        });
+    }
+}
+
+/// Roll, pitch and yaw (rad) of a rotation R = Ry Rz Rx.
+fn angles(rotation: &Matrix<f64>) -> [f64; 3] {
+    let Matrix(r) = rotation;
+    [
+        libm::atan2(-r[1][2], r[1][1]),
+        libm::atan2(-r[2][0], r[0][0]),
+        libm::asin(r[1][0].clamp(-1.0, 1.0)),
+    ]
+}

@@ -1,0 +1,262 @@
+//! Three-piece trucks with four wedges that have mass: cases, runs, results.
+//!
+//! [`TruckCase`] is what a user writes, completed and in SI; [`builtin`] has the rigs; [`run`] records a run.
+
+mod assumptions;
+pub mod builtin;
+mod columns;
+mod reader;
+pub mod run;
+mod sections;
+pub mod summary;
+mod wedges;
+
+use std::path::Path;
+
+use integrate::Method;
+use quantity::{Kind, System};
+use truck::{Lading, Parameters};
+use wedge::parameters::Damping;
+
+use crate::case::document::{METHODS, SYSTEMS};
+use crate::case::field::{FieldSection, Reach, Written, quoted};
+use crate::case::problem::{Problem, Problems, TomlSource};
+use crate::case::read::TOLERANCE;
+use crate::case::section::{Names, Range, Section};
+use crate::case::tree::Table;
+use crate::case::{self, CaseError, Simulation, Tables, name, overrides, tree};
+pub use ::truck::WEDGE_NAMES;
+use reader::{Reader, check_motions};
+pub use sections::{Condition, Load};
+
+/// The case of a truck, ready to run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TruckCase {
+    /// A name that can be the name of a folder.
+    pub name: String,
+    /// One line for people; may be empty.
+    pub title: String,
+    /// The truck, SI.
+    pub parameters: Parameters,
+    /// How long its motions are held before time zero, s.
+    pub settle: f64,
+    /// How to run it. Its start is one of the parameters.
+    pub simulation: Simulation,
+    text: String,
+    embedded: String,
+    fields: Vec<FieldSection>,
+}
+
+/// The models that a case file may be about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Model {
+    Wedge,
+    Truck,
+}
+
+/// Their names.
+pub(crate) const MODELS: Names<Model> = &[("wedge", Model::Wedge), ("truck", Model::Truck)];
+
+/// Returns the model of a case; a wedge if none is named.
+pub(crate) fn model(tree: &Table, problems: &mut Problems) -> Option<Model> {
+    let top = Section {
+        path: String::new(),
+        table: tree,
+        place: None,
+    };
+    match tree.get("model") {
+        None => Some(Model::Wedge),
+        Some(_) => top.choice("model", MODELS, problems),
+    }
+}
+
+impl TruckCase {
+    /// Reads a case file and lays `--set` overrides (`path.key=value`) over it. A case without a name takes that
+    /// of its file.
+    ///
+    /// # Errors
+    /// The file cannot be read, or something in it, in a table it names, or in an override is wrong; all
+    /// mistakes are reported together.
+    pub fn read(path: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        let text = case::text_of(path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&path.display().to_string(), &text, folder, overrides)
+    }
+
+    /// As [`TruckCase::read`], from a text. `source` names it in messages; `tables` says where tables are looked
+    /// for.
+    ///
+    /// # Errors
+    /// As [`TruckCase::read`].
+    pub fn parse<'t>(
+        source: &str,
+        text: &str,
+        tables: impl Into<Tables<'t>>,
+        overrides: &[String],
+    ) -> Result<Self, CaseError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut tree = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
+        case::refuse_study(&tree, source)?;
+        let problems = overrides::apply(&mut tree, overrides);
+        Self::of_tree(&tree, source, tables.into(), problems)
+    }
+
+    /// Reads a tree; `problems` are those found on the way to it.
+    pub(crate) fn of_tree(
+        tree: &Table,
+        source: &str,
+        tables: Tables<'_>,
+        mut problems: Problems,
+    ) -> Result<Self, CaseError> {
+        if model(tree, &mut problems) == Some(Model::Wedge) {
+            let problem = Problem::new(format!(
+                "{source} is the case of a single wedge; a truck's is expected"
+            ));
+            problems.push(problem.help("write model = \"truck\" in its first line"));
+        }
+        let default_name = name::of_source(source);
+        let case = read(tree, default_name, tables, &mut problems);
+        match case.filter(|_| problems.is_empty()) {
+            Some(case) => Ok(case),
+            None => Err(CaseError::new(problems)),
+        }
+    }
+
+    /// Returns the same case under another name.
+    #[must_use]
+    pub fn named(&self, name: &str) -> Self {
+        let rename = |text: &str| {
+            let (_, rest) = text.split_once('\n').unwrap_or(("", text));
+            format!("name = {}\n{rest}", quoted(name))
+        };
+        Self {
+            name: name.to_owned(),
+            text: rename(&self.text),
+            embedded: rename(&self.embedded),
+            ..self.clone()
+        }
+    }
+
+    /// Returns the whole case as TOML: every key in groups, each with what it means. Reads back to the same case.
+    #[must_use]
+    pub fn to_toml(&self) -> &str {
+        &self.text
+    }
+
+    /// Returns the same with the points of tables from files written into it, so that it runs from anywhere.
+    #[must_use]
+    pub fn to_toml_embedded(&self) -> &str {
+        &self.embedded
+    }
+
+    /// Returns the whole case as fields, in the order of [`TruckCase::to_toml`] and with its texts.
+    #[must_use]
+    pub fn fields(&self) -> &[FieldSection] {
+        &self.fields
+    }
+}
+
+/// Reads a case, section by section.
+fn read(tree: &Table, default_name: &str, tables: Tables<'_>, problems: &mut Problems) -> Option<TruckCase> {
+    let top = Section {
+        path: String::new(),
+        table: tree,
+        place: None,
+    };
+    let name = name::read(&top, default_name, problems)?;
+    let title = match tree.get("title") {
+        Some(_) => top.text("title", problems).map(|(text, _)| text)?,
+        None => "",
+    };
+    let mut r = Reader::new(tree, tables, problems);
+    r.expect("", &["name", "title", "model"]);
+    r.top("name", Written::text(&name), "a folder name: results go there");
+    r.top("title", Written::text(title), "one line for people");
+    r.top(
+        "model",
+        Written::choice(MODELS, &Model::Truck),
+        "\"truck\", or \"wedge\" for a single one",
+    );
+
+    r.section(
+        "truck",
+        "The truck. Axes: x forward, y left, z up from the top of rail, origin at its center.",
+    );
+    let (mut condition, mut damping) = (Condition::New, Damping::Variable);
+    let comment = "\"new\": wedges have a friction of 0.4; \"worn\": 0.25. [friction] wins over it";
+    r.choice("condition", sections::CONDITIONS, &mut condition, comment);
+    let comment = "\"variable\": control coils stand on the side frames; \"constant\": on the bolster";
+    r.choice("damping", sections::DAMPINGS, &mut damping, comment);
+    let mut parameters = Parameters::new(damping);
+    r.section("load", "What stands on the truck.");
+    let (mut load, mut lading) = (Load::Nothing, Lading::Loaded);
+    let comment =
+        "\"nothing\": the bolster is alone; \"half_car\": rigid with it; \"car_body\": on the center plate";
+    r.choice("kind", sections::LOADS, &mut load, comment);
+    let comment =
+        "\"loaded\": 263,000 lbf on rail; \"empty\": 62,600 lbf. Coils keep their loads: an empty car rises";
+    r.choice("lading", sections::LADINGS, &mut lading, comment);
+    sections::bolster(&mut r, &mut parameters, load, lading);
+    let mut draft = wedges::all(&mut r, &parameters, condition.friction());
+    sections::side_frames(&mut r, &mut parameters, |r| wedges::toe_of_all(r, &mut draft));
+    wedges::single(&mut r, &mut parameters, &draft);
+    sections::load_springs(&mut r, &mut parameters);
+    sections::stops(&mut r, &mut parameters);
+    sections::wheelsets(&mut r, &mut parameters);
+    r.section("environment", "");
+    let gravity = (Kind::Acceleration, Range::NotNegative, Reach::FromZero(9.80665));
+    r.quantity("gravity", gravity, &mut parameters.gravity, "standard gravity");
+    sections::car_body(&mut r, &mut parameters, load, lading);
+    let settle = sections::start(&mut r, &mut parameters);
+    let simulation = simulation(&mut r);
+    let (text, embedded, fields) = r.finish();
+    Some(TruckCase {
+        name,
+        title: title.to_owned(),
+        parameters,
+        settle,
+        simulation,
+        text,
+        embedded,
+        fields,
+    })
+}
+
+fn simulation(r: &mut Reader<'_>) -> Simulation {
+    let mut simulation = Simulation {
+        duration: 10.0,
+        output_interval: 0.01,
+        relative_tolerance: 1e-6,
+        output_units: System::Us,
+        method: Method::default(),
+    };
+    let time = (Kind::Time, Range::Positive, Reach::Positive);
+    r.section("simulation", "How to run it.");
+    let duration = r.quantity("duration", time, &mut simulation.duration, "");
+    let comment = "time between two rows of the result; steps are chosen freely";
+    let interval = r.quantity("output_interval", time, &mut simulation.output_interval, comment);
+    let comment = "of the integrator, between 0 and 1";
+    let tolerance = &mut simulation.relative_tolerance;
+    r.number("relative_tolerance", TOLERANCE, Reach::Wide, tolerance, comment);
+    r.choice(
+        "output_units",
+        SYSTEMS,
+        &mut simulation.output_units,
+        "\"us\" (in, lbf) or \"si\" (m, N)",
+    );
+    r.choice(
+        "method",
+        METHODS,
+        &mut simulation.method,
+        "\"rodas5p\"; \"tr-bdf2\" and \"esdirk3\" damp vibrations",
+    );
+    if let (Some(duration), Some(interval), Some(section)) = (&duration, &interval, r.given()) {
+        case::read::check_rows(&section, duration, interval, r.problems);
+    }
+    if let Some(duration) = &duration {
+        check_motions(r, duration);
+    }
+    // Read with [start].
+    r.expect("simulation", &["start"]);
+    simulation
+}

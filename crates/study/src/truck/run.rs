@@ -1,0 +1,401 @@
+//! Running a truck.
+
+use std::collections::BTreeMap;
+
+use integrate::{Family, Integrator, Options};
+use mechanics::energy_balance::Entries;
+use mechanics::motion::Motion;
+use mechanics::output::Column;
+use mechanics::plausibility::Finding;
+use mechanics::system::{ContactState, EnergyTermKind, System};
+use quantity::{Kind, System as Units};
+use serde::{Deserialize, Serialize};
+use truck::{Parameters, Truck, held};
+
+use super::TruckCase;
+use super::columns::{Columns, Seen};
+use super::summary::{Cycles, SCHEMA, TruckSummary, warp_stiffnesses};
+use crate::energy;
+use crate::finite::{find, is_finite};
+use crate::metrics::Extremes;
+use crate::plausibility;
+use crate::progress;
+use crate::result::RunResult;
+use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, append, check_finite, check_length};
+use crate::summary::{LedgerSummary, Stopped, SummaryValue};
+
+/// What came out of a run.
+pub type TruckResult = RunResult<TruckSummary>;
+
+/// Normal forces above this tear a truck apart, N: 5 million lbf, forty times the weight of a loaded half car.
+const MOST_FORCE: f64 = 5e6 * 4.448_221_615_260_5;
+
+/// Records a truck's run: its table, and the energies at both ends of the whole cycles.
+pub struct TruckRecorder {
+    truck: Truck,
+    columns: Columns,
+    values: Vec<Vec<f64>>,
+    /// The ends of the whole cycles, s, and their number.
+    window: Option<([f64; 2], u32)>,
+    counts: TruckCounts,
+    row: Vec<f64>,
+}
+
+/// What is counted along a truck's run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TruckCounts {
+    /// The quadratures at the ends of the whole cycles that were passed, J.
+    pub quadratures: Vec<Vec<f64>>,
+}
+
+/// Returns period (s) and beginning (s) of the first periodic motion of a truck.
+#[must_use]
+pub fn period(parameters: &Parameters) -> Option<[f64; 2]> {
+    fn of(motion: &Motion) -> Option<[f64; 2]> {
+        match motion {
+            Motion::Sine {
+                angular_frequency, ..
+            }
+            | Motion::Triangle {
+                angular_frequency, ..
+            } => Some([2.0 * std::f64::consts::PI / angular_frequency, 0.0]),
+            Motion::Sum(parts) => parts.iter().find_map(of),
+            Motion::Sequence(pieces) => pieces
+                .iter()
+                .find_map(|piece| of(&piece.motion).map(|[period, start]| [period, start + piece.start])),
+            _ => None,
+        }
+    }
+    let bolster = [&parameters.bolster.motion].into_iter();
+    let side_frames = parameters.side_frames.iter().map(|side_frame| &side_frame.motion);
+    let wheelsets = parameters
+        .wheelsets
+        .iter()
+        .flat_map(|wheelsets| &wheelsets.motions);
+    let all = bolster.chain(side_frames).chain(wheelsets);
+    all.flat_map(|motion| &motion.coordinates).find_map(of)
+}
+
+/// Returns the ends (s) and the number of the whole cycles after the first.
+pub(crate) fn window(case: &TruckCase) -> Option<([f64; 2], u32)> {
+    let [period, start] = period(&case.parameters)?;
+    let first = start + period;
+    let duration = case.simulation.duration;
+    let cycles = ((duration - first) / period * (1.0 + 1e-12)).floor();
+    (cycles >= 1.0).then(|| ([first, (first + cycles * period).min(duration)], cycles as u32))
+}
+
+impl RunCase for TruckCase {
+    type Recorder = TruckRecorder;
+    type Output = TruckResult;
+
+    const WHERE_TO_LOOK: &'static str =
+        "look for values that are out of proportion; `wedgelab case` has trucks that run";
+    const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn duration_and_interval(&self) -> [f64; 2] {
+        [self.simulation.duration, self.simulation.output_interval]
+    }
+
+    fn units(&self) -> Units {
+        self.simulation.output_units
+    }
+
+    fn options(&self) -> Options {
+        let method = self.simulation.method;
+        Options {
+            relative_tolerance: self.simulation.relative_tolerance,
+            maximum_step: match method.tableau().family {
+                // Rows are to be resolved.
+                Family::DiagonallyImplicit => self.simulation.output_interval,
+                _ => f64::INFINITY,
+            },
+            ..Options::of(method)
+        }
+    }
+
+    fn begin(&self) -> Result<Beginning<TruckRecorder>, RunError> {
+        let truck = Truck::new(&self.parameters)?;
+        let columns = Columns::new(&truck, &self.parameters);
+        Ok(Beginning {
+            system: truck.system.clone(),
+            x: self.settled(&truck)?,
+            recorder: TruckRecorder {
+                values: vec![Vec::new(); columns.columns.len()],
+                row: Vec::with_capacity(columns.columns.len()),
+                window: window(self),
+                counts: TruckCounts::default(),
+                columns,
+                truck,
+            },
+        })
+    }
+
+    fn output(run: Run<Self>, stopped: Option<Stopped>) -> TruckResult {
+        output(run, stopped)
+    }
+}
+
+impl TruckCase {
+    /// Returns the state at time zero: the truck's start, after the motions have been held for
+    /// [`TruckCase::settle`].
+    fn settled(&self, truck: &Truck) -> Result<Vec<f64>, RunError> {
+        if self.settle == 0.0 {
+            return Ok(truck.initial_state.clone());
+        }
+        let still = Truck::new(&held(&self.parameters))?;
+        let layout = still.system.layout();
+        let mut integrator = Integrator::new(still.system, self.options(), 0.0, &truck.initial_state)?;
+        while integrator.time() < self.settle {
+            integrator.step_to(self.settle).map_err(|error| RunError::Step {
+                reason: format!("while the truck settles: {error}"),
+                contacts: "not told".to_owned(),
+            })?;
+        }
+        let mut x = integrator.x().to_vec();
+        let [_, _, _, quadratures] = layout.split_mut(&mut x);
+        quadratures.fill(0.0);
+        Ok(x)
+    }
+}
+
+impl Run<TruckCase> {
+    /// Returns the columns of the result.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.recorder.columns.columns
+    }
+}
+
+impl Recorder for TruckRecorder {
+    type Counts = TruckCounts;
+
+    fn counts(&self) -> TruckCounts {
+        self.counts.clone()
+    }
+
+    fn restore(&mut self, counts: TruckCounts, time: f64) -> Result<(), RunError> {
+        let ends = self.window.iter().flat_map(|(ends, _)| ends);
+        let passed = ends.filter(|end| **end <= time).count();
+        check_length("counts.quadratures", counts.quadratures.len(), passed)?;
+        let terms = self.truck.system.energy_terms().len();
+        for quadratures in &counts.quadratures {
+            check_length("counts.quadratures", quadratures.len(), terms)?;
+            quadratures
+                .iter()
+                .try_for_each(|value| check_finite("counts.quadratures", *value))?;
+        }
+        self.counts = counts;
+        Ok(())
+    }
+
+    fn step(&mut self, integrator: &Integrator<System>, system: &mut System, x: &mut [f64]) {
+        let Some((ends, _)) = self.window else { return };
+        while let Some(end) = ends.get(self.counts.quadratures.len()) {
+            if *end > integrator.time() {
+                return;
+            }
+            integrator.interpolate_range(*end, 0, x);
+            let [_, _, _, quadratures] = system.layout().split(x);
+            self.counts.quadratures.push(quadratures.to_vec());
+        }
+    }
+
+    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
+        let observation = system.observe(row.time, row.x);
+        let loads = self.truck.loads(&observation);
+        for (face, mounted) in observation.faces.iter().zip(system.faces()) {
+            let force: f64 = face.points.iter().map(|point| point.normal).sum();
+            if force > MOST_FORCE {
+                return Err(RunError::TornApart {
+                    element: mounted.element.name.clone(),
+                    force,
+                    time: row.time,
+                });
+            }
+        }
+        let seen = Seen {
+            observation: &observation,
+            loads: &loads,
+            start_energy: row.start_energy,
+        };
+        self.row.clear();
+        self.columns.read(&seen, &mut self.row);
+        append(&mut self.values, &self.columns.columns, &self.row, row.time)?;
+        Ok(system.ledger_entries(&observation, row.start_energy))
+    }
+
+    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
+        plausibility::in_truck(system, finding, [&[], &[]], units)
+    }
+
+    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
+        // Of each face: how many of its points are open, stick and slip.
+        let mut states = contact_states
+            .iter()
+            .map(|state| ContactState::from_number(*state));
+        let faces = self.truck.system.faces().iter();
+        faces
+            .map(|mounted| {
+                let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+                for state in states.by_ref().take(mounted.element.points.len()) {
+                    *counts.entry(state.name()).or_default() += 1;
+                }
+                let words: Vec<String> = counts
+                    .iter()
+                    .map(|(name, count)| format!("{count} {name}"))
+                    .collect();
+                (mounted.element.name.clone(), words.join(", "))
+            })
+            .collect()
+    }
+}
+
+fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
+    let units = run.case.simulation.output_units;
+    let columns = run.recorder.columns.columns.clone();
+    let values = run.recorder.values.clone();
+    let balance = run.energy_balance;
+    let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
+        .into_iter()
+        .collect();
+    warnings.extend(plausibility::warnings_by_kind(&run));
+    warnings.extend(surplus(&run.case, units));
+    let column = |name: &str| {
+        let place = columns.iter().position(|column| column.name == name);
+        place.map_or(&[][..], |place| values[place].as_slice())
+    };
+    let time = column("time");
+    let mut extremes = BTreeMap::new();
+    for (column, values) in columns.iter().zip(&values).skip(1) {
+        if let Some(mut found) = Extremes::of(time, values) {
+            found.minimum *= column.kind.from_si(units);
+            found.maximum *= column.kind.from_si(units);
+            extremes.insert(column.full_name(units), found);
+        }
+    }
+    let mut summary = TruckSummary {
+        schema: SCHEMA.to_owned(),
+        program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
+        name: run.case.name.clone(),
+        title: run.case.title.clone(),
+        units,
+        complete: stopped.is_none() && run.is_finished(),
+        stopped,
+        failed: energy::failure(&balance, energy::WHAT_TO_DO),
+        warnings,
+        rows: time.len(),
+        cycles: cycles(&run),
+        warp_stiffness: warp_stiffnesses(column("warp_angle"), column("warp_moment"), units),
+        extremes,
+        ledger: ledger(&mut run),
+        method: run.case.simulation.method.to_string(),
+        relative_tolerance: run.case.simulation.relative_tolerance,
+        statistics: run.integrator.statistics().clone(),
+        assumptions: super::assumptions::of(&run.case),
+    };
+    let energies = find(&summary.ledger.entries).or_else(|| find(&summary.cycles.losses));
+    let residual = !is_finite(summary.ledger.largest_relative_residual);
+    let wrong = energies.map(|name| format!("`{name}`"));
+    if let Some(what) = wrong.or(residual.then(|| "the ledger's relative residual".to_owned()))
+        && summary.stopped.is_none()
+    {
+        summary.complete = false;
+        summary.stopped = Some(run.stopped(format!("{what} is not a finite number")));
+    }
+    TruckResult {
+        columns,
+        values,
+        summary,
+    }
+}
+
+/// The warning about coils that do not carry what stands on them.
+fn surplus(case: &TruckCase, units: Units) -> Option<String> {
+    let surplus = case.parameters.surplus()?;
+    let stiffness: f64 = case
+        .parameters
+        .load_coils
+        .iter()
+        .flatten()
+        .map(|coil| coil.spring.stiffness)
+        .sum();
+    // The truck's own data close to a thousandth of an inch; a car that starts at its height is meant.
+    let rise = surplus / stiffness;
+    if (rise - case.parameters.lift).abs() < 0.6 * 0.0254 || case.parameters.lift != 0.0 {
+        return None;
+    }
+    let [force, length] = [(surplus, Kind::Force), (rise, Kind::Length)].map(|(value, kind)| {
+        let value = SummaryValue::new(value.abs(), kind, units);
+        format!("{:.4} {}", value.value, value.unit)
+    });
+    let (more, way) = if surplus > 0.0 {
+        ("more", "rises")
+    } else {
+        ("less", "sinks")
+    };
+    Some(format!(
+        "the coils carry {force} {more} than stands on them in the nominal layout: the truck {way} by about {length}; set \
+         start.kind = \"equilibrium\" or start.lift, or mend the preloads"
+    ))
+}
+
+fn cycles(run: &Run<TruckCase>) -> Cycles {
+    let units = run.case.simulation.output_units;
+    let missing = |why: &str| Cycles {
+        missing: why.to_owned(),
+        ..Cycles::default()
+    };
+    if period(&run.case.parameters).is_none() {
+        return missing("no motion is a sine or a triangle");
+    }
+    let (Some((_, count)), [start, end]) = (run.recorder.window, run.recorder.counts.quadratures.as_slice())
+    else {
+        return missing("no whole cycle after the first one");
+    };
+    let mut cycles = Cycles {
+        count,
+        ..Cycles::default()
+    };
+    for ((term, start), end) in run.system.energy_terms().iter().zip(start).zip(end) {
+        let value = SummaryValue::new((end - start) / f64::from(count), Kind::Energy, units);
+        if term.kind == EnergyTermKind::MotionWork {
+            cycles.work = Some(value);
+        } else {
+            cycles
+                .losses
+                .insert(format!("{}_{}", term.element, term.kind.name()), value);
+        }
+    }
+    cycles
+}
+
+fn ledger(run: &mut Run<TruckCase>) -> LedgerSummary {
+    let units = run.case.simulation.output_units;
+    run.system.segment_like(run.integrator.problem());
+    let seen = run.system.observe(run.integrator.time(), run.integrator.x());
+    let measure = |value: f64| SummaryValue::new(value, Kind::Energy, units);
+    let mut entries = BTreeMap::new();
+    for (term, value) in run.system.energy_terms().iter().zip(&seen.quadratures) {
+        let name = match term.element.as_str() {
+            "" => "motion_work".to_owned(),
+            element => format!("{element}_{}", term.kind.name()),
+        };
+        entries.insert(name, measure(*value));
+    }
+    entries.insert("stored".to_owned(), measure(seen.energies.total()));
+    entries.insert("residual".to_owned(), measure(-seen.residual(run.start_energy)));
+    let balance = &run.energy_balance;
+    LedgerSummary {
+        entries,
+        stored_at_start: measure(run.start_energy),
+        largest_stored_change: measure(balance.largest_stored_change),
+        largest_residual: measure(balance.largest_residual),
+        largest_residual_time: balance.largest_residual_time,
+        largest_relative_residual: balance.relative_residual(),
+    }
+}

@@ -1,0 +1,113 @@
+//! The summary of a truck's run.
+
+use std::collections::BTreeMap;
+
+use integrate::Statistics;
+use quantity::{Kind, System as Units};
+use serde::{Deserialize, Serialize};
+
+use crate::metrics::Extremes;
+use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
+
+/// The schema's name and version.
+pub const SCHEMA: &str = "wedgelab.three_piece_truck/1";
+
+/// What a run says in numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TruckSummary {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Version of the program that wrote it.
+    pub program: String,
+    /// The case's name.
+    pub name: String,
+    /// The case's title.
+    pub title: String,
+    /// Units of the numbers.
+    pub units: Units,
+    /// Whether the run came to its end.
+    pub complete: bool,
+    /// Why and when it stopped, if it did not.
+    pub stopped: Option<Stopped>,
+    /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
+    pub failed: Option<String>,
+    /// What makes the numbers doubtful; empty for a sound run.
+    pub warnings: Vec<String>,
+    /// Number of rows.
+    pub rows: usize,
+    /// Energies of whole cycles.
+    pub cycles: Cycles,
+    /// Warp stiffnesses: warp moment over warp angle where the angle is reached first, by the angle in mrad.
+    pub warp_stiffness: BTreeMap<String, SummaryValue>,
+    /// Least and greatest values of all columns, by their names with units.
+    pub extremes: BTreeMap<String, Extremes>,
+    /// The energy ledger at the end; losses by element.
+    pub ledger: LedgerSummary,
+    /// The integration method.
+    pub method: String,
+    /// Its relative tolerance.
+    pub relative_tolerance: f64,
+    /// What the integrator did.
+    pub statistics: Statistics,
+    /// What the numbers rest on.
+    pub assumptions: Vec<String>,
+}
+
+run_summary!(TruckSummary, ledger.largest_relative_residual);
+
+/// Energies a cycle of the first periodic motion, over whole cycles after the first one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Cycles {
+    /// Why there are none; empty where there are.
+    pub missing: String,
+    /// Number of whole cycles.
+    pub count: u32,
+    /// Work of all prescribed motions per cycle.
+    pub work: Option<SummaryValue>,
+    /// Energy lost per cycle, by element and kind of loss.
+    pub losses: BTreeMap<String, SummaryValue>,
+}
+
+/// The angles at which warp stiffness is told, mrad.
+pub const WARP_ANGLES: [f64; 6] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0];
+
+/// Returns warp moment over warp angle (N·m/rad) at an angle (rad) where the rows reach it first, in either
+/// sense; straight between two rows, from the values at the row before the warp begins. `None` if they do not
+/// reach it.
+#[must_use]
+pub fn warp_stiffness(angles: &[f64], moments: &[f64], angle: f64) -> Option<f64> {
+    // The moment that is there before any warp is no part of its stiffness.
+    let first = angles.iter().position(|own| own.abs() > 1e-9)?.saturating_sub(1);
+    let rest = moments[first];
+    let rows = angles[first..].windows(2).zip(moments[first..].windows(2));
+    for (angles, moments) in rows {
+        if angles[1].abs() >= angle {
+            let share = (angle - angles[0].abs()) / (angles[1].abs() - angles[0].abs());
+            let moment = moments[0] + share * (moments[1] - moments[0]) - rest;
+            return Some(moment.abs() / angle);
+        }
+    }
+    None
+}
+
+/// Returns the warp stiffnesses by the angle in mrad; those of angles that are not reached are left out.
+#[must_use]
+pub fn warp_stiffnesses(angles: &[f64], moments: &[f64], units: Units) -> BTreeMap<String, SummaryValue> {
+    let stiffness = |angle: f64| {
+        let value = warp_stiffness(angles, moments, 1e-3 * angle)?;
+        Some((format!("{angle} mrad"), SummaryValue::per_radian(value, units)))
+    };
+    WARP_ANGLES.into_iter().filter_map(stiffness).collect()
+}
+
+impl SummaryValue {
+    /// A moment per angle (N·m/rad) in output units.
+    #[must_use]
+    pub fn per_radian(si: f64, units: Units) -> Self {
+        let moment = Self::new(si, Kind::Moment, units);
+        Self {
+            unit: format!("{}/rad", moment.unit),
+            ..moment
+        }
+    }
+}

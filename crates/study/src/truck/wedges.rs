@@ -1,0 +1,355 @@
+//! The sections of the wedges: for all four, and for single ones over them.
+
+use mechanics::coil::{CoilLaw, CoilLine};
+use mechanics::friction::FrictionLaw;
+use quantity::Kind;
+use truck::{ControlCoil, Parameters, Spring, WEDGE_NAMES, Wedge};
+use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
+
+use super::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
+use super::sections::{contact, spring_stiffnesses};
+use crate::case::document::{FrictionLaw as Law, Toe, ToeDirection};
+use crate::case::field::{Reach, Written};
+use crate::case::problem::Problem;
+use crate::case::read::{ANGLE, COEFFICIENT, read_toe};
+use crate::case::section::{Names, Range};
+use crate::case::write::{ANGLES, FRICTION, WEAR, toe};
+
+/// A wedge while its sections are read: laws of friction keep their numbers while another one is chosen.
+#[derive(Clone)]
+pub(super) struct Draft {
+    wedge: Wedge,
+    laws: [Law; 2],
+    reference_speed: f64,
+    bristle: [f64; 2],
+    kind: CoilKind,
+    spring: Spring,
+    thesis: ThesisCoil,
+    to_center: [f64; 3],
+}
+
+/// Kinds of control coils.
+#[derive(Clone, Copy, PartialEq)]
+enum CoilKind {
+    Shear,
+    Thesis,
+}
+
+const COIL_KINDS: Names<CoilKind> = &[("shear", CoilKind::Shear), ("thesis", CoilKind::Thesis)];
+const LINES: Names<CoilLine> = &[
+    ("center_of_gravity", CoilLine::CenterOfGravity),
+    ("seat", CoilLine::Seat),
+];
+/// Keys that only the thesis's coil has.
+const OF_THESIS: [&str; 5] = [
+    "free_length",
+    "nominal_length",
+    "rotational_damping",
+    "acts_at",
+    "pulls",
+];
+/// Keys that only a coil with shear stiffness has.
+const OF_SHEAR: [&str; 4] = ["preload", "shear_stiffness", "solid_travel", "solid_stiffness"];
+
+const INCH: f64 = 0.0254;
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
+
+/// The thesis's coil (Steets 2007, table 3-2), and its place below the wedge.
+fn thesis_coil(damping: Damping) -> (ThesisCoil, [f64; 3]) {
+    let [stiffness, free, nominal] = match damping {
+        Damping::Variable => [3000.0, 10.25, 10.25],
+        Damping::Constant => [1979.0, 7.25, 7.25 - 3702.2 / 1979.0],
+    };
+    let coil = ThesisCoil {
+        law: CoilLaw::Linear {
+            stiffness: stiffness * POUND_FORCE / INCH,
+        },
+        free_length: free * INCH,
+        nominal_length: nominal * INCH,
+        damping: POUND_FORCE / INCH,
+        rotational_damping: POUND_FORCE * INCH,
+        acts_at: CoilLine::CenterOfGravity,
+        pulls: true,
+    };
+    (coil, [-1.0734 * INCH, 0.0, 2.0417 * INCH])
+}
+
+impl Draft {
+    fn new(parameters: &Parameters, friction: f64) -> Self {
+        let [wedge, ..] = &parameters.wedges;
+        let mut wedge = wedge.clone();
+        wedge.column_friction.coefficient = friction;
+        wedge.slope_friction.coefficient = friction;
+        let (thesis, to_center) = thesis_coil(parameters.damping);
+        let spring = match wedge.control_coil {
+            ControlCoil::Shear(spring) => spring,
+            ControlCoil::Thesis(..) => Spring::default(),
+        };
+        let bristle = match wedge.column_friction.law {
+            FrictionLaw::Bristle { stiffness, damping } => [stiffness, damping],
+            FrictionLaw::Tanh { .. } => [0.0; 2],
+        };
+        Self {
+            wedge,
+            laws: [Law::Bristle; 2],
+            reference_speed: 0.001 * INCH,
+            bristle,
+            kind: CoilKind::Shear,
+            spring,
+            thesis,
+            to_center,
+        }
+    }
+
+    fn finished(self) -> Wedge {
+        let law = |law| match law {
+            Law::Tanh => FrictionLaw::Tanh {
+                reference_speed: self.reference_speed,
+            },
+            Law::Bristle => FrictionLaw::Bristle {
+                stiffness: self.bristle[0],
+                damping: self.bristle[1],
+            },
+        };
+        let mut wedge = self.wedge;
+        wedge.column_friction.law = law(self.laws[0]);
+        wedge.slope_friction.law = law(self.laws[1]);
+        wedge.control_coil = match self.kind {
+            CoilKind::Shear => ControlCoil::Shear(self.spring),
+            CoilKind::Thesis => ControlCoil::Thesis(self.thesis, self.to_center),
+        };
+        wedge
+    }
+
+    fn toe(&mut self, r: &mut Reader<'_>) {
+        let degrees = self.wedge.toe.to_degrees();
+        let direction = match degrees {
+            _ if degrees > 0.0 => Some(ToeDirection::Out),
+            _ if degrees < 0.0 => Some(ToeDirection::In),
+            _ => None,
+        };
+        let Ok(angle) = quantity::Quantity::new(degrees.abs(), "deg") else {
+            return;
+        };
+        let comment = "of the column; out: the gap between column and bolster opens downwards; in: it closes";
+        let read = r.other("toe", comment, Toe { angle, direction }, read_toe, toe);
+        self.wedge.toe = read.to_si();
+    }
+
+    fn body(&mut self, r: &mut Reader<'_>) {
+        let wedge = &mut self.wedge;
+        let angle = (Kind::Angle, ANGLE, ANGLES);
+        r.quantity(
+            "angle",
+            angle,
+            &mut wedge.angle,
+            "between the slope and the vertical",
+        );
+        r.quantity("height", LENGTH, &mut wedge.height, "of the vertical face");
+        r.quantity("width", LENGTH, &mut wedge.width, "across the track");
+        r.weight(
+            &mut wedge.mass,
+            "a force; the mass is the weight over standard gravity",
+        );
+        let inertia = (Kind::Inertia, Range::Positive, Reach::Positive);
+        let comment = "roll, pitch, yaw: a steel prism at 32 deg, whatever the angle";
+        r.triple("inertia", inertia, &mut wedge.inertia, comment);
+        let wear = (Kind::Length, Range::NotNegative, Reach::FromZero(WEAR));
+        let comment = "what column and wedge have lost there, together: the column lies deeper by it";
+        r.quantity("column_wear", wear, &mut wedge.wear.column, comment);
+        let comment = "the same at the slope; a worn wedge rises. Begin with start.kind = \"equilibrium\"";
+        r.quantity("slope_wear", wear, &mut wedge.wear.slope, comment);
+        let comment = "of x, y, z, roll, pitch, yaw; the others are held";
+        r.free_coordinates(&mut wedge.free, Some("the wedge could not move"), comment);
+        let comment = "of the pocket's sides to each side; the thesis's wedge has none";
+        r.quantity(
+            "side_clearance",
+            CLEARANCE,
+            &mut wedge.pocket_sides.clearance,
+            comment,
+        );
+        r.quantity(
+            "side_stiffness",
+            STIFFNESS,
+            &mut wedge.pocket_sides.stiffness,
+            "of a pocket's side",
+        );
+        r.quantity(
+            "side_damping",
+            DAMPING,
+            &mut wedge.pocket_sides.damping,
+            "of a pocket's side",
+        );
+    }
+
+    fn friction(&mut self, r: &mut Reader<'_>) {
+        let comment = "\"bristle\" (holds) or \"tanh\" (the thesis's; creeps under load); or { column = ..., slope = ... }";
+        let laws = r.other(
+            "law",
+            comment,
+            self.laws,
+            crate::case::read::read_laws,
+            |laws| match laws {
+                [column, slope] if column == slope => Written::choice(Law::NAMES, column),
+                [column, slope] => Written::toml(format!(
+                    "{{ column = \"{}\", slope = \"{}\" }}",
+                    column.name(),
+                    slope.name()
+                )),
+            },
+        );
+        self.laws = laws;
+        let wedge = &mut self.wedge;
+        let (column, slope) = (
+            &mut wedge.column_friction.coefficient,
+            &mut wedge.slope_friction.coefficient,
+        );
+        r.number("column", COEFFICIENT, FRICTION, column, "coefficient of friction");
+        r.number("slope", COEFFICIENT, FRICTION, slope, "coefficient of friction");
+        let speed = (Kind::Speed, Range::Positive, Reach::Wide);
+        r.quantity(
+            "reference_speed",
+            speed,
+            &mut self.reference_speed,
+            "tanh: below it friction fades",
+        );
+        let [stiffness, damping] = &mut self.bristle;
+        r.quantity(
+            "bristle_stiffness",
+            STIFFNESS,
+            stiffness,
+            "bristle: tangential, per face",
+        );
+        let positive = (Kind::Damping, Range::Positive, Reach::Wide);
+        r.quantity(
+            "bristle_damping",
+            positive,
+            damping,
+            "bristle: tangential, per face",
+        );
+    }
+
+    fn coil(&mut self, r: &mut Reader<'_>, path: &str) {
+        let comment =
+            "\"shear\": a coil with shear stiffness; \"thesis\": a line from seat to wedge (Steets 2007)";
+        r.choice("kind", COIL_KINDS, &mut self.kind, comment);
+        let (others, other) = match self.kind {
+            CoilKind::Shear => (&OF_THESIS[..], "thesis"),
+            CoilKind::Thesis => (&OF_SHEAR[..], "shear"),
+        };
+        for key in others {
+            let full = format!("{path}.{key}");
+            if r.has(&full) {
+                let problem = Problem::new(format!("`{full}` is a key of the coil of kind \"{other}\""));
+                let help = format!("leave it out, or write {path}.kind = \"{other}\"");
+                r.problem(&full, problem.label("of another kind").help(help));
+                r.expect(path, others);
+            }
+        }
+        if self.kind == CoilKind::Shear {
+            r.quantity(
+                "preload",
+                PRELOAD,
+                &mut self.spring.preload,
+                "in the nominal layout",
+            );
+            spring_stiffnesses(r, &mut self.spring, false);
+            r.quantity("damping", DAMPING, &mut self.spring.damping, "in every direction");
+            return;
+        }
+        let coil = &mut self.thesis;
+        if let CoilLaw::Linear { stiffness } = &mut coil.law {
+            r.quantity("stiffness", STIFFNESS, stiffness, "along the coil");
+        }
+        r.quantity("free_length", LENGTH, &mut coil.free_length, "without force");
+        r.quantity(
+            "nominal_length",
+            LENGTH,
+            &mut coil.nominal_length,
+            "in the nominal layout",
+        );
+        r.quantity("damping", DAMPING, &mut coil.damping, "along the coil");
+        let rotational = (Kind::RotationalDamping, Range::NotNegative, Reach::FromZero(1.0));
+        let comment = "of the wedge's rotations";
+        r.quantity(
+            "rotational_damping",
+            rotational,
+            &mut coil.rotational_damping,
+            comment,
+        );
+        r.choice(
+            "acts_at",
+            LINES,
+            &mut coil.acts_at,
+            "\"center_of_gravity\" or \"seat\"",
+        );
+        r.truth("pulls", &mut coil.pulls, "false: it lifts off at its free length");
+        let place = (Kind::Length, Range::Any, Reach::Signed(INCH));
+        let comment = "of the wedge's center of gravity from the coil's end, x towards the bolster";
+        r.triple("center_of_gravity", place, &mut self.to_center, comment);
+    }
+}
+
+/// Reads the sections that all four wedges share, in their places among the others: first `wedge`, then those
+/// that come after it.
+pub(super) fn all(r: &mut Reader<'_>, parameters: &Parameters, friction: f64) -> Draft {
+    let mut draft = Draft::new(parameters, friction);
+    r.section(
+        "wedge",
+        "All four wedges: right triangular prisms. [wedge.leading_left], leading_right, trailing_left, trailing_right\n\
+         # set one: with these keys and toe, and tables friction, contact, control_coil.",
+    );
+    draft.body(r);
+    let about = match parameters.damping {
+        Damping::Variable => {
+            "The control coils; they stand on the side frames (truck.damping = \"variable\")."
+        }
+        Damping::Constant => "The control coils; they stand on the bolster (truck.damping = \"constant\").",
+    };
+    r.section("control_coil", about);
+    draft.coil(r, "control_coil");
+    r.section(
+        "contact",
+        "Contact of the wedges' corners with columns and slopes.",
+    );
+    contact(
+        r,
+        &mut draft.wedge.contact,
+        "per corner; the answer hangs on it where a nest locks",
+    );
+    r.section(
+        "friction",
+        "Friction of the wedges at columns (side frames) and slopes (bolster).",
+    );
+    draft.friction(r);
+    draft
+}
+
+/// Reads the toe of all columns.
+pub(super) fn toe_of_all(r: &mut Reader<'_>, draft: &mut Draft) {
+    draft.toe(r);
+}
+
+/// Reads the sections of single wedges over `base`.
+pub(super) fn single(r: &mut Reader<'_>, parameters: &mut Parameters, base: &Draft) {
+    for (name, wedge) in WEDGE_NAMES.into_iter().zip(&mut parameters.wedges) {
+        let mut draft = base.clone();
+        let path = format!("wedge.{name}");
+        let parts = ["friction", "contact", "control_coil"];
+        if r.overlay(&path, "One wedge: what is not given is as for all four.") {
+            draft.body(r);
+            draft.toe(r);
+        }
+        for part in parts {
+            let path = format!("{path}.{part}");
+            if r.overlay(&path, "") {
+                match part {
+                    "friction" => draft.friction(r),
+                    "contact" => contact(r, &mut draft.wedge.contact, "per corner"),
+                    _ => draft.coil(r, &path),
+                }
+            }
+        }
+        *wedge = draft.finished();
+    }
+}

@@ -1,0 +1,90 @@
+//! The bodies of a truck.
+
+use mechanics::body::Body;
+use mechanics::frame::Frame;
+use wedge::parameters::NeighbourMotion;
+
+use crate::elements::HEIGHT;
+use crate::parameters::{Parameters, RigidBody};
+use crate::{PLACES, WEDGE_NAMES};
+
+/// A body at a place: with free coordinates, or with a prescribed motion.
+fn rigid(
+    name: &str,
+    body: &RigidBody,
+    place: [f64; 3],
+    free: [bool; 6],
+    motion: Option<&NeighbourMotion>,
+) -> Body {
+    let place = [place[0], place[1], body.height];
+    if let Some(motion) = motion.filter(|_| !free.contains(&true)) {
+        return prescribed(name, motion, place);
+    }
+    let mut rigid = Body::free(name, body.mass, body.inertia, [0.0; 6]);
+    rigid.frame = Frame::fixed(place, [0.0; 3]);
+    rigid.free = free;
+    rigid
+}
+
+/// A body with a prescribed motion, its center of gravity at a place.
+fn prescribed(name: &str, motion: &NeighbourMotion, place: [f64; 3]) -> Body {
+    let mut frame = Frame::fixed(motion.center.unwrap_or(place), [0.0; 3]);
+    frame.motions.clone_from(&motion.coordinates);
+    let center_of_gravity = std::array::from_fn(|k| place[k] - frame.origin[k]);
+    Body {
+        center_of_gravity,
+        ..Body::prescribed(name, frame)
+    }
+}
+
+/// Returns the bodies in the order of their numbers.
+pub(crate) fn bodies(parameters: &Parameters) -> Vec<Body> {
+    let [side, place, axle] = parameters.distances;
+    let start = parameters.displacement_at_start();
+    let moved = |mut body: Body| {
+        if !body.is_prescribed() {
+            body.initial[..3].copy_from_slice(&start);
+        }
+        body
+    };
+    let mut bodies = Vec::new();
+    for (number, name) in ["leading_wheelset", "trailing_wheelset"].into_iter().enumerate() {
+        let still = NeighbourMotion::fixed();
+        let wheelsets = parameters.wheelsets.as_ref();
+        let motion = wheelsets.map_or(&still, |wheelsets| &wheelsets.motions[number]);
+        bodies.push(prescribed(name, motion, [[axle, -axle][number], 0.0, HEIGHT]));
+    }
+    let bolster = &parameters.bolster;
+    let body = rigid(
+        "bolster",
+        &bolster.body,
+        [0.0; 3],
+        bolster.free,
+        Some(&bolster.motion),
+    );
+    bodies.push(moved(body));
+    let names = ["left_side_frame", "right_side_frame"];
+    for ((name, frame), way) in names.into_iter().zip(&parameters.side_frames).zip([1.0, -1.0]) {
+        let place = [0.0, side * way, 0.0];
+        bodies.push(rigid(name, &frame.body, place, frame.free, Some(&frame.motion)));
+    }
+    for ((name, wedge), [end, way]) in WEDGE_NAMES.into_iter().zip(&parameters.wedges).zip(PLACES) {
+        let mass = RigidBody {
+            mass: wedge.mass,
+            inertia: wedge.inertia,
+            height: HEIGHT,
+        };
+        let place = [place * end, side * way, 0.0];
+        bodies.push(moved(rigid(
+            &format!("{name}_wedge"),
+            &mass,
+            place,
+            wedge.free,
+            None,
+        )));
+    }
+    if let Some(car) = &parameters.car_body {
+        bodies.push(moved(rigid("car_body", &car.body, [0.0; 3], car.free, None)));
+    }
+    bodies
+}

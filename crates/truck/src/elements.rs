@@ -1,0 +1,472 @@
+//! The elements between the bodies of a truck.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use mechanics::coil::{Coil, CoilLine};
+use mechanics::contact::{ContactFace, ContactPoint};
+use mechanics::elements::{RadialStop, ShearSpring, Solid, Stop};
+use mechanics::link::Marker;
+use mechanics::surface::Plane;
+use mechanics::system::Model;
+use mechanics::vector::Vector;
+use wedge::parameters::{Contact, ControlCoil as ThesisCoil, Damping, FaceFriction};
+
+use crate::assemble::{BOLSTER, CAR_BODY, SIDE_FRAMES, WEDGES, WHEELSETS};
+use crate::bodies::bodies;
+use crate::parameters::{
+    Adapter, AdapterPad, CarBody, Clearance, ControlCoil, FrictionAdapter, Parameters, SideBearing, Spring,
+    Wedge,
+};
+use crate::units::INCH;
+use crate::{PLACES, WEDGE_NAMES};
+
+/// Height of the wedges' centers of gravity and of the gibs, m.
+pub(crate) const HEIGHT: f64 = 18.0 * INCH;
+/// Height at which load coils act, m.
+const SEAT_HEIGHT: f64 = 13.0 * INCH;
+/// Height of the adapters, m, and the places of their two points, of their two stops and of the lands.
+const ADAPTER_HEIGHT: f64 = 22.5 * INCH;
+const ADAPTER_POINTS: f64 = 3.0 * INCH;
+const ADAPTER_STOPS: f64 = 1.56 * INCH;
+const LANDS: [f64; 2] = [7.0 * INCH, 3.0 * INCH];
+
+/// What an element of the suspension is to the truck.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    LoadCoil,
+    /// Of this wedge.
+    ControlCoil,
+    PocketSide,
+    Land,
+    Gib,
+    /// A stop or a pad of the leading (0) or the trailing (1) wheelset.
+    Adapter(usize),
+    /// Rim or roller side bearing: between car body and bolster.
+    CarBody,
+}
+
+/// The law of an element of the suspension.
+#[derive(Clone, Debug)]
+pub(crate) enum Law {
+    Spring(ShearSpring),
+    Stop(Stop),
+    Rim(RadialStop),
+}
+
+/// An element of the suspension: its bodies with markers A and B.
+#[derive(Clone, Debug)]
+pub(crate) struct Suspended {
+    pub role: Role,
+    pub law: Law,
+    pub ends: [(usize, Marker); 2],
+}
+
+/// Returns bodies and faces, and the elements that are still to be added; `gaps` (m) are how far column and slope
+/// of each wedge are moved away along their normals.
+pub(crate) fn model(parameters: &Parameters, gaps: [[f64; 2]; 4]) -> (Model, Vec<Suspended>) {
+    let builder = Builder {
+        parameters,
+        gaps,
+        model: Model::new(bodies(parameters), [0.0, 0.0, -parameters.gravity]),
+        suspension: Vec::new(),
+    };
+    builder.build()
+}
+
+struct Builder<'p> {
+    parameters: &'p Parameters,
+    /// How far column and slope of each wedge are moved away, m.
+    gaps: [[f64; 2]; 4],
+    model: Model,
+    suspension: Vec<Suspended>,
+}
+
+impl Builder<'_> {
+    fn build(mut self) -> (Model, Vec<Suspended>) {
+        for number in 0..4 {
+            self.wedge(number);
+        }
+        for number in 0..2 {
+            self.adapters(number);
+        }
+        for (number, side) in [1.0, -1.0].into_iter().enumerate() {
+            self.nest(number, side * self.parameters.distances[0]);
+        }
+        if let Some(car) = &self.parameters.car_body {
+            self.center_plate(car);
+            for (side, name) in [(1.0, "left"), (-1.0, "right")] {
+                self.side_bearing(car, side * car.side_bearings.distance, name);
+            }
+        }
+        (self.model, self.suspension)
+    }
+
+    /// Returns the marker of a body at a place (m), turned about z (rad).
+    fn marker(&self, body: usize, at: [f64; 3], yaw: f64) -> (usize, Marker) {
+        let origin = self.model.bodies[body].frame.origin;
+        let place = std::array::from_fn(|k| at[k] - origin[k]);
+        (body, Marker::new(place, [0.0, 0.0, yaw]))
+    }
+
+    /// Adds a spring that carries body `a` on the seat of body `b`.
+    fn spring(&mut self, role: Role, name: String, [a, b]: [usize; 2], at: [f64; 3], spring: &Spring) {
+        let law = ShearSpring {
+            name,
+            preload: spring.preload,
+            stiffness: spring.stiffness,
+            shear_stiffness: spring.shear_stiffness,
+            damping: spring.damping,
+            solid: spring.solid.map(|[travel, stiffness]| Solid {
+                at: -travel,
+                stiffness,
+            }),
+        };
+        self.suspension.push(Suspended {
+            role,
+            law: Law::Spring(law),
+            ends: [self.marker(a, at, 0.0), self.marker(b, at, 0.0)],
+        });
+    }
+
+    /// Adds a stop between bodies `a` and `b`, along x of `b` or, with a quarter turn, along its y.
+    fn stop(
+        &mut self,
+        role: Role,
+        name: String,
+        [a, b]: [usize; 2],
+        at: [f64; 3],
+        yaw: f64,
+        clearance: &Clearance,
+    ) {
+        let law = Stop {
+            name,
+            clearances: [clearance.clearance; 2],
+            stiffness: clearance.stiffness,
+            damping: clearance.damping,
+        };
+        self.suspension.push(Suspended {
+            role,
+            law: Law::Stop(law),
+            ends: [self.marker(a, at, 0.0), self.marker(b, at, yaw)],
+        });
+    }
+
+    /// A wedge's two faces, its control coil and the sides of its pocket.
+    fn wedge(&mut self, number: usize) {
+        let parameters = self.parameters;
+        let ([end, way], [side, place, _]) = (PLACES[number], parameters.distances);
+        let wedge = &parameters.wedges[number];
+        let (body, name) = (WEDGES + number, WEDGE_NAMES[number]);
+        let side_frame = SIDE_FRAMES + usize::from(way < 0.0);
+        let length = wedge.height * libm::tan(wedge.angle);
+        let middle = HEIGHT + wedge.height / 6.0;
+        let at = place + length / 3.0;
+        // Wedges at the leading end are turned by half a turn about z, and so are the normals that they meet.
+        let pitch = |pitch: f64| if end > 0.0 { PI - pitch } else { pitch };
+        let [column_gap, slope_gap] = self.gaps[number];
+        let faces = [
+            (
+                side_frame,
+                "column",
+                at,
+                pitch(wedge.toe),
+                wedge.wear.column + column_gap,
+                &wedge.column_friction,
+            ),
+            (
+                BOLSTER,
+                "slope",
+                at - 0.5 * length,
+                pitch(PI - wedge.angle),
+                wedge.wear.slope + slope_gap,
+                &wedge.slope_friction,
+            ),
+        ];
+        for (on, face, x, pitch, gap, friction) in faces {
+            let lower = if face == "column" { -1.0 } else { 2.0 };
+            let points = wedge_points(wedge, end, lower * length / 3.0, -length / 3.0);
+            // The normal is the marker's x axis.
+            let (sine, cosine) = libm::sincos(pitch);
+            let surface = [end * x - gap * cosine, side * way, middle + gap * sine];
+            let (_, place) = self.marker(on, surface, 0.0);
+            let marker = Marker::new(place.origin.0, [0.0, pitch, 0.0]);
+            let face = plane(format!("{name}_{face}"), points, friction);
+            self.model.faces.push((body, on, marker, face));
+        }
+        let seat = match parameters.damping {
+            Damping::Constant => BOLSTER,
+            Damping::Variable => side_frame,
+        };
+        let center = [place * end, side * way, HEIGHT];
+        let bottom = [center[0], center[1], HEIGHT - wedge.height / 3.0];
+        match &wedge.control_coil {
+            ControlCoil::Shear(spring) => {
+                let coil = format!("{name}_control_coil");
+                self.spring(Role::ControlCoil, coil, [body, seat], bottom, spring);
+            }
+            ControlCoil::Thesis(coil, to_center) => {
+                self.thesis_coil([body, seat], center, end, coil, *to_center)
+            }
+        }
+        let sides = format!("{name}_pocket_sides");
+        self.stop(
+            Role::PocketSide,
+            sides,
+            [body, BOLSTER],
+            center,
+            FRAC_PI_2,
+            &wedge.pocket_sides,
+        );
+    }
+
+    /// Adds the coil of Steets (2007) below the wedge's center of gravity (m); `to_center` leads there from the
+    /// coil's end in the axes of a wedge at the trailing end.
+    fn thesis_coil(
+        &mut self,
+        [body, seat]: [usize; 2],
+        center: [f64; 3],
+        end: f64,
+        coil: &ThesisCoil,
+        to_center: [f64; 3],
+    ) {
+        let [x, y, z] = to_center;
+        let top = [end * x, end * y, -z];
+        let law = Coil {
+            end: Vector(top),
+            acts_at: match coil.acts_at {
+                CoilLine::CenterOfGravity => Vector([0.0; 3]),
+                CoilLine::Seat => Vector(top),
+            },
+            law: coil.law.clone(),
+            free_length: coil.free_length,
+            damping: coil.damping,
+            rotational_damping: coil.rotational_damping,
+            pulls: coil.pulls,
+        };
+        let foot = [
+            center[0] + top[0],
+            center[1] + top[1],
+            center[2] + top[2] - coil.nominal_length,
+        ];
+        let (_, marker) = self.marker(seat, foot, 0.0);
+        self.model.coils.push((body, seat, marker, law));
+    }
+
+    /// Load coils, gib and lands of one side.
+    fn nest(&mut self, number: usize, y: f64) {
+        let (parameters, side_frame) = (self.parameters, SIDE_FRAMES + number);
+        let ends = [BOLSTER, side_frame];
+        let side = ["left", "right"][number];
+        for (i, coil) in parameters.load_coils[number].iter().enumerate() {
+            let at = [coil.place[0], y + coil.place[1], SEAT_HEIGHT];
+            let name = format!("{side}_load_coil_{}", i + 1);
+            self.spring(Role::LoadCoil, name, ends, at, &coil.spring);
+        }
+        let gib = format!("{side}_gib");
+        self.stop(Role::Gib, gib, ends, [0.0, y, HEIGHT], FRAC_PI_2, &parameters.gib);
+        for (end, end_name) in [(1.0, "leading"), (-1.0, "trailing")] {
+            for (i, (across, up)) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
+                .into_iter()
+                .enumerate()
+            {
+                let x = end * parameters.distances[1];
+                let at = [x, y + across * LANDS[0], HEIGHT + up * LANDS[1]];
+                let name = format!("{end_name}_{side}_land_{}", i + 1);
+                self.stop(Role::Land, name, ends, at, 0.0, &parameters.lands);
+            }
+        }
+    }
+
+    /// Adds a face whose points (m, truck's axes) on the car body touch a plane of the bolster, with a
+    /// penetration of `depth` (m) in the nominal layout.
+    fn car_face(
+        &mut self,
+        name: String,
+        places: &[[f64; 3]],
+        depth: f64,
+        contact: &Contact,
+        friction: &FaceFriction,
+    ) {
+        let share = 1.0 / places.len() as f64;
+        let points = places.iter().map(|place| {
+            let (_, marker) = self.marker(CAR_BODY, *place, 0.0);
+            point(marker.origin.0, contact, share)
+        });
+        let points = points.collect();
+        let [.., height] = places[0];
+        let (_, marker) = self.marker(BOLSTER, [0.0, 0.0, height + depth], 0.0);
+        let marker = Marker::new(marker.origin.0, [0.0, -FRAC_PI_2, 0.0]);
+        let face = plane(name, points, friction);
+        self.model.faces.push((CAR_BODY, BOLSTER, marker, face));
+    }
+
+    fn center_plate(&mut self, car: &CarBody) {
+        let plate = &car.center_plate;
+        let mut places = Vec::new();
+        for radius in &plate.rings {
+            for i in 0..plate.points {
+                let (sine, cosine) = libm::sincos(2.0 * PI * i as f64 / plate.points as f64);
+                places.push([radius * cosine, radius * sine, plate.height]);
+            }
+        }
+        let weight = car.body.mass * self.parameters.gravity;
+        let depth = (weight - car.side_bearings.preload()) / (places.len() as f64 * plate.contact.stiffness);
+        self.car_face(
+            "center_plate".to_owned(),
+            &places,
+            depth,
+            &plate.contact,
+            &plate.friction,
+        );
+        let rim = RadialStop {
+            name: "center_plate_rim".to_owned(),
+            clearance: plate.rim.clearance,
+            stiffness: plate.rim.stiffness,
+            damping: plate.rim.damping,
+        };
+        let at = [0.0, 0.0, plate.height];
+        self.suspension.push(Suspended {
+            role: Role::CarBody,
+            law: Law::Rim(rim),
+            ends: [self.marker(CAR_BODY, at, 0.0), self.marker(BOLSTER, at, 0.0)],
+        });
+    }
+
+    fn side_bearing(&mut self, car: &CarBody, y: f64, side: &str) {
+        let (name, at) = (format!("{side}_side_bearing"), [0.0, y, car.center_plate.height]);
+        match &car.side_bearings.kind {
+            SideBearing::Roller(clearance) => {
+                let (_, place) = self.marker(BOLSTER, at, 0.0);
+                let law = Stop {
+                    name,
+                    clearances: [clearance.clearance, f64::INFINITY],
+                    stiffness: clearance.stiffness,
+                    damping: clearance.damping,
+                };
+                // The x axis of the marker is the bolster's z axis.
+                let upright = Marker::new(place.origin.0, [0.0, -FRAC_PI_2, 0.0]);
+                self.suspension.push(Suspended {
+                    role: Role::CarBody,
+                    law: Law::Stop(law),
+                    ends: [self.marker(CAR_BODY, at, 0.0), (BOLSTER, upright)],
+                });
+            }
+            SideBearing::ConstantContact {
+                preload,
+                contact,
+                travel,
+                solid,
+                friction,
+            } => {
+                self.car_face(
+                    name.clone(),
+                    &[at],
+                    preload / contact.stiffness,
+                    contact,
+                    friction,
+                );
+                self.car_face(format!("{name}_solid"), &[at], -travel, solid, friction);
+            }
+        }
+    }
+
+    /// Where a side frame stands on both axles.
+    fn adapters(&mut self, number: usize) {
+        let parameters = self.parameters;
+        let Some(wheelsets) = &parameters.wheelsets else {
+            return;
+        };
+        let side = ["left", "right"][number];
+        let y = parameters.distances[0] * [1.0, -1.0][number];
+        for (axle, end, end_name) in [(0, 1.0, "leading"), (1, -1.0, "trailing")] {
+            let name = format!("{end_name}_{side}_adapter");
+            let place = [parameters.distances[2] * end, y, ADAPTER_HEIGHT];
+            match &wheelsets.adapter {
+                Adapter::Friction(adapter) => self.friction_adapter(&name, [number, axle], place, adapter),
+                Adapter::Pad(pad) => self.adapter_pad(&name, [number, axle], place, pad),
+            }
+        }
+    }
+
+    fn friction_adapter(
+        &mut self,
+        name: &str,
+        [side, axle]: [usize; 2],
+        [x, y, _]: [f64; 3],
+        adapter: &FrictionAdapter,
+    ) {
+        let side_frame = SIDE_FRAMES + side;
+        let points = [ADAPTER_POINTS, -ADAPTER_POINTS].map(|y_point| {
+            let (_, place) = self.marker(side_frame, [x, y + y_point, ADAPTER_HEIGHT], 0.0);
+            point(place.origin.0, &adapter.contact, 0.5)
+        });
+        let top = ADAPTER_HEIGHT + adapter.preload / adapter.contact.stiffness;
+        let (wheelset, place) = self.marker(WHEELSETS + axle, [x, y, top], 0.0);
+        let marker = Marker::new(place.origin.0, [0.0, -FRAC_PI_2, 0.0]);
+        let face = plane(name.to_owned(), points.to_vec(), &adapter.friction);
+        self.model.faces.push((side_frame, wheelset, marker, face));
+        let (role, ends) = (Role::Adapter(axle), [side_frame, wheelset]);
+        for across in [ADAPTER_STOPS, -ADAPTER_STOPS] {
+            let at = [x, y + across, ADAPTER_HEIGHT];
+            let name = format!("{name}_longitudinal_stop");
+            self.stop(role, name, ends, at, 0.0, &adapter.longitudinal);
+        }
+        let (name, at) = (format!("{name}_lateral_stop"), [x, y, ADAPTER_HEIGHT]);
+        self.stop(role, name, ends, at, FRAC_PI_2, &adapter.lateral);
+    }
+
+    fn adapter_pad(&mut self, name: &str, [side, axle]: [usize; 2], [x, y, _]: [f64; 3], pad: &AdapterPad) {
+        let half = Spring {
+            preload: 0.5 * pad.preload,
+            stiffness: 0.5 * pad.stiffness,
+            shear_stiffness: 0.5 * pad.shear_stiffness,
+            damping: 0.5 * pad.damping,
+            solid: None,
+        };
+        for (across, half_name) in [(pad.half_distance, "left"), (-pad.half_distance, "right")] {
+            let at = [x, y + across, ADAPTER_HEIGHT];
+            let ends = [SIDE_FRAMES + side, WHEELSETS + axle];
+            self.spring(
+                Role::Adapter(axle),
+                format!("{name}_pad_{half_name}"),
+                ends,
+                at,
+                &half,
+            );
+        }
+    }
+}
+
+/// The four corners of a wedge's face: lower right, lower left, upper right, upper left, with the lower and the
+/// upper edge's x in the wedge's own axes.
+fn wedge_points(wedge: &Wedge, end: f64, lower: f64, upper: f64) -> Vec<ContactPoint> {
+    let (bottom, top) = (-wedge.height / 3.0, 2.0 * wedge.height / 3.0);
+    let half = 0.5 * wedge.width;
+    [
+        [lower, -half, bottom],
+        [lower, half, bottom],
+        [upper, -half, top],
+        [upper, half, top],
+    ]
+    .map(|[x, y, z]| point([-end * x, -end * y, z], &wedge.contact, 0.25))
+    .to_vec()
+}
+
+fn point(place: [f64; 3], contact: &Contact, share: f64) -> ContactPoint {
+    ContactPoint {
+        position: Vector(place),
+        stiffness: contact.stiffness,
+        damping: contact.damping,
+        share,
+    }
+}
+
+fn plane(name: String, points: Vec<ContactPoint>, friction: &FaceFriction) -> ContactFace<Plane> {
+    ContactFace {
+        name,
+        points,
+        surface: Plane,
+        coefficient: friction.coefficient,
+        law: friction.law,
+    }
+}
