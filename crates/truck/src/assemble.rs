@@ -5,10 +5,12 @@ use std::ops::Range;
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::Motion;
 use mechanics::system::{ModelError, NoEquilibrium, StaticFriction, System};
+use mechanics::vector::Vector;
 use thiserror::Error;
 use wedge::parameters::{FaceFriction, Start};
 
-use crate::elements::{Law, Suspended, model};
+use crate::PLACES;
+use crate::elements::{HEIGHT, Law, Suspended, model};
 use crate::parameters::{Adapter, Parameters, SideBearing};
 
 /// Number of the leading wheelset among the bodies; the trailing one follows.
@@ -36,6 +38,8 @@ pub struct Truck {
     pub(crate) center_plate: Option<usize>,
     pub(crate) plate_height: f64,
     pub(crate) axle: f64,
+    /// Nominal places of the wedges' centers of gravity, m.
+    pub(crate) wedge_places: [Vector<f64>; 4],
     pub(crate) suspension: Vec<Suspended>,
 }
 
@@ -109,6 +113,10 @@ impl Truck {
             plate_height: car.map_or(0.0, |car| car.center_plate.height),
             adapters,
             axle: parameters.distances[2],
+            wedge_places: PLACES.map(|[end, way]| {
+                let [side, place, _] = parameters.distances;
+                Vector([place * end, side * way, HEIGHT])
+            }),
             suspension,
         })
     }

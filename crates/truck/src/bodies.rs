@@ -69,19 +69,16 @@ pub(crate) fn bodies(parameters: &Parameters) -> Vec<Body> {
         bodies.push(rigid(name, &frame.body, place, frame.free, Some(&frame.motion)));
     }
     for ((name, wedge), [end, way]) in WEDGE_NAMES.into_iter().zip(&parameters.wedges).zip(PLACES) {
+        let to_center = wedge.origin_to_center(end);
         let mass = RigidBody {
             mass: wedge.mass,
             inertia: wedge.inertia,
-            height: HEIGHT,
+            height: HEIGHT - to_center[2],
         };
-        let place = [place * end, side * way, 0.0];
-        bodies.push(moved(rigid(
-            &format!("{name}_wedge"),
-            &mass,
-            place,
-            wedge.free,
-            None,
-        )));
+        let origin = [place * end - to_center[0], side * way - to_center[1], 0.0];
+        let mut body = rigid(&format!("{name}_wedge"), &mass, origin, wedge.free, None);
+        body.center_of_gravity = to_center;
+        bodies.push(moved(body));
     }
     if let Some(car) = &parameters.car_body {
         bodies.push(moved(rigid("car_body", &car.body, [0.0; 3], car.free, None)));

@@ -204,8 +204,8 @@ impl Builder<'_> {
                 let coil = format!("{name}_control_coil");
                 self.spring(Role::ControlCoil, coil, [body, seat], bottom, spring);
             }
-            ControlCoil::Thesis(coil, to_center) => {
-                self.thesis_coil([body, seat], center, end, coil, *to_center)
+            ControlCoil::Thesis(coil, _) => {
+                self.thesis_coil([body, seat], center, wedge.origin_to_center(end), coil);
             }
         }
         let sides = format!("{name}_pocket_sides");
@@ -219,23 +219,20 @@ impl Builder<'_> {
         );
     }
 
-    /// Adds the coil of Steets (2007) below the wedge's center of gravity (m); `to_center` leads there from the
-    /// coil's end in the axes of a wedge at the trailing end.
+    /// Adds the coil of Steets (2007), which ends at the wedge's origin; the center of gravity is at `center` (m), and
+    /// `to_center` (m) from there.
     fn thesis_coil(
         &mut self,
         [body, seat]: [usize; 2],
         center: [f64; 3],
-        end: f64,
-        coil: &ThesisCoil,
         to_center: [f64; 3],
+        coil: &ThesisCoil,
     ) {
-        let [x, y, z] = to_center;
-        let top = [end * x, end * y, -z];
         let law = Coil {
-            end: Vector(top),
+            end: Vector::zero(),
             acts_at: match coil.acts_at {
-                CoilLine::CenterOfGravity => Vector([0.0; 3]),
-                CoilLine::Seat => Vector(top),
+                CoilLine::CenterOfGravity => Vector(to_center),
+                CoilLine::Seat => Vector::zero(),
             },
             law: coil.law.clone(),
             free_length: coil.free_length,
@@ -243,11 +240,8 @@ impl Builder<'_> {
             rotational_damping: coil.rotational_damping,
             pulls: coil.pulls,
         };
-        let foot = [
-            center[0] + top[0],
-            center[1] + top[1],
-            center[2] + top[2] - coil.nominal_length,
-        ];
+        let mut foot: [f64; 3] = std::array::from_fn(|k| center[k] - to_center[k]);
+        foot[2] -= coil.nominal_length;
         let (_, marker) = self.marker(seat, foot, 0.0);
         self.model.coils.push((body, seat, marker, law));
     }
@@ -438,7 +432,7 @@ impl Builder<'_> {
 }
 
 /// The four corners of a wedge's face: lower right, lower left, upper right, upper left, with the lower and the
-/// upper edge's x in the wedge's own axes.
+/// upper edge's x from the center of gravity in the wedge's own axes.
 fn wedge_points(wedge: &Wedge, end: f64, lower: f64, upper: f64) -> Vec<ContactPoint> {
     let (bottom, top) = (-wedge.height / 3.0, 2.0 * wedge.height / 3.0);
     let half = 0.5 * wedge.width;
@@ -448,7 +442,11 @@ fn wedge_points(wedge: &Wedge, end: f64, lower: f64, upper: f64) -> Vec<ContactP
         [upper, -half, top],
         [upper, half, top],
     ]
-    .map(|[x, y, z]| point([-end * x, -end * y, z], &wedge.contact, 0.25))
+    .map(|[x, y, z]| {
+        let own = [-end * x, -end * y, z];
+        let from_origin = std::array::from_fn(|k| own[k] + wedge.origin_to_center(end)[k]);
+        point(from_origin, &wedge.contact, 0.25)
+    })
     .to_vec()
 }
 

@@ -102,7 +102,7 @@ impl Truck {
                 column_normal: normal(column),
                 column_friction_z: -total(&column.friction_forces).0[2],
                 slope_normal: normal(slope),
-                displacement: body.travel.0,
+                displacement: (body.center_of_gravity - self.wedge_places[number]).0,
                 angles: [3, 4, 5].map(|k| body.coordinates[k]),
             };
             let side = number % 2;
@@ -116,16 +116,11 @@ impl Truck {
         for element in &self.suspension {
             self.add(&mut loads, element, bodies);
         }
-        // Coils of the thesis: one a wedge, in the same order.
+        // Coils of the thesis, which end at the wedges' origins.
         for (mounted, coil) in self.system.coils().iter().zip(&observation.coils) {
-            let arm = bodies[mounted.body]
-                .rotation
-                .apply::<f64, f64>(mounted.element.end);
             match mounted.on.checked_sub(SIDE_FRAMES).filter(|side| *side < 2) {
                 Some(side) => loads.nest_vertical[side] += coil.force.0[2],
-                None => {
-                    loads.warp_moment.control_coils -= about_z(bodies[mounted.body].origin + arm, coil.force)
-                }
+                None => loads.warp_moment.control_coils -= about_z(bodies[mounted.body].origin, coil.force),
             }
         }
         for (i, adapter) in observation.faces[self.adapters.clone()].iter().enumerate() {

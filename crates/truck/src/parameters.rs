@@ -332,6 +332,19 @@ impl Parameters {
     }
 }
 
+impl Wedge {
+    /// Returns where the center of gravity is from the body's origin, in the axes of the truck, m; `end` is that
+    /// of the mount. Coordinates are those of the origin: the center of gravity, or the end of the thesis's coil,
+    /// which the wedge of Steets (2007) turns about where y is locked.
+    pub(crate) fn origin_to_center(&self, end: f64) -> [f64; 3] {
+        match self.control_coil {
+            ControlCoil::Shear(_) => [0.0; 3],
+            // Wedges at the leading end are turned by half a turn about z.
+            ControlCoil::Thesis(_, [x, y, z]) => [-end * x, -end * y, z],
+        }
+    }
+}
+
 impl ControlCoil {
     /// Returns its force in the nominal layout, N.
     #[must_use]

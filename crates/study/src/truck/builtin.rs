@@ -206,12 +206,12 @@ fn limits(damping: &'static str) -> Vec<Rig> {
         ),
         rig(
             "solid",
-            "half a car dropped by 1.6 in: coils go solid",
+            "half a car dropped by 2.2 in: coils go solid",
             HALF_CAR.to_owned(),
             Vec::new(),
             5.0,
         )
-        .lifted(1.6),
+        .lifted(2.2),
         rig(
             "pocket_sides",
             "wedges are held by the columns and pushed by the pockets' sides",

@@ -1,0 +1,177 @@
+//! Bad input: every message says what was found and expected, and helps.
+#![allow(clippy::unwrap_used)]
+
+use study::any_case::AnyCase;
+use study::case::{Case, Tables};
+use study::run::Run;
+use study::truck::{TruckCase, builtin};
+
+/// The messages of a case with `model = "truck"` and these lines, with their help.
+fn refused(lines: &str) -> String {
+    let text = format!("model = \"truck\"\n{lines}");
+    let error = TruckCase::parse("case.toml", &text, Tables::nowhere(), &[]).unwrap_err();
+    let problems = error.problems().iter();
+    problems
+        .map(|problem| {
+            let help = miette::Diagnostic::help(problem).map(|help| help.to_string());
+            format!("{problem}\n{}\n", help.unwrap_or_default())
+        })
+        .collect()
+}
+
+#[test]
+fn input_messages_say_what_is_wrong_and_what_to_write() {
+    for (lines, parts) in [
+        (
+            "[wedge.leading_lft]\nangle = \"30 deg\"",
+            &["there is no key `leading_lft` in `wedge`", "leading_left"][..],
+        ),
+        (
+            "[truck]\ndamping = \"both\"",
+            &["`truck.damping` cannot be \"both\"", "variable"],
+        ),
+        (
+            "[wedge]\ndamping = \"constant\"",
+            &["no key `damping` in `wedge`"],
+        ),
+        (
+            "[wedge]\nangle = \"95 deg\"",
+            &["`wedge.angle` is 95 deg", "between 0 deg and 90 deg"],
+        ),
+        (
+            "[gib]\nclearance = \"-0.1 in\"",
+            &["`gib.clearance` is -0.1 in", "zero or greater"],
+        ),
+        (
+            "[gib]\nclearance = \"0.1 lbf\"",
+            &["this is a force", "a length is expected"],
+        ),
+        (
+            "[bolster]\nweight = \"0 lbf\"",
+            &["`bolster.weight`", "greater than zero"],
+        ),
+        (
+            "[wedge]\nfree_coordinates = []",
+            &["`wedge.free_coordinates` is empty", "the wedge could not move"],
+        ),
+        (
+            "[control_coil]\nfree_length = \"10 in\"",
+            &[
+                "`control_coil.free_length` is a key of the coil of kind \"thesis\"",
+                "leave it out",
+            ],
+        ),
+        (
+            "[side_frame]\nyaw = \"0.01 rad\"",
+            &[
+                "`side_frame.yaw` moves a body that has free coordinates",
+                "free_coordinates = []",
+            ],
+        ),
+        (
+            "[adapter]\nkind = \"nothing\"",
+            &["has nothing to stand on", "free_coordinates = []"],
+        ),
+        (
+            "[center_plate]\nfriction = 0.3",
+            &["[center_plate] has no effect", "load.kind = \"car_body\""],
+        ),
+        (
+            "[start]\nlift = \"1 in\"",
+            &["`start.lift` raises a free bolster", "half_car"],
+        ),
+        (
+            "[start]\nkind = \"rest\"\n[simulation]\nstart = \"rest\"",
+            &["`simulation.start` and `start.kind` say the same"],
+        ),
+        (
+            "[load_springs]\nnest = \"single_coils\"\nmissing_left = [\"inner_leading_middle\"]",
+            &["this nest has no coil"],
+        ),
+        (
+            "[load_springs]\nsolid_travel = \"0 in\"",
+            &["`load_springs.solid_travel` is 0 in", "greater than zero"],
+        ),
+        ("bolster = 3", &["`bolster` is a number", "[bolster]"]),
+        (
+            "[simulation]\noutput_interval = \"20 s\"",
+            &["is longer than the duration"],
+        ),
+        (
+            "[friction]\nlaw = \"coulomb\"",
+            &["`friction.law` cannot be \"coulomb\""],
+        ),
+        (
+            "[load]\nkind = \"car_body\"\n[side_bearing]\nkind = \"constant_contact\"\npreload = \"90000 lbf\"",
+            &["more than the body's weight"],
+        ),
+    ] {
+        let message = refused(lines);
+        for part in parts {
+            assert!(message.contains(part), "{lines}\n{message}\ndoes not say {part}");
+        }
+    }
+}
+
+#[test]
+fn input_each_model_says_so_when_the_other_is_meant() {
+    let wedge =
+        TruckCase::parse("w.toml", "[wedge]\nangle = \"30 deg\"", Tables::nowhere(), &[]).unwrap_err();
+    assert!(wedge.to_string().contains("single wedge"), "{wedge}");
+    let truck = Case::parse("t.toml", "model = \"truck\"", Tables::nowhere(), &[]).unwrap_err();
+    assert!(truck.to_string().contains("truck"), "{truck}");
+    let any = AnyCase::parse("t.toml", "model = \"truck\"", Tables::nowhere(), &[]).unwrap();
+    assert!(matches!(any, AnyCase::Truck(_)));
+    let any = AnyCase::parse("t.toml", "model = \"wedge\"", Tables::nowhere(), &[]).unwrap();
+    assert!(matches!(any, AnyCase::Wedge(_)));
+}
+
+/// A case is read with its condition, and what it says itself wins over it.
+#[test]
+fn input_conditions_are_defaults() {
+    let read = |lines: &str| {
+        let text = format!("model = \"truck\"\n{lines}");
+        TruckCase::parse("case.toml", &text, Tables::nowhere(), &[])
+            .unwrap()
+            .parameters
+    };
+    let worn = read("[truck]\ncondition = \"worn\"");
+    assert_eq!(worn.wedges[2].column_friction.coefficient, 0.25);
+    let mixed = read(
+        "[truck]\ncondition = \"worn\"\n[friction]\nslope = 0.3\n[wedge.trailing_left]\ntoe = \"0.5 deg in\"",
+    );
+    assert_eq!(mixed.wedges[2].slope_friction.coefficient, 0.3);
+    assert!((mixed.wedges[2].toe.to_degrees() + 0.5).abs() < 1e-12);
+    assert_eq!(mixed.wedges[0].toe, 0.0);
+}
+
+/// Preloads that do not carry the load are told by how much; a motion that tears the truck apart stops the run.
+#[test]
+fn input_what_only_a_run_can_tell() {
+    let set = [
+        "load_springs.preload=10000 lbf",
+        "start.lift=0 in",
+        "simulation.duration=0.1 s",
+    ]
+    .map(str::to_owned);
+    let light = builtin::case_with("truck_drop_constant", &set).unwrap();
+    let result = Run::new(&light).unwrap().finish(|_| ());
+    let warnings = result.summary.warnings.concat();
+    assert!(
+        warnings.contains("lbf less than stands on them") && warnings.contains("sinks by about"),
+        "{warnings}"
+    );
+    let set = [
+        "side_frame.longitudinal={ shape = \"ramp\", amplitude = \"60 in\", duration = \"1 s\" }".to_owned(),
+        "wheelset.longitudinal=0 in".to_owned(),
+    ];
+    let torn = builtin::case_with("truck_warp_nest_constant_rising", &set).unwrap();
+    let result = Run::new(&torn).unwrap().finish(|_| ());
+    let stopped = result.summary.stopped.unwrap();
+    assert!(
+        stopped.reason.contains("would tear the truck apart"),
+        "{}",
+        stopped.reason
+    );
+    assert!(stopped.time > 0.0 && !result.values[0].is_empty());
+}

@@ -1,0 +1,7 @@
+//! Three-piece trucks with wedge bodies, sorted by what is proved.
+
+mod common;
+mod input;
+mod reproducible;
+mod rigs;
+mod thesis_wedge;
