@@ -13,6 +13,7 @@
 //! - [`view`]: the data of the page's interactive part.
 //! - [`run_files`]: the files of a run.
 //! - [`half_truck_files`]: the files of a half-truck's run.
+//! - [`warp_files`]: the files of `wedgelab warp`.
 //! - [`table`]: tables of results, read back.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
 //!   [`study_digest`] what their page shows.
@@ -45,3 +46,4 @@ pub mod summary;
 pub mod table;
 pub mod thin;
 pub mod view;
+pub mod warp_files;

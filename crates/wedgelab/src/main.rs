@@ -15,7 +15,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use numerics::processor::{OldProcessor, check};
 
-use commands::{case, compare, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, study};
+use commands::{case, compare, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, study, warp};
 use failure::Failure;
 
 /// A laboratory for railway friction wedges.
@@ -58,6 +58,7 @@ enum Command {
     Case(case::Arguments),
     Explore(explore::Arguments),
     QuasiStatic(quasi_static::Arguments),
+    Warp(warp::Arguments),
     Nucars(nucars::Arguments),
     Fmu(fmu::Arguments),
 }
@@ -74,6 +75,7 @@ impl Cli {
             Command::Case(arguments) => case::execute(&arguments),
             Command::Explore(arguments) => explore::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
+            Command::Warp(arguments) => warp::execute(&arguments),
             Command::Nucars(arguments) => nucars::execute(&arguments),
             Command::Fmu(arguments) => fmu::execute(&arguments),
         }

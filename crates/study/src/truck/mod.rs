@@ -9,6 +9,7 @@ mod reader;
 pub mod run;
 mod sections;
 pub mod summary;
+pub mod warp;
 mod wedges;
 
 use std::path::Path;

@@ -11,3 +11,4 @@ pub mod quasi_static;
 pub mod reproduce;
 pub mod run;
 pub mod study;
+pub mod warp;

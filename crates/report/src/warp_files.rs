@@ -1,0 +1,268 @@
+//! The files of `wedgelab warp`: a table for industry programs, as CSV and as piecewise linear functions of
+//! NUCARS, and figures.
+
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+use quantity::{Kind, System as Units};
+use study::truck::run::TruckResult;
+use study::truck::warp::{Growth, NUCARS_STIFFNESS, PARTS, WarpCurve};
+
+use crate::csv::converted;
+use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
+use crate::figures::axis;
+
+/// The table of stiffnesses.
+pub const STIFFNESS: &str = "warp.csv";
+/// The loops.
+pub const LOOPS: &str = "warp_loops.csv";
+/// The piecewise linear functions.
+pub const PWL: &str = "warp.pwl";
+/// The figure.
+pub const FIGURE: &str = "warp.svg";
+/// The same as a picture.
+pub const PICTURE: &str = "warp.png";
+/// All of them.
+pub const NAMES: [&str; 5] = [STIFFNESS, LOOPS, PWL, FIGURE, PICTURE];
+
+/// kip·in, in N·m.
+pub const KIP_INCH: f64 = 112.984_829_027_616_7;
+
+/// One warp test.
+#[derive(Clone, Debug)]
+pub struct Tested {
+    /// What sets it apart from the others, such as `friction 0.25`; empty if there is one only.
+    pub label: String,
+    /// Its run.
+    pub result: TruckResult,
+    /// What it says.
+    pub curve: WarpCurve,
+}
+
+/// Writes the table: a row for each test and angle, then NUCARS's empirical lines.
+///
+/// # Errors
+/// The writer's.
+pub fn write_stiffness(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> {
+    write!(
+        out,
+        "test,warp_angle_rad,warp_moment_lbf_in,warp_stiffness_lbf_in_per_rad"
+    )?;
+    for (name, _) in PARTS {
+        write!(out, ",{name}_lbf_in")?;
+    }
+    writeln!(out, ",growth")?;
+    let us = |value: f64| converted(value, Kind::Moment, Units::Us);
+    for test in tests {
+        for ((angle, stiffness), parts) in test.curve.stiffness.iter().zip(&test.curve.parts) {
+            let label = test.label.replace(',', ";");
+            write!(
+                out,
+                "{label},{angle},{:.1},{:.1}",
+                us(angle * stiffness),
+                us(*stiffness)
+            )?;
+            for part in parts {
+                write!(out, ",{:.1}", us(*part))?;
+            }
+            writeln!(out, ",{}", test.curve.growth.name())?;
+        }
+    }
+    for (name, stiffness) in NUCARS_STIFFNESS {
+        for angle in [0.010, 0.020] {
+            let name = name.replace(',', "");
+            writeln!(
+                out,
+                "{name},{angle},{:.1},{:.1},,,,,,,",
+                us(angle * stiffness),
+                us(stiffness)
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes angle, moment and its parts over the last whole cycle of each test.
+///
+/// # Errors
+/// The writer's.
+pub fn write_loops(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> {
+    write!(out, "test,time_s,warp_angle_rad,warp_moment_lbf_in")?;
+    for (name, _) in PARTS {
+        write!(out, ",{name}_lbf_in")?;
+    }
+    writeln!(out)?;
+    for test in tests {
+        let column = |name: &str| test.result.column(name).unwrap_or_default();
+        let mut columns = vec![column("warp_moment")];
+        columns.extend(PARTS.map(|(name, _)| column(&format!("warp_moment_{name}"))));
+        let (times, angles) = (column("time"), column("warp_angle"));
+        for row in test.curve.rows.clone() {
+            write!(
+                out,
+                "{},{},{}",
+                test.label.replace(',', ";"),
+                times[row],
+                angles[row]
+            )?;
+            for column in &columns {
+                write!(out, ",{}", converted(column[row], Kind::Moment, Units::Us))?;
+            }
+            writeln!(out)?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes the piecewise linear functions of one nest (half of the truck's moment), as NUCARS reads them: mirrored
+/// about the origin, lbf·in over rad.
+///
+/// # Errors
+/// The writer's.
+pub fn write_pwl(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> {
+    writeln!(
+        out,
+        "! Warp resistance of bolster to side frame, one nest (half of the truck's moment),"
+    )?;
+    writeln!(
+        out,
+        "! in-lb over rad, where an angle is reached first; from wedgelab. Beyond the last point its slope goes on."
+    )?;
+    for (number, test) in tests.iter().enumerate() {
+        if !test.label.is_empty() {
+            writeln!(out, "! {}", test.label)?;
+        }
+        let (mut ordinates, mut abscissae) = ("0.0".to_owned(), "0.0".to_owned());
+        for (angle, stiffness) in &test.curve.stiffness {
+            let moment = 0.5 * converted(angle * stiffness, Kind::Moment, Units::Us);
+            // Writing to a String cannot fail.
+            let _ = write!(ordinates, " {moment:.4E}");
+            let _ = write!(abscissae, " {angle}");
+        }
+        let count = test.curve.stiffness.len() + 1;
+        writeln!(
+            out,
+            "  {}   {count}   {ordinates}\n          {abscissae}",
+            14 + number
+        )?;
+    }
+    Ok(())
+}
+
+/// Returns the figure: loops with NUCARS's empirical lines, and the parts of the first test's moment.
+#[must_use]
+pub fn figure(tests: &[Tested]) -> Figure {
+    let kip = |value: f64| value / KIP_INCH;
+    let mut loops: Vec<Curve> = NUCARS_STIFFNESS
+        .iter()
+        .zip([Line::Dotted, Line::Dashed])
+        .map(|((name, stiffness), line)| Curve {
+            label: (*name).to_owned(),
+            colour: Colour::Grey,
+            line,
+            points: [-20.0, 20.0]
+                .map(|angle: f64| (angle, kip(1e-3 * angle * stiffness)))
+                .to_vec(),
+        })
+        .collect();
+    let column = |test: &Tested, name: &str| -> Vec<f64> {
+        let values = test.result.column(name).unwrap_or_default();
+        values[test.curve.rows.clone()].to_vec()
+    };
+    let over_angle = |test: &Tested, name: &str| -> Vec<(f64, f64)> {
+        let angles = column(test, "warp_angle");
+        let moments = column(test, name);
+        angles
+            .into_iter()
+            .map(|angle| 1e3 * angle)
+            .zip(moments.into_iter().map(kip))
+            .collect()
+    };
+    for (number, test) in tests.iter().enumerate() {
+        let (colour, line) = distinct(number);
+        let label = if test.label.is_empty() {
+            "truck".to_owned()
+        } else {
+            test.label.clone()
+        };
+        loops.push(Curve {
+            label,
+            colour,
+            line,
+            points: over_angle(test, "warp_moment"),
+        });
+    }
+    let mut panels = vec![Panel {
+        title: "(a) warp moment".to_owned(),
+        x_label: "warp angle (mrad)".to_owned(),
+        y_label: "warp moment on the bolster (kip·in)".to_owned(),
+        curves: loops,
+        ..Panel::default()
+    }];
+    if let Some(first) = tests.first() {
+        let named = if first.label.is_empty() {
+            String::new()
+        } else {
+            format!(": {}", first.label)
+        };
+        let parts = PARTS.iter().enumerate().filter_map(|(number, (name, words))| {
+            let points = over_angle(first, &format!("warp_moment_{name}"));
+            let (colour, line) = distinct(number);
+            points.iter().any(|(_, moment)| *moment != 0.0).then(|| Curve {
+                label: (*words).to_owned(),
+                colour,
+                line,
+                points,
+            })
+        });
+        panels.push(Panel {
+            title: format!("(b) its parts{named}"),
+            x_label: "warp angle (mrad)".to_owned(),
+            y_label: "part of the warp moment (kip·in)".to_owned(),
+            curves: parts.collect(),
+            ..Panel::default()
+        });
+        panels.push(Panel {
+            title: format!("(c) normal forces of the columns{named}"),
+            x_label: "warp angle (mrad)".to_owned(),
+            y_label: axis("column normal force", Kind::Force, Units::Us),
+            curves: study::truck::WEDGE_NAMES
+                .into_iter()
+                .enumerate()
+                .map(|(number, wedge)| {
+                    let (colour, line) = distinct(number);
+                    let forces = column(first, &format!("{wedge}_column_normal"));
+                    let angles = column(first, "warp_angle").into_iter().map(|angle| 1e3 * angle);
+                    let forces = forces
+                        .into_iter()
+                        .map(|force| converted(force, Kind::Force, Units::Us));
+                    Curve {
+                        label: wedge.replace('_', " "),
+                        colour,
+                        line,
+                        points: angles.zip(forces).collect(),
+                    }
+                })
+                .collect(),
+            ..Panel::default()
+        });
+    }
+    Figure {
+        title: "Warp of a three-piece truck".to_owned(),
+        caption: "Warp moment on the bolster over the warp angle (mean yaw of the side frames less that of the bolster) over the \
+                  last whole cycle. Grey: NUCARS's empirical stiffnesses, which stand for wedging action where wedges \
+                  have no bodies. Where a nest locks, contact and bristle stiffness set the moment."
+            .to_owned(),
+        panels,
+        ..Figure::default()
+    }
+}
+
+/// Returns the plateau or what there is instead, in words.
+#[must_use]
+pub fn growth_in_words(growth: Growth) -> String {
+    match growth {
+        Growth::Plateau(moment) => format!("plateau at {:.0} kip·in", moment / KIP_INCH),
+        other => other.name().to_owned(),
+    }
+}

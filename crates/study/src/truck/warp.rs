@@ -1,0 +1,128 @@
+//! What a warp test says: warp moment over warp angle, its parts, its stiffness, whether the nest locks.
+
+use super::run::TruckResult;
+use super::summary::{WARP_ANGLES, warp_stiffness};
+
+/// NUCARS's empirical warp stiffnesses of a truck (both nests), N·m/rad: worn and new. In its input files they
+/// stand for the missing effects of wedging action.
+pub const NUCARS_STIFFNESS: [(&str, f64); 2] = [
+    ("NUCARS, worn (empirical)", 3.5 * PER_MRAD),
+    ("NUCARS, new (empirical)", 17.0 * PER_MRAD),
+];
+
+/// kip·in/mrad, in N·m/rad.
+const PER_MRAD: f64 = 112_984.829_027_616_7;
+
+/// The parts of the warp moment, by the endings of their columns' names, and in words.
+pub const PARTS: [(&str, &str); 6] = [
+    ("load_coils", "load coils"),
+    ("control_coils", "control coils"),
+    ("slopes", "slopes"),
+    ("pocket_sides", "pocket sides"),
+    ("lands", "lands"),
+    ("gibs", "gibs"),
+];
+
+/// How the moment goes on where warp grows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Growth {
+    /// It stays at a plateau: it grows by less than 15 % from 10 to 20 mrad; the moment there, N·m.
+    Plateau(f64),
+    /// The nest locks: it grows by more than half.
+    LockUp,
+    /// Between both.
+    Rising,
+    /// Warp does not reach 20 mrad.
+    Unknown,
+}
+
+impl Growth {
+    /// Returns it in a word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Plateau(_) => "plateau",
+            Self::LockUp => "lock-up",
+            Self::Rising => "rising",
+            Self::Unknown => "not reached",
+        }
+    }
+}
+
+/// A warp test.
+#[derive(Clone, Debug)]
+pub struct WarpCurve {
+    /// Warp moment over warp angle where an angle is reached first: angle (rad), secant stiffness (N·m/rad).
+    pub stiffness: Vec<(f64, f64)>,
+    /// The parts of the moment at these angles, N·m, in the order of [`PARTS`].
+    pub parts: Vec<[f64; 6]>,
+    /// How the moment goes on.
+    pub growth: Growth,
+    /// Energy that a loop takes, J: the area of the moment over the angle, over the last whole cycle.
+    pub loop_area: Option<f64>,
+    /// The rows of the last whole cycle, or of the whole run.
+    pub rows: std::ops::Range<usize>,
+}
+
+impl WarpCurve {
+    /// Returns what a run says of warp; `period` (s) is that of its motion. `None` if the warp angle stays below
+    /// 0.5 mrad.
+    #[must_use]
+    pub fn of(result: &TruckResult, period: Option<f64>) -> Option<Self> {
+        let column = |name: &str| result.column(name).unwrap_or_default();
+        let (angles, moments, times) = (column("warp_angle"), column("warp_moment"), column("time"));
+        let stiffness: Vec<(f64, f64)> = WARP_ANGLES
+            .into_iter()
+            .filter_map(|angle| Some((1e-3 * angle, warp_stiffness(angles, moments, 1e-3 * angle)?)))
+            .collect();
+        if stiffness.is_empty() {
+            return None;
+        }
+        let parts = PARTS.map(|(name, _)| column(&format!("warp_moment_{name}")));
+        let parts = stiffness
+            .iter()
+            .map(|(angle, _)| parts.map(|part| signed_growth(angles, part, *angle)))
+            .collect();
+        let moment_at = |wanted: f64| {
+            let found = stiffness.iter().find(|(angle, _)| *angle == wanted);
+            found.map(|(angle, stiffness)| angle * stiffness)
+        };
+        let growth = match (moment_at(0.010), moment_at(0.020)) {
+            (Some(before), Some(after)) if after < 1.15 * before => Growth::Plateau(after),
+            (Some(before), Some(after)) if after > 1.5 * before => Growth::LockUp,
+            (Some(_), Some(_)) => Growth::Rising,
+            _ => Growth::Unknown,
+        };
+        let last = times.last().copied().unwrap_or_default();
+        let first = period.map(|period| last - period).filter(|first| *first >= 0.0);
+        // Output times are multiples of the interval but for rounding.
+        let rows = times.partition_point(|time| *time < first.unwrap_or(0.0) - 1e-9)..times.len();
+        let loop_area = first.map(|_| {
+            let pairs = rows.clone().zip(rows.clone().skip(1));
+            pairs
+                .map(|(a, b)| 0.5 * (moments[a] + moments[b]) * (angles[b] - angles[a]))
+                .sum::<f64>()
+                .abs()
+        });
+        Some(Self {
+            stiffness,
+            parts,
+            growth,
+            loop_area,
+            rows,
+        })
+    }
+}
+
+/// How a part of the moment (N·m) grows until the angle (rad) is reached first; positive where it resists.
+fn signed_growth(angles: &[f64], part: &[f64], angle: f64) -> f64 {
+    let Some(first) = angles.iter().position(|own| own.abs() > 1e-9) else {
+        return 0.0;
+    };
+    let Some(reached) = angles.iter().position(|own| own.abs() >= angle) else {
+        return 0.0;
+    };
+    let before = first.saturating_sub(1);
+    // The moment on the bolster has the sign of the warp angle where it resists.
+    (part[reached] - part[before]) * angles[reached].signum()
+}
