@@ -207,7 +207,7 @@ pub fn figure(tests: &[Tested]) -> Figure {
         };
         let parts = PARTS.iter().enumerate().filter_map(|(number, (name, words))| {
             let points = over_angle(first, &format!("warp_moment_{name}"));
-            let (colour, line) = distinct(number);
+            let (colour, line) = distinct(tests.len() + number);
             points.iter().any(|(_, moment)| *moment != 0.0).then(|| Curve {
                 label: (*words).to_owned(),
                 colour,
@@ -230,7 +230,7 @@ pub fn figure(tests: &[Tested]) -> Figure {
                 .into_iter()
                 .enumerate()
                 .map(|(number, wedge)| {
-                    let (colour, line) = distinct(number);
+                    let (colour, line) = distinct(tests.len() + 3 + number);
                     let forces = column(first, &format!("{wedge}_column_normal"));
                     let angles = column(first, "warp_angle").into_iter().map(|angle| 1e3 * angle);
                     let forces = forces

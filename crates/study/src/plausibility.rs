@@ -74,8 +74,21 @@ pub fn warnings_by_kind<C: RunCase>(run: &Run<C>) -> Vec<String> {
 /// is none.
 #[must_use]
 pub fn nonsense<C: RunCase>(run: &Run<C>) -> Option<String> {
+    nonsense_among(run, |_| true)
+}
+
+/// Returns the same of a truck's run. That corners are pressed in is none: it is how a nest locks in warp, and the
+/// contact stiffness then sets the moment.
+#[must_use]
+pub fn nonsense_in_truck<C: RunCase>(run: &Run<C>) -> Option<String> {
+    nonsense_among(run, |kind| !matches!(kind, FindingKind::Penetration))
+}
+
+fn nonsense_among<C: RunCase>(run: &Run<C>, counts: impl Fn(FindingKind) -> bool) -> Option<String> {
     let findings = findings(run);
-    let found = findings.iter().filter(|finding| finding.kind.is_nonsense());
+    let found = findings
+        .iter()
+        .filter(|finding| finding.kind.is_nonsense() && counts(finding.kind));
     let first = found.min_by(|a, b| a.since.unwrap_or(0.0).total_cmp(&b.since.unwrap_or(0.0)))?;
     Some(run.recorder.describe(&run.system, first, run.case.units()))
 }

@@ -11,7 +11,7 @@ use toml::Table;
 use wedge::Wedge;
 
 use crate::errors::{case_error, case_message, guarded};
-use crate::outcome::NativeResult;
+use crate::outcome::{NativeResult, Origin};
 use crate::run::{Progress, run_one};
 use crate::values;
 
@@ -158,7 +158,8 @@ impl NativeCase {
         interruptible: bool,
     ) -> PyResult<NativeResult> {
         let progress = Progress::new(progress, interruptible);
-        run_one(py, &self.case, columns.as_deref(), progress)
+        let origin = Origin::Wedge(Arc::clone(&self.case));
+        run_one(py, &*self.case, origin, columns.as_deref(), progress)
     }
 
     /// The result that was taken apart by `NativeResult.parts`.
@@ -168,7 +169,7 @@ impl NativeCase {
         header: &[u8],
         values: PyReadonlyArray2<'_, f64>,
     ) -> PyResult<NativeResult> {
-        NativeResult::of_parts(py, Some(Arc::clone(&self.case)), header, &values)
+        NativeResult::of_parts(py, Origin::Wedge(Arc::clone(&self.case)), header, &values)
     }
 }
 

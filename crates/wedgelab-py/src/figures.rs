@@ -97,7 +97,7 @@ pub fn report_figures<'py>(
         let outcomes: Vec<Outcome> = results.iter().filter_map(|result| result.outcome()).collect();
         let trucks: Vec<TruckOutcome> = results
             .iter()
-            .filter_map(|result| result.truck())
+            .filter_map(|result| result.half_truck())
             .filter_map(|result| Some((catalog::entry(&result.summary.name)?, result)))
             .collect();
         let mut units = outcomes.iter().map(|(_, result)| result.summary.units);

@@ -1,7 +1,5 @@
 //! Half-trucks: cases from files of NUCARS, and their runs.
 
-use std::ops::ControlFlow;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -14,17 +12,16 @@ use serde::{Deserialize, Serialize};
 use study::any_case::CaseSource;
 use study::half_truck::catalog::{self, Entry, YawCase};
 use study::half_truck::files::{Settings, case_of_run};
-use study::half_truck::run::run_while;
 use study::half_truck::{HalfTruckCase, HalfTruckStart, options};
 
 use crate::errors::{findings, guarded, raise, simple};
 use crate::nucars::load_error;
-use crate::outcome::{NativeResult, Table, from_saved};
-use crate::run::{Failure, Progress, STOPPED};
+use crate::outcome::{NativeResult, Origin, from_saved};
+use crate::run::{Progress, run_one};
 
 /// Where a case comes from, and what is needed to make it again elsewhere.
 #[derive(Clone, Serialize, Deserialize)]
-enum Origin {
+enum Source {
     BuiltIn {
         name: String,
         settings: Settings,
@@ -41,16 +38,16 @@ enum Origin {
 pub struct NativeHalfTruckCase {
     /// The case.
     pub case: Arc<HalfTruckCase>,
-    origin: Origin,
+    source: Source,
 }
 
 fn refused(py: Python<'_>, message: &str, help: &str) -> PyErr {
     simple(py, "NucarsError", message, help)
 }
 
-fn make(py: Python<'_>, origin: Origin) -> PyResult<NativeHalfTruckCase> {
-    let case = match &origin {
-        Origin::BuiltIn { name, settings } => {
+fn make(py: Python<'_>, source: Source) -> PyResult<NativeHalfTruckCase> {
+    let case = match &source {
+        Source::BuiltIn { name, settings } => {
             let entry = entry(py, name)?;
             let made = entry.case_with(settings);
             made.map_err(|error| {
@@ -58,7 +55,7 @@ fn make(py: Python<'_>, origin: Origin) -> PyResult<NativeHalfTruckCase> {
                 refused(py, &error.to_string(), help)
             })?
         }
-        Origin::Files {
+        Source::Files {
             path,
             texts,
             settings,
@@ -69,7 +66,7 @@ fn make(py: Python<'_>, origin: Origin) -> PyResult<NativeHalfTruckCase> {
     };
     Ok(NativeHalfTruckCase {
         case: Arc::new(case),
-        origin,
+        source,
     })
 }
 
@@ -80,16 +77,16 @@ pub fn of_source(py: Python<'_>, source: &CaseSource, set: Vec<String>) -> PyRes
         ..Settings::default()
     };
     match source.clone() {
-        CaseSource::BuiltInHalfTruck(name) => make(py, Origin::BuiltIn { name, settings }),
+        CaseSource::BuiltInHalfTruck(name) => make(py, Source::BuiltIn { name, settings }),
         CaseSource::HalfTruck { path, texts } => make(
             py,
-            Origin::Files {
+            Source::Files {
                 path,
                 texts,
                 settings,
             },
         ),
-        CaseSource::Wedge { name, .. } => Err(refused(py, &format!("{name} is a wedge's case"), "")),
+        CaseSource::File { name, .. } => Err(refused(py, &format!("{name} is no half-truck"), "")),
     }
 }
 
@@ -218,7 +215,7 @@ impl NativeHalfTruckCase {
                     return Err(refused(py, &message, "name a run file, or leave them out"));
                 }
                 let name = name.to_owned();
-                return make(py, Origin::BuiltIn { name, settings });
+                return make(py, Source::BuiltIn { name, settings });
             }
             let path = find(&path).map_err(|error| load_error(py, &error))?;
             let instead = Instead { system, data, input };
@@ -228,7 +225,7 @@ impl NativeHalfTruckCase {
             let texts = Box::new(files.texts());
             make(
                 py,
-                Origin::Files {
+                Source::Files {
                     path,
                     texts,
                     settings,
@@ -241,17 +238,17 @@ impl NativeHalfTruckCase {
     #[staticmethod]
     fn load(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
         guarded(py, || {
-            let origin = from_saved(bytes).map_err(|error| {
+            let source = from_saved(bytes).map_err(|error| {
                 let help = "it is damaged, or was saved by another version of wedgelab; read the files again";
                 refused(py, &format!("this saved case cannot be read: {error}"), help)
             })?;
-            make(py, origin)
+            make(py, source)
         })
     }
 
     /// All that is needed to make the case again, the texts of its files included.
     fn saved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = rmp_serde::to_vec_named(&self.origin);
+        let bytes = rmp_serde::to_vec_named(&self.source);
         let bytes = bytes.map_err(|error| refused(py, &error.to_string(), ""))?;
         Ok(PyBytes::new(py, &bytes))
     }
@@ -285,31 +282,8 @@ impl NativeHalfTruckCase {
         progress: Option<Py<PyAny>>,
         interruptible: bool,
     ) -> PyResult<NativeResult> {
-        let mut progress = Progress::new(progress, interruptible);
-        let done = py.detach(|| outcome(&self.case, columns.as_deref(), |time| progress.tell(time)));
-        if let Some(error) = progress.into_error() {
-            return Err(error);
-        }
-        let table = done.map_err(|failure| failure.error(py, &self.case.name))?;
-        Ok(NativeResult::new(None, table))
-    }
-}
-
-/// Runs a case; panics become failures.
-pub fn outcome(
-    case: &HalfTruckCase,
-    columns: Option<&[String]>,
-    mut progress: impl FnMut(f64) -> ControlFlow<()>,
-) -> Result<Table, Failure> {
-    let progress = |time| progress(time).map_break(|()| STOPPED.to_owned());
-    match catch_unwind(AssertUnwindSafe(|| run_while(case, progress))) {
-        Ok(Ok(result)) => {
-            let mut table = Table::of_truck(result);
-            table.keep(columns);
-            Ok(table)
-        }
-        Ok(Err(error)) => Err(Failure::Begin(error.to_string())),
-        Err(panic) => Err(Failure::Panic(crate::errors::panic_text(panic.as_ref()))),
+        let progress = Progress::new(progress, interruptible);
+        run_one(py, &*self.case, Origin::HalfTruck, columns.as_deref(), progress)
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Python code in `python/wedgelab` gives it names, types and tables; the work is done by lower floors. One
 //! module a thing: `case`, `outcome` (results), `run` and `many` (running), `step` (users' own loops),
-//! `study`, `figures`, `nucars` and `half_truck`, `quasi_static`, `quantity`, and `values` and `errors` for the
+//! `study`, `figures`, `nucars` and `half_truck`, `truck`, `quasi_static`, `quantity`, and `values` and `errors` for the
 //! way between the languages.
 //!
 //! Nothing panics through: what calls into lower floors runs in `errors::guarded`.
@@ -21,6 +21,7 @@ mod quasi_static;
 mod run;
 mod step;
 mod study;
+mod truck;
 mod values;
 
 /// The native part of `wedgelab`.
@@ -50,6 +51,8 @@ mod _wedgelab {
     use crate::step::NativeWedge;
     #[pymodule_export]
     use crate::study::{NativeStudy, NativeStudyFolder};
+    #[pymodule_export]
+    use crate::truck::NativeTruckCase;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -9,26 +9,38 @@ use std::time::Duration;
 use pyo3::prelude::*;
 use study::case::Case;
 use study::half_truck::HalfTruckCase;
+use study::truck::TruckCase;
 
 use crate::case::NativeCase;
-use crate::half_truck::{self, NativeHalfTruckCase};
-use crate::outcome::{NativeResult, Table};
-use crate::run::{Failure, outcome};
+use crate::half_truck::NativeHalfTruckCase;
+use crate::outcome::{NativeResult, Origin, Table};
+use crate::run::{Failure, table};
+use crate::truck::NativeTruckCase;
 
 /// How often Python is asked for signals.
 const INTERVAL: Duration = Duration::from_millis(50);
 
-/// A case of either kind.
+/// A case of any model.
 enum Work {
     Wedge(Arc<Case>),
-    Truck(Arc<HalfTruckCase>),
+    HalfTruck(Arc<HalfTruckCase>),
+    Truck(Arc<TruckCase>),
 }
 
 impl Work {
     fn name(&self) -> &str {
         match self {
             Self::Wedge(case) => &case.name,
+            Self::HalfTruck(case) => &case.name,
             Self::Truck(case) => &case.name,
+        }
+    }
+
+    fn origin(&self) -> Origin {
+        match self {
+            Self::Wedge(case) => Origin::Wedge(Arc::clone(case)),
+            Self::HalfTruck(_) => Origin::HalfTruck,
+            Self::Truck(case) => Origin::Truck(Arc::clone(case)),
         }
     }
 
@@ -41,12 +53,9 @@ impl Work {
             }
         };
         match self {
-            Self::Wedge(case) => {
-                let mut table = Table::of_run(outcome(case, go_on)?);
-                table.keep(columns);
-                Ok(table)
-            }
-            Self::Truck(case) => half_truck::outcome(case, columns, go_on),
+            Self::Wedge(case) => table(&**case, columns, go_on),
+            Self::HalfTruck(case) => table(&**case, columns, go_on),
+            Self::Truck(case) => table(&**case, columns, go_on),
         }
     }
 }
@@ -69,19 +78,16 @@ pub fn run_many(
         if let Ok(case) = case.cast::<NativeCase>() {
             return Ok(Work::Wedge(Arc::clone(&case.get().case)));
         }
+        if let Ok(case) = case.cast::<NativeTruckCase>() {
+            return Ok(Work::Truck(Arc::clone(&case.get().case)));
+        }
         let case = case.cast::<NativeHalfTruckCase>()?;
-        Ok(Work::Truck(Arc::clone(&case.get().case)))
+        Ok(Work::HalfTruck(Arc::clone(&case.get().case)))
     });
     let work: Vec<Work> = work.collect::<PyResult<_>>()?;
     let slots = py.detach(|| all(&work, workers, columns.as_deref(), progress.as_ref()))?;
     let results = work.iter().zip(slots).map(|(work, slot)| match slot {
-        Some(Ok(table)) => {
-            let case = match work {
-                Work::Wedge(case) => Some(Arc::clone(case)),
-                Work::Truck(_) => None,
-            };
-            Ok(Py::new(py, NativeResult::new(case, table))?.into_any())
-        }
+        Some(Ok(table)) => Ok(Py::new(py, NativeResult::new(work.origin(), table))?.into_any()),
         Some(Err(failure)) => Ok(failure.error(py, work.name()).into_value(py).into_any()),
         None => {
             let lost = Failure::Panic("a worker was lost".to_owned());

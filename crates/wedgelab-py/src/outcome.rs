@@ -10,15 +10,18 @@ use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList};
 use report::files::Folder;
-use report::run_files;
+use report::run_files::{self, RunFiles};
 use serde::{Deserialize, Serialize};
 use study::case::Case;
 use study::half_truck::{HalfTruckResult, HalfTruckSummary};
 use study::result::RunResult;
-use study::summary::Summary;
+use study::summary::{RunSummary, Summary};
+use study::truck::TruckCase;
+use study::truck::summary::TruckSummary;
 
 use crate::case::NativeCase;
 use crate::errors::{guarded, simple};
+use crate::truck::NativeTruckCase;
 use crate::values;
 
 /// A summary of either kind.
@@ -27,7 +30,48 @@ pub enum AnySummary {
     /// Of the wedge.
     Wedge(Box<Summary>),
     /// Of a half-truck.
-    Truck(Box<HalfTruckSummary>),
+    HalfTruck(Box<HalfTruckSummary>),
+    /// Of a truck.
+    Truck(Box<TruckSummary>),
+}
+
+impl AnySummary {
+    fn get(&self) -> &dyn RunSummary {
+        match self {
+            Self::Wedge(summary) => &**summary,
+            Self::HalfTruck(summary) => &**summary,
+            Self::Truck(summary) => &**summary,
+        }
+    }
+}
+
+impl From<Summary> for AnySummary {
+    fn from(summary: Summary) -> Self {
+        Self::Wedge(Box::new(summary))
+    }
+}
+
+impl From<HalfTruckSummary> for AnySummary {
+    fn from(summary: HalfTruckSummary) -> Self {
+        Self::HalfTruck(Box::new(summary))
+    }
+}
+
+impl From<TruckSummary> for AnySummary {
+    fn from(summary: TruckSummary) -> Self {
+        Self::Truck(Box::new(summary))
+    }
+}
+
+/// The case that a result came from.
+#[derive(Clone)]
+pub enum Origin {
+    /// A wedge's.
+    Wedge(Arc<Case>),
+    /// A half-truck's, which is not kept.
+    HalfTruck,
+    /// A truck's.
+    Truck(Arc<TruckCase>),
 }
 
 /// The table of a run and its summary.
@@ -42,12 +86,12 @@ pub struct Table {
 }
 
 impl Table {
-    /// Of a wedge's run.
-    pub fn of_run(result: RunResult) -> Self {
+    /// Of a run.
+    pub fn of_run<S: Into<AnySummary>>(result: RunResult<S>) -> Self {
         Self {
             columns: result.columns,
             values: result.values,
-            summary: AnySummary::Wedge(Box::new(result.summary)),
+            summary: result.summary.into(),
         }
     }
 
@@ -59,15 +103,6 @@ impl Table {
             .zip(std::mem::take(&mut self.values));
         (self.columns, self.values) = all.filter(|(column, _)| wanted.contains(&column.name)).unzip();
     }
-
-    /// Of a half-truck's run.
-    pub fn of_truck(result: HalfTruckResult) -> Self {
-        Self {
-            columns: result.columns,
-            values: result.values,
-            summary: AnySummary::Truck(Box::new(result.summary)),
-        }
-    }
 }
 
 /// What a result is taken apart into, besides its values.
@@ -78,7 +113,7 @@ struct Header {
     summary: AnySummary,
 }
 
-const HEADER_VERSION: u32 = 1;
+const HEADER_VERSION: u32 = 2;
 
 /// More bytes than these are neither a saved case nor the head of a saved result, and are not read.
 const MOST_SAVED_BYTES: usize = 64 << 20;
@@ -100,55 +135,52 @@ pub fn from_saved<T: serde::de::DeserializeOwned>(bytes: &[u8]) -> Result<T, Str
 /// A result.
 #[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeResult")]
 pub struct NativeResult {
-    /// The wedge's case; half-trucks have none.
-    pub case: Option<Arc<Case>>,
+    /// The case that it came from.
+    pub origin: Origin,
     /// What came out.
     pub table: Table,
 }
 
 impl NativeResult {
     /// Of a case and what came out of it.
-    pub fn new(case: Option<Arc<Case>>, table: Table) -> Self {
-        Self { case, table }
+    pub fn new(origin: Origin, table: Table) -> Self {
+        Self { origin, table }
     }
 
     /// Units of its summary.
     fn units_of(&self) -> Units {
-        match &self.table.summary {
-            AnySummary::Wedge(summary) => summary.units,
-            AnySummary::Truck(summary) => summary.units,
-        }
+        self.table.summary.get().units()
     }
 
     /// Case and result as lower floors have them; `None` for half-trucks.
     pub fn outcome(&self) -> Option<(Case, RunResult)> {
-        let (Some(case), AnySummary::Wedge(summary)) = (&self.case, &self.table.summary) else {
+        let (Origin::Wedge(case), AnySummary::Wedge(summary)) = (&self.origin, &self.table.summary) else {
             return None;
         };
-        let result = RunResult {
-            columns: self.table.columns.clone(),
-            values: self.table.values.clone(),
-            summary: (**summary).clone(),
-        };
-        Some(((**case).clone(), result))
+        Some(((**case).clone(), self.result(&**summary)))
     }
 
-    /// The half-truck's result as lower floors have it; `None` for wedges.
-    pub fn truck(&self) -> Option<HalfTruckResult> {
-        let AnySummary::Truck(summary) = &self.table.summary else {
+    /// The half-truck's result as lower floors have it; `None` for others.
+    pub fn half_truck(&self) -> Option<HalfTruckResult> {
+        let AnySummary::HalfTruck(summary) = &self.table.summary else {
             return None;
         };
-        Some(HalfTruckResult {
+        Some(self.result(&**summary))
+    }
+
+    /// The table with its summary.
+    fn result<S: Clone>(&self, summary: &S) -> RunResult<S> {
+        RunResult {
             columns: self.table.columns.clone(),
             values: self.table.values.clone(),
-            summary: (**summary).clone(),
-        })
+            summary: summary.clone(),
+        }
     }
 
     /// The reverse of [`NativeResult::parts`].
     pub fn of_parts(
         py: Python<'_>,
-        case: Option<Arc<Case>>,
+        origin: Origin,
         header: &[u8],
         values: &PyReadonlyArray2<'_, f64>,
     ) -> PyResult<Self> {
@@ -174,7 +206,7 @@ impl NativeResult {
         let rows = values.as_array();
         let values = rows.rows().into_iter().map(|row| row.to_vec()).collect();
         Ok(Self::new(
-            case,
+            origin,
             Table {
                 columns: header.columns,
                 values,
@@ -236,46 +268,57 @@ impl NativeResult {
     /// The case of a wedge's run.
     #[getter]
     fn case(&self) -> Option<NativeCase> {
-        let case = Arc::clone(self.case.as_ref()?);
+        let Origin::Wedge(case) = &self.origin else {
+            return None;
+        };
+        let case = Arc::clone(case);
         Some(NativeCase { case })
+    }
+
+    /// The case of a truck's run.
+    #[getter]
+    fn truck_case(&self) -> Option<NativeTruckCase> {
+        let Origin::Truck(case) = &self.origin else {
+            return None;
+        };
+        let case = Arc::clone(case);
+        Some(NativeTruckCase { case })
+    }
+
+    /// What was run: `wedge`, `half_truck` or `truck`.
+    #[getter]
+    fn model(&self) -> &'static str {
+        match self.origin {
+            Origin::Wedge(_) => "wedge",
+            Origin::HalfTruck => "half_truck",
+            Origin::Truck(_) => "truck",
+        }
     }
 
     /// Why and when it stopped, if it is not complete.
     #[getter]
     fn stopped(&self) -> Option<(f64, String)> {
-        let stopped = match &self.table.summary {
-            AnySummary::Wedge(summary) => summary.stopped.as_ref(),
-            AnySummary::Truck(summary) => summary.stopped.as_ref(),
-        };
+        let stopped = self.table.summary.get().stopped();
         stopped.map(|stopped| (stopped.time, stopped.reason.clone()))
     }
 
     /// Why it has failed although it came to its end: its energy ledger does not close.
     #[getter]
     fn failed(&self) -> Option<String> {
-        match &self.table.summary {
-            AnySummary::Wedge(summary) => summary.failed.clone(),
-            AnySummary::Truck(summary) => summary.failed.clone(),
-        }
+        self.table.summary.get().failed().map(str::to_owned)
     }
 
     /// The warnings about its energy ledger.
     #[getter]
     fn energy_warnings(&self) -> Vec<String> {
-        let warnings = match &self.table.summary {
-            AnySummary::Wedge(summary) => &summary.warnings,
-            AnySummary::Truck(summary) => &summary.warnings,
-        };
+        let warnings = self.table.summary.get().warnings();
         study::energy::among(warnings).map(str::to_owned).collect()
     }
 
     /// The warnings about what is implausible in it.
     #[getter]
     fn implausible(&self) -> Vec<String> {
-        let warnings = match &self.table.summary {
-            AnySummary::Wedge(summary) => &summary.warnings,
-            AnySummary::Truck(summary) => &summary.warnings,
-        };
+        let warnings = self.table.summary.get().warnings();
         study::plausibility::among(warnings).map(str::to_owned).collect()
     }
 
@@ -283,6 +326,7 @@ impl NativeResult {
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let value = match &self.table.summary {
             AnySummary::Wedge(summary) => serde_json::to_value(summary),
+            AnySummary::HalfTruck(summary) => serde_json::to_value(summary),
             AnySummary::Truck(summary) => serde_json::to_value(summary),
         };
         let value = value.map_err(|error| PyValueError::new_err(error.to_string()))?;
@@ -313,27 +357,32 @@ impl NativeResult {
         header: &[u8],
         values: PyReadonlyArray2<'_, f64>,
     ) -> PyResult<Self> {
-        Self::of_parts(py, None, header, &values)
+        Self::of_parts(py, Origin::HalfTruck, header, &values)
     }
 
     /// Writes the files that `wedgelab run` writes.
     fn write(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<Vec<&'static str>> {
         guarded(py, || {
-            let Some((case, result)) = self.outcome() else {
-                let message = "only results of wedges can be written";
-                return Err(simple(
-                    py,
-                    "WedgelabError",
-                    message,
-                    "use to_pandas().to_csv(...)",
-                ));
-            };
             let failed = |error: report::files::FileError| {
                 let text = crate::errors::shown(&error);
                 crate::errors::raise(py, "FileError", (error.to_string(), text))
             };
-            let folder = Folder::check(folder, &run_files::NAMES, force).map_err(failed)?;
-            run_files::write(&folder, &case, &result).map_err(failed)?;
+            let refused = || {
+                let message = "results of half-trucks cannot be written";
+                simple(py, "WedgelabError", message, "use to_pandas().to_csv(...)")
+            };
+            let folder = || Folder::check(folder, &run_files::NAMES, force).map_err(failed);
+            match (&self.origin, &self.table.summary) {
+                (Origin::Wedge(case), AnySummary::Wedge(summary)) => {
+                    let result = self.result(&**summary);
+                    RunFiles::write(&**case, &folder()?, &result).map_err(failed)?;
+                }
+                (Origin::Truck(case), AnySummary::Truck(summary)) => {
+                    let result = self.result(&**summary);
+                    RunFiles::write(&**case, &folder()?, &result).map_err(failed)?;
+                }
+                _ => return Err(refused()),
+            }
             Ok(run_files::NAMES.to_vec())
         })
     }

@@ -2,16 +2,14 @@
 
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
-use study::case::Case;
-use study::result::RunResult;
-use study::run::{Run, RunError};
+use report::run_files::RunFiles;
+use study::run::{Run, RunCase, RunError};
 
 use crate::errors::{internal, panic_text, simple};
-use crate::outcome::{NativeResult, Table};
+use crate::outcome::{AnySummary, NativeResult, Origin, Table};
 
 /// How often Python is asked for signals and told of progress.
 const INTERVAL: Duration = Duration::from_millis(50);
@@ -102,7 +100,10 @@ impl Failure {
 pub const STOPPED: &str = "it was stopped from outside";
 
 /// Runs a case until its end, or until it is told to stop; panics become failures.
-pub fn outcome(case: &Case, progress: impl FnMut(f64) -> ControlFlow<()>) -> Result<RunResult, Failure> {
+pub fn outcome<C: RunCase>(
+    case: &C,
+    progress: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<C::Output, Failure> {
     let run = AssertUnwindSafe(|| drive(case, progress));
     match catch_unwind(run) {
         Ok(Ok(result)) => Ok(result),
@@ -111,28 +112,36 @@ pub fn outcome(case: &Case, progress: impl FnMut(f64) -> ControlFlow<()>) -> Res
     }
 }
 
-fn drive(case: &Case, mut progress: impl FnMut(f64) -> ControlFlow<()>) -> Result<RunResult, RunError> {
+fn drive<C: RunCase>(
+    case: &C,
+    mut progress: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<C::Output, RunError> {
     Ok(Run::new(case)?.finish_while(|time| progress(time).map_break(|()| STOPPED.to_owned())))
 }
 
+/// As [`outcome`], with these columns only, by their names without unit.
+pub fn table<C: RunFiles<Summary: Into<AnySummary>>>(
+    case: &C,
+    columns: Option<&[String]>,
+    progress: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<Table, Failure> {
+    let mut table = Table::of_run(outcome(case, progress)?);
+    table.keep(columns);
+    Ok(table)
+}
+
 /// Runs a case for Python.
-pub fn run_one(
+pub fn run_one<C: RunFiles<Summary: Into<AnySummary>> + Sync>(
     py: Python<'_>,
-    case: &Arc<Case>,
+    case: &C,
+    origin: Origin,
     columns: Option<&[String]>,
     mut progress: Progress,
 ) -> PyResult<NativeResult> {
-    let done = py.detach(|| {
-        let done = outcome(case, |time| progress.tell(time));
-        done.map(|result| {
-            let mut table = Table::of_run(result);
-            table.keep(columns);
-            table
-        })
-    });
+    let done = py.detach(|| table(case, columns, |time| progress.tell(time)));
     if let Some(error) = progress.into_error() {
         return Err(error);
     }
-    let table = done.map_err(|failure| failure.error(py, &case.name))?;
-    Ok(NativeResult::new(Some(Arc::clone(case)), table))
+    let table = done.map_err(|failure| failure.error(py, case.name()))?;
+    Ok(NativeResult::new(origin, table))
 }

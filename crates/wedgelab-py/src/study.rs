@@ -20,6 +20,7 @@ use crate::case::NativeCase;
 use crate::errors::{case_error, guarded, internal, panic_text, raise, shown, simple};
 use crate::half_truck;
 use crate::outcome::from_saved;
+use crate::truck::NativeTruckCase;
 
 /// How often Python is asked for signals and told of progress.
 const INTERVAL: Duration = Duration::from_millis(50);
@@ -140,6 +141,7 @@ impl NativeStudy {
             let case = self.study.case(number).map_err(|error| case_error(py, &error))?;
             match case {
                 AnyCase::Wedge(case) => Ok(Py::new(py, NativeCase::new(*case))?.into_any()),
+                AnyCase::Truck(case) => Ok(Py::new(py, NativeTruckCase::new(*case))?.into_any()),
                 AnyCase::HalfTruck(_) => {
                     let set = self.study.overrides(number);
                     let case = half_truck::of_source(py, &self.study.source().case, set)?;

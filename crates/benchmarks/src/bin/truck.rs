@@ -11,7 +11,8 @@ use benchmarks::{costs, cpu_seconds, ledger};
 use integrate::{Integrator, Method, Options};
 use mechanics::energy_balance::EnergyBalance;
 use mechanics::system::System;
-use truck::{RIGS, Rig, Truck};
+use study::truck::{TruckCase, builtin};
+use truck::Truck;
 
 /// lbf, in N.
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
@@ -58,13 +59,14 @@ fn measure_all() -> Result<(), String> {
         "column lbf"
     );
     let mut last = None;
-    for rig in RIGS.iter().filter(|rig| rig.name.contains(part)) {
+    for name in builtin::names().filter(|name| name.contains(part)) {
+        let case = builtin::case_with(name, &[]).map_err(|error| error.to_string())?;
         for method in &methods {
-            last = Some(measure(rig, *method, tolerance)?);
+            last = Some(measure(&case, *method, tolerance)?);
         }
     }
     let Some((mut system, time, x)) = last else {
-        let names: Vec<&str> = RIGS.iter().map(|rig| rig.name).collect();
+        let names: Vec<&str> = builtin::names().collect();
         return Err(format!(
             "no truck is called `{part}`; there are {}",
             names.join(", ")
@@ -81,23 +83,24 @@ fn measure_all() -> Result<(), String> {
 }
 
 /// Runs one truck and prints its line; returns where it ended.
-fn measure(rig: &Rig, method: Method, tolerance: f64) -> Result<(System, f64, Vec<f64>), String> {
-    let truck = Truck::new(&rig.parameters()).map_err(|error| error.to_string())?;
+fn measure(case: &TruckCase, method: Method, tolerance: f64) -> Result<(System, f64, Vec<f64>), String> {
+    let truck = Truck::new(&case.parameters).map_err(|error| error.to_string())?;
     let system = truck.system.clone();
     let options = Options {
         relative_tolerance: tolerance,
         maximum_steps: MOST_STEPS,
         ..Options::of(method)
     };
-    let x = system.initial_state();
+    let x = truck.initial_state.clone();
+    let duration = case.simulation.duration;
     let mut observer = system.clone();
     let start = observer.observe(0.0, &x).energies.total();
     let mut integrator = Integrator::new(system, options, 0.0, &x).map_err(|error| error.to_string())?;
     let begun = cpu_seconds();
     let (mut stopped, mut balance) = (None, EnergyBalance::new(start));
     let (mut row, mut buffer, mut observing) = (1.0, x.clone(), 0.0);
-    while integrator.time() < rig.duration {
-        if let Err(error) = integrator.step_to(rig.duration) {
+    while integrator.time() < duration {
+        if let Err(error) = integrator.step_to(duration) {
             stopped = Some(error.to_string());
             break;
         }
@@ -120,7 +123,7 @@ fn measure(rig: &Rig, method: Method, tolerance: f64) -> Result<(System, f64, Ve
     let s = integrator.statistics();
     println!(
         "{:34} {:8} {:8} {:8} {:7} {:9} {:9} {:9} {:10.0} {:7.2} {:8.1} {:9.1e} {:10.0}",
-        rig.name,
+        case.name,
         method.tableau().name,
         s.steps,
         s.rejected(),

@@ -102,6 +102,32 @@ impl TruckCase {
         Self::of_tree(&tree, source, tables.into(), problems)
     }
 
+    /// Lays values over the text of a case: TOML as in a case file, but a bare number where a quantity is expected is
+    /// in SI units (a toe in rad, positive out). Tables are merged key by key; a motion of another shape replaces
+    /// the whole motion.
+    ///
+    /// # Errors
+    /// As [`TruckCase::parse`].
+    pub fn of_values<'t>(
+        source: &str,
+        text: &str,
+        values: Option<&str>,
+        tables: impl Into<Tables<'t>>,
+    ) -> Result<Self, CaseError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let below = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
+        case::refuse_study(&below, source)?;
+        let tree = match values {
+            None => below,
+            Some(values) => {
+                let mut tree = tree::parse(&TomlSource::in_si("values", values)).map_err(CaseError::new)?;
+                tree.complete_from(&below);
+                tree
+            }
+        };
+        Self::of_tree(&tree, source, tables.into(), Problems::new())
+    }
+
     /// Reads a tree; `problems` are those found on the way to it.
     pub(crate) fn of_tree(
         tree: &Table,

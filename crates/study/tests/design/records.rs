@@ -110,7 +110,7 @@ fn limits_a_study_from_its_texts_is_the_same() {
     let mut elsewhere = study.source().clone();
     elsewhere.folder = "/nowhere".into();
     elsewhere.name = "/nowhere/some.toml".to_owned();
-    let CaseSource::Wedge { name, .. } = &mut elsewhere.case else {
+    let CaseSource::File { name, .. } = &mut elsewhere.case else {
         panic!("a wedge's case");
     };
     *name = format!("/nowhere/{name}");

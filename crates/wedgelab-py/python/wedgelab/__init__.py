@@ -26,7 +26,7 @@ from .figures import Curve, Figure, Mark, Panel, report_figures
 from .many import run_many
 from .nucars import HalfTruckCase
 from .quasi_static import Sliding, quasi_static
-from .result import Column, DataTable, Record, Result, HalfTruckResult, UnknownColumn
+from .result import Column, DataTable, HalfTruckResult, Record, Result, TruckResult, UnknownColumn
 from .sections import (
     BolsterSection,
     Constant,
@@ -45,6 +45,7 @@ from .sections import (
 )
 from .step import COORDINATES, Forces, Motion, Wedge
 from .study import Study, StudyColumn, StudyOutcome
+from .truck import TruckCase
 
 __all__ = [
     "COORDINATES",
@@ -65,6 +66,8 @@ __all__ = [
     "Forces",
     "FrictionSection",
     "Group",
+    "HalfTruckCase",
+    "HalfTruckResult",
     "InternalError",
     "Mark",
     "MissingDependencyError",
@@ -90,8 +93,8 @@ __all__ = [
     "SweptSine",
     "Table",
     "Triangle",
-    "HalfTruckCase",
-    "HalfTruckResult",
+    "TruckCase",
+    "TruckResult",
     "UnitError",
     "UnknownColumn",
     "Wedge",

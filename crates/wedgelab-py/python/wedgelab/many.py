@@ -7,12 +7,13 @@ import sys
 from collections.abc import Callable, Iterable
 from typing import Any, Union, overload
 
-from ._wedgelab import NativeCase, NativeHalfTruckCase
+from ._wedgelab import NativeCase, NativeHalfTruckCase, NativeTruckCase
 from ._wedgelab import run_many as _run_many
 from .case import Case, _names
 from .errors import RunError, WedgelabError
 from .nucars import HalfTruckCase
-from .result import AnyResult, Result, HalfTruckResult, is_sound, unsound_error, warn
+from .result import AnyResult, HalfTruckResult, Result, TruckResult, is_sound, result_of, unsound_error, warn
+from .truck import TruckCase
 
 __all__ = ["run_many"]
 
@@ -37,8 +38,17 @@ def run_many(
     progress: Progress = False,
     errors: str = "raise",
 ) -> list[HalfTruckResult]: ...
+@overload
 def run_many(
-    cases: Iterable[Case] | Iterable[HalfTruckCase],
+    cases: Iterable[TruckCase],
+    *,
+    workers: int | None = None,
+    columns: Iterable[str] | None = None,
+    progress: Progress = False,
+    errors: str = "raise",
+) -> list[TruckResult]: ...
+def run_many(
+    cases: Iterable[Case] | Iterable[HalfTruckCase] | Iterable[TruckCase],
     *,
     workers: int | None = None,
     columns: Iterable[str] | None = None,
@@ -55,10 +65,11 @@ def run_many(
     Runs that cannot begin or go on: with ``errors="raise"`` all others are finished, then the first of them is raised, with everything
     that came out as its ``results``; with ``errors="keep"`` the list has the exceptions in their places.
     """
-    natives: list[NativeCase | NativeHalfTruckCase] = []
+    natives: list[NativeCase | NativeHalfTruckCase | NativeTruckCase] = []
     for place, case in enumerate(cases):
-        if not isinstance(case, (Case, HalfTruckCase)):
-            raise WedgelabError(f"cases[{place}] is a {type(case).__name__}; a Case or HalfTruckCase is expected")
+        if not isinstance(case, (Case, HalfTruckCase, TruckCase)):
+            kinds = "a Case, HalfTruckCase or TruckCase"
+            raise WedgelabError(f"cases[{place}] is a {type(case).__name__}; {kinds} is expected")
         natives.append(case._native)
     count = _workers(workers)
     if errors not in ("raise", "keep"):
@@ -85,7 +96,7 @@ def _workers(workers: int | None) -> int:
 def _finished(one: Any) -> AnyResult | WedgelabError:
     if isinstance(one, WedgelabError):
         return one
-    result: AnyResult = HalfTruckResult(one) if one.case is None else Result(one)
+    result: AnyResult = result_of(one)
     if not is_sound(result):
         return unsound_error(result)
     warn(result, stacklevel=4)

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._optional import need
-from ._wedgelab import NativeCase, NativeResult
+from ._wedgelab import NativeCase, NativeResult, NativeTruckCase
 from .errors import EnergyWarning, PlausibilityWarning, RunError, WedgelabError
 from .figures import Figure, _figures
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from .case import Case
 
-__all__ = ["AnyResult", "Column", "DataTable", "Record", "Result", "HalfTruckResult"]
+__all__ = ["AnyResult", "Column", "DataTable", "HalfTruckResult", "Record", "Result", "TruckResult"]
 
 Floats = npt.NDArray[np.float64]
 
@@ -422,7 +422,51 @@ class HalfTruckResult(_Base):
         return (_half_truck_of_parts, self._native.parts())
 
 
-AnyResult = Union[Result, HalfTruckResult]
+class TruckResult(_Base):
+    """What came out of a truck's run; columns and their units as in `Result`."""
+
+    __slots__ = ()
+
+    @property
+    def ledger(self) -> DataTable:
+        """The energy ledger at the end, in the summary's units: entry, value, unit."""
+        entries = self.summary.ledger.entries
+        return DataTable(
+            {
+                "entry": np.array(list(entries)),
+                "value": np.array([measure.value for measure in entries.values()], dtype=float),
+                "unit": np.array([measure.unit for measure in entries.values()]),
+            }
+        )
+
+    def plot_warp(self, ax: Axes | None = None, *, column: str = "warp_moment", **options: Any) -> Axes:
+        """Draws the warp moment on the bolster, or another column, over the warp angle; gives the axes."""
+        return self._loop(ax, "warp_angle", column, options)
+
+    def write(self, folder: str | os.PathLike[str], *, force: bool = False) -> list[str]:
+        """Writes what ``wedgelab run`` writes into a folder: result.csv, result.mat, case.toml, summary.json.
+
+        Existing results are overwritten only with ``force``.
+        """
+        return self._native.write(folder, force)
+
+    def __repr__(self) -> str:
+        how = "" if self.is_complete else ", incomplete"
+        return f"<TruckResult of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        header, values = self._native.parts()
+        native = self._native.truck_case
+        return (_truck_result_of_parts, (None if native is None else native.to_toml(), header, values))
+
+
+AnyResult = Union[Result, HalfTruckResult, TruckResult]
+
+
+def result_of(native: NativeResult) -> AnyResult:
+    """The result of a run of any model."""
+    kinds: dict[str, type[AnyResult]] = {"wedge": Result, "half_truck": HalfTruckResult, "truck": TruckResult}
+    return kinds[native.model](native)
 
 
 def _result_of_parts(case: str | None, header: bytes, values: Floats) -> Result:
@@ -430,6 +474,13 @@ def _result_of_parts(case: str | None, header: bytes, values: Floats) -> Result:
         raise WedgelabError("this saved result has no case")
     native = NativeCase.parse(case, "case.toml", "", {})
     return Result(native.result_of_parts(header, values))
+
+
+def _truck_result_of_parts(case: str | None, header: bytes, values: Floats) -> TruckResult:
+    if case is None:
+        raise WedgelabError("this saved result has no case")
+    native = NativeTruckCase.parse(case, "case.toml", "", {})
+    return TruckResult(native.result_of_parts(header, values))
 
 
 def _half_truck_of_parts(header: bytes, values: Floats) -> HalfTruckResult:

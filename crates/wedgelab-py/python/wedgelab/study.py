@@ -10,11 +10,12 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Union
 
-from ._wedgelab import NativeStudy, NativeStudyFolder, NativeHalfTruckCase
+from ._wedgelab import NativeHalfTruckCase, NativeStudy, NativeStudyFolder, NativeTruckCase
 from .case import Case
 from .errors import StudyError
 from .many import Progress, _teller, _workers
 from .nucars import HalfTruckCase
+from .truck import TruckCase
 
 __all__ = ["Study", "StudyColumn", "StudyOutcome"]
 
@@ -115,10 +116,12 @@ class Study:
         """What is varied in a variant, by path, as a case file shows it."""
         return dict(self._native.values(self._number(number)))
 
-    def case(self, number: int) -> Case | HalfTruckCase:
+    def case(self, number: int) -> Case | HalfTruckCase | TruckCase:
         """The case of a variant, for example to run it with its time series: ``study.case(17).run()``."""
         native = self._native.case(self._number(number))
-        return HalfTruckCase._of(native) if isinstance(native, NativeHalfTruckCase) else Case._of(native)
+        if isinstance(native, NativeHalfTruckCase):
+            return HalfTruckCase._of(native)
+        return TruckCase._of(native) if isinstance(native, NativeTruckCase) else Case._of(native)
 
     def run(
         self,
