@@ -22,6 +22,7 @@ __all__ = [
     "NativeResult",
     "NativeStudy",
     "NativeStudyFolder",
+    "NativeTruckCase",
     "NativeHalfTruckCase",
     "NativeWedge",
     "Quantity",
