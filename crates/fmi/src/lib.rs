@@ -25,6 +25,7 @@ pub mod resources;
 pub mod source;
 pub mod ssp;
 pub mod system;
+pub mod three_piece;
 pub mod truck;
 pub mod unit;
 pub mod variable;

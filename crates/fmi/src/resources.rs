@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use study::case::Case;
+use study::case::{Case, CaseError};
+use study::truck::TruckCase;
 
 use crate::description::FmuModel;
 use crate::half_truck::{self, HalfTruck};
@@ -40,8 +41,12 @@ pub fn read(folder: &Path) -> Result<Source, Error> {
         return Ok(Source::HalfTruck(Box::new(HalfTruck::parse(&text)?)));
     }
     let text = text(CASE, limits::TEXT_FILE)?;
-    let case = Case::parse(CASE, &text, folder, &[])
-        .map_err(|error| Error::new(format!("the FMU's {CASE} is damaged: {error}")))?;
+    let damaged = |error: CaseError| Error::new(format!("the FMU's {CASE} is damaged: {error}"));
+    if model == FmuModel::ThreePieceTruck {
+        let case = TruckCase::parse(CASE, &text, folder, &[]).map_err(damaged)?;
+        return Ok(Source::ThreePieceTruck(Box::new(case)));
+    }
+    let case = Case::parse(CASE, &text, folder, &[]).map_err(damaged)?;
     Source::of_case(model, case).ok_or_else(unknown)
 }
 

@@ -1,6 +1,7 @@
 //! What an FMU is made of, and the file in its resources that says so.
 
 use study::case::Case;
+use study::truck::TruckCase;
 
 use crate::Error;
 use crate::description::FmuModel;
@@ -8,7 +9,7 @@ use crate::element::{Element, Entries, Setting};
 use crate::half_truck::{self, HalfTruck};
 use crate::quasi_static::QuasiStaticElement;
 use crate::wedge::WedgeElement;
-use crate::{quasi_static, resources, truck, wedge};
+use crate::{quasi_static, resources, three_piece, truck, wedge};
 
 /// What an FMU is made of.
 #[derive(Clone, Debug)]
@@ -21,6 +22,8 @@ pub enum Source {
     Truck(Box<Case>),
     /// The run of a half-truck.
     HalfTruck(Box<HalfTruck>),
+    /// A three-piece truck.
+    ThreePieceTruck(Box<TruckCase>),
 }
 
 impl Source {
@@ -32,7 +35,7 @@ impl Source {
             FmuModel::Wedge => Some(Self::Wedge(case)),
             FmuModel::QuasiStatic => Some(Self::QuasiStatic(case)),
             FmuModel::Truck => Some(Self::Truck(case)),
-            FmuModel::HalfTruck => None,
+            FmuModel::HalfTruck | FmuModel::ThreePieceTruck => None,
         }
     }
 
@@ -44,6 +47,7 @@ impl Source {
             Self::QuasiStatic(_) => FmuModel::QuasiStatic,
             Self::Truck(_) => FmuModel::Truck,
             Self::HalfTruck(_) => FmuModel::HalfTruck,
+            Self::ThreePieceTruck(_) => FmuModel::ThreePieceTruck,
         }
     }
 
@@ -53,6 +57,7 @@ impl Source {
         match self {
             Self::Wedge(case) | Self::QuasiStatic(case) | Self::Truck(case) => [&case.name, &case.title],
             Self::HalfTruck(own) => [&own.case().name, &own.case().title],
+            Self::ThreePieceTruck(case) => [&case.name, &case.title],
         }
     }
 
@@ -64,6 +69,7 @@ impl Source {
                 [case.simulation.duration, case.simulation.relative_tolerance]
             }
             Self::HalfTruck(own) => [own.case().duration, own.case().relative_tolerance],
+            Self::ThreePieceTruck(case) => [case.simulation.duration, case.simulation.relative_tolerance],
         }
     }
 
@@ -76,6 +82,7 @@ impl Source {
                 (resources::CASE, document.to_toml())
             }
             Self::HalfTruck(own) => (half_truck::RESOURCE, own.text().to_owned()),
+            Self::ThreePieceTruck(case) => (resources::CASE, case.to_toml_embedded().to_owned()),
         }
     }
 
@@ -89,6 +96,7 @@ impl Source {
             Self::QuasiStatic(case) => quasi_static::entries(case),
             Self::Truck(case) => Ok(truck::plant(case)?.entries),
             Self::HalfTruck(own) => Ok(own.plant()?.entries),
+            Self::ThreePieceTruck(case) => Ok(three_piece::plant(case, true)?.entries),
         }
     }
 
@@ -102,6 +110,7 @@ impl Source {
             Self::QuasiStatic(case) => Box::new(QuasiStaticElement::new(case, entries, setting)?),
             Self::Truck(case) => Box::new(truck::element(case, setting)?),
             Self::HalfTruck(own) => Box::new(own.element(setting)?),
+            Self::ThreePieceTruck(case) => Box::new(three_piece::element(case, setting)?),
         })
     }
 }

@@ -32,6 +32,8 @@ pub enum FmuModel {
     Truck,
     /// A half-truck with its wedges.
     HalfTruck,
+    /// A three-piece truck with wedge bodies.
+    ThreePieceTruck,
 }
 
 impl FmuModel {
@@ -43,6 +45,7 @@ impl FmuModel {
             Self::QuasiStatic => "FrictionWedgeQS",
             Self::Truck => "FrictionTruck",
             Self::HalfTruck => "HalfTruck",
+            Self::ThreePieceTruck => "ThreePieceTruck",
         }
     }
 
@@ -65,6 +68,9 @@ impl FmuModel {
             Self::Truck => {
                 "Loaded half of a three-piece truck without its four friction wedges: half a car on a bolster, side frames, springs"
             }
+            Self::ThreePieceTruck => {
+                "Three-piece truck with four friction wedges that have mass: bolster, side frames, coils, stops, adapters"
+            }
             Self::HalfTruck => {
                 "Loaded half of a three-piece truck from files of NUCARS: half a car on a bolster, friction wedges, side frames, springs"
             }
@@ -83,6 +89,10 @@ impl FmuModel {
                 "Axes: x forward, y left, z up; displacements from the drawn position, small angles. Quantities of a wedge are in the axes \
                  of that wedge, which has x from the column towards the bolster."
             }
+            Self::ThreePieceTruck => {
+                "Axes: x forward, y left, z up from the top of rail, origin at the truck's center; displacements of centers of gravity from the \
+                 nominal (loaded) layout. Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). The warp moment acts on the bolster."
+            }
             Self::HalfTruck => {
                 "Axes: x forward, y left, z up; displacements of centers of gravity from the drawn position, small angles. Bodies, wedges and \
                  connections have the numbers of the files; forces of connections are positive in extension."
@@ -93,9 +103,14 @@ impl FmuModel {
     /// The model of this name.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
-        [Self::Wedge, Self::QuasiStatic, Self::Truck, Self::HalfTruck]
-            .into_iter()
-            .find(|model| model.name() == name)
+        let all = [
+            Self::Wedge,
+            Self::QuasiStatic,
+            Self::Truck,
+            Self::HalfTruck,
+            Self::ThreePieceTruck,
+        ];
+        all.into_iter().find(|model| model.name() == name)
     }
 }
 

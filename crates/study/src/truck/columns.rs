@@ -4,7 +4,9 @@ use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use mechanics::vector::{Matrix, Vector};
 use quantity::Kind;
-use truck::{BOLSTER, CAR_BODY, Loads, Parameters, SIDE_FRAMES, Truck, WEDGE_NAMES, WHEELSETS};
+use truck::{BOLSTER, BuildError, CAR_BODY, Loads, Parameters, SIDE_FRAMES, Truck, WEDGE_NAMES, WHEELSETS};
+
+use super::TruckCase;
 
 /// What values are taken from: an observation, its loads, and the stored energy at the start, J.
 pub(super) struct Seen<'s> {
@@ -13,11 +15,60 @@ pub(super) struct Seen<'s> {
     pub start_energy: f64,
 }
 
+/// The table of a truck's results, for any observation of its system.
+pub struct TruckTable {
+    truck: Truck,
+    columns: Columns,
+}
+
+impl TruckTable {
+    /// Returns the table of a case.
+    ///
+    /// # Errors
+    /// The case makes no truck.
+    pub fn new(case: &TruckCase) -> Result<Self, BuildError> {
+        let truck = Truck::new(&case.parameters)?;
+        let columns = Columns::new(&truck, &case.parameters);
+        Ok(Self { truck, columns })
+    }
+
+    /// Returns the equations of motion.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.truck.system
+    }
+
+    /// Returns the columns.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns.columns
+    }
+
+    /// Returns how many columns at the beginning have fixed names: time, bolster, warp, nests, wedges.
+    #[must_use]
+    pub fn fixed(&self) -> usize {
+        self.columns.fixed
+    }
+
+    /// Appends the values of all columns (SI) at an observation; `start_energy` (J) is the stored energy at the start.
+    pub fn read(&mut self, observation: &Observation, start_energy: f64, out: &mut Vec<f64>) {
+        let loads = self.truck.loads(observation);
+        let seen = Seen {
+            observation,
+            loads: &loads,
+            start_energy,
+        };
+        self.columns.read(&seen, out);
+    }
+}
+
 type Value = Box<dyn Fn(&Seen<'_>) -> f64 + Send + Sync>;
 
 /// The table: what its columns are, and how their values are taken.
 pub(super) struct Columns {
     pub columns: Vec<Column>,
+    /// How many at the beginning have fixed names.
+    fixed: usize,
     values: Vec<Value>,
 }
 
@@ -28,6 +79,7 @@ impl Columns {
     pub fn new(truck: &Truck, parameters: &Parameters) -> Self {
         let mut own = Self {
             columns: Vec::new(),
+            fixed: 0,
             values: Vec::new(),
         };
         own.add("time", Kind::Time, "time", |seen| seen.observation.time);
@@ -62,6 +114,7 @@ impl Columns {
         for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
             own.wedge(number, name);
         }
+        own.fixed = own.columns.len();
         own.parts_of_warp_moment();
         own.body(truck, BOLSTER, "bolster", &[0, 1, 3, 4, 5]);
         let mut others = vec![

@@ -4,7 +4,7 @@
 
 mod assumptions;
 pub mod builtin;
-mod columns;
+pub mod columns;
 mod reader;
 pub mod run;
 mod sections;

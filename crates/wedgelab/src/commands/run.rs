@@ -172,7 +172,12 @@ pub fn read_any(path: &Path, set: &[String]) -> Result<AnyCase, Failure> {
 
 /// The same where only a wedge's case will do.
 pub fn read(path: &Path, set: &[String]) -> Result<Case, Failure> {
-    match read_any(path, set)? {
+    wedge_of(read_any(path, set)?)
+}
+
+/// The wedge's case, where no other will do.
+pub fn wedge_of(case: AnyCase) -> Result<Case, Failure> {
+    match case {
         AnyCase::Wedge(case) => Ok(*case),
         other => Err(Message::new(
             format!(

@@ -8,13 +8,14 @@ use clap::Args;
 use fmi::description::{FmuModel, Version};
 use fmi::package::{self, Platform};
 use fmi::source::Source;
+use study::any_case::AnyCase;
 
 use super::half_truck::Choice;
 use super::write;
 use crate::commands::run;
 use crate::failure::{Failure, Message};
 
-/// Write the wedge of a case, or the half-truck of a run, as an FMU
+/// Write the wedge or the truck of a case, or the half-truck of a run, as an FMU
 ///
 /// The file holds the model for model exchange and for co-simulation, the case or the files of the run, a
 /// page that documents all variables, and the library for the platform that this program runs on. It needs
@@ -25,6 +26,7 @@ Examples:
   wedgelab fmu export my.toml -o wedge.fmu
   wedgelab fmu export cdrun_toe_0_psi_0 -o wedge.fmu --fmi 3
   wedgelab fmu export my.toml -o simple.fmu --quasi-static
+  wedgelab fmu export truck_warp_nest_variable_rising -o truck.fmu
   wedgelab fmu export half_truck.run -o half.fmu
   wedgelab fmu export nucars_69_constant_toe_out -o half.fmu")]
 pub struct Arguments {
@@ -110,7 +112,25 @@ impl Arguments {
             );
             return Err(Message::new(message, "leave it out, or name the case of a wedge").into());
         }
-        let case = Box::new(run::read(&self.case, &self.set)?);
+        let any = run::read_any(&self.case, &self.set)?;
+        if let AnyCase::Truck(case) = any {
+            let option = match (self.quasi_static, self.truck) {
+                (true, _) => Some("--quasi-static".to_owned()),
+                (_, true) => Some("--truck".to_owned()),
+                _ => self.choice.given(),
+            };
+            return match option {
+                None => Ok(Source::ThreePieceTruck(case)),
+                Some(option) => {
+                    let message = format!(
+                        "{} is a truck, and {option} is not for trucks",
+                        self.case.display()
+                    );
+                    Err(Message::new(message, "leave it out").into())
+                }
+            };
+        }
+        let case = Box::new(run::wedge_of(any)?);
         if let Some(option) = self.choice.given() {
             let message = format!(
                 "{} is a case, and {option} is for half-trucks",
