@@ -217,7 +217,8 @@ impl Columns {
     }
 
     fn parts_of_warp_moment(&mut self) {
-        let parts: [(&str, fn(&Loads) -> f64, &str); 6] = [
+        type Part = (&'static str, fn(&Loads) -> f64, &'static str);
+        let parts: [Part; 6] = [
             (
                 "load_coils",
                 |loads| loads.warp_moment.load_coils,

@@ -39,7 +39,7 @@ fn mounted(number: usize, damping: &str, toe: &str) -> Averages {
     let name = WEDGE_NAMES[number];
     let [end, side] = [
         if number < 2 { 1.0 } else { -1.0 },
-        if number % 2 == 0 { 1.0 } else { -1.0 },
+        if number.is_multiple_of(2) { 1.0 } else { -1.0 },
     ];
     let angle: f64 = if damping == "constant" { 37.5 } else { 32.0 };
     let length = 6.125 * angle.to_radians().tan();
