@@ -13,7 +13,7 @@
 //! - [`view`]: the data of the page's interactive part.
 //! - [`run_files`]: the files of a run.
 //! - [`half_truck_files`]: the files of a half-truck's run.
-//! - [`warp_files`]: the files of `wedgelab warp`.
+//! - [`warp_files`], [`curves_files`]: the files of `wedgelab warp` and `wedgelab curves`.
 //! - [`table`]: tables of results, read back.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
 //!   [`study_digest`] what their page shows.
@@ -26,6 +26,7 @@ pub mod claims;
 pub mod comparison;
 pub mod contour;
 pub mod csv;
+pub mod curves_files;
 pub mod drawing;
 pub mod figures;
 pub mod files;

@@ -71,6 +71,9 @@ pub struct Loads {
     pub warp_angle: f64,
     /// Warp moment on the bolster.
     pub warp_moment: WarpMoment,
+    /// Moment on the bolster about the truck's x axis at the bolster's center of gravity, from coils, slopes and stops,
+    /// N·m.
+    pub roll_moment: f64,
     /// Inter-axle shear moment, N·m; zero without wheelsets.
     pub interaxle_shear_moment: f64,
     /// Vertical loads of the left and of the right nest, N.
@@ -95,6 +98,7 @@ impl Truck {
             ..Loads::default()
         };
         let arm = self.axle;
+        let bolster = bodies[BOLSTER].center_of_gravity;
         for (number, wedge) in loads.wedges.iter_mut().enumerate() {
             let [column, slope] = [0, 1].map(|face| &observation.faces[2 * number + face]);
             let body = &bodies[WEDGES + number];
@@ -111,6 +115,7 @@ impl Truck {
             for (i, place) in slope.point_positions.iter().enumerate() {
                 let force = slope.normal_forces[i] + slope.friction_forces[i];
                 loads.warp_moment.slopes -= about_z(*place, force);
+                loads.roll_moment -= about_x(*place - bolster, force);
             }
         }
         for element in &self.suspension {
@@ -120,7 +125,11 @@ impl Truck {
         for (mounted, coil) in self.system.coils().iter().zip(&observation.coils) {
             match mounted.on.checked_sub(SIDE_FRAMES).filter(|side| *side < 2) {
                 Some(side) => loads.nest_vertical[side] += coil.force.0[2],
-                None => loads.warp_moment.control_coils -= about_z(bodies[mounted.body].origin, coil.force),
+                None => {
+                    let place = bodies[mounted.body].origin;
+                    loads.warp_moment.control_coils -= about_z(place, coil.force);
+                    loads.roll_moment -= about_x(place - bolster, coil.force);
+                }
             }
         }
         for (i, adapter) in observation.faces[self.adapters.clone()].iter().enumerate() {
@@ -147,11 +156,13 @@ impl Truck {
         let [(a, marker_a), (b, marker_b)] = &element.ends;
         let (place, force) = at_marker((&bodies[*a], marker_a), (&bodies[*b], marker_b), &element.law);
         // On the bolster, and on the side frame of that side, N.
-        let moment = match (*a == BOLSTER, *b == BOLSTER) {
-            (true, _) => about_z(place, force),
-            (_, true) => -about_z(place, force),
+        let sign = match (*a == BOLSTER, *b == BOLSTER) {
+            (true, _) => 1.0,
+            (_, true) => -1.0,
             _ => 0.0,
         };
+        let moment = sign * about_z(place, force);
+        let roll = sign * about_x(place - bodies[BOLSTER].center_of_gravity, force);
         let parts = &mut loads.warp_moment;
         let part = match element.role {
             Role::LoadCoil => &mut parts.load_coils,
@@ -166,6 +177,7 @@ impl Truck {
             }
         };
         *part += moment;
+        loads.roll_moment += roll;
         // What acts on a side frame is the reaction on body B.
         if let Some(side) = b.checked_sub(SIDE_FRAMES).filter(|side| *side < 2) {
             loads.nest_vertical[side] += force.0[2];
@@ -207,6 +219,11 @@ fn total(forces: &[Vector<f64>]) -> Vector<f64> {
 
 fn normal(face: &FaceState) -> f64 {
     face.points.iter().map(|point| point.normal).sum()
+}
+
+/// Returns the moment of a force with an arm about x, N·m.
+fn about_x(arm: Vector<f64>, force: Vector<f64>) -> f64 {
+    arm.0[1] * force.0[2] - arm.0[2] * force.0[1]
 }
 
 /// Returns the moment of a force at a place about z, N·m.

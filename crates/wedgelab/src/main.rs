@@ -15,7 +15,9 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use numerics::processor::{OldProcessor, check};
 
-use commands::{case, compare, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, study, warp};
+use commands::{
+    case, compare, curves, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, study, warp,
+};
 use failure::Failure;
 
 /// A laboratory for railway friction wedges.
@@ -59,6 +61,7 @@ enum Command {
     Explore(explore::Arguments),
     QuasiStatic(quasi_static::Arguments),
     Warp(warp::Arguments),
+    Curves(curves::Arguments),
     Nucars(nucars::Arguments),
     Fmu(fmu::Arguments),
 }
@@ -76,6 +79,7 @@ impl Cli {
             Command::Explore(arguments) => explore::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Warp(arguments) => warp::execute(&arguments),
+            Command::Curves(arguments) => curves::execute(&arguments),
             Command::Nucars(arguments) => nucars::execute(&arguments),
             Command::Fmu(arguments) => fmu::execute(&arguments),
         }

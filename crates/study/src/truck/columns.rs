@@ -117,6 +117,11 @@ impl Columns {
         own.fixed = own.columns.len();
         own.parts_of_warp_moment();
         own.body(truck, BOLSTER, "bolster", &[0, 1, 3, 4, 5]);
+        let text =
+            "moment about x at the bolster's center of gravity that coils, slopes and stops exert on it";
+        own.add("bolster_roll_moment", Kind::Moment, text, |seen| {
+            seen.loads.roll_moment
+        });
         let mut others = vec![
             (SIDE_FRAMES, "left_side_frame"),
             (SIDE_FRAMES + 1, "right_side_frame"),

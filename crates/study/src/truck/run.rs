@@ -48,24 +48,27 @@ pub struct TruckCounts {
     pub quadratures: Vec<Vec<f64>>,
 }
 
+/// Returns period (s) and beginning (s) of a motion, if it is periodic or a part of it is.
+#[must_use]
+pub fn period_of(motion: &Motion) -> Option<[f64; 2]> {
+    match motion {
+        Motion::Sine {
+            angular_frequency, ..
+        }
+        | Motion::Triangle {
+            angular_frequency, ..
+        } => Some([2.0 * std::f64::consts::PI / angular_frequency, 0.0]),
+        Motion::Sum(parts) => parts.iter().find_map(period_of),
+        Motion::Sequence(pieces) => pieces
+            .iter()
+            .find_map(|piece| period_of(&piece.motion).map(|[period, start]| [period, start + piece.start])),
+        _ => None,
+    }
+}
+
 /// Returns period (s) and beginning (s) of the first periodic motion of a truck.
 #[must_use]
 pub fn period(parameters: &Parameters) -> Option<[f64; 2]> {
-    fn of(motion: &Motion) -> Option<[f64; 2]> {
-        match motion {
-            Motion::Sine {
-                angular_frequency, ..
-            }
-            | Motion::Triangle {
-                angular_frequency, ..
-            } => Some([2.0 * std::f64::consts::PI / angular_frequency, 0.0]),
-            Motion::Sum(parts) => parts.iter().find_map(of),
-            Motion::Sequence(pieces) => pieces
-                .iter()
-                .find_map(|piece| of(&piece.motion).map(|[period, start]| [period, start + piece.start])),
-            _ => None,
-        }
-    }
     let bolster = [&parameters.bolster.motion].into_iter();
     let side_frames = parameters.side_frames.iter().map(|side_frame| &side_frame.motion);
     let wheelsets = parameters
@@ -73,7 +76,7 @@ pub fn period(parameters: &Parameters) -> Option<[f64; 2]> {
         .iter()
         .flat_map(|wheelsets| &wheelsets.motions);
     let all = bolster.chain(side_frames).chain(wheelsets);
-    all.flat_map(|motion| &motion.coordinates).find_map(of)
+    all.flat_map(|motion| &motion.coordinates).find_map(period_of)
 }
 
 /// Returns the ends (s) and the number of the whole cycles after the first.

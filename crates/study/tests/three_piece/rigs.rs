@@ -1,9 +1,10 @@
 //! The rigs: energy ledgers, symmetry, and what is known of each.
 #![allow(clippy::unwrap_used)]
 
+use study::truck::loop_curve::{LoopCurve, LoopKind};
 use study::truck::{WEDGE_NAMES, builtin};
 
-use super::common::{INCH, KIP_INCH, POUND_FORCE, at, column, run};
+use super::common::{INCH, KIP_INCH, POUND_FORCE, at, case, column, run};
 
 /// The energy ledger of every built-in truck over its first seconds closes below 1e-5, and no run has anything to
 /// warn of but contacts that are pressed in where a nest locks.
@@ -224,4 +225,51 @@ fn analytic_a_worn_wedge_rises() {
     for other in ["leading_right", "trailing_left", "trailing_right"] {
         assert!(rise(other).abs() < 1e-6, "{other}: {} in", rise(other));
     }
+}
+
+/// Without friction the loops are lines: coils, control coils and adapters in series; in roll, the coils' levers and
+/// their shear about the bolster's center of gravity, less what the side frames give.
+#[test]
+fn analytic_loops_without_friction_have_the_stiffness_of_the_coils() {
+    let curve = |name: &str| {
+        let case = case(name, &["friction.column=0", "friction.slope=0"]);
+        let result = study::run::Run::new(&case).unwrap().finish(|_| ());
+        LoopCurve::of(&case, &result).unwrap()
+    };
+    let vertical = curve("truck_vertical_constant");
+    assert_eq!(vertical.kind, LoopKind::Vertical);
+    let (coils, adapters) = (8.0 * 6468.7, 8.0 * 5e5);
+    let expected = coils * adapters / (coils + adapters);
+    let found = vertical.stiffness * INCH / POUND_FORCE;
+    assert!(
+        (found / expected - 1.0).abs() < 2e-3,
+        "{found}, {expected} lbf/in expected"
+    );
+    assert!((vertical.amplitude / INCH - 0.5).abs() < 1e-4);
+    assert!(vertical.loss_ratio.abs() < 2e-3, "{}", vertical.loss_ratio);
+    let roll = curve("truck_roll_constant");
+    assert_eq!(roll.kind, LoopKind::Roll);
+    let levers = coils * (39.5_f64.powi(2) + 3.75_f64.powi(2));
+    let found = roll.stiffness / (INCH * POUND_FORCE);
+    // Shear 9 in below the center of gravity adds 8 x 4450 x 81, and side frames on their adapters give.
+    let shear = 8.0 * 4450.0 * 81.0;
+    assert!(
+        (0.95 * levers..levers + shear).contains(&found),
+        "{found:e}, {levers:e} lbf in/rad from levers"
+    );
+}
+
+/// With friction the vertical loop of variable damping has the area that wedges and coils lose in a cycle.
+#[test]
+fn energy_of_the_loop_is_what_is_lost() {
+    let case = case("truck_vertical_variable", &["simulation.output_interval=0.002 s"]);
+    let result = study::run::Run::new(&case).unwrap().finish(|_| ());
+    let curve = LoopCurve::of(&case, &result).unwrap();
+    let lost: f64 = result.summary.cycles.losses.values().map(|loss| loss.value).sum();
+    let lost = lost * POUND_FORCE * INCH;
+    assert!(
+        (curve.energy / lost - 1.0).abs() < 0.02,
+        "{} and {lost} J",
+        curve.energy
+    );
 }

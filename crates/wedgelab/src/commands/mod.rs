@@ -2,6 +2,7 @@
 
 pub mod case;
 pub mod compare;
+pub mod curves;
 pub mod explore;
 pub mod fit;
 pub mod fmu;

@@ -1,10 +1,11 @@
 //! `wedgelab warp`: warp moment over warp angle, as a table that an engineer puts into an industry program.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use report::drawing::Figure;
 use report::warp_files::{self, KIP_INCH, NAMES, Tested};
 use study::any_case::AnyCase;
 use study::truck::TruckCase;
@@ -36,6 +37,22 @@ pub struct Arguments {
     /// Case file, or the name of a built-in case
     #[arg(default_value = "truck_warp_nest_constant_rising")]
     case: PathBuf,
+    #[command(flatten)]
+    varied: Varied,
+    /// Folder to write into [default: NAME_warp]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Overwrite existing results
+    #[arg(long)]
+    force: bool,
+    /// No progress
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// What is varied from test to test.
+#[derive(Debug, Args)]
+pub struct Varied {
     /// Coefficients of friction of all wedges at column and slope
     #[arg(long, value_name = "MU", num_args = 1..)]
     friction: Vec<String>,
@@ -48,21 +65,12 @@ pub struct Arguments {
     /// Set one value over those of the case
     #[arg(long, value_name = "PATH.KEY=VALUE")]
     set: Vec<String>,
-    /// Folder to write into [default: NAME_warp]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// Overwrite existing results
-    #[arg(long)]
-    force: bool,
-    /// No progress
-    #[arg(long, short)]
-    quiet: bool,
 }
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
-    let cases = arguments.cases()?;
+    let cases = arguments.varied.cases(&arguments.case)?;
     let Some((_, first)) = cases.first() else {
         return Ok(ExitCode::SUCCESS);
     };
@@ -101,9 +109,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     progress.finish();
     let figure = warp_files::figure(&tests);
-    let png = figure
-        .to_png()
-        .map_err(|reason| Failure::Failed(Message::new(format!("cannot draw: {reason}"), "").into()))?;
+    let png = draw(&figure)?;
     folder.write(|files| {
         files.add(warp_files::STIFFNESS, |out| {
             warp_files::write_stiffness(&tests, out)
@@ -128,9 +134,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-impl Arguments {
-    /// All combinations of what is varied, with labels.
-    fn cases(&self) -> Result<Vec<(String, TruckCase)>, Failure> {
+impl Varied {
+    /// Returns the case with all combinations of what is varied, with labels.
+    pub fn cases(&self, case: &Path) -> Result<Vec<(String, TruckCase)>, Failure> {
         let none = |list: &[String]| {
             if list.is_empty() {
                 vec![None]
@@ -156,7 +162,7 @@ impl Arguments {
                         set.push("start.kind=equilibrium".to_owned());
                         labels.push(format!("wear {wear}"));
                     }
-                    let case = match read_any(&self.case, &set)? {
+                    let case = match read_any(case, &set)? {
                         AnyCase::Truck(case) => *case,
                         other => {
                             let message = format!("{} is no truck: warp is what a truck does", other.name());
@@ -171,6 +177,12 @@ impl Arguments {
         }
         Ok(cases)
     }
+}
+
+/// Draws a figure as a picture.
+pub fn draw(figure: &Figure) -> Result<Vec<u8>, Failure> {
+    let png = figure.to_png();
+    png.map_err(|reason| Failure::Failed(Message::new(format!("cannot draw: {reason}"), "").into()))
 }
 
 /// The table of stiffnesses.

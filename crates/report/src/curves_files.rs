@@ -1,0 +1,99 @@
+//! The files of `wedgelab curves`: the vertical or roll loop of a truck, as CSV and figure.
+
+use std::io::{self, Write};
+
+use quantity::System as Units;
+use study::truck::loop_curve::{LoopCurve, LoopKind};
+
+use crate::csv::converted;
+use crate::drawing::{Curve, Figure, Panel, distinct};
+use crate::figures::axis;
+
+/// The table of loops.
+pub const LOOPS: &str = "curves.csv";
+/// The figure.
+pub const FIGURE: &str = "curves.svg";
+/// The same as a picture.
+pub const PICTURE: &str = "curves.png";
+/// All of them.
+pub const NAMES: [&str; 3] = [LOOPS, FIGURE, PICTURE];
+
+/// A loop with what sets it apart from the others; empty if there is one only.
+pub type Named = (String, LoopCurve);
+
+/// Returns the names of the columns of what moves and of what resists.
+fn names(kind: LoopKind) -> [&'static str; 2] {
+    match kind {
+        LoopKind::Vertical => ["bolster_z", "resisting_force"],
+        LoopKind::Roll => ["bolster_roll", "resisting_moment"],
+    }
+}
+
+/// Writes the points of all loops.
+///
+/// # Errors
+/// The writer's.
+pub fn write(loops: &[Named], out: &mut dyn Write) -> io::Result<()> {
+    let Some((_, first)) = loops.first() else {
+        return Ok(());
+    };
+    let ([motion, resistance], [a, b]) = (names(first.kind), first.kind.kinds());
+    writeln!(
+        out,
+        "test,{motion}_{},{resistance}_{}",
+        a.suffix(Units::Us),
+        b.suffix(Units::Us)
+    )?;
+    for (label, own) in loops {
+        for (motion, resistance) in own.motion.iter().zip(&own.resistance) {
+            let values = [
+                converted(*motion, a, Units::Us),
+                converted(*resistance, b, Units::Us),
+            ];
+            writeln!(out, "{},{},{}", label.replace(',', ";"), values[0], values[1])?;
+        }
+    }
+    Ok(())
+}
+
+/// Returns the figure of the loops.
+#[must_use]
+pub fn figure(loops: &[Named]) -> Figure {
+    let Some((_, first)) = loops.first() else {
+        return Figure::default();
+    };
+    let [a, b] = first.kind.kinds();
+    let [motion, resistance] = match first.kind {
+        LoopKind::Vertical => ["bolster from nominal, up", "force on the bolster, down"],
+        LoopKind::Roll => ["bolster's roll", "moment against it"],
+    };
+    let curves = loops.iter().enumerate().map(|(number, (label, own))| {
+        let (colour, line) = distinct(number);
+        let points = own.motion.iter().zip(&own.resistance);
+        Curve {
+            label: if label.is_empty() {
+                "truck".to_owned()
+            } else {
+                label.clone()
+            },
+            colour,
+            line,
+            points: points
+                .map(|(x, y)| (converted(*x, a, Units::Us), converted(*y, b, Units::Us)))
+                .collect(),
+        }
+    });
+    Figure {
+        title: "Suspension of a three-piece truck".to_owned(),
+        caption: "What both nests with their wedges resist over the bolster's motion, in the last whole cycle. The slope of the loop is \
+                  the stiffness, its height in the middle twice what friction holds, its area the energy lost."
+            .to_owned(),
+        panels: vec![Panel {
+            x_label: axis(motion, a, Units::Us),
+            y_label: axis(resistance, b, Units::Us),
+            curves: curves.collect(),
+            ..Panel::default()
+        }],
+        ..Figure::default()
+    }
+}

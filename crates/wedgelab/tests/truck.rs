@@ -1,0 +1,235 @@
+//! The commands with three-piece trucks, as a user calls them.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+struct Output {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+fn wedgelab(folder: &Path, arguments: &[&str]) -> Output {
+    let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
+        .current_dir(folder)
+        .args(arguments)
+        .env_remove("FORCE_COLOR")
+        .output()
+        .unwrap();
+    Output {
+        code: output.status.code(),
+        out: String::from_utf8(output.stdout).unwrap(),
+        err: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+#[track_caller]
+fn done(folder: &Path, arguments: &[&str]) -> String {
+    let output = wedgelab(folder, arguments);
+    assert_eq!(output.code, Some(0), "{arguments:?}: {}", output.err);
+    output.out
+}
+
+/// The columns that other programs may count on, by name and order.
+#[test]
+fn input_column_names_of_a_run_are_fixed() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    done(
+        at,
+        &[
+            "run",
+            "truck_drop_variable",
+            "--set",
+            "simulation.duration=0.02 s",
+            "-q",
+        ],
+    );
+    let csv = fs::read_to_string(at.join("truck_drop_variable/result.csv")).unwrap();
+    let header: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    let mut expected = vec![
+        "time_s".to_owned(),
+        "bolster_z_in".to_owned(),
+        "warp_angle_rad".to_owned(),
+        "warp_moment_lbf_in".to_owned(),
+        "interaxle_shear_moment_lbf_in".to_owned(),
+        "left_nest_vertical_force_lbf".to_owned(),
+        "right_nest_vertical_force_lbf".to_owned(),
+    ];
+    for wedge in ["leading_left", "leading_right", "trailing_left", "trailing_right"] {
+        let own = [
+            "column_normal_lbf",
+            "column_friction_z_lbf",
+            "slope_normal_lbf",
+            "x_in",
+            "y_in",
+            "z_in",
+            "roll_rad",
+            "pitch_rad",
+            "yaw_rad",
+        ];
+        expected.extend(own.map(|name| format!("{wedge}_{name}")));
+    }
+    assert_eq!(header[..expected.len()], expected);
+    // Half a car rises and falls from 0.5 in.
+    let first: f64 = csv
+        .lines()
+        .nth(1)
+        .unwrap()
+        .split(',')
+        .nth(1)
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!((first - 0.5).abs() < 1e-9, "{first}");
+}
+
+#[test]
+fn a_printed_truck_runs_and_is_refused_where_it_exists() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let text = done(at, &["case", "truck_roll_constant"]);
+    fs::write(at.join("mine.toml"), text.replace("truck_roll_constant", "mine")).unwrap();
+    let run = ["run", "mine.toml", "--set", "simulation.duration=0.05 s", "-q"];
+    let out = done(at, &run);
+    assert!(
+        out.contains("leading left") && out.contains("mine: result.csv"),
+        "{out}"
+    );
+    let again = wedgelab(at, &run);
+    assert_eq!(again.code, Some(1), "{}", again.err);
+    assert!(again.err.contains("--force"), "{}", again.err);
+    let plot = done(
+        at,
+        &["plot", "mine", "--x", "time", "--y", "bolster_roll", "warp_angle"],
+    );
+    assert!(plot.contains(".svg"), "{plot}");
+}
+
+#[test]
+fn warp_writes_what_industry_programs_take() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let arguments = [
+        "warp",
+        "truck_warp_nest_constant_rising",
+        "--friction",
+        "0.25",
+        "0.4",
+        "--out",
+        "w",
+        "-q",
+    ];
+    let out = done(at, &arguments);
+    assert!(
+        out.contains("plateau at 22") && out.contains("lock-up") && out.contains("NUCARS, worn"),
+        "{out}"
+    );
+    let pwl = fs::read_to_string(at.join("w/warp.pwl")).unwrap();
+    let record = pwl
+        .lines()
+        .find(|line| line.trim_start().starts_with("14"))
+        .unwrap();
+    let numbers: Vec<f64> = record
+        .split_whitespace()
+        .map(|text| text.parse().unwrap())
+        .collect();
+    // Number, points, then half of the plateau of 225 kip·in at the last point.
+    assert_eq!(numbers[1] as usize, numbers.len() - 2);
+    assert!((numbers.last().unwrap() / 112.5e3 - 1.0).abs() < 0.05, "{record}");
+    for file in ["warp.csv", "warp_loops.csv", "warp.svg", "warp.png"] {
+        assert!(at.join("w").join(file).metadata().unwrap().len() > 500, "{file}");
+    }
+    for (arguments, text) in [
+        (&["warp", "truck_vertical_variable"][..], "stays below 0.5 mrad"),
+        (&["warp", "vdrun_toe_0_psi_0"], "is no truck"),
+        (&["curves", "truck_warp_nest_variable_rising"], "no whole cycle"),
+        (&["explore", "truck_vertical_variable"], "takes a single wedge"),
+    ] {
+        let refused = wedgelab(at, arguments);
+        assert_eq!(refused.code, Some(2), "{arguments:?}: {}", refused.err);
+        assert!(refused.err.contains(text), "{arguments:?}: {}", refused.err);
+    }
+}
+
+#[test]
+fn curves_tell_stiffness_and_friction() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = done(
+        folder.path(),
+        &[
+            "curves",
+            "truck_vertical_variable",
+            "--friction",
+            "0",
+            "0.4",
+            "--out",
+            "c",
+            "-q",
+        ],
+    );
+    assert!(out.contains("friction 0.4"), "{out}");
+    let csv = fs::read_to_string(folder.path().join("c/curves.csv")).unwrap();
+    assert!(
+        csv.starts_with("test,bolster_z_in,resisting_force_lbf\nfriction 0,"),
+        "{}",
+        &csv[..80]
+    );
+}
+
+#[test]
+fn a_study_varies_single_wedges() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let study = "case = \"truck_vertical_variable\"\nsampling = \"full_factorial\"\n[set]\nsimulation.duration = \"7 s\"\n\
+                 [vary]\nwedge.leading_left.friction.column = [0.2, 0.4]\nwedge.leading_left.toe = [\"0 deg\", \"0.2 deg out\"]\n";
+    fs::write(at.join("study.toml"), study).unwrap();
+    let out = done(at, &["study", "study.toml", "-q"]);
+    assert!(out.contains("4 runs: 4 complete"), "{out}");
+    assert!(at.join("study/table.parquet").is_file());
+    let out = done(at, &["study", "study.toml", "--series", "1", "-q"]);
+    assert!(out.contains("result.csv"), "{out}");
+}
+
+/// Friction of both faces is found again from the warp loop that it made.
+#[test]
+fn fit_finds_friction_from_a_measured_warp_loop() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let name = "truck_warp_nest_constant_rising";
+    let set = [
+        "friction.column=0.3",
+        "friction.slope=0.3",
+        "simulation.output_interval=0.1 s",
+    ];
+    let mut arguments = vec!["run", name, "--out", "measured", "-q"];
+    arguments.extend(set.iter().flat_map(|set| ["--set", set]));
+    done(at, &arguments);
+    let out = done(
+        at,
+        &[
+            "fit",
+            "measured",
+            name,
+            "--set",
+            "friction.slope=0.3",
+            "--free",
+            "friction.column=0.2..0.6",
+            "--out",
+            "fitted",
+        ],
+    );
+    let line = out
+        .lines()
+        .find(|line| line.starts_with("friction.column"))
+        .unwrap();
+    let value: f64 = line.split_whitespace().nth(1).unwrap().parse().unwrap();
+    assert!((value - 0.3).abs() < 1e-4, "{line}");
+    let case = fs::read_to_string(at.join("fitted/case.toml")).unwrap();
+    assert!(
+        case.contains("model = \"truck\"") && case.contains("column = 0.3"),
+        "{case}"
+    );
+}
