@@ -2,6 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
+//! | profiles of wheels and rails: arcs and lines, points from files, nominal ones | [`profile`] |
 //! | elastic contact of two curved bodies | [`hertz`] |
 //! | creep forces: Kalker's coefficients and linear theory, Shen-Hedrick-Elkins, Polach, FASTSIM | [`creep`] |
 //! | center line of a track: tangents, spirals, curves; mid-chord offsets; irregularities from spectra | [`track`] |
@@ -26,4 +27,5 @@
 
 pub mod creep;
 pub mod hertz;
+pub mod profile;
 pub mod track;
