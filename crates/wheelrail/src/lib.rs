@@ -25,6 +25,7 @@
 
 #![warn(missing_docs)]
 
+pub mod contact;
 pub mod creep;
 pub mod hertz;
 pub mod profile;

@@ -254,8 +254,8 @@ impl Profile {
 /// Checks that a wheelset fits between its rails: the active faces of its flanges, at the depth where gauge
 /// is measured, must be closer than the gauge.
 ///
-/// `tape_distance` is the distance of the tape circles; `gauge` is measured `depth` below the top of the rail.
-/// All in m.
+/// `tape_distance` is the distance of the tape circles; `gauge` is measured `depth` below the top of the
+/// rail. All in m.
 ///
 /// # Errors
 /// The wheelset is wider than the gauge.
