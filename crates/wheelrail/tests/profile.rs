@@ -101,7 +101,7 @@ fn analytic_dimensions_of_the_nominal_wheel() {
         wheel.bottom()
     );
     let back = -(3.0 + 1.0 / 16.0) * INCH;
-    let face = wheel.flange_face(0.625 * INCH);
+    let face = wheel.flange_face(0.625 * INCH).unwrap();
     assert!(
         (face - back - (1.0 + 5.0 / 32.0) * INCH).abs() < 1e-7,
         "thickness {}",
@@ -146,6 +146,7 @@ fn analytic_dimensions_of_the_nominal_wheel() {
         );
     }
     assert_eq!(radii.len(), 6);
+    assert_eq!(nominal::cone(0.05, 0.05).unwrap().flange_face(0.001), None);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use super::points::Points;
 use super::{Kind, SMALLEST_SPACING};
 
 /// A flange or a rail's side reaches at least this far from the tread, m.
-const FLANGE: f64 = 0.015;
+pub(super) const FLANGE: f64 = 0.015;
 
 /// Widths that occur, m, and their words.
 fn widths(kind: Kind) -> ([f64; 2], &'static str) {

@@ -198,13 +198,13 @@ impl Profile {
     /// Returns the highest point (m).
     #[must_use]
     pub fn top(&self) -> [f64; 2] {
-        self.extreme(|[_, z]| Some(z))
+        self.extreme(|[_, z]| Some(z)).unwrap_or_default()
     }
 
     /// Returns the lowest point (m), on a wheel the tip of the flange.
     #[must_use]
     pub fn bottom(&self) -> [f64; 2] {
-        self.extreme(|[_, z]| Some(-z))
+        self.extreme(|[_, z]| Some(-z)).unwrap_or_default()
     }
 
     /// Returns y (m) of the point of a rail at which gauge is measured: the innermost one not lower than
@@ -212,18 +212,24 @@ impl Profile {
     #[must_use]
     pub fn gauge_point(&self, depth: f64) -> f64 {
         let level = self.top()[1] - depth;
-        self.extreme(|[y, z]| (z >= level).then_some(-y))[0]
+        self.extreme(|[y, z]| (z >= level).then_some(-y))
+            .map_or(0.0, |[y, _]| y)
     }
 
     /// Returns y (m) of the active face of a wheel's flange at a depth (m) below the tape circle: the
-    /// outermost point of the flange not higher than that.
+    /// outermost point of the flange not higher than that. Returns none if the wheel has no flange: if its
+    /// lowest point lies less than 15 mm below the tape circle.
     #[must_use]
-    pub fn flange_face(&self, depth: f64) -> f64 {
-        self.extreme(|[y, z]| (y < 0.0 && z <= -depth).then_some(y))[0]
+    pub fn flange_face(&self, depth: f64) -> Option<f64> {
+        if self.bottom()[1] > -check::FLANGE {
+            return None;
+        }
+        self.extreme(|[y, z]| (y < 0.0 && z <= -depth).then_some(y))
+            .map(|[y, _]| y)
     }
 
-    /// The point at which a function is largest.
-    fn extreme(&self, function: impl Fn([f64; 2]) -> Option<f64>) -> [f64; 2] {
+    /// The point at which a function is largest; none if it has a value nowhere.
+    fn extreme(&self, function: impl Fn([f64; 2]) -> Option<f64>) -> Option<[f64; 2]> {
         let value = |parameter| function(self.curve.at(parameter).position).unwrap_or(f64::NEG_INFINITY);
         let mut best = (f64::NEG_INFINITY, self.curve.range()[0]);
         let sample = self.curve.sample(FINE);
@@ -232,6 +238,9 @@ impl Profile {
             if found > best.0 {
                 best = (found, *parameter);
             }
+        }
+        if best.0 == f64::NEG_INFINITY {
+            return None;
         }
         // Halve steps around the best sample.
         let [low, high] = self.curve.range();
@@ -247,7 +256,7 @@ impl Profile {
                 None => step *= 0.5,
             }
         }
-        self.curve.at(best.1).position
+        Some(self.curve.at(best.1).position)
     }
 }
 
@@ -266,7 +275,9 @@ pub fn check_gauge(
     gauge: f64,
     depth: f64,
 ) -> Result<(), ProfileError> {
-    let span = tape_distance + 2.0 * wheel.flange_face(depth);
+    // Wheels without flanges fit everywhere.
+    let face = wheel.flange_face(depth).unwrap_or(f64::NEG_INFINITY);
+    let span = tape_distance + 2.0 * face;
     match span < gauge {
         true => Ok(()),
         false => Err(ProfileError::WiderThanGauge {
