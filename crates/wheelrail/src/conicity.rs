@@ -17,6 +17,8 @@ use crate::wheelset::{RigidPosition, RigidWheelset};
 
 /// Points of the midpoint rule over half a cycle.
 const POINTS: usize = 400;
+/// Relative rounding errors of shifts and integrals that are let pass.
+const ROUNDING: f64 = 1e-10;
 
 /// Why there is no conicity.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -158,7 +160,8 @@ impl RollingRadiusDifference {
     ) -> Result<EquivalentConicity, ConicityError> {
         let range = [self.shifts[0], self.shifts[self.shifts.len() - 1]];
         let double = 2.0 * amplitude;
-        if !(amplitude > 0.0 && double <= range[1] - range[0]) {
+        let width = range[1] - range[0];
+        if !(amplitude > 0.0 && double <= width * (1.0 + ROUNDING)) {
             return Err(ConicityError::Range {
                 amplitude,
                 needed: [-amplitude, amplitude],
@@ -169,8 +172,14 @@ impl RollingRadiusDifference {
         // The upper end, at which S is that of the lower end: S(y) - S(y - 2A) rises.
         let excess = |upper: f64| integral(upper) - integral(upper - double);
         let (mut low, mut high) = (range[0] + double, range[1]);
-        if excess(low) > 0.0 || excess(high) < 0.0 {
-            let middle = if excess(low) > 0.0 { low } else { high } - amplitude;
+        let (below, above) = (excess(low), excess(high));
+        let rounding = ROUNDING
+            * self
+                .integrals
+                .iter()
+                .fold(0.0, |most: f64, own| most.max(own.abs()));
+        if below > rounding || above < -rounding {
+            let middle = if below > rounding { low } else { high } - amplitude;
             return Err(ConicityError::Range {
                 amplitude,
                 needed: [middle - 1.5 * amplitude, middle + 1.5 * amplitude],

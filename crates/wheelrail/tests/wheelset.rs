@@ -73,6 +73,96 @@ fn reproduction_conicity_of_coned_wheels() {
     }
 }
 
+/// Rows of numbers of a file beside EN 15302's reference cases.
+fn reference(file: &str) -> Vec<Vec<f64>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/data/en15302")
+        .join(file);
+    let text = std::fs::read_to_string(path).unwrap();
+    let rows = text.lines().skip(2);
+    rows.map(|line| line.split(',').map(|cell| cell.trim().parse().unwrap()).collect())
+        .collect()
+}
+
+/// EN 15302, cases E1 to E3: the conicity of given rolling radius differences, to the digits of the reference
+/// but one. The tables end at 6.8 mm.
+#[test]
+fn reproduction_conicities_of_en_15302_from_rolling_radius_differences() {
+    for case in 1..=3 {
+        let rows = reference(&format!("rolling_radius_difference_e{case}.csv"));
+        let table =
+            RollingRadiusDifference::new(rows.iter().map(|row| [1e-3 * row[0], 1e-3 * row[1]])).unwrap();
+        let mut compared = 0;
+        for row in reference(&format!("conicity_e{case}.csv")) {
+            let Ok(found) = table.equivalent_conicity(1e-3 * row[0], RADIUS, 1.5) else {
+                assert!(row[0] > 6.8, "E{case} at {} mm", row[0]);
+                continue;
+            };
+            assert!(
+                (found.by_wavelength - row[1]).abs() < 0.0015,
+                "E{case} at {} mm: {}, {} in the standard",
+                row[0],
+                found.by_wavelength,
+                row[1]
+            );
+            compared += 1;
+        }
+        assert!(compared > 50);
+    }
+}
+
+/// EN 15302, case E1, from the profiles: rolling radius differences, and conicities within the limits. The
+/// wheelset has 920 mm wheels with 1360 mm between their backs; the gauge of 1435 mm is measured 14 mm below
+/// the rail's datum.
+#[test]
+fn reproduction_conicities_of_en_15302_from_profiles() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/en15302");
+    let wheel = Profile::read(&folder.join("wheel_a.csv"), Kind::Wheel, 0.0).unwrap();
+    let rail = Profile::read(&folder.join("rail_a.csv"), Kind::Rail, 0.0).unwrap();
+    let layout = Layout {
+        tape_distance: 1.5,
+        gauge: 1.435,
+        gauge_depth: rail.top()[1] + 0.014 - 1e-6,
+    };
+    let wheelset = RigidWheelset::new([&wheel; 2], [RADIUS; 2], [&rail; 2], layout, STEEL).unwrap();
+    for row in reference("rolling_radius_difference_e1.csv") {
+        if row[0].abs() > 6.5 {
+            continue;
+        }
+        let found = 1e3
+            * wheelset
+                .level_position(1e-3 * row[0])
+                .unwrap()
+                .rolling_radius_difference();
+        assert!(
+            (found - row[1]).abs() < 0.1 + 0.02 * row[1].abs(),
+            "at {} mm: {found}, {} in the standard",
+            row[0],
+            row[1]
+        );
+    }
+    let table = RollingRadiusDifference::of_positions(&wheelset.sweep(9e-3, 360, true)).unwrap();
+    for row in reference("conicity_e1.csv") {
+        let found = table
+            .equivalent_conicity(1e-3 * row[0], RADIUS, 1.5)
+            .unwrap()
+            .by_wavelength;
+        assert!(
+            found < row[2] && found > row[3],
+            "at {} mm: {found}, limits {} to {}",
+            row[0],
+            row[3],
+            row[2]
+        );
+        // The limits are 0.05 apart from it; the difference is a fifth of that up to the flange.
+        assert!(
+            row[0] > 6.5 || (found - row[1]).abs() < 0.01,
+            "at {} mm: {found}",
+            row[0]
+        );
+    }
+}
+
 /// With roll: the roll is λ y / l, and the contact wanders on the rail by R times the roll, which adds R λ /
 /// l to the conicity; the planes of contact turn with the roll. All to first order in λ.
 #[test]
