@@ -176,6 +176,22 @@ impl<S: Real> Frame<S> {
 }
 
 impl Frame<f64> {
+    /// Returns bounds of the profile coordinate for points whose y lies in a range (m); `radius` is the nominal one.
+    #[inline(always)]
+    pub fn reach(&self, [low, high]: [f64; 2], radius: f64) -> [f64; 2] {
+        let slope = self.axle[1];
+        if slope < 0.1 {
+            return [f64::NEG_INFINITY, f64::INFINITY];
+        }
+        // The radius differs from the nominal one by less than 0.05 m, slopes are below 8.
+        let sine = (8.0 * self.tangent.abs()).min(1.0);
+        let lowest = (1.0 - sine * sine).sqrt();
+        let margin = 0.05 * self.down[0].abs()
+            + (radius + 0.05) * (sine * self.along[1].abs() + (1.0 - lowest) * self.down[0].abs());
+        let base = self.center[0] + radius * self.down[0];
+        [(low - base - margin) / slope, (high - base + margin) / slope]
+    }
+
     /// Returns y and z of a station of the scan; none if it cannot be seen.
     #[inline(always)]
     pub fn station(&self, [y, radius, slope]: [f64; 3]) -> Option<[f64; 2]> {

@@ -60,7 +60,7 @@ pub(super) enum End {
 /// The overlap at the stations.
 pub(super) struct Scan {
     pub overlap: [f64; STATIONS],
-    /// Its derivative by y, where the overlap is exact.
+    /// Its derivative by y where the overlap is exact: near zero overlap.
     slope: [f64; STATIONS],
     first: usize,
     last: usize,
@@ -191,7 +191,13 @@ impl ContactPair {
         };
         let [low, high] = self.rail.range();
         let mut reached = f64::NEG_INFINITY;
-        for (k, station) in self.wheel.stations().iter().enumerate() {
+        let stations = self.wheel.stations();
+        let [begin, end] = frame.reach([low - BEYOND, high + BEYOND], self.wheel.nominal_radius());
+        let begin = stations.partition_point(|station| station[0] < begin);
+        for (k, station) in stations.iter().enumerate().skip(begin) {
+            if station[0] > end {
+                break;
+            }
             let Some([y, z]) = frame.station(*station) else {
                 continue;
             };
@@ -212,13 +218,18 @@ impl ContactPair {
 
     /// Gives the intervals with overlap to `take`; the scan becomes exact near them.
     fn intervals(&self, frame: &Frame<f64>, scan: &mut Scan, mut take: impl FnMut(Interval)) {
-        let near: [bool; STATIONS] = std::array::from_fn(|k| scan.overlap[k] > -BETWEEN_STATIONS);
+        // Exact are stations near zero overlap, their neighbors, and those beside a change of sign.
+        let near = |overlap: f64| overlap.abs() < BETWEEN_STATIONS;
+        let mut before = f64::NEG_INFINITY;
         for k in scan.first..=scan.last {
-            let beside = near[k.saturating_sub(1)] || near[(k + 1).min(STATIONS - 1)];
-            if scan.overlap[k] > f64::NEG_INFINITY && (near[k] || beside) {
+            let own = scan.overlap[k];
+            let [_, after] = scan.neighbors(k);
+            let changes = (own > 0.0) != (before > 0.0) || (own > 0.0) != (after > 0.0);
+            if own > f64::NEG_INFINITY && (near(own) || near(before) || near(after) || changes) {
                 let node = frame.node(&self.wheel, &self.rail, self.wheel.parameter(k));
                 (scan.overlap[k], scan.slope[k]) = (node.overlap, node.overlap_slope);
             }
+            before = own;
         }
         let mut k = scan.first;
         while k <= scan.last {
@@ -319,13 +330,19 @@ impl ContactPair {
     /// The parameter near a station at which the slope of the overlap is zero, and true; the station's own
     /// and false if the slope does not change its sign beside it.
     pub(super) fn turning(&self, frame: &Frame<f64>, scan: &Scan, k: usize) -> (f64, bool) {
+        let at = |station: usize| {
+            let parameter = self.wheel.parameter(station);
+            let node = frame.node(&self.wheel, &self.rail, parameter);
+            (parameter, node.overlap_slope)
+        };
+        let (own, slope) = at(k);
         for beside in [k.saturating_sub(1), k + 1] {
-            if scan.slope[beside] * scan.slope[k] < 0.0 {
-                let ends = [beside, k].map(|station| self.wheel.parameter(station));
-                return (self.stationary(frame, ends), true);
+            let (other, other_slope) = at(beside);
+            if scan.overlap[beside] > f64::NEG_INFINITY && slope * other_slope < 0.0 {
+                return (self.stationary(frame, [other, own]), true);
             }
         }
-        (self.wheel.parameter(k), false)
+        (own, false)
     }
 
     /// An end of an interval.
