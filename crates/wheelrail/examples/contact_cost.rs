@@ -6,7 +6,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use numerics::scalar::{Dual, Number};
-use wheelrail::contact::{ContactLaw, ContactPair, CreepLaw, Side, WheelMotion, WheelPose};
+use wheelrail::contact::{
+    ContactLaw, ContactPair, ContactTable, CreepLaw, FindPatches, Side, WheelMotion, WheelPose,
+};
 use wheelrail::creep::fastsim::Grid;
 use wheelrail::creep::polach;
 use wheelrail::hertz::Material;
@@ -20,6 +22,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rail = nominal::rail_136re()?.inclined(nominal::INCLINATION);
     let [_, top] = rail.top();
     let pair = ContactPair::new(&nominal::aar_1b()?, 0.4572, &rail, steel)?;
+    let begun = Instant::now();
+    let table = ContactTable::new(pair.clone(), 1e-4)?;
+    println!("table made in {:.2} s", begun.elapsed().as_secs_f64());
     let grid = Grid {
         cells: 21,
         strips: 21,
@@ -78,6 +83,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             creep: CreepLaw::Polach(polach::DRY),
             slowest: 0.1,
         };
+        measure("table", &|| {
+            let mut sum = 0.0;
+            table.search(black_box(&pose), |patch| sum += patch.approach);
+            sum
+        });
+        measure("table with Polach", &|| {
+            let motion = WheelMotion {
+                velocity: [20.0, 0.01, 0.0],
+                angular_velocity: [0.0, 43.7, 0.0],
+            };
+            law.on_wheel(&table, Side::Left, black_box(&pose), &motion, |_, _| {})
+                .force[1]
+        });
         measure("with Polach and 10 derivatives", &|| {
             let variable = |value: f64, index: usize| Dual::<10>::variable(black_box(value), index);
             let pose = WheelPose::of(

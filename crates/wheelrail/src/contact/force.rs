@@ -14,7 +14,7 @@ use numerics::scalar::Real;
 
 use super::patch::ContactPatch;
 use super::pose::{Side, WheelPose};
-use super::search::ContactPair;
+use super::search::FindPatches;
 use crate::creep::fastsim::Grid;
 use crate::creep::polach::Reduction;
 use crate::creep::{
@@ -87,7 +87,7 @@ impl ContactLaw {
     #[inline(always)]
     pub fn at_patch<S: Real>(
         &self,
-        pair: &ContactPair,
+        pair: &impl FindPatches,
         pose: &WheelPose<S>,
         patch: &ContactPatch<S>,
         motion: &WheelMotion<S>,
@@ -144,7 +144,7 @@ impl ContactLaw {
     /// `see`.
     pub fn on_wheel<S: Real>(
         &self,
-        pair: &ContactPair,
+        pair: &impl FindPatches,
         side: Side,
         pose: &WheelPose<S>,
         motion: &WheelMotion<S>,

@@ -90,8 +90,8 @@ impl LinearWheelset {
             + yaw * (self.axle_load * half_distance * libm::sin(contact_angle));
         if self.spin {
             let spin = turning - shift * (contact_angle_rate / radius);
-            force = force - spin * (2.0 * f23);
-            moment = moment + lateral * (2.0 * f23) - spin * (2.0 * f33);
+            force -= spin * (2.0 * f23);
+            moment += lateral * (2.0 * f23) - spin * (2.0 * f33);
         }
         [force, moment]
     }

@@ -3,6 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | a wheel and a rail prepared for the search; patches; rigid touch | [`ContactPair`], [`ContactPatch`] |
+//! | tables of patches: a fast mode of the search | [`ContactTable`] |
 //! | where a wheel is; axes, which serve both sides | [`WheelPose`], [`Side`] |
 //! | normal force with damping, creepages, creep forces, the wrench on the wheel | [`ContactLaw`] |
 //! | linear geometry and creep of a wheelset, for stability | [`LinearWheelset`] |
@@ -17,10 +18,12 @@ mod patch;
 mod pose;
 mod search;
 mod section;
+mod table;
 
 pub use ellipse::{Ellipse, Ellipses};
 pub use force::{ContactLaw, CreepLaw, PatchForces, WheelForces, WheelMotion};
 pub use linear::{CreepCoefficients, LinearWheelset};
 pub use patch::ContactPatch;
 pub use pose::{Side, WheelPose};
-pub use search::{AREAS, ContactPair, RigidTouch};
+pub use search::{AREAS, ContactPair, FindPatches, RigidTouch};
+pub use table::ContactTable;

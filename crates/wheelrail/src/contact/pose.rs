@@ -176,7 +176,8 @@ impl<S: Real> Frame<S> {
 }
 
 impl Frame<f64> {
-    /// Returns bounds of the profile coordinate for points whose y lies in a range (m); `radius` is the nominal one.
+    /// Returns bounds of the profile coordinate for points whose y lies in a range (m); `radius` is the
+    /// nominal one.
     #[inline(always)]
     pub fn reach(&self, [low, high]: [f64; 2], radius: f64) -> [f64; 2] {
         let slope = self.axle[1];

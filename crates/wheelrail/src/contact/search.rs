@@ -81,6 +81,35 @@ pub struct RigidTouch {
     pub radius: f64,
 }
 
+/// What finds the patches of a wheel on its rail: the search, or tables.
+pub trait FindPatches {
+    /// Gives each patch at a pose to `take`.
+    fn search<S: Real>(&self, pose: &WheelPose<S>, take: impl FnMut(ContactPatch<S>));
+
+    /// Returns the material.
+    fn material(&self) -> Material;
+}
+
+impl FindPatches for ContactPair {
+    /// The deepest area comes first.
+    fn search<S: Real>(&self, pose: &WheelPose<S>, mut take: impl FnMut(ContactPatch<S>)) {
+        let frame = Frame::new(pose);
+        let plain = frame.lifted::<f64>();
+        let Some(mut scan) = self.scan(&plain) else {
+            return;
+        };
+        let mut intervals: [Option<Interval>; AREAS] = [None; AREAS];
+        self.intervals(&plain, &mut scan, |interval| keep(&mut intervals, interval));
+        for interval in intervals.into_iter().flatten() {
+            self.patches(&frame, &plain, &scan, &interval, &mut take);
+        }
+    }
+
+    fn material(&self) -> Material {
+        self.ellipses.material()
+    }
+}
+
 impl ContactPair {
     /// Returns a wheel of a nominal radius (m) and a rail, as it stands on the track, of a material.
     ///
@@ -111,30 +140,10 @@ impl ContactPair {
         })
     }
 
-    /// Returns the material.
-    #[must_use]
-    pub fn material(&self) -> Material {
-        self.ellipses.material()
-    }
-
     /// Returns the nominal radius of the wheel, m.
     #[must_use]
     pub fn nominal_radius(&self) -> f64 {
         self.wheel.nominal_radius()
-    }
-
-    /// Gives each patch at a pose to `take`, the deepest area first.
-    pub fn search<S: Real>(&self, pose: &WheelPose<S>, mut take: impl FnMut(ContactPatch<S>)) {
-        let frame = Frame::new(pose);
-        let plain = frame.lifted::<f64>();
-        let Some(mut scan) = self.scan(&plain) else {
-            return;
-        };
-        let mut intervals: [Option<Interval>; AREAS] = [None; AREAS];
-        self.intervals(&plain, &mut scan, |interval| keep(&mut intervals, interval));
-        for interval in intervals.into_iter().flatten() {
-            self.patches(&frame, &plain, &scan, &interval, &mut take);
-        }
     }
 
     /// Returns all patches at a pose.

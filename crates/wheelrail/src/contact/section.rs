@@ -165,6 +165,19 @@ impl WheelSection {
         self.radius
     }
 
+    /// Returns the parameters (m) of the beginning, of the place in the throat of the flange with a slope of
+    /// 45°, and of the end; the first two are equal if there is no flange.
+    pub fn division(&self) -> [f64; 3] {
+        let end = self.start + self.step * self.cells.len() as f64;
+        let knots = (0..self.cells.len())
+            .rev()
+            .map(|cell| self.start + self.step * cell as f64);
+        let division = knots
+            .filter(|parameter| self.at(*parameter).y < 0.0)
+            .find(|parameter| self.at(*parameter).slope < -1.0);
+        [self.start, division.unwrap_or(self.start), end]
+    }
+
     /// Returns y, radius and slope of the radius at the stations of the scan.
     pub fn stations(&self) -> &[[f64; 3]] {
         &self.stations
