@@ -1,94 +1,18 @@
-//! analytic, limits: contact of a wheel and a rail against closed forms, brute force, differences;
-//! continuity.
+//! analytic, input: contact of a wheel and a rail against closed forms, brute force, differences.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use numerics::scalar::{Dual, Real};
-use wheelrail::contact::{ContactLaw, ContactPair, CreepLaw, Side, WheelForces, WheelMotion, WheelPose};
+mod common;
+
+use common::{
+    POSES, RADIUS, STEEL, VELOCITIES, conformal_pair, forces, freight_pair, height, inclined_rail, law,
+    motion, six, values,
+};
+use numerics::scalar::Dual;
+use wheelrail::contact::{ContactPair, CreepLaw, Side, WheelMotion, WheelPose};
 use wheelrail::creep::fastsim::Grid;
 use wheelrail::creep::polach;
 use wheelrail::hertz::{Hertz, Material};
-use wheelrail::profile::{Kind, Profile, ProfileError, nominal};
-
-const STEEL: Material = Material {
-    youngs_modulus: 207e9,
-    poisson: 0.28,
-};
-const RADIUS: f64 = 0.4572;
-
-fn inclined_rail() -> Profile {
-    let rail = nominal::rail_136re().unwrap().inclined(nominal::INCLINATION);
-    let [_, top] = rail.top();
-    rail.moved([0.0, -top])
-}
-
-fn freight_pair() -> ContactPair {
-    ContactPair::new(&nominal::aar_1b().unwrap(), RADIUS, &inclined_rail(), STEEL).unwrap()
-}
-
-/// Profiles that touch at several places of the rail's head: S1002 and UIC60.
-fn conformal_pair() -> ContactPair {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/manchester");
-    let read = |file: &str, kind| Profile::read(&folder.join(file), kind, 0.0).unwrap();
-    let (wheel, rail) = (
-        read("MBench_S1002_v3.prw", Kind::Wheel),
-        read("MBench_UIC60_v3.prr", Kind::Rail),
-    );
-    ContactPair::new(&wheel, RADIUS, &rail, STEEL).unwrap()
-}
-
-fn law(creep: CreepLaw) -> ContactLaw {
-    ContactLaw {
-        friction: 0.4,
-        damping: 0.3,
-        creep,
-        slowest: 0.1,
-    }
-}
-
-/// Lateral place of the center, overlap, yaw, roll; velocities and angular velocities.
-const POSES: [[f64; 4]; 5] = [
-    [-3e-3, 1e-4, 0.0, 0.0],
-    [-6e-3, 8e-5, 4e-3, 1e-3],
-    [2e-3, 1.2e-4, -3e-3, -2e-3],
-    [8.2e-3, 1e-4, 5e-3, 0.0],
-    [1.1e-2, 2e-4, 1.5e-2, 5e-3],
-];
-const VELOCITIES: [f64; 6] = [15.0, 0.02, -0.01, 0.03, 32.8, 0.05];
-
-/// The height of the center at which the rigid profiles overlap by so much.
-fn height(pair: &ContactPair, [lateral, overlap, yaw, roll]: [f64; 4]) -> f64 {
-    let trial = RADIUS + 0.001;
-    let pose = WheelPose::of(Side::Left, [lateral, trial], yaw, roll);
-    trial + pair.touch(&pose).unwrap().overlap - overlap
-}
-
-fn motion<S: Real>(values: [S; 6]) -> WheelMotion<S> {
-    let [x, y, z, p, q, r] = values;
-    WheelMotion {
-        velocity: [x, y, z],
-        angular_velocity: [p, q, r],
-    }
-}
-
-/// Forces and moments by lateral place, height, yaw, roll and six velocities.
-fn forces<S: Real>(pair: &ContactPair, law: &ContactLaw, side: Side, values: [S; 10]) -> WheelForces<S> {
-    let [y, z, yaw, roll, a, b, c, d, e, f] = values;
-    let pose = WheelPose::of(side, [y, z], yaw, roll);
-    law.on_wheel(pair, side, &pose, &motion([a, b, c, d, e, f]), |_, _| {})
-}
-
-fn values(pair: &ContactPair, pose: [f64; 4]) -> [f64; 10] {
-    let [lateral, _, yaw, roll] = pose;
-    let mut values = [0.0; 10];
-    values[..4].copy_from_slice(&[lateral, height(pair, pose), yaw, roll]);
-    values[4..].copy_from_slice(&VELOCITIES);
-    values
-}
-
-fn six(forces: &WheelForces<f64>) -> [f64; 6] {
-    let ([a, b, c], [d, e, f]) = (forces.force, forces.moment);
-    [a, b, c, d, e, f]
-}
+use wheelrail::profile::{Element, Kind, Profile, ProfileError, nominal};
 
 /// A cone on an arc: the arc's slope is the cone's at the contact; place, radius, curvatures, Hertz's load.
 #[test]
@@ -435,119 +359,6 @@ fn analytic_flange_and_tread_touch_together() {
     assert!(together > 0);
 }
 
-/// Forces are continuous where patches appear, merge and part: halving the step halves the largest change.
-#[test]
-fn limits_forces_are_continuous_over_lateral_shifts() {
-    let conformal = conformal_pair();
-    let freight = freight_pair();
-    for (pair, range) in [(&conformal, [-6.5e-3, -5.0e-3]), (&freight, [9.5e-3, 1.142e-2])] {
-        let law = law(CreepLaw::Polach(polach::DRY));
-        for (overlap, yaw) in [(5e-5, 0.0), (1.5e-4, 4e-3)] {
-            let mut several = false;
-            // The height follows the touching at the beginning in a straight line.
-            let [begin, end] = [0.0, 1e-4].map(|by| height(pair, [range[0] + by, overlap, yaw, 0.0]));
-            let rise = (end - begin) / 1e-4;
-            let mut largest = |count: usize| {
-                let mut before: Option<[f64; 6]> = None;
-                let mut most: f64 = 0.0;
-                for i in 0..=count {
-                    let lateral = range[0] + (range[1] - range[0]) * i as f64 / count as f64;
-                    let z = begin + rise * (lateral - range[0]);
-                    let pose = WheelPose::of(Side::Left, [lateral, z], yaw, 0.0);
-                    let mut count = 0;
-                    let found = law.on_wheel(pair, Side::Left, &pose, &motion(VELOCITIES), |_, _| count += 1);
-                    several |= count > 1;
-                    let own = six(&found);
-                    if let Some(before) = before {
-                        for (a, b) in own.iter().zip(before) {
-                            most = most.max((a - b).abs());
-                        }
-                    }
-                    before = Some(own);
-                }
-                most
-            };
-            let [coarse, fine] = [4000, 16000].map(&mut largest);
-            assert!(
-                coarse > 0.0 && fine < 0.3 * coarse,
-                "{overlap} {yaw}: {coarse} {fine}"
-            );
-            assert!(several, "no place with several patches");
-        }
-    }
-}
-
-/// Round a closed path of lateral place and height the normal forces do little work: the part of the
-/// contact's energy that does not come back.
-#[test]
-fn limits_little_work_is_lost_on_a_closed_path() {
-    let pair = freight_pair();
-    let law = ContactLaw {
-        damping: 0.0,
-        ..law(CreepLaw::Frictionless)
-    };
-    let still = WheelMotion {
-        velocity: [0.0; 3],
-        angular_velocity: [0.0; 3],
-    };
-    let middle = [-3e-3, height(&pair, [-3e-3, 1e-4, 0.0, 0.0])];
-    let count = 2000;
-    let (mut work, mut turned) = (0.0, 0.0);
-    for i in 0..count {
-        let angle = std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(count);
-        let place = [
-            middle[0] + 2e-3 * angle.cos(),
-            middle[1] + 5e-5 * angle.sin() - 1e-4 * angle.cos(),
-        ];
-        let pose = WheelPose::of(Side::Left, place, 0.0, 0.0);
-        let force = law.on_wheel(&pair, Side::Left, &pose, &still, |_, _| {}).force;
-        let step = std::f64::consts::TAU / f64::from(count);
-        let rates = [-2e-3 * angle.sin(), 5e-5 * angle.cos() + 1e-4 * angle.sin()];
-        let own = (force[1] * rates[0] + force[2] * rates[1]) * step;
-        work += own;
-        turned += own.abs();
-    }
-    assert!(work.abs() < 0.01 * turned, "{work} J of {turned} J");
-}
-
-/// Wheels above the rail, beside it, far below, or turned over: results, never a failure.
-#[test]
-fn limits_derailed_wheels_are_results() {
-    let pair = freight_pair();
-    let law = law(CreepLaw::Polach(polach::DRY));
-    for (lateral, z, yaw, roll) in [
-        (0.0, RADIUS + 0.2, 0.0, 0.0),
-        (0.5, RADIUS, 0.0, 0.0),
-        (-0.5, RADIUS, 0.0, 0.0),
-    ] {
-        let pose = WheelPose::of(Side::Left, [lateral, z], yaw, roll);
-        assert!(pair.patches_at(&pose).is_empty());
-    }
-    assert!(
-        pair.touch(&WheelPose::of(Side::Left, [0.5, RADIUS], 0.0, 0.0))
-            .is_none()
-    );
-    // The tip of the flange on the rail's head: level contact, 1 in above the tread's height.
-    let on_tip = WheelPose::of(Side::Left, [0.06, RADIUS + 0.0254 - 1e-4], 0.0, 0.0);
-    let found = pair.patches_at(&on_tip);
-    assert_eq!(found.len(), 1);
-    assert!(
-        found[0].slope.abs() < 0.05 && found[0].profile < -0.05,
-        "{found:?}"
-    );
-    for i in 0..3000 {
-        let x = f64::from(i);
-        let pose = WheelPose::of(
-            Side::Right,
-            [0.2 * (1.3 * x).sin(), RADIUS + 0.03 * (0.7 * x).sin()],
-            1.5 * (0.37 * x).sin(),
-            (0.11 * x).sin(),
-        );
-        let found = law.on_wheel(&pair, Side::Right, &pose, &motion(VELOCITIES), |_, _| {});
-        assert!(six(&found).iter().all(|value| value.is_finite()), "{pose:?}");
-    }
-}
-
 #[test]
 fn input_wrong_profiles_are_refused() {
     let (wheel, rail) = (nominal::aar_1b().unwrap(), inclined_rail());
@@ -564,6 +375,13 @@ fn input_wrong_profiles_are_refused() {
         ..STEEL
     };
     assert!(ContactPair::new(&wheel, RADIUS, &rail, soft).is_err());
+    let line = Element::Line {
+        point: [0.0, 0.0],
+        angle: 1.5,
+    };
+    let steep = Profile::of_chain("steep", Kind::Wheel, [-1e-3, -0.02], &[line], [1e-3, 0.02]).unwrap();
+    let error = ContactPair::new(&steep, RADIUS, &rail, STEEL).unwrap_err();
+    assert!(error.to_string().contains("steep than 82°"), "{error}");
     let aside = rail.moved([1.0, 0.0]);
     let error = ContactPair::new(&wheel, RADIUS, &aside, STEEL).unwrap_err();
     assert!(error.to_string().contains("does not pass y = 0"), "{error}");

@@ -1,26 +1,16 @@
 //! analytic, limits: contact tables against the search.
 #![allow(missing_docs, clippy::unwrap_used)]
 
+mod common;
+
+use common::{RADIUS, STEEL, freight_pair, six};
 use numerics::scalar::{Dual, Number, Real};
 use wheelrail::contact::{
     ContactLaw, ContactPair, ContactPatch, ContactTable, CreepLaw, FindPatches, Side, WheelForces,
     WheelMotion, WheelPose,
 };
 use wheelrail::creep::polach;
-use wheelrail::hertz::Material;
 use wheelrail::profile::nominal;
-
-const STEEL: Material = Material {
-    youngs_modulus: 207e9,
-    poisson: 0.28,
-};
-const RADIUS: f64 = 0.4572;
-
-fn freight_pair() -> ContactPair {
-    let rail = nominal::rail_136re().unwrap().inclined(nominal::INCLINATION);
-    let rail = rail.moved([0.0, -rail.top()[1]]);
-    ContactPair::new(&nominal::aar_1b().unwrap(), RADIUS, &rail, STEEL).unwrap()
-}
 
 fn law() -> ContactLaw {
     ContactLaw {
@@ -38,11 +28,6 @@ fn forces<S: Real>(finder: &impl FindPatches, [y, z, yaw, roll]: [S; 4]) -> Whee
         angular_velocity: [0.0, 32.8, 0.01].map(S::from),
     };
     law().on_wheel(finder, Side::Left, &pose, &motion, |_, _| {})
-}
-
-fn six(forces: &WheelForces<f64>) -> [f64; 6] {
-    let ([a, b, c], [d, e, f]) = (forces.force, forces.moment);
-    [a, b, c, d, e, f]
 }
 
 fn height(pair: &ContactPair, lateral: f64, yaw: f64, roll: f64, overlap: f64) -> f64 {

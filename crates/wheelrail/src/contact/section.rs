@@ -12,6 +12,8 @@ use crate::profile::{Curve, Kind, Profile, ProfileError};
 
 /// Steepest direction that is part of a section, rad: 82°.
 pub(super) const STEEPEST: f64 = 1.431_169_986_635_35;
+/// Shortest section, m.
+const SHORTEST: f64 = 5e-3;
 /// Spacing of the cubics, m.
 const SPACING: f64 = 1e-4;
 /// Most stations of the scan.
@@ -95,7 +97,18 @@ fn prepared(profile: &Profile, expected: Kind) -> Result<[f64; 2], ProfileError>
         found: "the profile does not pass y = 0 towards the field side".into(),
         remedy: "give it with its datum: y = 0 in a wheel's tape circle, or in a rail's head".into(),
     })?;
-    Ok(visible(profile.curve(), datum))
+    let [start, end] = visible(profile.curve(), datum);
+    if end - start < SHORTEST {
+        return Err(ProfileError::Orientation {
+            place: place(),
+            found: format!(
+                "only {:.2} mm of the profile around y = 0 are less steep than 82°",
+                (end - start) * 1e3
+            ),
+            remedy: "look at the order of its points, its unit and its datum".into(),
+        });
+    }
+    Ok([start, end])
 }
 
 /// A point of a wheel's profile with derivatives by the parameter.
