@@ -2,6 +2,10 @@
 //!
 //! | what | where |
 //! |---|---|
+//! | profiles of wheels and rails: arcs and lines, points from files, nominal ones | [`profile`] |
+//! | contact: search for patches, normal force with damping, wrench on a wheel | [`contact`] |
+//! | a rigid wheelset on rails: rolling radii, contact angles | [`wheelset`] |
+//! | equivalent conicity, linear geometry | [`conicity`] |
 //! | elastic contact of two curved bodies | [`hertz`] |
 //! | creep forces: Kalker's coefficients and linear theory, Shen-Hedrick-Elkins, Polach, FASTSIM | [`creep`] |
 //! | center line of a track: tangents, spirals, curves; mid-chord offsets; irregularities from spectra | [`track`] |
@@ -24,6 +28,10 @@
 
 #![warn(missing_docs)]
 
+pub mod conicity;
+pub mod contact;
 pub mod creep;
 pub mod hertz;
+pub mod profile;
 pub mod track;
+pub mod wheelset;

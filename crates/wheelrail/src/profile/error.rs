@@ -1,0 +1,194 @@
+//! Why no profile was made: what was found, where, and the remedy.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use input::file::ReadError;
+use thiserror::Error;
+
+/// Where a mistake stands.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// The file as named, or the name of a profile that is no file.
+    pub name: String,
+    /// The line, from 1; none if the mistake concerns the whole.
+    pub line: Option<usize>,
+}
+
+impl Place {
+    /// Returns the whole of a file or profile.
+    #[must_use]
+    pub fn whole(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            line: None,
+        }
+    }
+
+    /// Returns a line (from 1) of a file.
+    #[must_use]
+    pub fn line(name: &str, line: usize) -> Self {
+        Self {
+            name: name.to_owned(),
+            line: Some(line),
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "{}, line {line}", self.name),
+            None => write!(f, "{}", self.name),
+        }
+    }
+}
+
+/// Why no profile was made. Each message names the place; [`ProfileError::remedy`] says what to do.
+#[derive(Debug, Error)]
+pub enum ProfileError {
+    /// The file was not read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The name of the file does not say what is in it.
+    #[error("{}: the type of this profile file is not known by its name", path.display())]
+    UnknownFile {
+        /// The file as named.
+        path: PathBuf,
+    },
+    /// A line is not what it should be.
+    #[error("{place}: {found}")]
+    Line {
+        /// Where.
+        place: Place,
+        /// What is wrong.
+        found: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// A rail where a wheel is expected, or a wheel where a rail is.
+    #[error("{place}: this is the profile of a {found}; a {expected} is expected")]
+    Kind {
+        /// Where.
+        place: Place,
+        /// What the file says it is.
+        found: &'static str,
+        /// What was asked for.
+        expected: &'static str,
+    },
+    /// Too few points.
+    #[error("{place}: {points} different points are too few for a profile")]
+    TooFew {
+        /// Where.
+        place: Place,
+        /// How many there are.
+        points: usize,
+    },
+    /// The size shows that the unit is not the one stated.
+    #[error(
+        "{place}: the points span {:.3} mm across the track, where a {kind} spans {}",
+        width * 1e3, expected
+    )]
+    Units {
+        /// Where.
+        place: Place,
+        /// Wheel or rail.
+        kind: &'static str,
+        /// Their width, m.
+        width: f64,
+        /// Widths that occur.
+        expected: &'static str,
+        /// What to do.
+        remedy: String,
+    },
+    /// The curve meets itself.
+    #[error(
+        "{place}: the profile crosses itself near y = {:.3} mm, z = {:.3} mm (with {other})",
+        at[0] * 1e3, at[1] * 1e3
+    )]
+    SelfCrossing {
+        /// Where one of the crossing pieces begins.
+        place: Place,
+        /// The other one.
+        other: Place,
+        /// The point of crossing, m.
+        at: [f64; 2],
+    },
+    /// The profile lies on the wrong side of its datum.
+    #[error("{place}: {found}")]
+    Orientation {
+        /// Where.
+        place: Place,
+        /// What is wrong.
+        found: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// The wheelset does not fit between the rails.
+    #[error(
+        "the flanges of wheel {wheel} are {:.1} mm apart over their active faces, but the gauge of rail \
+         {rail} is {:.1} mm",
+        span * 1e3, gauge * 1e3
+    )]
+    WiderThanGauge {
+        /// The wheel.
+        wheel: String,
+        /// The rail.
+        rail: String,
+        /// Distance of the active faces of the flanges at the depth where gauge is measured, m.
+        span: f64,
+        /// The gauge, m.
+        gauge: f64,
+    },
+    /// Lines and arcs do not join.
+    #[error("{place}: element {element} (from 1) {found}")]
+    Joint {
+        /// The profile.
+        place: Place,
+        /// The element, from 1.
+        element: usize,
+        /// What is wrong.
+        found: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A number is not admissible.
+    #[error("{what} is {value}; it must be {must}")]
+    Number {
+        /// Which number.
+        what: &'static str,
+        /// Its value, SI.
+        value: f64,
+        /// What it must be.
+        must: &'static str,
+    },
+}
+
+impl ProfileError {
+    /// Returns what to do.
+    #[must_use]
+    pub fn remedy(&self) -> String {
+        match self {
+            Self::Read(error) => error.help().unwrap_or_else(|| "name another file".into()),
+            Self::UnknownFile { .. } => {
+                "name it .csv (points with a header of units), .prw or .prr (Simpack, wheel or rail)".into()
+            }
+            Self::Line { remedy, .. } | Self::Units { remedy, .. } | Self::Orientation { remedy, .. } => {
+                remedy.clone()
+            }
+            Self::Kind { .. } => "exchange the files of wheel and rail".into(),
+            Self::TooFew { .. } => {
+                "give at least five points, closer together where the profile is curved".into()
+            }
+            Self::SelfCrossing { .. } => {
+                "order the points along the profile, and take away points that were measured twice".into()
+            }
+            Self::WiderThanGauge { .. } => {
+                "look at unit and datum of the wheel profile, at the distance of the wheels and at the gauge"
+                    .into()
+            }
+            Self::Joint { remedy, .. } => (*remedy).into(),
+            Self::Number { what, must, .. } => format!("give a {what} that is {must}"),
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! Profiles of wheels and rails in their section planes.
+//!
+//! **Axes.** y points to the field side, away from the track's center, and z up, on either side of the track;
+//! so one profile serves left and right. A wheel's origin lies in its tape circle: its radius at a point is
+//! the nominal radius less z. A rail's origin is arbitrary: rails are placed by gauge and top. Curves lead
+//! from the gauge side to the field side. SI units.
+//!
+//! | profile | from |
+//! |---|---|
+//! | [`nominal`] | cone, cylinder; wheel AAR-1B and rail 136RE from memory, to be checked against drawings |
+//! | [`chain`](mod@chain) | lines and arcs that join tangentially |
+//! | [`Points`] | CSV with units, Simpack's `.prr` and `.prw`; a spline along them with a stated deviation |
+
+pub mod chain;
+mod check;
+pub mod curve;
+pub mod error;
+pub mod nominal;
+pub mod points;
+mod spline;
+
+use std::path::Path;
+
+pub use chain::Element;
+pub use curve::{Curve, CurvePoint};
+pub use error::{Place, ProfileError};
+pub use points::Points;
+pub use spline::Deviation;
+
+/// Points closer than this to the one before them are left out, m: measured profiles repeat points, and the
+/// direction between two such points is noise.
+pub const SMALLEST_SPACING: f64 = 1e-5;
+/// Spacing at which extreme points of profiles are looked for, m.
+const FINE: f64 = 2e-5;
+
+/// Spacing at which chains are looked through for crossings, m.
+const COARSE: f64 = 2e-4;
+
+/// Wheel or rail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A wheel.
+    Wheel,
+    /// A rail.
+    Rail,
+}
+
+impl Kind {
+    /// Returns its name.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Wheel => "wheel",
+            Self::Rail => "rail",
+        }
+    }
+}
+
+/// A profile.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    name: String,
+    kind: Kind,
+    curve: Curve,
+    deviation: Deviation,
+    note: &'static str,
+}
+
+impl Profile {
+    /// Returns the profile of a curve that leads from the gauge side to the field side.
+    #[must_use]
+    pub fn of_curve(name: &str, kind: Kind, curve: Curve) -> Self {
+        Self {
+            name: name.to_owned(),
+            kind,
+            curve,
+            deviation: Deviation::default(),
+            note: "",
+        }
+    }
+
+    /// Returns the profile of lines and arcs that join tangentially, from the point of the first element
+    /// nearest to
+    /// `start` (m) to the point of the last one nearest to `end`; see [`chain`](mod@chain).
+    ///
+    /// # Errors
+    /// The elements do not join, or the profile crosses itself.
+    pub fn of_chain(
+        name: &str,
+        kind: Kind,
+        start: [f64; 2],
+        elements: &[Element],
+        end: [f64; 2],
+    ) -> Result<Self, ProfileError> {
+        let curve = chain::chain(name, start, elements, end)?;
+        let sample = curve.sample(COARSE);
+        let points: Vec<[f64; 2]> = sample.iter().map(|(_, point)| point.position).collect();
+        check::crossings(&Points::new(name, &points)).map_err(|error| match error {
+            ProfileError::SelfCrossing { at, .. } => ProfileError::SelfCrossing {
+                place: Place::whole(name),
+                other: Place::whole("itself"),
+                at,
+            },
+            other => other,
+        })?;
+        Ok(Self::of_curve(name, kind, curve))
+    }
+
+    /// Returns the profile along points: a spline that lies at most `deviation` (m) from each of them,
+    /// through them if that is zero.
+    ///
+    /// # Errors
+    /// The points are too few, cross themselves, have a wrong unit or orientation, or the deviation is
+    /// negative.
+    pub fn of_points(points: &Points, kind: Kind, deviation: f64) -> Result<Self, ProfileError> {
+        if !(deviation >= 0.0 && deviation.is_finite()) {
+            return Err(ProfileError::Number {
+                what: "deviation from the points",
+                value: deviation,
+                must: "zero or positive",
+            });
+        }
+        let checked = check::checked(points, kind)?;
+        let (curve, deviation) = spline::fit(&checked.points, deviation);
+        Ok(Self {
+            deviation,
+            ..Self::of_curve(&checked.name, kind, curve)
+        })
+    }
+
+    /// Reads a profile from a file of points; see [`points`] for formats and [`Profile::of_points`] for
+    /// `deviation` (m).
+    ///
+    /// # Errors
+    /// The file is not read, or there are no good points in it.
+    pub fn read(path: &Path, kind: Kind, deviation: f64) -> Result<Self, ProfileError> {
+        Self::of_points(&Points::read(path)?, kind, deviation)
+    }
+
+    /// Returns its name: the file, or that of a nominal profile.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Returns whether it is a wheel or a rail.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Returns what users must be told of its source; empty if there is nothing.
+    #[must_use]
+    pub fn note(&self) -> &str {
+        self.note
+    }
+
+    /// Returns how far the curve lies from the points it was made of; zero for lines and arcs.
+    #[must_use]
+    pub fn deviation(&self) -> Deviation {
+        self.deviation
+    }
+
+    /// Returns its curve.
+    #[must_use]
+    pub fn curve(&self) -> &Curve {
+        &self.curve
+    }
+
+    /// Returns the curvature (1/m) at a parameter of the curve (m), positive where the body is convex.
+    #[must_use]
+    pub fn convexity(&self, parameter: f64) -> f64 {
+        let curvature = self.curve.at(parameter).curvature();
+        match self.kind {
+            Kind::Wheel => curvature,
+            Kind::Rail => -curvature,
+        }
+    }
+
+    /// Returns the profile inclined towards the track's center by a slope, such as 1/40, about its origin.
+    #[must_use]
+    pub fn inclined(&self, slope: f64) -> Self {
+        Self {
+            curve: self.curve.moved(libm::atan(slope), [0.0; 2]),
+            ..self.clone()
+        }
+    }
+
+    /// Returns the profile moved (m).
+    #[must_use]
+    pub fn moved(&self, shift: [f64; 2]) -> Self {
+        Self {
+            curve: self.curve.moved(0.0, shift),
+            ..self.clone()
+        }
+    }
+
+    /// Returns the highest point (m).
+    #[must_use]
+    pub fn top(&self) -> [f64; 2] {
+        self.extreme(|[_, z]| Some(z)).unwrap_or_default()
+    }
+
+    /// Returns the lowest point (m), on a wheel the tip of the flange.
+    #[must_use]
+    pub fn bottom(&self) -> [f64; 2] {
+        self.extreme(|[_, z]| Some(-z)).unwrap_or_default()
+    }
+
+    /// Returns y (m) of the point of a rail at which gauge is measured: the innermost one not lower than
+    /// `depth` (m) below the top.
+    #[must_use]
+    pub fn gauge_point(&self, depth: f64) -> f64 {
+        let level = self.top()[1] - depth;
+        self.extreme(|[y, z]| (z >= level).then_some(-y))
+            .map_or(0.0, |[y, _]| y)
+    }
+
+    /// Returns y (m) of the active face of a wheel's flange at a depth (m) below the tape circle: the
+    /// outermost point of the flange not higher than that. Returns none if the wheel has no flange: if its
+    /// lowest point lies less than 15 mm below the tape circle.
+    #[must_use]
+    pub fn flange_face(&self, depth: f64) -> Option<f64> {
+        if self.bottom()[1] > -check::FLANGE {
+            return None;
+        }
+        self.extreme(|[y, z]| (y < 0.0 && z <= -depth).then_some(y))
+            .map(|[y, _]| y)
+    }
+
+    /// The point at which a function is largest; none if it has a value nowhere.
+    fn extreme(&self, function: impl Fn([f64; 2]) -> Option<f64>) -> Option<[f64; 2]> {
+        let value = |parameter| function(self.curve.at(parameter).position).unwrap_or(f64::NEG_INFINITY);
+        let mut best = (f64::NEG_INFINITY, self.curve.range()[0]);
+        let sample = self.curve.sample(FINE);
+        for (parameter, point) in &sample {
+            let found = function(point.position).unwrap_or(f64::NEG_INFINITY);
+            if found > best.0 {
+                best = (found, *parameter);
+            }
+        }
+        if best.0 == f64::NEG_INFINITY {
+            return None;
+        }
+        // Halve steps around the best sample.
+        let [low, high] = self.curve.range();
+        let mut step = FINE;
+        while step > 1e-13 {
+            let trials = [(best.1 - step).max(low), (best.1 + step).min(high)];
+            match trials
+                .into_iter()
+                .map(|at| (value(at), at))
+                .find(|trial| trial.0 > best.0)
+            {
+                Some(better) => best = better,
+                None => step *= 0.5,
+            }
+        }
+        Some(self.curve.at(best.1).position)
+    }
+}
+
+/// Checks that a wheelset fits between its rails: the active faces of its flanges, at the depth where gauge
+/// is measured, must be closer than the gauge.
+///
+/// `tape_distance` is the distance of the tape circles; `gauge` is measured `depth` below the top of the
+/// rail. All in m.
+///
+/// # Errors
+/// The wheelset is wider than the gauge.
+pub fn check_gauge(
+    wheel: &Profile,
+    rail: &Profile,
+    tape_distance: f64,
+    gauge: f64,
+    depth: f64,
+) -> Result<(), ProfileError> {
+    // Wheels without flanges fit everywhere.
+    let face = wheel.flange_face(depth).unwrap_or(f64::NEG_INFINITY);
+    let span = tape_distance + 2.0 * face;
+    match span < gauge {
+        true => Ok(()),
+        false => Err(ProfileError::WiderThanGauge {
+            wheel: wheel.name.clone(),
+            rail: rail.name.clone(),
+            span,
+            gauge,
+        }),
+    }
+}
