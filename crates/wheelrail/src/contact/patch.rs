@@ -11,7 +11,7 @@
 //! direction `2 d cos³δ / w²`, along it `cos δ / r`. So curvatures are means over the patch, places move
 //! continuously where profiles conform, and no curvature of a measured profile is needed. Moments of a lower
 //! order give more weight to shallow parts of the overlap, which elastic bodies do not touch with (decision
-//! 0052).
+//! 0053).
 //!
 //! **Blending.** Two intervals that grow together would change from two patches to one at once. An interval
 //! with a valley of overlap v between maxima is therefore given as one patch with a share c and as its two
