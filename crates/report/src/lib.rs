@@ -13,7 +13,8 @@
 //! - [`view`]: the data of the page's interactive part.
 //! - [`run_files`]: the files of a run.
 //! - [`half_truck_files`]: the files of a half-truck's run.
-//! - [`warp_files`], [`curves_files`]: the files of `wedgelab warp` and `wedgelab curves`.
+//! - [`warp_files`], [`curves_files`]: the files of `wedgelab warp` and `wedgelab curves`;
+//!   [`wheelrail_files`]: those of `wedgelab wheelrail plot`.
 //! - [`table`]: tables of results, read back.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
 //!   [`study_digest`] what their page shows.
@@ -48,3 +49,4 @@ pub mod table;
 pub mod thin;
 pub mod view;
 pub mod warp_files;
+pub mod wheelrail_files;

@@ -17,6 +17,7 @@ use numerics::processor::{OldProcessor, check};
 
 use commands::{
     case, compare, curves, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, study, warp,
+    wheelrail,
 };
 use failure::Failure;
 
@@ -62,6 +63,7 @@ enum Command {
     QuasiStatic(quasi_static::Arguments),
     Warp(warp::Arguments),
     Curves(curves::Arguments),
+    Wheelrail(wheelrail::Arguments),
     Nucars(nucars::Arguments),
     Fmu(fmu::Arguments),
 }
@@ -80,6 +82,7 @@ impl Cli {
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Warp(arguments) => warp::execute(&arguments),
             Command::Curves(arguments) => curves::execute(&arguments),
+            Command::Wheelrail(arguments) => wheelrail::execute(&arguments),
             Command::Nucars(arguments) => nucars::execute(&arguments),
             Command::Fmu(arguments) => fmu::execute(&arguments),
         }

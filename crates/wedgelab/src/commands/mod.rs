@@ -13,3 +13,4 @@ pub mod reproduce;
 pub mod run;
 pub mod study;
 pub mod warp;
+pub mod wheelrail;

@@ -1,4 +1,4 @@
-//! The commands with three-piece trucks, as a user calls them.
+//! The commands with three-piece trucks and with profiles, as a user calls them.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
@@ -234,4 +234,40 @@ fn fit_finds_friction_from_a_measured_warp_loop() {
         case.contains("model = \"truck\"") && (written - value).abs() < 1e-6,
         "{column}"
     );
+}
+
+/// Nominal profiles: cones of 1:20 until the flange, a conicity of 0.05, and refusals that help.
+#[test]
+fn wheelrail_checks_profiles_and_tells_conicity() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let out = done(at, &["wheelrail", "plot", "aar_1b", "136re", "--out", "wr"]);
+    assert!(out.contains("from memory"), "{out}");
+    let row = out.lines().find(|line| line.starts_with("0.100")).unwrap();
+    let conicity: f64 = row.split_whitespace().last().unwrap().parse().unwrap();
+    assert!((conicity - 0.05).abs() < 0.002, "{row}");
+    let csv = fs::read_to_string(at.join("wr/wheelrail.csv")).unwrap();
+    assert!(csv.starts_with("shift_in,rolling_radius_difference_in") && csv.lines().count() > 200);
+    assert!(at.join("wr/wheelrail.png").metadata().unwrap().len() > 5000);
+    fs::write(at.join("bad.csv"), "y,z\n0,0\n1,1\n").unwrap();
+    for (arguments, text) in [
+        (
+            &["wheelrail", "check", "aar_1b", "136rex"][..],
+            "nominal rail `136rex`",
+        ),
+        (
+            &["wheelrail", "check", "aar_1b", "136re", "--gauge", "50 in"],
+            "flanges",
+        ),
+        (&["wheelrail", "check", "bad.csv", "136re"], "bad.csv"),
+        (&["wheelrail", "check", "cone_a", "136re"], "cone_1:20"),
+        (
+            &["wheelrail", "check", "aar_1b", "136re", "--gauge", "56.5 lbf"],
+            "length",
+        ),
+    ] {
+        let refused = wedgelab(at, arguments);
+        assert_eq!(refused.code, Some(2), "{arguments:?}: {}", refused.err);
+        assert!(refused.err.contains(text), "{arguments:?}: {}", refused.err);
+    }
 }

@@ -1,0 +1,139 @@
+//! The files of `wedgelab wheelrail plot`: a rigid wheelset on rails over its lateral shift, as CSV and figure.
+
+use std::io::{self, Write};
+
+use wheelrail::profile::Profile;
+use wheelrail::wheelset::RigidPosition;
+
+use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+
+/// The table.
+pub const TABLE: &str = "wheelrail.csv";
+/// The figure.
+pub const FIGURE: &str = "wheelrail.svg";
+/// The same as a picture.
+pub const PICTURE: &str = "wheelrail.png";
+/// All of them.
+pub const NAMES: [&str; 3] = [TABLE, FIGURE, PICTURE];
+
+const INCH: f64 = 0.0254;
+
+/// Writes a row for each position: shift, rolling radius difference, contact angles, places on wheel and rail.
+///
+/// # Errors
+/// The writer's.
+pub fn write(positions: &[RigidPosition], out: &mut dyn Write) -> io::Result<()> {
+    writeln!(
+        out,
+        "shift_in,rolling_radius_difference_in,left_contact_angle_rad,right_contact_angle_rad,roll_rad,left_wheel_place_in,\
+         right_wheel_place_in,left_rail_place_in,right_rail_place_in"
+    )?;
+    for position in positions {
+        let [left, right] = position.contact_angles();
+        let [a, b] = &position.touches;
+        writeln!(
+            out,
+            "{},{},{left},{right},{},{},{},{},{}",
+            position.shift / INCH,
+            position.rolling_radius_difference() / INCH,
+            position.roll,
+            a.profile / INCH,
+            b.profile / INCH,
+            a.place[1] / INCH,
+            b.place[1] / INCH
+        )?;
+    }
+    Ok(())
+}
+
+/// Returns the figure: profiles, rolling radius difference, contact angles, places, and equivalent conicity over the
+/// amplitude (m).
+#[must_use]
+pub fn figure(
+    wheel: &Profile,
+    rail: &Profile,
+    positions: &[RigidPosition],
+    conicity: &[(f64, f64)],
+) -> Figure {
+    let curve = |label: &str, colour, line, points: Vec<(f64, f64)>| Curve {
+        label: label.to_owned(),
+        colour,
+        line,
+        points,
+    };
+    let over_shift = |value: &dyn Fn(&RigidPosition) -> f64| -> Vec<(f64, f64)> {
+        positions
+            .iter()
+            .map(|position| (position.shift / INCH, value(position)))
+            .collect()
+    };
+    let outline = |profile: &Profile| -> Vec<(f64, f64)> {
+        let points = profile.curve().sample(2e-4).into_iter();
+        points
+            .map(|(_, point)| (point.position[0] / INCH, point.position[1] / INCH))
+            .collect()
+    };
+    let shift = "lateral shift (in, left positive)";
+    let panel = |title: &str, x_label: &str, y_label: &str, curves: Vec<Curve>| Panel {
+        title: title.to_owned(),
+        x_label: x_label.to_owned(),
+        y_label: y_label.to_owned(),
+        curves,
+        ..Panel::default()
+    };
+    let (blue, red) = (Colour::Blue, Colour::Vermillion);
+    Figure {
+        title: format!("{} on {}", wheel.name(), rail.name()),
+        caption: "A rigid wheelset on rigid rails: both wheels touch at each lateral shift. Profiles are shown in their own axes. \
+                  Equivalent conicity after EN 15302."
+            .to_owned(),
+        panels: vec![
+            panel(
+                "(a) profiles",
+                "y, field side positive (in)",
+                "z (in)",
+                vec![
+                    curve("wheel", blue, Line::Solid, outline(wheel)),
+                    curve("rail", red, Line::Dashed, outline(rail)),
+                ],
+            ),
+            panel(
+                "(b) rolling radius difference",
+                shift,
+                "left less right (in)",
+                vec![curve("", blue, Line::Solid, over_shift(&|p| p.rolling_radius_difference() / INCH))],
+            ),
+            panel(
+                "(c) contact angles",
+                shift,
+                "contact angle (deg)",
+                vec![
+                    curve("left", blue, Line::Solid, over_shift(&|p| p.contact_angles()[0].to_degrees())),
+                    curve("right", red, Line::Dashed, over_shift(&|p| p.contact_angles()[1].to_degrees())),
+                ],
+            ),
+            panel(
+                "(d) contact on the wheels",
+                shift,
+                "y on the wheel (in)",
+                vec![
+                    curve("left", blue, Line::Solid, over_shift(&|p| p.touches[0].profile / INCH)),
+                    curve("right", red, Line::Dashed, over_shift(&|p| p.touches[1].profile / INCH)),
+                ],
+            ),
+            panel(
+                "(e) equivalent conicity",
+                "amplitude (in)",
+                "equivalent conicity",
+                vec![curve(
+                    "",
+                    blue,
+                    Line::Solid,
+                    conicity.iter().map(|(amplitude, value)| (amplitude / INCH, *value)).collect(),
+                )],
+            ),
+        ],
+        columns: 3,
+        ..Figure::default()
+    }
+}

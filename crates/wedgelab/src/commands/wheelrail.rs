@@ -1,0 +1,280 @@
+//! `wedgelab wheelrail`: profiles of wheels and rails, and how a wheelset rolls on them.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Args, Subcommand};
+use quantity::{Kind as Measure, Quantity};
+use report::wheelrail_files::{self, NAMES};
+use wheelrail::conicity::RollingRadiusDifference;
+use wheelrail::hertz::Material;
+use wheelrail::profile::{Kind, Profile, ProfileError, nominal};
+use wheelrail::wheelset::{Layout, RigidPosition, RigidWheelset};
+
+use super::warp::draw;
+use crate::failure::{Failure, Message};
+use crate::folders;
+use crate::table::Table;
+
+/// Profiles of wheels and rails: checks, rolling radius difference, contact angles, equivalent conicity
+///
+/// WHEEL is aar_1b, cone_1:20 (any slope), or a file; RAIL is 136re, or a file: CSV with units in its header, or
+/// Simpack's .prw and .prr. The nominal profiles are from memory, not from drawings.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab wheelrail check aar_1b 136re
+  wedgelab wheelrail plot worn.csv rail.prr --gauge \"56.75 in\" --out worn")]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Reads and checks both profiles, and prints how a wheelset rolls on them
+    Check(Pair),
+    /// Does the same, and writes wheelrail.csv, wheelrail.svg and wheelrail.png
+    Plot {
+        #[command(flatten)]
+        pair: Pair,
+        /// Folder to write into
+        #[arg(long, value_name = "DIR", default_value = "wheelrail")]
+        out: PathBuf,
+        /// Overwrite existing results
+        #[arg(long)]
+        force: bool,
+    },
+}
+
+/// A wheel and a rail, and where they are.
+#[derive(Debug, Args)]
+struct Pair {
+    /// Wheel profile
+    wheel: String,
+    /// Rail profile
+    rail: String,
+    /// Gauge
+    #[arg(long, default_value = "56.5 in", value_parser = length)]
+    gauge: Quantity,
+    /// Depth below the top of the rail at which gauge is measured
+    #[arg(long, value_name = "DEPTH", default_value = "0.625 in", value_parser = length)]
+    gauge_depth: Quantity,
+    /// Distance of the tape circles of the wheels
+    #[arg(long, value_name = "DISTANCE", default_value = "59.21875 in", value_parser = length)]
+    tape_distance: Quantity,
+    /// Nominal radius of the wheels
+    #[arg(long, default_value = "18 in", value_parser = length)]
+    radius: Quantity,
+    /// Inclination of the rails, such as 1:40 or 0 [default: 1:40 for nominal rails, 0 for files]
+    #[arg(long, value_name = "SLOPE", value_parser = slope)]
+    inclination: Option<f64>,
+    /// How far splines may lie from the points of a file
+    #[arg(long, value_name = "LENGTH", default_value = "0.02 mm", value_parser = length_or_zero)]
+    deviation: Quantity,
+    /// Largest lateral shift
+    #[arg(long, value_name = "SHIFT", default_value = "0.5 in", value_parser = length)]
+    shift: Quantity,
+}
+
+fn length(text: &str) -> Result<Quantity, String> {
+    let quantity = length_or_zero(text)?;
+    if quantity.to_si() > 0.0 {
+        Ok(quantity)
+    } else {
+        Err("it must be positive".to_owned())
+    }
+}
+
+fn length_or_zero(text: &str) -> Result<Quantity, String> {
+    let quantity = Quantity::parse_as(text, Measure::Length).map_err(|error| error.to_string())?;
+    if quantity.to_si() >= 0.0 && quantity.to_si() < 10.0 {
+        Ok(quantity)
+    } else {
+        Err("it must lie between 0 and 10 m".to_owned())
+    }
+}
+
+/// A slope as a ratio (1:40) or a number.
+fn slope(text: &str) -> Result<f64, String> {
+    let number = |text: &str| {
+        text.trim()
+            .parse::<f64>()
+            .map_err(|_| "write for example 1:40 or 0.025".to_owned())
+    };
+    let value = match text.split_once(':') {
+        Some((rise, run)) => number(rise)? / number(run)?,
+        None => number(text)?,
+    };
+    if (-0.5..=0.5).contains(&value) {
+        Ok(value)
+    } else {
+        Err("it must lie between -0.5 and 0.5".to_owned())
+    }
+}
+
+const INCH: f64 = 0.0254;
+/// Half width of a conical tread, m.
+const TREAD: f64 = 2.0 * INCH;
+const STEEL: Material = Material {
+    youngs_modulus: 207e9,
+    poisson: 0.27,
+};
+/// Positions over the range of shifts.
+const POSITIONS: usize = 280;
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let (pair, files) = match &arguments.command {
+        Command::Check(pair) => (pair, None),
+        Command::Plot { pair, out, force } => (pair, Some((out, *force))),
+    };
+    let folder = files
+        .map(|(out, force)| folders::check(out, &NAMES, force))
+        .transpose()?;
+    let (wheel, rail) = (pair.wheel()?, pair.rail()?);
+    let layout = Layout {
+        tape_distance: pair.tape_distance.to_si(),
+        gauge: pair.gauge.to_si(),
+        gauge_depth: pair.gauge_depth.to_si(),
+    };
+    let radius = pair.radius.to_si();
+    let wheelset = RigidWheelset::new([&wheel; 2], [radius; 2], [&rail; 2], layout, STEEL)
+        .map_err(|error| wrong(&error))?;
+    let largest = pair.shift.to_si();
+    let positions = wheelset.sweep(largest, POSITIONS, false);
+    if positions.len() < 3 {
+        let message = "nowhere are both wheels over their rails";
+        return Err(Message::new(message, "look at gauge and tape distance").into());
+    }
+    let difference = RollingRadiusDifference::of_positions(&positions)
+        .map_err(|error| Message::new(error.to_string(), "look at gauge, tape distance and shift"))?;
+    let amplitudes = (1..=POSITIONS / 2).map(|i| largest * i as f64 / (POSITIONS / 2) as f64);
+    // Towards the ends of the range the motion about a middle that is not zero leaves the table.
+    let conicity: Vec<(f64, f64)> = amplitudes
+        .filter_map(|amplitude| {
+            let found = difference
+                .equivalent_conicity(amplitude, radius, layout.tape_distance)
+                .ok()?;
+            Some((amplitude, found.by_wavelength))
+        })
+        .collect();
+    let mut out = io::stdout().lock();
+    for profile in [&wheel, &rail] {
+        let word = profile.kind().word();
+        let deviation = profile.deviation();
+        writeln!(out, "{word}: {}", profile.name())?;
+        if !profile.note().is_empty() {
+            writeln!(out, "  {}", profile.note())?;
+        }
+        if deviation.largest > 0.0 {
+            writeln!(
+                out,
+                "  a spline at most {:.4} mm from its points",
+                1e3 * deviation.largest
+            )?;
+        }
+    }
+    writeln!(out)?;
+    table(&positions, &conicity, largest).write(&mut out)?;
+    writeln!(
+        out,
+        "\nShift: of the wheelset to the left, at the height of the rails' tops. Angles: left, right. Conicity: equivalent, after\n\
+         EN 15302, at an amplitude of that size; - where the wheelset does not swing or the amplitude is not covered."
+    )?;
+    if let Some(folder) = folder {
+        let figure = wheelrail_files::figure(&wheel, &rail, &positions, &conicity);
+        let png = draw(&figure)?;
+        folder.write(|files| {
+            files.add(wheelrail_files::TABLE, |out| {
+                wheelrail_files::write(&positions, out)
+            })?;
+            files.add(wheelrail_files::FIGURE, |out| {
+                out.write_all(figure.to_svg().as_bytes())
+            })?;
+            files.add(wheelrail_files::PICTURE, |out| out.write_all(&png))
+        })?;
+        writeln!(
+            out,
+            "\nWritten into {}: {}.",
+            folder.path().display(),
+            NAMES.join(", ")
+        )?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn wrong(error: &ProfileError) -> Failure {
+    Message::new(error.to_string(), error.remedy()).into()
+}
+
+impl Pair {
+    fn wheel(&self) -> Result<Profile, Failure> {
+        match self.wheel.as_str() {
+            "aar_1b" => nominal::aar_1b().map_err(|error| wrong(&error)),
+            name => match name.strip_prefix("cone_") {
+                Some(text) => {
+                    let slope = slope(text)
+                        .map_err(|reason| Message::new(format!("`{name}`: {reason}"), "write cone_1:20"))?;
+                    nominal::cone(slope, TREAD).map_err(|error| wrong(&error))
+                }
+                None => self.of_file(name, Kind::Wheel, "aar_1b, cone_1:20"),
+            },
+        }
+    }
+
+    fn rail(&self) -> Result<Profile, Failure> {
+        let (rail, usual) = match self.rail.as_str() {
+            "136re" => (nominal::rail_136re().map_err(|error| wrong(&error))?, 1.0 / 40.0),
+            name => (self.of_file(name, Kind::Rail, "136re")?, 0.0),
+        };
+        Ok(match self.inclination.unwrap_or(usual) {
+            0.0 => rail,
+            slope => rail.inclined(slope),
+        })
+    }
+
+    fn of_file(&self, name: &str, kind: Kind, nominal: &str) -> Result<Profile, Failure> {
+        let path = Path::new(name);
+        if !path.exists() {
+            let message = format!("there is neither a file nor a nominal {} `{name}`", kind.word());
+            let advice = format!("name a file of points, or {nominal}");
+            return Err(Message::new(message, advice).into());
+        }
+        Profile::read(path, kind, self.deviation.to_si()).map_err(|error| wrong(&error))
+    }
+}
+
+/// A row for some shifts.
+fn table(positions: &[RigidPosition], conicity: &[(f64, f64)], largest: f64) -> Table {
+    let mut table = Table::new(
+        0,
+        &[
+            ("shift", "in"),
+            ("rolling radius difference", "in"),
+            ("angle, left", "deg"),
+            ("angle, right", "deg"),
+            ("conicity", ""),
+        ],
+    );
+    for part in 0..=10 {
+        let wanted = largest * f64::from(part) / 10.0;
+        let nearest = |a: f64, b: f64| (a - wanted).abs().total_cmp(&(b - wanted).abs());
+        let Some(position) = positions.iter().min_by(|a, b| nearest(a.shift, b.shift)) else {
+            continue;
+        };
+        let [left, right] = position.contact_angles().map(f64::to_degrees);
+        let found = conicity
+            .iter()
+            .find(|(amplitude, _)| (amplitude - wanted).abs() < 1e-9);
+        table.row([
+            format!("{:.3}", position.shift / INCH),
+            format!("{:.5}", position.rolling_radius_difference() / INCH),
+            format!("{left:.2}"),
+            format!("{right:.2}"),
+            found.map_or("-".to_owned(), |(_, value)| format!("{value:.4}")),
+        ]);
+    }
+    table
+}
