@@ -4,13 +4,14 @@ use std::ops::Range;
 
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::Motion;
-use mechanics::system::{ModelError, NoEquilibrium, StaticFriction, System};
+use mechanics::system::{Model, ModelError, NoEquilibrium, StaticFriction, System};
 use mechanics::vector::Vector;
 use thiserror::Error;
 use wedge::parameters::{FaceFriction, Start};
 
 use crate::PLACES;
-use crate::elements::{HEIGHT, Law, Suspended, model};
+use crate::bodies::bodies;
+use crate::elements::{HEIGHT, Mount, Suspended, add};
 use crate::parameters::{Adapter, Parameters, SideBearing};
 
 /// Number of the leading wheelset among the bodies; the trailing one follows.
@@ -86,19 +87,9 @@ impl Truck {
 
     /// Returns the truck with column and slope of each wedge moved away by so much (m) along their normals.
     fn with_gaps(parameters: &Parameters, gaps: [[f64; 2]; 4]) -> Result<Self, ModelError> {
-        let (mut model, suspension) = model(parameters, gaps);
-        for element in &suspension {
-            let [a, b] = element.ends;
-            // Between two prescribed bodies nothing depends on a force; `loads` computes it.
-            if model.bodies[a.0].is_prescribed() && model.bodies[b.0].is_prescribed() {
-                continue;
-            }
-            match &element.law {
-                Law::Spring(spring) => model.add(spring.clone(), a, b),
-                Law::Stop(stop) => model.add(stop.clone(), a, b),
-                Law::Rim(rim) => model.add(rim.clone(), a, b),
-            }
-        }
+        let bodies = bodies(parameters, Mount::ALONE.center);
+        let mut model = Model::new(bodies, [0.0, 0.0, -parameters.gravity]);
+        let suspension = add(&mut model, parameters, &Mount::ALONE, gaps);
         let with_friction = matches!(
             &parameters.wheelsets,
             Some(wheelsets) if matches!(wheelsets.adapter, Adapter::Friction(_))

@@ -37,8 +37,9 @@ fn prescribed(name: &str, motion: &NeighbourMotion, place: [f64; 3]) -> Body {
     }
 }
 
-/// Returns the bodies in the order of their numbers.
-pub(crate) fn bodies(parameters: &Parameters) -> Vec<Body> {
+/// Returns the bodies of a truck whose center is at `center` (m), in the order of their numbers.
+#[must_use]
+pub fn bodies(parameters: &Parameters, center: [f64; 3]) -> Vec<Body> {
     let [side, place, axle] = parameters.distances;
     let start = parameters.displacement_at_start();
     let moved = |mut body: Body| {
@@ -82,6 +83,11 @@ pub(crate) fn bodies(parameters: &Parameters) -> Vec<Body> {
     }
     if let Some(car) = &parameters.car_body {
         bodies.push(moved(rigid("car_body", &car.body, [0.0; 3], car.free, None)));
+    }
+    for body in &mut bodies {
+        for (origin, shift) in body.frame.origin.iter_mut().zip(center) {
+            *origin += shift;
+        }
     }
     bodies
 }

@@ -12,7 +12,6 @@ use mechanics::vector::Vector;
 use wedge::parameters::{Contact, ControlCoil as ThesisCoil, Damping, FaceFriction};
 
 use crate::assemble::{BOLSTER, CAR_BODY, SIDE_FRAMES, WEDGES, WHEELSETS};
-use crate::bodies::bodies;
 use crate::parameters::{
     Adapter, AdapterPad, CarBody, Clearance, ControlCoil, FrictionAdapter, Parameters, SideBearing, Spring,
     Wedge,
@@ -61,28 +60,72 @@ pub(crate) struct Suspended {
     pub ends: [(usize, Marker); 2],
 }
 
-/// Returns bodies and faces, and the elements that are still to be added; `gaps` (m) are how far column and slope
-/// of each wedge are moved away along their normals.
-pub(crate) fn model(parameters: &Parameters, gaps: [[f64; 2]; 4]) -> (Model, Vec<Suspended>) {
+/// Where a truck stands in a model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mount {
+    /// The numbers of its bodies there, in the order of [`WHEELSETS`] to [`CAR_BODY`]. Two may be one: the bolster and
+    /// a car that is rigid with it.
+    pub bodies: [usize; 10],
+    /// Its center, m.
+    pub center: [f64; 3],
+}
+
+impl Mount {
+    /// A truck alone, its center at the origin.
+    pub const ALONE: Self = Self {
+        bodies: [0, 1, 2, 3, 4, 5, 6, 7, 8, 9],
+        center: [0.0; 3],
+    };
+}
+
+/// Adds the elements of a truck to a model whose bodies are there, at rest in their nominal places. (Those between
+/// two prescribed bodies, or between two that are one, are left out: nothing depends on their forces.)
+pub fn add_elements(model: &mut Model, parameters: &Parameters, mount: &Mount) {
+    add(model, parameters, mount, [[0.0; 2]; 4]);
+    model.faces.retain(|(carried, on, ..)| carried != on);
+}
+
+/// Adds them, and returns the suspension; `gaps` (m) are how far column and slope of each wedge are moved away along
+/// their normals.
+pub(crate) fn add(
+    model: &mut Model,
+    parameters: &Parameters,
+    mount: &Mount,
+    gaps: [[f64; 2]; 4],
+) -> Vec<Suspended> {
     let builder = Builder {
         parameters,
+        mount,
         gaps,
-        model: Model::new(bodies(parameters), [0.0, 0.0, -parameters.gravity]),
+        model,
         suspension: Vec::new(),
     };
-    builder.build()
+    let suspension = builder.build();
+    for element in &suspension {
+        let [a, b] = element.ends;
+        if a.0 == b.0 || (model.bodies[a.0].is_prescribed() && model.bodies[b.0].is_prescribed()) {
+            continue;
+        }
+        match &element.law {
+            Law::Spring(spring) => model.add(spring.clone(), a, b),
+            Law::Stop(stop) => model.add(stop.clone(), a, b),
+            Law::Rim(rim) => model.add(rim.clone(), a, b),
+        }
+    }
+    suspension
 }
 
 struct Builder<'p> {
     parameters: &'p Parameters,
+    mount: &'p Mount,
     /// How far column and slope of each wedge are moved away, m.
     gaps: [[f64; 2]; 4],
-    model: Model,
+    model: &'p mut Model,
     suspension: Vec<Suspended>,
 }
 
 impl Builder<'_> {
-    fn build(mut self) -> (Model, Vec<Suspended>) {
+    fn build(mut self) -> Vec<Suspended> {
         for number in 0..4 {
             self.wedge(number);
         }
@@ -98,14 +141,15 @@ impl Builder<'_> {
                 self.side_bearing(car, side * car.side_bearings.distance, name);
             }
         }
-        (self.model, self.suspension)
+        self.suspension
     }
 
     /// Returns the marker of a body at a place (m), turned about z (rad).
     fn marker(&self, body: usize, at: [f64; 3], yaw: f64) -> (usize, Marker) {
-        let origin = self.model.bodies[body].frame.origin;
-        let place = std::array::from_fn(|k| at[k] - origin[k]);
-        (body, Marker::new(place, [0.0, 0.0, yaw]))
+        let number = self.mount.bodies[body];
+        let origin = self.model.bodies[number].frame.origin;
+        let place = std::array::from_fn(|k| at[k] + self.mount.center[k] - origin[k]);
+        (number, Marker::new(place, [0.0, 0.0, yaw]))
     }
 
     /// Adds a spring that carries body `a` on the seat of body `b`.
@@ -188,7 +232,8 @@ impl Builder<'_> {
             // The normal is the marker's x axis.
             let (sine, cosine) = libm::sincos(pitch);
             let surface = [end * x - gap * cosine, side * way, middle + gap * sine];
-            let (_, place) = self.marker(on, surface, 0.0);
+            let (on, place) = self.marker(on, surface, 0.0);
+            let body = self.mount.bodies[body];
             let marker = Marker::new(place.origin.0, [0.0, pitch, 0.0]);
             let face = plane(format!("{name}_{face}"), points, friction);
             self.model.faces.push((body, on, marker, face));
@@ -242,8 +287,10 @@ impl Builder<'_> {
         };
         let mut foot: [f64; 3] = std::array::from_fn(|k| center[k] - to_center[k]);
         foot[2] -= coil.nominal_length;
-        let (_, marker) = self.marker(seat, foot, 0.0);
-        self.model.coils.push((body, seat, marker, law));
+        let (seat, marker) = self.marker(seat, foot, 0.0);
+        self.model
+            .coils
+            .push((self.mount.bodies[body], seat, marker, law));
     }
 
     /// Load coils, gib and lands of one side.
@@ -288,10 +335,12 @@ impl Builder<'_> {
         });
         let points = points.collect();
         let [.., height] = places[0];
-        let (_, marker) = self.marker(BOLSTER, [0.0, 0.0, height + depth], 0.0);
+        let (bolster, marker) = self.marker(BOLSTER, [0.0, 0.0, height + depth], 0.0);
         let marker = Marker::new(marker.origin.0, [0.0, -FRAC_PI_2, 0.0]);
         let face = plane(name, points, friction);
-        self.model.faces.push((CAR_BODY, BOLSTER, marker, face));
+        self.model
+            .faces
+            .push((self.mount.bodies[CAR_BODY], bolster, marker, face));
     }
 
     fn center_plate(&mut self, car: &CarBody) {
@@ -330,7 +379,7 @@ impl Builder<'_> {
         let (name, at) = (format!("{side}_side_bearing"), [0.0, y, car.center_plate.height]);
         match &car.side_bearings.kind {
             SideBearing::Roller(clearance) => {
-                let (_, place) = self.marker(BOLSTER, at, 0.0);
+                let (bolster, place) = self.marker(BOLSTER, at, 0.0);
                 let law = Stop {
                     name,
                     clearances: [clearance.clearance, f64::INFINITY],
@@ -342,7 +391,7 @@ impl Builder<'_> {
                 self.suspension.push(Suspended {
                     role: Role::CarBody,
                     law: Law::Stop(law),
-                    ends: [self.marker(CAR_BODY, at, 0.0), (BOLSTER, upright)],
+                    ends: [self.marker(CAR_BODY, at, 0.0), (bolster, upright)],
                 });
             }
             SideBearing::ConstantContact {
@@ -398,7 +447,9 @@ impl Builder<'_> {
         let (wheelset, place) = self.marker(WHEELSETS + axle, [x, y, top], 0.0);
         let marker = Marker::new(place.origin.0, [0.0, -FRAC_PI_2, 0.0]);
         let face = plane(name.to_owned(), points.to_vec(), &adapter.friction);
-        self.model.faces.push((side_frame, wheelset, marker, face));
+        self.model
+            .faces
+            .push((self.mount.bodies[side_frame], wheelset, marker, face));
         let (role, ends) = (Role::Adapter(axle), [side_frame, wheelset]);
         for across in [ADAPTER_STOPS, -ADAPTER_STOPS] {
             let at = [x, y + across, ADAPTER_HEIGHT];

@@ -27,6 +27,8 @@ mod parameters;
 mod units;
 
 pub use assemble::{BOLSTER, BuildError, CAR_BODY, SIDE_FRAMES, Truck, WEDGES, WHEELSETS, held};
+pub use bodies::bodies;
+pub use elements::{Mount, add_elements};
 pub use loads::{CenterPlateLoads, Loads, WarpMoment, WedgeLoads};
 pub use parameters::{
     Adapter, AdapterPad, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter, Lading,
