@@ -14,7 +14,7 @@
 //! - [`run_files`]: the files of a run.
 //! - [`half_truck_files`]: the files of a half-truck's run.
 //! - [`warp_files`], [`curves_files`]: the files of `wedgelab warp` and `wedgelab curves`;
-//!   [`wheelrail_files`]: those of `wedgelab wheelrail plot`.
+//!   [`wheelrail_files`]: those of `wedgelab wheelrail plot`; [`track_files`]: those of `wedgelab track show`.
 //! - [`table`]: tables of results, read back.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
 //!   [`study_digest`] what their page shows.
@@ -47,6 +47,7 @@ pub mod study_work;
 pub mod summary;
 pub mod table;
 pub mod thin;
+pub mod track_files;
 pub mod view;
 pub mod warp_files;
 pub mod wheelrail_files;

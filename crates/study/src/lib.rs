@@ -23,4 +23,5 @@ mod rows;
 pub mod run;
 pub mod stepping;
 pub mod summary;
+pub mod track;
 pub mod truck;

@@ -16,7 +16,7 @@ use clap::{Parser, Subcommand};
 use numerics::processor::{OldProcessor, check};
 
 use commands::{
-    case, compare, curves, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, study, warp,
+    case, compare, curves, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, study, track, warp,
     wheelrail,
 };
 use failure::Failure;
@@ -64,6 +64,7 @@ enum Command {
     Warp(warp::Arguments),
     Curves(curves::Arguments),
     Wheelrail(wheelrail::Arguments),
+    Track(track::Arguments),
     Nucars(nucars::Arguments),
     Fmu(fmu::Arguments),
 }
@@ -83,6 +84,7 @@ impl Cli {
             Command::Warp(arguments) => warp::execute(&arguments),
             Command::Curves(arguments) => curves::execute(&arguments),
             Command::Wheelrail(arguments) => wheelrail::execute(&arguments),
+            Command::Track(arguments) => track::execute(&arguments),
             Command::Nucars(arguments) => nucars::execute(&arguments),
             Command::Fmu(arguments) => fmu::execute(&arguments),
         }

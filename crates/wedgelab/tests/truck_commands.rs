@@ -271,3 +271,33 @@ fn wheelrail_checks_profiles_and_tells_conicity() {
         assert!(refused.err.contains(text), "{arguments:?}: {}", refused.err);
     }
 }
+
+/// A sine of 62 ft has twice its amplitude as offset of a chord of 62 ft, none of 124 ft, and a curve is told.
+#[test]
+fn track_show_tells_chord_offsets() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let track = "[[segments]]\ntangent = \"1000 ft\"\n[[segments]]\nspiral = \"100 ft\"\n[[segments]]\ncurve = \"300 ft\"\n\
+                 degree = \"5 deg\"\n[[irregularities]]\nshape = \"sine\"\ndirection = \"vertical\"\namplitude = \"0.5 in\"\n\
+                 wavelength = \"62 ft\"\ncycles = 10\nstart = \"200 ft\"\n";
+    fs::write(at.join("sine.toml"), track).unwrap();
+    let out = done(at, &["track", "show", "sine.toml", "--interval", "0.5 ft"]);
+    assert!(
+        out.contains("5.00 deg to the left") && out.contains("Written into sine"),
+        "{out}"
+    );
+    let row = out.lines().find(|line| line.starts_with("left profile")).unwrap();
+    let offsets: Vec<f64> = row
+        .split_whitespace()
+        .skip(2)
+        .step_by(2)
+        .map(|text| text.parse().unwrap())
+        .collect();
+    assert!((offsets[1].abs() - 1.0).abs() < 1e-3, "{row}");
+    // 1 - cos(pi 31/62) = 1 times the amplitude.
+    assert!((offsets[0].abs() - 0.5).abs() < 2e-3, "{row}");
+    let csv = fs::read_to_string(at.join("sine/track.csv")).unwrap();
+    assert!(csv.starts_with("distance_ft,") && csv.lines().count() == 2802);
+    let refused = wedgelab(at, &["track", "show", "none.toml"]);
+    assert_eq!(refused.code, Some(2), "{}", refused.err);
+}

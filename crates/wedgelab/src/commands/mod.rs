@@ -12,5 +12,6 @@ pub mod quasi_static;
 pub mod reproduce;
 pub mod run;
 pub mod study;
+pub mod track;
 pub mod warp;
 pub mod wheelrail;

@@ -6,7 +6,9 @@
 
 pub mod center_line;
 pub mod chord;
+pub mod layout;
 pub mod shape;
 pub mod spectrum;
 
 pub use center_line::{CenterLine, CurveElements, Segment, Station, TrackError};
+pub use layout::{Direction, Irregularity, Placed, RailPlace, Rails, Track};
