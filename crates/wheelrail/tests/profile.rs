@@ -486,3 +486,16 @@ fn limits_repeated_points_are_left_out() {
     let middle = profile.convexity(0.5 * (start + end));
     assert!((middle - 1.0 / 0.3).abs() < 0.02, "{middle}");
 }
+
+/// A number that is mistyped must not make a profile of a kilometer, whose sampling would take all memory.
+#[test]
+fn input_a_point_far_off_is_refused_with_its_line() {
+    let text = "y [mm], z [mm]\n-30, -1.5\n-20, -0.7\n-10, -0846723\n0, 0\n10, -0.2\n20, -0.7\n30, -1.5\n";
+    let points = Points::from_csv("rail.csv", text).unwrap();
+    let error = Profile::of_points(&points, Kind::Rail, 0.0).unwrap_err();
+    let message = error.to_string();
+    assert!(
+        message.contains("rail.csv, line") && message.contains("no profile has more than 300 mm"),
+        "{message}"
+    );
+}

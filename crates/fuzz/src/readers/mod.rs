@@ -10,6 +10,7 @@ mod small;
 mod states;
 mod studies;
 mod tables;
+mod trucks;
 
 use std::path::Path;
 
@@ -32,10 +33,13 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 21] = [
+pub const ALL: [Reader; 24] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,
+    trucks::TRUCKS,
+    trucks::TRACKS,
+    trucks::PROFILES,
     studies::STUDIES,
     studies::MANIFESTS,
     studies::RECORDS,

@@ -103,7 +103,7 @@ fn input_mistakes_are_shown_where_the_study_has_them() {
         (
             "sampling",
             "accuracy = \"engineering\"\nsampling",
-            "a choice for wedges",
+            "a choice for case files",
             "",
         ),
         (

@@ -36,6 +36,7 @@ pub(super) fn checked(points: &Points, kind: Kind) -> Result<Points, ProfileErro
         });
     }
     units(&kept, kind)?;
+    height(&kept)?;
     orientation(&kept, kind)?;
     crossings(&kept)?;
     Ok(kept)
@@ -98,6 +99,31 @@ fn units(points: &Points, kind: Kind) -> Result<(), ProfileError> {
         width,
         expected,
         remedy: format!("look at the unit in the header (CSV) or at units.len.f (Simpack): {words}"),
+    })
+}
+
+/// No wheel's or rail's profile is higher than this, m: a rail with its foot has less than 0.2 m.
+const HEIGHT: f64 = 0.3;
+
+/// Refuses a point that lies far above or below the one before it.
+fn height(points: &Points) -> Result<(), ProfileError> {
+    let [low, high] = extent(points, 1);
+    if high - low <= HEIGHT {
+        return Ok(());
+    }
+    let jump = |i: &usize| (points.points[*i][1] - points.points[*i - 1][1]).abs();
+    let worst = (1..points.points.len())
+        .max_by(|a, b| jump(a).total_cmp(&jump(b)))
+        .unwrap_or(0);
+    Err(ProfileError::Line {
+        place: points.place(worst),
+        found: format!(
+            "z is {:.4} mm here; the points span {:.4} mm in height, and no profile has more than {:.0} mm",
+            1e3 * points.points[worst][1],
+            1e3 * (high - low),
+            1e3 * HEIGHT
+        ),
+        remedy: "look for a number that is mistyped here or in the line before".into(),
     })
 }
 

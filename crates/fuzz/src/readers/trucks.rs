@@ -1,0 +1,185 @@
+//! Trucks, tracks and profiles of wheels and rails.
+
+use study::track::TrackFile;
+use study::truck::{TruckCase, builtin};
+use wheelrail::profile::{Kind, Points, Profile};
+
+use super::cases::{messages, refused};
+use super::{Outcome, Reader, nowhere, refused_as_written};
+
+/// Cases of trucks.
+pub const TRUCKS: Reader = Reader {
+    name: "trucks",
+    about: "case files of three-piece trucks",
+    corpus: truck_corpus,
+    dictionary: &[
+        b"model = \"truck\"",
+        b"[wedge.leading_left]",
+        b"[wedge.trailing_right.friction]",
+        b"[left_side_frame]",
+        b"[trailing_wheelset]",
+        b"[load]",
+        b"kind = \"car_body\"",
+        b"kind = \"thesis\"",
+        b"kind = \"constant_contact\"",
+        b"nest = \"single_coils\"",
+        b"missing_left = [\"outer_leading_left\"]",
+        b"free_coordinates = [\"z\", \"roll\"]",
+        b"free_coordinates = []",
+        b"truck.condition = \"worn\"",
+        b"start.settle = \"1 s\"",
+        b"lbf in s^2",
+        b"lbf/in",
+        b"deg",
+    ],
+    read: truck,
+};
+
+/// Track files.
+pub const TRACKS: Reader = Reader {
+    name: "tracks",
+    about: "track files",
+    corpus: track_corpus,
+    dictionary: &[
+        b"[[segments]]",
+        b"[[irregularities]]",
+        b"[[grades]]",
+        b"tangent = \"100 ft\"",
+        b"spiral = \"100 ft\"",
+        b"curve = \"100 ft\"",
+        b"degree = \"10 deg\"",
+        b"radius = \"573 ft\"",
+        b"superelevation = \"4 in\"",
+        b"shape = \"joints\"",
+        b"shape = \"jog\"",
+        b"spectrum = \"fra_vertical\"",
+        b"class = 6",
+        b"rails = \"against\"",
+    ],
+    read: track,
+};
+
+/// Points of profiles.
+pub const PROFILES: Reader = Reader {
+    name: "profiles",
+    about: "points of wheel and rail profiles, CSV and Simpack's",
+    corpus: profile_corpus,
+    dictionary: &[
+        b"y [mm],z [mm]",
+        b"field side positive",
+        b"header.begin",
+        b"point.begin",
+        b"point.end",
+        b"units.len",
+        b"-1e308",
+        b"nan",
+    ],
+    read: profile,
+};
+
+fn truck_corpus() -> Vec<Vec<u8>> {
+    let some = [
+        "truck_vertical_constant_toe_out",
+        "truck_warp_nest_variable_rising",
+        "truck_drop_variable_empty",
+        "truck_adapter_stops_constant",
+    ];
+    let mut corpus: Vec<Vec<u8>> = some
+        .iter()
+        .filter_map(|name| builtin::text(name).ok())
+        .map(|text| text.as_bytes().to_vec())
+        .collect();
+    corpus.push(
+        b"model = \"truck\"\n[load]\nkind = \"car_body\"\n[wedge.leading_left]\ntoe = \"0.2 deg in\"\n[control_coil]\nkind = \"thesis\"\n\
+          [load_springs]\nnest = \"single_coils\"\nmissing_right = [\"outer_leading_left\"]\n[adapter]\nkind = \"pad\"\n"
+            .to_vec(),
+    );
+    corpus
+}
+
+fn truck(input: &[u8]) -> Outcome {
+    let Ok(text) = std::str::from_utf8(input) else {
+        return Outcome::NO_TEXT;
+    };
+    match TruckCase::parse("truck.toml", text, nowhere(), &[]) {
+        Ok(case) => {
+            match TruckCase::parse("again.toml", case.to_toml(), nowhere(), &[]) {
+                Ok(again) => assert!(again == case, "another case: {}", case.name),
+                Err(error) => refused_as_written(&messages(&error)),
+            }
+            Outcome::ACCEPTED
+        }
+        Err(error) => refused(&error),
+    }
+}
+
+fn track_corpus() -> Vec<Vec<u8>> {
+    vec![
+        b"[[segments]]\ntangent = \"500 ft\"\n[[segments]]\nspiral = \"200 ft\"\n[[segments]]\ncurve = \"600 ft\"\ndegree = \"10 deg\"\n\
+          direction = \"right\"\nsuperelevation = \"4 in\"\n[[irregularities]]\nshape = \"joints\"\nrails = \"left\"\n\
+          direction = \"vertical\"\ndepth = \"0.75 in\"\nstart = \"519.5 ft\"\n"
+            .to_vec(),
+        b"name = \"flat\"\n[[segments]]\ntangent = \"100 m\"\n[[grades]]\ndistance = \"0 m\"\ngrade = 0.01\n[[irregularities]]\n\
+          spectrum = \"fra_lateral\"\nclass = 6\ndirection = \"lateral\"\nterms = 20\nseed = 3\n"
+            .to_vec(),
+    ]
+}
+
+fn track(input: &[u8]) -> Outcome {
+    let Ok(text) = std::str::from_utf8(input) else {
+        return Outcome::NO_TEXT;
+    };
+    match TrackFile::parse("track.toml", text) {
+        Ok(file) => {
+            for share in [0.0, 0.5, 1.0] {
+                let distance = share * file.track.center_line.length();
+                let station = file.track.center_line.at(distance);
+                assert!(
+                    station.position.iter().all(|own| own.is_finite()),
+                    "no place at {distance} m"
+                );
+                let rails = file.track.rails(distance);
+                let finite = rails
+                    .iter()
+                    .all(|rail| rail.lateral[0].is_finite() && rail.vertical[0].is_finite());
+                assert!(finite, "no rails at {distance} m");
+            }
+            Outcome::ACCEPTED
+        }
+        Err(error) => refused(&error),
+    }
+}
+
+fn profile_corpus() -> Vec<Vec<u8>> {
+    // A rail's head as an arc, and a file of Simpack.
+    let mut csv = "# field side positive\ny [mm],z [mm]\n".to_owned();
+    for i in -30..=30 {
+        let y = f64::from(i);
+        csv += &format!("{y},{}\n", (300.0 * 300.0 - y * y).sqrt() - 300.0);
+    }
+    vec![
+        csv.into_bytes(),
+        include_bytes!("../../../wheelrail/tests/data/manchester/MBench_UIC60_v3.prr").to_vec(),
+    ]
+}
+
+fn profile(input: &[u8]) -> Outcome {
+    let Ok(text) = std::str::from_utf8(input) else {
+        return Outcome::NO_TEXT;
+    };
+    let read = |points: Result<Points, wheelrail::profile::ProfileError>| {
+        let made = points.and_then(|points| {
+            let rail = Profile::of_points(&points, Kind::Rail, 2e-5);
+            rail.or_else(|_| Profile::of_points(&points, Kind::Wheel, 2e-5))
+        });
+        match made {
+            Ok(profile) => {
+                let [y, z] = profile.top();
+                assert!(y.is_finite() && z.is_finite(), "no top");
+                Outcome::ACCEPTED
+            }
+            Err(error) => Outcome::refused_with(&format!("{error}; {}", error.remedy())),
+        }
+    };
+    read(Points::from_csv("profile.csv", text)).or(read(Points::from_simpack("profile.prr", text)))
+}
