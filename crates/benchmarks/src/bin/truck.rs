@@ -59,7 +59,17 @@ fn measure_all() -> Result<(), String> {
         "column lbf"
     );
     let mut last = None;
-    for name in builtin::names().filter(|name| name.contains(part)) {
+    // Without a part of a name, the loaded rigs.
+    let loaded = builtin::groups().iter().take(1).flat_map(|group| &group.cases);
+    let loaded: Vec<&str> = loaded.map(|case| case.name.as_str()).collect();
+    let chosen = builtin::names().filter(|name| {
+        if part.is_empty() {
+            loaded.contains(name)
+        } else {
+            name.contains(part)
+        }
+    });
+    for name in chosen {
         let case = builtin::case_with(name, &[]).map_err(|error| error.to_string())?;
         for method in &methods {
             last = Some(measure(&case, *method, tolerance)?);
