@@ -11,6 +11,7 @@ use mechanics::system::{ContactState, EnergyTermKind, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 use truck::{Parameters, Truck, held};
+use wedge::parameters::Start;
 
 use super::TruckCase;
 use super::columns::{Columns, Seen};
@@ -317,6 +318,9 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     }
 }
 
+/// A truck that rises or sinks by less is not spoken of, m: the truck's own data close to a ten-thousandth of that.
+const SMALL_RISE: f64 = 0.05 * 0.0254;
+
 /// The warning about coils that do not carry what stands on them.
 fn surplus(case: &TruckCase, units: Units) -> Option<String> {
     let surplus = case.parameters.surplus()?;
@@ -327,9 +331,11 @@ fn surplus(case: &TruckCase, units: Units) -> Option<String> {
         .flatten()
         .map(|coil| coil.spring.stiffness)
         .sum();
-    // The truck's own data close to a thousandth of an inch; a car that starts at its height is meant.
     let rise = surplus / stiffness;
-    if (rise - case.parameters.lift).abs() < 0.6 * 0.0254 || case.parameters.lift != 0.0 {
+    // A truck that starts at a height of its own, or settles first, is meant so.
+    let meant =
+        case.parameters.lift != 0.0 || case.parameters.start == Start::Equilibrium || case.settle > 0.0;
+    if meant || rise.abs() < SMALL_RISE {
         return None;
     }
     let [force, length] = [(surplus, Kind::Force), (rise, Kind::Length)].map(|(value, kind)| {
