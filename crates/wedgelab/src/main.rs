@@ -23,8 +23,9 @@ use failure::Failure;
 
 /// A laboratory for railway friction wedges.
 ///
-/// Wedgelab computes the friction wedge of a three-piece bogie: a rigid body between side frame and bolster,
-/// with unilateral contact, stick-slip friction and its control coil, as in Steets (2007).
+/// Wedgelab computes the friction wedge of a three-piece truck: a rigid body between side frame and bolster,
+/// with unilateral contact, stick-slip friction and its control coil, as in Steets (2007); and whole trucks with
+/// four of them.
 #[derive(Debug, Parser)]
 #[command(
     name = "wedgelab",
@@ -36,6 +37,7 @@ Begin with:
   wedgelab case                      the built-in cases
   wedgelab case NAME > my.toml       a complete case file to change ...
   wedgelab run my.toml               ... and to run
+  wedgelab warp                      warp of a whole truck with four wedges
   wedgelab explore my.toml           a page to change it and see its loop move
   wedgelab study STUDY.toml          many variants of a case, into one table
   wedgelab compare RESULT RESULT     differences and overlay figures
