@@ -179,11 +179,16 @@ fn tables<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Vec<Sect
     let mut found = Vec::new();
     for (number, item) in items.iter().enumerate() {
         match &item.value {
-            Value::Table(table) => found.push(Section {
-                path: format!("{key}[{number}]"),
-                table,
-                place: Some(item.place.clone()),
-            }),
+            Value::Table(table) => {
+                let mut place = item.place.clone();
+                // Its first bracket: the rest may be long.
+                place.span.end = place.span.end.min(place.span.start + 1);
+                found.push(Section {
+                    path: format!("{key}[{number}]"),
+                    table,
+                    place: Some(place),
+                });
+            }
             _ => not_a_list(item, problems),
         }
     }
