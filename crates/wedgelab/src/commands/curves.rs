@@ -8,12 +8,10 @@ use clap::Args;
 use quantity::{Kind, System as Units};
 use report::csv::converted;
 use report::curves_files::{self, NAMES, Named};
-use study::truck::TruckCase;
 use study::truck::loop_curve::{LoopCurve, LoopKind};
 
-use super::warp::{Varied, draw};
-use crate::execute::{compute, unsound};
-use crate::failure::{Failure, Message, say};
+use super::warp::{Varied, draw, run};
+use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
@@ -63,19 +61,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::stops_run();
     let mut loops: Vec<Named> = Vec::new();
     for (label, case) in &cases {
-        let done = compute(case, &progress)?;
-        progress.done(&case.name, &format!("{:.2} s", done.wall.as_secs_f64()));
-        if let Some(failure) = unsound::<TruckCase>(&done.result.summary, folder.path()) {
-            progress.finish();
-            return Err(failure);
-        }
-        for warning in &done.result.summary.warnings {
-            say(&format!(
-                "warning: {}: {warning}",
-                if label.is_empty() { &case.name } else { label }
-            ));
-        }
-        let Some(curve) = LoopCurve::of(case, &done.result) else {
+        let result = run(label, case, &progress, folder.path())?;
+        let Some(curve) = LoopCurve::of(case, &result) else {
             let message = format!(
                 "in {} the bolster makes no whole cycle up and down, or in roll",
                 case.name

@@ -9,7 +9,7 @@ use report::drawing::Figure;
 use report::warp_files::{self, KIP_INCH, NAMES, Tested};
 use study::any_case::AnyCase;
 use study::truck::TruckCase;
-use study::truck::run::period;
+use study::truck::run::{TruckResult, period};
 use study::truck::warp::{NUCARS_STIFFNESS, WarpCurve};
 
 use super::run::read_any;
@@ -83,18 +83,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::stops_run();
     let mut tests = Vec::new();
     for (label, case) in &cases {
-        let Done { result, wall } = compute(case, &progress)?;
-        progress.done(&case.name, &format!("{:.2} s", wall.as_secs_f64()));
-        if let Some(failure) = unsound::<TruckCase>(&result.summary, folder.path()) {
-            progress.finish();
-            return Err(failure);
-        }
-        for warning in &result.summary.warnings {
-            say(&format!(
-                "warning: {}: {warning}",
-                if label.is_empty() { &case.name } else { label }
-            ));
-        }
+        let result = run(label, case, &progress, folder.path())?;
         let period = period(&case.parameters).map(|[period, _]| period);
         let Some(curve) = WarpCurve::of(&result, period) else {
             let message = format!("in {} the warp angle stays below 0.5 mrad", case.name);
@@ -177,6 +166,28 @@ impl Varied {
         }
         Ok(cases)
     }
+}
+
+/// Runs one test: its progress and warnings go to standard error.
+pub fn run(
+    label: &str,
+    case: &TruckCase,
+    progress: &Progress,
+    folder: &Path,
+) -> Result<TruckResult, Failure> {
+    let Done { result, wall } = compute(case, progress)?;
+    progress.done(&case.name, &format!("{:.2} s", wall.as_secs_f64()));
+    if let Some(failure) = unsound::<TruckCase>(&result.summary, folder) {
+        progress.finish();
+        return Err(failure);
+    }
+    for warning in &result.summary.warnings {
+        say(&format!(
+            "warning: {}: {warning}",
+            if label.is_empty() { &case.name } else { label }
+        ));
+    }
+    Ok(result)
 }
 
 /// Draws a figure as a picture.
