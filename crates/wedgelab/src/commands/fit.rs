@@ -16,6 +16,7 @@ use study::fit::{Fit, FitError, Free, FreeError, Measured, fit};
 use study::metrics::Cycle;
 
 use super::run::{is_built_in, read_any};
+use super::warp::draw;
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -220,9 +221,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         confidence: arguments.confidence,
     };
     let figure = fit_files::figure(&found, &shown);
-    let png = figure
-        .to_png()
-        .map_err(|reason| Failure::Failed(Message::new(format!("cannot draw: {reason}"), "").into()))?;
+    let png = draw(&figure)?;
     folder.write(|files| {
         files.add(fit_files::FILE_NAME, |out| fit_files::write(&found, &shown, out))?;
         if let Some(fitted) = &fitted {

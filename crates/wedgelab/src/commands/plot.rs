@@ -9,6 +9,7 @@ use report::plot;
 use report::table::Table;
 
 use super::compare::label;
+use super::warp::draw;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -75,8 +76,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     let folder = folders::check(folder, &[name], arguments.force)?;
     let bytes = if picture {
-        let png = figure.to_png();
-        png.map_err(|reason| Failure::Failed(Message::new(format!("cannot draw: {reason}"), "").into()))?
+        draw(&figure)?
     } else {
         figure.to_svg().into_bytes()
     };
