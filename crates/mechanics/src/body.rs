@@ -41,8 +41,9 @@ pub struct Body {
     /// The values of all coordinates at the start; held coordinates keep them. m, rad.
     pub initial: [f64; 6],
     /// Whether its kinematics are linearized: displacements of its center of gravity and small rotations
-    /// about x, y, z, along the axes of a frame at rest; no gyroscopic terms. Only [`crate::connection`]s act
-    /// on such a body. If it is prescribed, its frame's motions are its coordinates.
+    /// about x, y, z, along the axes of a frame at rest; its mass matrix is constant and diagonal, and there
+    /// are no gyroscopic terms. Force elements see where its coordinates place it, exactly. If it is
+    /// prescribed, its frame's motions are its coordinates.
     #[serde(default)]
     pub linearized: bool,
 }

@@ -3,8 +3,8 @@
 //! Bodies have absolute coordinates, each measured from its own reference frame ([`body`], [`frame`]).
 //! Elements compute a force and a moment from the relative motion of markers on two bodies ([`link`],
 //! [`contact`], [`coil`]). A [`system::System`] assembles them for the integrator, with exact derivatives
-//! from the same functions, and an energy ledger. Bodies with linearized kinematics are joined by
-//! [`connection`]s, the element laws of the industry's vehicle programs.
+//! from the same functions, and an energy ledger. [`connection`]s, the element laws of the industry's vehicle
+//! programs, act on coordinates instead.
 
 pub mod body;
 pub mod characteristic;

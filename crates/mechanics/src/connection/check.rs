@@ -37,12 +37,12 @@ pub enum ConnectionError {
         /// Name of body B.
         b: String,
     },
-    /// A connection joins a body whose kinematics are not linearized.
+    /// A connection joins a body whose coordinates are not displacements from the drawn layout.
     #[error(
-        "connection {index} ({name}) joins {body}, whose displacements are not small: strokes are those of bodies with linearized \
-         kinematics; use a contact face, a coil or another element"
+        "connection {index} ({name}) joins {body}, whose coordinates are no displacements along x, y, z: its reference frame must \
+         not be turned, and must stand still if the body has free coordinates; or use a contact face, a coil or another element"
     )]
-    NotLinearized {
+    NotDisplacements {
         /// Number of the connection.
         index: usize,
         /// Its name.
@@ -170,8 +170,12 @@ impl Connection {
                 body: bodies[*a].name.clone(),
             });
         }
-        if let Some(body) = [*a, *b].into_iter().find(|body| !bodies[*body].linearized) {
-            return Err(ConnectionError::NotLinearized {
+        let displaced = |body: usize| {
+            let Body { frame, .. } = &bodies[body];
+            frame.orientation == [0.0; 3] && (bodies[body].is_prescribed() || frame.is_fixed())
+        };
+        if let Some(body) = [*a, *b].into_iter().find(|body| !displaced(*body)) {
+            return Err(ConnectionError::NotDisplacements {
                 index,
                 name: name(),
                 body: bodies[body].name.clone(),

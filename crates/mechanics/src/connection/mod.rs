@@ -1,12 +1,13 @@
-//! Connections: the element laws of the industry's vehicle dynamics programs, between bodies with linearized
-//! kinematics.
+//! Connections: the element laws of the industry's vehicle dynamics programs, functions of differences of
+//! coordinates.
 //!
-//! Every such body has six coordinates of its center of gravity measured from the drawn layout, levers are
-//! those of the layout, the mass matrix is diagonal and constant, there are no gyroscopic terms and no
+//! The coordinates of each body are displacements of its origin and small rotations from the drawn layout
+//! along the fixed axes; levers are those of the layout. The programs modeled here give all bodies
+//! linearized kinematics: the mass matrix is diagonal and constant, there are no gyroscopic terms and no
 //! geometric stiffness of weights (a heavy body on soft pitch springs would otherwise topple, which it does
-//! not in the programs modeled here). Axes: x forward, y left, z up. A connection acts on extensions
-//! (displacement of its point on body A less that on body B, extension positive): a force f in the direction
-//! of the extension acts as -f on A and +f on B.
+//! not there). A body with finite kinematics takes connections too; then its rotations must stay small. Axes:
+//! x forward, y left, z up. A connection acts on extensions (displacement of its point on body A less that on
+//! body B, extension positive): a force f in the direction of the extension acts as -f on A and +f on B.
 //!
 //! How connections of the comparison program's files become [`Law`]s (its tables give ordinates first; read
 //! with [`Curve::mirrored_from_origin`](crate::curve::Curve::mirrored_from_origin) as `[abscissa, ordinate]`;

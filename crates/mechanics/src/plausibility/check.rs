@@ -39,7 +39,8 @@ pub(super) struct Checks {
     pub faces: Vec<FaceStart>,
     /// Distances between the markers of other force elements at the start, m.
     pub distances: Vec<f64>,
-    /// Bodies with linearized kinematics that move.
+    /// Bodies that move, and whose displacements count as small: with linearized kinematics, or with
+    /// connections.
     pub linearized: Vec<usize>,
 }
 
@@ -59,7 +60,9 @@ impl Checks {
             checks.add(FindingKind::Displacement, Location::Element(element), size);
         }
         for (number, body) in system.bodies().iter().enumerate() {
-            if body.linearized && (!body.is_prescribed() || body.is_moving_prescribed()) {
+            let ends = || system.connections().iter().flat_map(|own| [own.a, own.b]);
+            let small = body.linearized || ends().any(|end| end == number);
+            if small && (!body.is_prescribed() || body.is_moving_prescribed()) {
                 checks.linearized.push(number);
                 let location = Location::Body(number);
                 for _ in 0..3 {

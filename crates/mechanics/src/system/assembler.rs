@@ -37,11 +37,6 @@ impl ElementAssembler<'_> {
                 return Err(ModelError::NoSuchBody { number, count });
             }
         }
-        if let Some(end) = [body, on].into_iter().find(|end| self.bodies[*end].linearized) {
-            return Err(ModelError::Linearized {
-                body: self.bodies[end].name.clone(),
-            });
-        }
         if body == on {
             return Err(ModelError::Itself {
                 body: self.bodies[body].name.clone(),

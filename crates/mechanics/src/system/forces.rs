@@ -327,33 +327,46 @@ impl System {
                 apply(element, &self.kinematics, &[], &mut [], loads, powers);
             }
         }
+        for free in self.free.iter().filter(|free| free.loaded) {
+            self.loads[free.body] = self.given[free.body];
+        }
+        for load in &self.applied {
+            let [value, ..] = load.jet;
+            self.loads[load.applied.body][load.applied.coordinate] += value;
+            work += value * speeds[load.speed];
+        }
         d_quadratures[WORK] = work;
         if !self.connections.is_empty() {
             d_quadratures[self.added.clone()].fill(0.0);
-            for free in &self.free {
-                self.loads[free.body] = self.given[free.body];
-            }
             let (coordinates, loads) = ((&self.positions[..], &self.rates[..]), &mut self.loads[..]);
             self.connections
                 .forces(coordinates, internal, d_internal, loads, d_quadratures);
         }
         for free in &self.free {
+            let kinematics = &self.kinematics[free.body];
+            let (force, moment) = (self.force[free.body], self.moment[free.body]);
+            let loads = free.loaded.then(|| &self.loads[free.body]);
             if let Some(linear) = &free.linear {
                 let own = free.offset..free.offset + free.free.len();
                 d_positions[own.clone()].copy_from_slice(&speeds[own.clone()]);
-                let load = &self.loads[free.body];
                 for (j, target) in d_speeds[own].iter_mut().enumerate() {
-                    *target = (load[free.free[j]] + linear.weight[j]) / linear.inertia[j];
+                    let k = free.free[j];
+                    let mut load = loads.map_or(0.0, |loads| loads[k]) + linear.weight[j];
+                    if free.touched {
+                        load += kinematics.generalized(k, &force, &moment);
+                    }
+                    *target = load / linear.inertia[j];
                 }
                 continue;
             }
             let frame = &self.frames[free.body];
             let accelerations = accelerate(
-                &self.kinematics[free.body],
+                kinematics,
                 &free.rigid,
                 (&frame.motion, !frame.fixed),
                 self.gravity,
-                (self.force[free.body], self.moment[free.body]),
+                (force, moment),
+                loads,
             );
             let own = free.offset..free.offset + free.free.len();
             let rates = d_positions[own.clone()]
@@ -405,8 +418,8 @@ fn write_powers(energy_terms: &[Option<usize>; 2], own: [f64; 2], powers: &mut [
     }
 }
 
-/// Returns the accelerations of a body's coordinates under force and moment, in a reference frame that may
-/// move.
+/// Returns the accelerations of a body's coordinates under force, moment, and loads on its coordinates, in a
+/// reference frame that may move.
 #[inline(always)]
 fn accelerate(
     kinematics: &Kinematics<f64>,
@@ -414,15 +427,23 @@ fn accelerate(
     (frame, frame_moves): (&FrameMotion<f64>, bool),
     gravity: Vector<f64>,
     (force, moment): (Vector<f64>, Vector<f64>),
+    loads: Option<&[f64; 6]>,
 ) -> [f64; 6] {
-    if !body.rolls && !frame_moves {
+    if !body.rolls && !frame_moves && loads.is_none() {
         let field: Vector<f64> = frame.acceleration - gravity;
         let field: Vector<f64> = frame.rotation.apply_transposed(field);
         return kinematics.accelerations_without_roll(body, &field, &force, &moment);
     }
     let (inertia, gyroscopic) = kinematics.inertia(body, frame, frame_moves, gravity, &[0.0; 6]);
-    let (force, moment) = (force - inertia, moment - gyroscopic);
-    kinematics.accelerations(body, &force, kinematics.about_axes(&moment))
+    let (mut force, moment) = (force - inertia, moment - gyroscopic);
+    let mut moments = kinematics.about_axes(&moment);
+    if let Some(loads) = loads {
+        for k in 0..3 {
+            force.0[k] += loads[k];
+            moments[k] += loads[3 + k];
+        }
+    }
+    kinematics.accelerations(body, &force, moments)
 }
 
 /// Adds the wrenches and powers of an element that is not plain.

@@ -23,16 +23,16 @@ pub enum InputError {
         /// How many there are.
         count: usize,
     },
-    /// A load is given to a body whose kinematics are not linearized.
-    #[error("{body} takes no given load: its kinematics are not linearized")]
-    NotLinearized {
+    /// A load is given to a body without free coordinates.
+    #[error("{body} takes no load: none of its coordinates is free")]
+    NotFree {
         /// Its name.
         body: String,
     },
     /// The body was built with motions that do not move, or has free coordinates.
     #[error(
         "{body} cannot be driven: it must be prescribed, and its motions must be able to move from the start on (all of \
-         them, where its kinematics are not linearized)"
+         them, unless its kinematics are linearized)"
     )]
     NotPrescribed {
         /// Its name.
@@ -59,7 +59,7 @@ impl System {
         };
         let frame = &self.frames[body];
         let moved = self.moved.iter_mut().find(|moved| moved.body == body);
-        let moves = match prescribed.linearized {
+        let moves = match prescribed.linearized && frame.fixed {
             true => moved.is_some(),
             false => !frame.fixed && !frame.keeps_orientation && self.free_number[body].is_none(),
         };
@@ -76,28 +76,28 @@ impl System {
         Ok(())
     }
 
-    /// Sets a force (N) and a moment (N·m, about the center of gravity) on a body with linearized kinematics,
-    /// constant until the next call. Their work is no term of the energy ledger: with constant loads it is
-    /// the load times the displacement.
+    /// Sets loads on the coordinates of a body, constant until the next call: a force along the axes of its
+    /// reference frame at its origin (N), and moments about the axes of its angles (N·m). Their work is no
+    /// term of the energy ledger: with constant loads it is the load times the displacement. Loads over time
+    /// with their work are [`crate::system::AppliedLoad`].
     ///
     /// # Errors
-    /// There is no such body, or its kinematics are not linearized.
+    /// There is no such body, or it has no free coordinates.
     pub fn set_load(&mut self, body: usize, load: [f64; 6]) -> Result<(), InputError> {
         let count = self.bodies.len();
-        match self.bodies.get(body) {
-            Some(own) if own.linearized => self.given[body] = load,
-            Some(own) => {
-                let body = own.name.clone();
-                return Err(InputError::NotLinearized { body });
-            }
-            None => {
-                return Err(InputError::NoSuch {
-                    what: "body",
-                    number: body,
-                    count,
-                });
-            }
-        }
+        let Some(own) = self.bodies.get(body) else {
+            return Err(InputError::NoSuch {
+                what: "body",
+                number: body,
+                count,
+            });
+        };
+        let Some(number) = self.free_number[body] else {
+            let body = own.name.clone();
+            return Err(InputError::NotFree { body });
+        };
+        self.free[number].loaded = true;
+        self.given[body] = load;
         Ok(())
     }
 

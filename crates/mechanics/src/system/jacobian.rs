@@ -10,7 +10,7 @@ use numerics::partitioned::Partitioned;
 use numerics::scalar::Dual;
 
 use super::chain::{Block, Chain, NO_BLOCK, Powers, add_block};
-use super::forces::Mountable;
+use super::forces::{Mountable, WORK};
 use super::{FreeBody, Mounted, System};
 use crate::body::Kinematics;
 use crate::connection;
@@ -81,6 +81,13 @@ impl System {
         for number in 0..self.free.len() {
             let free = &self.free[number];
             if free.linear.is_some() {
+                if free.touched {
+                    let blocks = self.jacobian.blocks_mut(free.pair);
+                    add_block(&self.gathered[number].block, free, free.free.len(), blocks);
+                    if whole {
+                        self.turning_axes(number, x);
+                    }
+                }
                 continue;
             }
             let kinematics = &self.kinematics[free.body];
@@ -106,15 +113,24 @@ impl System {
         }
     }
 
-    /// Adds the derivatives of connections, and writes those by time.
-    pub(super) fn differentiate_connections(&mut self, x: &[f64], df_dt: &mut [f64]) {
-        if self.connections.is_empty() {
-            return;
-        }
-        let [_, _, internal, _] = self.layout.split(x);
-        let [_, d_speeds, d_internal, d_quadratures] = self.layout.split_mut(df_dt);
+    /// Adds the derivatives of connections and of given loads, and writes those of quadratures and internal
+    /// states by time; those of the loads stay in `loads`.
+    pub(super) fn differentiate_loads(&mut self, x: &[f64], df_dt: &mut [f64]) {
+        let [_, speeds, internal, _] = self.layout.split(x);
+        let [_, _, d_internal, d_quadratures] = self.layout.split_mut(df_dt);
         for free in &self.free {
             self.loads[free.body] = [0.0; 6];
+        }
+        for load in &self.applied {
+            let [value, rate, _] = load.jet;
+            self.loads[load.applied.body][load.applied.coordinate] += rate;
+            d_quadratures[WORK] += rate * speeds[load.speed];
+            let (_, by_speed) = self.jacobian.row_mut(load.row);
+            let first = self.free_number[load.applied.body].map_or(0, |number| self.free[number].offset);
+            by_speed[load.speed - first] += value;
+        }
+        if self.connections.is_empty() {
+            return;
         }
         let mut bodies = connection::JacobianInputs {
             positions: &self.positions,
@@ -127,16 +143,26 @@ impl System {
             d_quadratures,
         };
         self.connections.differentiate(&mut bodies);
-        if self.moved.is_empty() {
-            return;
+    }
+
+    /// The generalized moments of a body with linearized kinematics by its angles, with which the axes turn
+    /// that the moment of its elements is taken about.
+    fn turning_axes(&mut self, number: usize, x: &[f64]) {
+        let free = &self.free[number];
+        let (coordinates, _) = self.coordinates(free, x);
+        let mut q = coordinates.map(Dual::<3>::from);
+        for (slot, &k) in free.free[free.translations..].iter().enumerate() {
+            q[k] = Dual::variable(coordinates[k], slot);
         }
-        for free in &self.free {
-            if let Some(linear) = &free.linear {
-                let load = &self.loads[free.body];
-                let target = &mut d_speeds[free.offset..free.offset + free.free.len()];
-                for (j, target) in target.iter_mut().enumerate() {
-                    *target = load[free.free[j]] / linear.inertia[j];
-                }
+        let rolls = self.bodies[free.body].rolls();
+        let kinematics = Kinematics::new(q, [Dual::from(0.0); 6], rolls);
+        let moment = Vector::<Dual<3>>::lift(self.gathered[number].moment);
+        let n = free.free.len();
+        let (stiffness, _) = self.jacobian.blocks_mut(free.pair);
+        for (row, &k) in free.free.iter().enumerate() {
+            let component = kinematics.generalized(k, &Vector::zero(), &moment);
+            for slot in 0..free.angles() {
+                stiffness[row * n + free.translations + slot] += component.derivative[slot];
             }
         }
     }

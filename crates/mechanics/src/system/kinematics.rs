@@ -31,6 +31,9 @@ impl System {
                     self.accelerations[moved.body][k] = acceleration;
                 }
             }
+            for load in &mut self.applied {
+                load.jet = load.applied.course.evaluate(time, self.reference);
+            }
         }
         for number in 0..self.free.len() {
             self.update_free_body(number, x);
@@ -99,13 +102,15 @@ impl System {
     pub(super) fn update_free_body(&mut self, number: usize, x: &[f64]) {
         let free = &self.free[number];
         let body = free.body;
-        if free.linear.is_some() {
+        if free.linear.is_some() || free.connected {
             let (positions, rates) = (&mut self.positions[body], &mut self.rates[body]);
             let (q, u) = x.split_at(self.layout.speeds);
             for (j, &k) in free.free.iter().enumerate() {
                 positions[k] = q[free.offset + j];
                 rates[k] = u[free.offset + j];
             }
+        }
+        if free.linear.is_some() && !free.touched {
             return;
         }
         let (coordinates, speeds) = self.coordinates(free, x);

@@ -54,7 +54,7 @@ pub use inputs::InputError;
 pub use jacobian_vector_product::{Direction, JacobianVectorProduct, MotionChange};
 pub use loads::{CoilLoad, FaceLoad, Loads};
 pub(crate) use model::Parts;
-pub use model::{Model, ModelError, Mounted};
+pub use model::{AppliedLoad, Model, ModelError, Mounted};
 pub use observe::{BodyState, CoilState, ElementState, Energies, FaceState, Observation};
 pub use vibration::{Held, NoVibration, Vibration, Vibrations};
 
@@ -115,6 +115,12 @@ struct FreeBody {
     coils: Vec<usize>,
     /// Inertia and weight, if its kinematics are linearized.
     linear: Option<Linear>,
+    /// Whether force elements act on it, which need its pose.
+    touched: bool,
+    /// Whether connections act on it, which need its coordinates.
+    connected: bool,
+    /// Whether there are loads on its coordinates.
+    loaded: bool,
 }
 
 /// Inertia (kg, kg·m²) and weight (N, N·m) along each free coordinate of a body with linearized kinematics.
@@ -124,11 +130,23 @@ struct Linear {
     weight: Vec<f64>,
 }
 
-/// A prescribed body with linearized kinematics that moves.
+/// A prescribed body that moves, and whose coordinates connections need.
 #[derive(Clone, Debug)]
 struct MovedBody {
     body: usize,
     motions: Box<[Motion; 6]>,
+}
+
+/// An applied load in a system.
+#[derive(Clone, Debug)]
+struct MountedLoad {
+    applied: AppliedLoad,
+    /// The number of its coordinate among the speeds.
+    speed: usize,
+    /// Its value with rate and second derivative.
+    jet: [f64; 3],
+    /// The row of the work by the body's states.
+    row: usize,
 }
 
 /// A body's reference frame.
@@ -177,20 +195,22 @@ pub struct System {
     /// Start of the smooth piece of the motions, and a time inside it.
     reference: f64,
     kinematics: Vec<Kinematics<f64>>,
-    /// Coordinates, rates and loads (N, N·m) of bodies with linearized kinematics.
+    /// Coordinates and rates of bodies with linearized kinematics and of those that connections act on.
     positions: Vec<[f64; 6]>,
     rates: Vec<[f64; 6]>,
+    /// Loads on the coordinates of free bodies (N, N·m): of connections, and given ones.
     loads: Vec<[f64; 6]>,
-    /// Given loads on them.
+    /// Given loads: constant until a caller changes them, and over time.
     given: Vec<[f64; 6]>,
+    applied: Vec<MountedLoad>,
     connections: Connections,
     moved: Vec<MovedBody>,
     /// The free bodies that each pair of internal states depends on.
     internal_ends: Vec<Vec<usize>>,
     /// The quadratures that connections share.
     added: Range<usize>,
-    /// Accelerations of free bodies where they are differentiated, and of prescribed ones with linearized
-    /// kinematics.
+    /// Accelerations of free bodies where they are differentiated, and of prescribed ones that connections act
+    /// on.
     accelerations: Vec<[f64; 6]>,
     force: Vec<Vector<f64>>,
     moment: Vec<Vector<f64>>,
@@ -367,10 +387,10 @@ impl Problem for System {
     }
 
     fn next_time_discontinuity(&mut self, start: f64) -> f64 {
-        let end = self
-            .bodies
-            .iter()
-            .filter_map(|body| body.frame.next_break(start))
+        let motions = self.bodies.iter().filter_map(|body| body.frame.next_break(start));
+        let given = self.applied.iter();
+        let end = motions
+            .chain(given.filter_map(|load| load.applied.course.next_break(start)))
             .min_by(f64::total_cmp)
             .unwrap_or(f64::INFINITY);
         self.reference = if end.is_finite() {
@@ -390,7 +410,7 @@ impl Problem for System {
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         self.update_kinematics(time, x);
         self.differentiate(x, dx, true);
-        self.differentiate_connections(x, df_dt);
+        self.differentiate_loads(x, df_dt);
         if self.moves {
             self.differentiate_time(time, x, df_dt);
         }
@@ -399,7 +419,7 @@ impl Problem for System {
     fn linearize_for_newton(&mut self, time: f64, x: &[f64], dx: &[f64], unused: &mut [f64]) {
         self.update_kinematics(time, x);
         self.differentiate(x, dx, false);
-        self.differentiate_connections(x, unused);
+        self.differentiate_loads(x, unused);
     }
 
     fn spectral_radius_bound(&mut self, time: f64, x: &[f64]) -> f64 {

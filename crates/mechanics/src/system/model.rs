@@ -8,7 +8,10 @@ use super::energy_term::{EnergyTerm, EnergyTermKind};
 use super::error_bounds::{error_bounds, presses};
 use super::jacobian::Gathered;
 use super::spectral_radius::mobility;
-use super::{FrameState, FreeBody, Linear, Move, MovedBody, System, is_bristle, scale_of, scales, structure};
+use super::{
+    FrameState, FreeBody, Linear, MountedLoad, Move, MovedBody, System, is_bristle, scale_of, scales,
+    structure,
+};
 use crate::body::{Body, COORDINATES, Kinematics};
 use crate::coil::Coil;
 use crate::connection::{self, Connection, ConnectionError, Options};
@@ -35,10 +38,24 @@ pub struct Model {
     pub coils: Vec<(usize, usize, Marker, Coil)>,
     /// Other force elements.
     pub elements: Vec<Placement>,
-    /// Connections of bodies with linearized kinematics.
+    /// Connections: laws on differences of coordinates.
     pub connections: Vec<Connection>,
+    /// Applied loads.
+    pub loads: Vec<AppliedLoad>,
     /// Choices that the laws of connections leave open.
     pub options: Options,
+}
+
+/// A load over time on a free coordinate of a body: a force along x, y or z of its reference frame at the
+/// body's origin, or a moment about the axis of an angle. Its work counts as that of the motions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AppliedLoad {
+    /// The body's number.
+    pub body: usize,
+    /// The coordinate, 0 to 5: x, y, z, roll, pitch, yaw.
+    pub coordinate: usize,
+    /// N or N·m over time.
+    pub course: Motion,
 }
 
 impl Model {
@@ -85,11 +102,15 @@ pub enum ModelError {
     /// No coordinate at all is free.
     #[error("no body has a free coordinate: nothing can move")]
     NothingFree,
-    /// A contact face or a coil joins a body with linearized kinematics.
-    #[error("an element joins {body}, whose kinematics are linearized: only connections act on it")]
-    Linearized {
+    /// A load is applied to a coordinate that is not free.
+    #[error(
+        "a load is applied to {coordinate} of {body}, which is not free: free it, or prescribe its motion"
+    )]
+    HeldUnderLoad {
         /// The body's name.
         body: String,
+        /// The coordinate.
+        coordinate: &'static str,
     },
     /// A free body with linearized kinematics has a frame that moves or is turned, or does not start in the
     /// drawn layout.
@@ -186,9 +207,27 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         coils,
         elements,
         connections,
+        loads,
         options,
     } = model;
     options.check()?;
+    if bodies.iter().all(Body::is_prescribed) {
+        return Err(ModelError::NothingFree);
+    }
+    let count = bodies.len();
+    let mut touched = vec![false; count];
+    let ends = faces.iter().flat_map(|(a, b, ..)| [*a, *b]);
+    let ends = ends.chain(coils.iter().flat_map(|(a, b, ..)| [*a, *b]));
+    for number in ends.chain(elements.iter().flat_map(|placement| placement.ends)) {
+        *touched
+            .get_mut(number)
+            .ok_or(ModelError::NoSuchBody { number, count })? = true;
+    }
+    let mut connected = vec![false; count];
+    for (index, connection) in connections.iter().enumerate() {
+        connection.check(index, &bodies, &options)?;
+        (connected[connection.a], connected[connection.b]) = (true, true);
+    }
     let mut free = Vec::new();
     let mut slots = vec![[None; 6]; bodies.len()];
     let mut free_number = vec![None; bodies.len()];
@@ -222,19 +261,19 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             pair: 0,
             faces: Vec::new(),
             coils: Vec::new(),
+            loaded: linear.is_some() || connected[number],
             linear,
+            touched: touched[number],
+            connected: connected[number],
         });
         offset += count;
     }
-    if free.is_empty() {
-        return Err(ModelError::NothingFree);
-    }
-    // The motions of a body with linearized kinematics are its coordinates.
-    let frame_of = |body: &Body| match body.linearized {
+    // Of a body with linearized kinematics that no element sees, the motions are coordinates alone.
+    let frame_of = |(body, touched): (&Body, &bool)| match body.linearized && !touched {
         true => frame_state(&Frame::fixed(body.frame.origin, body.frame.orientation)),
         false => frame_state(&body.frame),
     };
-    let frames: Vec<FrameState> = bodies.iter().map(frame_of).collect();
+    let frames: Vec<FrameState> = bodies.iter().zip(&touched).map(frame_of).collect();
     let kinematics: Vec<Kinematics<f64>> = bodies
         .iter()
         .map(|body| Kinematics::new(body.initial, [0.0; 6], body.rolls()))
@@ -297,9 +336,10 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         mounted_elements.push(assembler.attach(marked, &name, body, on, marker, kinds, 0)?);
     }
 
-    for (index, connection) in connections.iter().enumerate() {
-        connection.check(index, &bodies, &options)?;
-    }
+    let applied: Vec<MountedLoad> = loads
+        .into_iter()
+        .map(|applied| mount(applied, &bodies, &mut free, &free_number, &mut parts))
+        .collect::<Result<_, _>>()?;
     let owned = parts.energy_terms.len();
     let assembler = connection::ConnectionAssembler::new(&bodies, &free_number, &slots, &mut parts);
     let (mut connections, coupled) = assembler.attach(connections, &options);
@@ -366,13 +406,14 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     let moved: Vec<MovedBody> = bodies
         .iter()
         .enumerate()
-        .filter(|(_, body)| body.linearized && body.is_moving_prescribed())
+        .filter(|(number, body)| (body.linearized || connected[*number]) && body.is_moving_prescribed())
         .map(|(body, own)| MovedBody {
             body,
             motions: Box::new(own.frame.motions.clone()),
         })
         .collect();
-    let moves = frames.iter().any(|frame| !frame.fixed) || !moved.is_empty();
+    let varies = applied.iter().any(|load| !load.applied.course.is_constant());
+    let moves = frames.iter().any(|frame| !frame.fixed) || !moved.is_empty() || varies;
     let none = connections.is_empty() && mounted_elements.is_empty();
     let plain = none && mounted_faces.iter().all(|m| m.plain) && mounted_coils.iter().all(|m| m.plain);
     let discontinuities_complete = none && mounted_faces.iter().all(|face| face.internal_count == 0);
@@ -394,9 +435,12 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         .scan(0, |next, count| Some(std::mem::replace(next, *next + count)))
         .collect();
     let nowhere = vec![[0.0; 6]; bodies.len()];
-    let positions = bodies.iter().map(|body| match body.linearized {
-        true => [0, 1, 2, 3, 4, 5].map(|k| body.frame.motions[k].evaluate(0.0, 0.0)[0]),
-        false => [0.0; 6],
+    let positions = bodies.iter().zip(&connected).map(|(body, connected)| {
+        match (body.linearized || *connected, body.is_prescribed()) {
+            (true, true) => [0, 1, 2, 3, 4, 5].map(|k| body.frame.motions[k].evaluate(0.0, 0.0)[0]),
+            (true, false) => body.initial,
+            (false, _) => [0.0; 6],
+        }
     });
     Ok(System {
         positions: positions.collect(),
@@ -404,6 +448,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         loads: nowhere.clone(),
         given: nowhere.clone(),
         accelerations: nowhere,
+        applied,
         connections,
         moved,
         internal_ends: parts.internal_pairs,
@@ -437,6 +482,42 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         current_state: vec![f64::NAN; 2 * layout.speeds],
         current_face: (0, f64::NAN),
         points_updated: false,
+    })
+}
+
+/// Returns an applied load in its place.
+fn mount(
+    applied: AppliedLoad,
+    bodies: &[Body],
+    free: &mut [FreeBody],
+    free_number: &[Option<usize>],
+    parts: &mut Parts,
+) -> Result<MountedLoad, ModelError> {
+    let AppliedLoad { body, coordinate, .. } = applied;
+    let Some(own) = bodies.get(body) else {
+        let count = bodies.len();
+        return Err(ModelError::NoSuchBody { number: body, count });
+    };
+    let place = free_number[body].and_then(|number| {
+        let slot = free[number].free.iter().position(|k| *k == coordinate)?;
+        Some((number, slot))
+    });
+    let Some((number, slot)) = place else {
+        return Err(ModelError::HeldUnderLoad {
+            body: own.name.clone(),
+            coordinate: COORDINATES
+                .get(coordinate)
+                .copied()
+                .unwrap_or("a seventh coordinate"),
+        });
+    };
+    free[number].loaded = true;
+    parts.quadrature_bodies.push((0, number));
+    Ok(MountedLoad {
+        speed: free[number].offset + slot,
+        jet: applied.course.evaluate(0.0, 0.0),
+        row: parts.quadrature_bodies.len() - 1,
+        applied,
     })
 }
 

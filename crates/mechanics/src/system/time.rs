@@ -65,11 +65,23 @@ impl System {
             let load_rate = &mut self.load_rate;
             element_in_time(element, bodies, &mut [], load_rate, d_quadratures);
         }
-        for free in self.free.iter().filter(|free| free.linear.is_none()) {
-            let (force, moments) = &self.load_rate[free.body];
-            let accelerations = self.kinematics[free.body].accelerations(&free.rigid, force, *moments);
-            for (j, &k) in free.free.iter().enumerate() {
-                d_speeds[free.offset + j] = accelerations[k];
+        for free in &self.free {
+            let (mut force, mut moments) = self.load_rate[free.body];
+            for k in 0..3 {
+                force.0[k] += self.loads[free.body][k];
+                moments[k] += self.loads[free.body][3 + k];
+            }
+            let target = &mut d_speeds[free.offset..free.offset + free.free.len()];
+            if let Some(linear) = &free.linear {
+                for (j, target) in target.iter_mut().enumerate() {
+                    let k = free.free[j];
+                    *target = if k < 3 { force.0[k] } else { moments[k - 3] } / linear.inertia[j];
+                }
+                continue;
+            }
+            let accelerations = self.kinematics[free.body].accelerations(&free.rigid, &force, moments);
+            for (target, &k) in target.iter_mut().zip(&free.free) {
+                *target = accelerations[k];
             }
         }
     }
