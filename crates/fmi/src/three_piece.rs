@@ -243,17 +243,11 @@ fn states(system: &System) -> Vec<Entry> {
         states.push(deflection(name, "deflection of the bristle of a contact point"));
     }
     for term in system.energy_terms() {
-        let (name, text) = match term.kind {
-            EnergyTermKind::MotionWork => (
-                "motion_work".to_owned(),
-                "work of the prescribed bodies since the start",
-            ),
-            kind => (
-                format!("{}_{}", term.element, kind.name()),
-                "loss since the start",
-            ),
+        let text = match term.kind {
+            EnergyTermKind::MotionWork => "work of the prescribed bodies since the start",
+            _ => "loss since the start",
         };
-        states.push(accumulated(&name, text));
+        states.push(accumulated(&term.name(), text));
     }
     states.push(accumulated(
         "load_work",

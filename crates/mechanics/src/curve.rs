@@ -205,16 +205,16 @@ impl Curve {
             points.extend(crossings(i, point[0], to));
         }
         points.dedup_by(|b, a| b[0] <= a[0]);
-        // Beyond the ends the clamped curve is flat, or goes on as before.
+        // Beyond the ends the clamped curve is flat, or goes on as before, from a limit too that it leaves there.
         let (first, end) = (points[0], points[points.len() - 1]);
-        let flat = |y: f64, slope: f64, outwards: f64| {
-            slope == 0.0 || (y <= low && slope * outwards < 0.0) || (y >= high && slope * outwards > 0.0)
+        let beyond = |[x, y]: [f64; 2], slope: f64, outwards: f64| {
+            let held = (y <= low && slope * outwards < 0.0) || (y >= high && slope * outwards > 0.0);
+            let step = if held { 0.0 } else { slope * outwards };
+            (slope == 0.0 || y <= low || y >= high).then_some([x + outwards, y + step])
         };
-        if flat(end[1], self.slopes[last], 1.0) {
-            points.push([end[0] + 1.0, end[1]]);
-        }
-        if flat(first[1], self.slopes[0], -1.0) {
-            points.insert(0, [first[0] - 1.0, first[1]]);
+        points.extend(beyond(end, self.slopes[last], 1.0));
+        if let Some(point) = beyond(first, self.slopes[0], -1.0) {
+            points.insert(0, point);
         }
         Self::through(points)
     }

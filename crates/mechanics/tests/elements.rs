@@ -341,6 +341,7 @@ fn limits_a_linearized_body_is_a_finite_one_at_small_angles() {
         finite.add(spring.clone(), (1, marker), (0, marker));
         let law = SpringDamper::spring(Curve::linear(stiffness));
         linear.connections.push(Connection {
+            account: String::new(),
             name: "spring".to_owned(),
             a: 0,
             b: 1,
@@ -381,6 +382,7 @@ fn input_frames_that_do_not_fit_are_refused() {
     let law = Law::Springs(vec![(0, SpringDamper::spring(Curve::linear(1.0)))]);
     let (name, point) = ("link".to_owned(), [0.0; 3]);
     model.connections.push(Connection {
+        account: String::new(),
         name,
         a: 0,
         b: 1,

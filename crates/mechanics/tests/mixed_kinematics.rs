@@ -56,6 +56,7 @@ fn link(a: usize, b: usize, point: [f64; 3]) -> Connection {
         ..SpringDamper::spring(Curve::linear(4e3))
     };
     Connection {
+        account: String::new(),
         name: "link".to_owned(),
         a,
         b,

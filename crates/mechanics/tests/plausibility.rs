@@ -186,6 +186,7 @@ fn limits_linearized_bodies_are_found_beyond_small_angles_and_the_size_of_the_sy
     let one = Body::linearized("bolster", [0.0; 3], ALL, 100.0, [10.0; 3]);
     let spring = SpringDamper::spring(Curve::linear(1e6));
     let connection = Connection {
+        account: String::new(),
         name: "spring".to_owned(),
         a: 0,
         b: 1,

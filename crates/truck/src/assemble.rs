@@ -1,7 +1,6 @@
 //! How parameters become a truck, and where it starts.
 
-use std::ops::Range;
-
+use mechanics::curve::Curve;
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::Motion;
 use mechanics::system::{Model, ModelError, NoEquilibrium, StaticFriction, System};
@@ -11,7 +10,7 @@ use wedge::parameters::{FaceFriction, Start};
 
 use crate::PLACES;
 use crate::bodies::bodies;
-use crate::elements::{HEIGHT, Mount, Suspended, add};
+use crate::elements::{Added, HEIGHT, Mount, WedgePlace, add};
 use crate::parameters::{Adapter, Parameters, SideBearing};
 
 /// Number of the leading wheelset among the bodies; the trailing one follows.
@@ -29,19 +28,21 @@ pub const CAR_BODY: usize = 9;
 #[derive(Clone, Debug)]
 pub struct Truck {
     /// The equations of motion. Faces: column and slope of each wedge; with wheelsets the adapters of each side
-    /// frame, leading and trailing; with a car body the center plate, and constant-contact side bearings.
+    /// frame, leading and trailing; with a car body the center plate, and constant-contact side bearings. Connections:
+    /// wedges without mass, and empirical warp springs.
     pub system: System,
     /// The state at time zero.
     pub initial_state: Vec<f64>,
-    /// The faces of the adapters.
-    pub(crate) adapters: Range<usize>,
-    /// The face of the center plate, and its height, m.
-    pub(crate) center_plate: Option<usize>,
+    pub(crate) added: Added,
+    /// Height of the center plate, m.
     pub(crate) plate_height: f64,
+    /// The moment of each nest's empirical warp spring, N·m by rad.
+    pub(crate) warp_spring: Option<Curve>,
     pub(crate) axle: f64,
     /// Nominal places of the wedges' centers of gravity, m.
     pub(crate) wedge_places: [Vector<f64>; 4],
-    pub(crate) suspension: Vec<Suspended>,
+    /// Toe of their columns, rad.
+    pub(crate) toes: [f64; 4],
 }
 
 /// Why parameters define no truck.
@@ -71,7 +72,10 @@ impl Truck {
                     let points = observation.faces[face].points.iter();
                     points.fold(0.0, |depth: f64, point| depth.max(-point.gap))
                 };
-                let gaps = [0, 1, 2, 3].map(|wedge| [0, 1].map(|face| depth(2 * wedge + face)));
+                let gaps = truck.added.wedges.map(|place| match place {
+                    WedgePlace::Body { column } => [column, column + 1].map(depth),
+                    WedgePlace::Massless { .. } => [0.0; 2],
+                });
                 Ok(Self::with_gaps(parameters, gaps)?)
             }
             Start::Equilibrium => {
@@ -89,47 +93,47 @@ impl Truck {
     fn with_gaps(parameters: &Parameters, gaps: [[f64; 2]; 4]) -> Result<Self, ModelError> {
         let bodies = bodies(parameters, Mount::ALONE.center);
         let mut model = Model::new(bodies, [0.0, 0.0, -parameters.gravity]);
-        let suspension = add(&mut model, parameters, &Mount::ALONE, gaps);
-        let with_friction = matches!(
-            &parameters.wheelsets,
-            Some(wheelsets) if matches!(wheelsets.adapter, Adapter::Friction(_))
-        );
-        let adapters = 8..if with_friction { 12 } else { 8 };
+        let added = add(&mut model, parameters, &Mount::ALONE, gaps);
         let car = parameters.car_body.as_ref();
         let system = System::new(model)?;
         Ok(Self {
             initial_state: system.initial_state(),
             system,
-            center_plate: car.map(|_| adapters.end),
+            added,
             plate_height: car.map_or(0.0, |car| car.center_plate.height),
-            adapters,
+            warp_spring: parameters.warp_spring.clone(),
             axle: parameters.distances[2],
+            toes: [0, 1, 2, 3].map(|number| parameters.wedges[number].toe),
             wedge_places: PLACES.map(|[end, way]| {
                 let [side, place, _] = parameters.distances;
                 Vector([place * end, side * way, HEIGHT])
             }),
-            suspension,
         })
     }
 }
 
-/// Returns the same truck with all that is prescribed held where it is at time zero.
+/// Returns the same truck with all motions and loads held as they are at time zero.
 #[must_use]
 pub fn held(parameters: &Parameters) -> Parameters {
     let mut held = parameters.clone();
-    let mut motions = vec![&mut held.bolster.motion];
-    motions.extend(
-        held.side_frames
-            .iter_mut()
-            .map(|side_frame| &mut side_frame.motion),
-    );
-    motions.extend(
-        held.wheelsets
-            .iter_mut()
-            .flat_map(|wheelsets| &mut wheelsets.motions),
-    );
-    for motion in motions.into_iter().flat_map(|motion| &mut motion.coordinates) {
-        *motion = Motion::Constant(motion.evaluate(0.0, 0.0)[0]);
+    let Parameters {
+        bolster,
+        side_frames,
+        wheelsets,
+        car_body,
+        ..
+    } = &mut held;
+    let mut courses: Vec<&mut Motion> = Vec::new();
+    courses.extend(bolster.motion.coordinates.iter_mut().chain(&mut bolster.applied));
+    for own in side_frames {
+        courses.extend(own.motion.coordinates.iter_mut().chain(&mut own.applied));
+    }
+    for motion in wheelsets.iter_mut().flat_map(|wheelsets| &mut wheelsets.motions) {
+        courses.extend(&mut motion.coordinates);
+    }
+    courses.extend(car_body.iter_mut().flat_map(|car| &mut car.applied));
+    for course in courses {
+        *course = Motion::Constant(course.evaluate(0.0, 0.0)[0]);
     }
     held
 }

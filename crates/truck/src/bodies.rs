@@ -5,7 +5,7 @@ use mechanics::frame::Frame;
 use wedge::parameters::NeighbourMotion;
 
 use crate::elements::HEIGHT;
-use crate::parameters::{Parameters, RigidBody};
+use crate::parameters::{Parameters, RigidBody, WedgeKind};
 use crate::{PLACES, WEDGE_NAMES};
 
 /// A body at a place: with free coordinates, or with a prescribed motion.
@@ -56,9 +56,18 @@ pub fn bodies(parameters: &Parameters, center: [f64; 3]) -> Vec<Body> {
         bodies.push(prescribed(name, motion, [[axle, -axle][number], 0.0, HEIGHT]));
     }
     let bolster = &parameters.bolster;
+    // Wedges without mass leave theirs to the bolster, with which they go: the car weighs the same.
+    let massless = parameters
+        .wedges
+        .iter()
+        .filter(|wedge| wedge.kind == WedgeKind::Massless);
+    let with_wedges = RigidBody {
+        mass: bolster.body.mass + massless.map(|wedge| wedge.mass).sum::<f64>(),
+        ..bolster.body
+    };
     let body = rigid(
         "bolster",
-        &bolster.body,
+        &with_wedges,
         [0.0; 3],
         bolster.free,
         Some(&bolster.motion),
@@ -77,7 +86,9 @@ pub fn bodies(parameters: &Parameters, center: [f64; 3]) -> Vec<Body> {
             height: HEIGHT - to_center[2],
         };
         let origin = [place * end - to_center[0], side * way - to_center[1], 0.0];
-        let mut body = rigid(&format!("{name}_wedge"), &mass, origin, wedge.free, None);
+        // A wedge without mass is no body: a placeholder stands still.
+        let free = wedge.free.map(|free| free && wedge.kind == WedgeKind::Body);
+        let mut body = rigid(&format!("{name}_wedge"), &mass, origin, free, None);
         body.center_of_gravity = to_center;
         bodies.push(moved(body));
     }

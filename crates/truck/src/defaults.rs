@@ -7,7 +7,8 @@ use wedge::parameters::{Contact, Damping, FaceFriction, NeighbourMotion, STANDAR
 
 use crate::parameters::{
     Adapter, AdapterPad, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter, Lading,
-    NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Spring, Wedge, Wheelsets,
+    NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Spring, Wedge, WedgeKind,
+    Wheelsets, unloaded,
 };
 use crate::units::{INCH, POUND, POUND_FORCE, POUND_INCH, POUND_PER_INCH, inches};
 
@@ -71,6 +72,7 @@ impl Bolster {
             },
             free: [false, false, true, false, false, false],
             motion: NeighbourMotion::fixed(),
+            applied: unloaded(),
         }
     }
 }
@@ -142,6 +144,7 @@ impl CarBody {
                 Lading::Empty => body(21_530.0, [1.875e5, 1.805e6, 1.805e6], 65.0),
             },
             free: [false, false, true, true, false, false],
+            applied: unloaded(),
             center_plate: CenterPlate {
                 height: 30.0 * INCH,
                 rings: vec![7.0 * INCH, 7.0 * INCH / 3.0],
@@ -175,6 +178,7 @@ impl Parameters {
         let angle = degrees * PI / 180.0;
         let prism = body(50.0, [1.461, 0.3756, 1.295], 18.0);
         let wedge = Wedge {
+            kind: WedgeKind::Body,
             angle,
             height: 6.125 * INCH,
             width: 10.5 * INCH,
@@ -203,6 +207,7 @@ impl Parameters {
             body: body(1150.5, [900.0, 1370.0, 1370.0], 18.0),
             free: [true; 6],
             motion: NeighbourMotion::fixed(),
+            applied: unloaded(),
         };
         Self {
             damping,
@@ -212,6 +217,7 @@ impl Parameters {
                 body: body(1300.0, [2915.0, 142.0, 2930.0], 22.0),
                 free: [false; 6],
                 motion: NeighbourMotion::fixed(),
+                applied: unloaded(),
             },
             side_frames: [side_frame.clone(), side_frame],
             wheelsets: Some(Wheelsets {
@@ -222,6 +228,7 @@ impl Parameters {
             load_coils: [nest.clone(), nest],
             gib: clearance([0.5, 4e6, 1000.0]),
             lands: clearance([0.21, 5e5, 50.0]),
+            warp_spring: None,
             car_body: None,
             start: Start::Rest,
             lift: 0.0,

@@ -1,20 +1,23 @@
 //! The elements between the bodies of a truck.
 
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::Range;
 
 use mechanics::coil::{Coil, CoilLine};
 use mechanics::contact::{ContactFace, ContactPoint};
 use mechanics::elements::{RadialStop, ShearSpring, Solid, Stop};
 use mechanics::link::Marker;
+use mechanics::motion::Motion;
 use mechanics::surface::Plane;
-use mechanics::system::Model;
+use mechanics::system::{AppliedLoad, Model};
 use mechanics::vector::Vector;
 use wedge::parameters::{Contact, ControlCoil as ThesisCoil, Damping, FaceFriction};
 
 use crate::assemble::{BOLSTER, CAR_BODY, SIDE_FRAMES, WEDGES, WHEELSETS};
+use crate::massless::{massless_wedge, warp_spring};
 use crate::parameters::{
     Adapter, AdapterPad, CarBody, Clearance, ControlCoil, FrictionAdapter, Parameters, SideBearing, Spring,
-    Wedge,
+    Wedge, WedgeKind,
 };
 use crate::units::INCH;
 use crate::{PLACES, WEDGE_NAMES};
@@ -60,6 +63,30 @@ pub(crate) struct Suspended {
     pub ends: [(usize, Marker); 2],
 }
 
+/// What was added to a model, for the results.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Added {
+    pub suspension: Vec<Suspended>,
+    /// Of each wedge: its first face (the column; the slope follows), or its connection if it has no mass.
+    pub wedges: [WedgePlace; 4],
+    /// The faces of the adapters, and that of the center plate.
+    pub adapters: Range<usize>,
+    pub center_plate: Option<usize>,
+}
+
+/// Where a wedge stands in a model.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum WedgePlace {
+    Body { column: usize },
+    Massless { connection: usize },
+}
+
+impl Default for WedgePlace {
+    fn default() -> Self {
+        Self::Body { column: 0 }
+    }
+}
+
 /// Where a truck stands in a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mount {
@@ -85,23 +112,18 @@ pub fn add_elements(model: &mut Model, parameters: &Parameters, mount: &Mount) {
     model.faces.retain(|(carried, on, ..)| carried != on);
 }
 
-/// Adds them, and returns the suspension; `gaps` (m) are how far column and slope of each wedge are moved away along
+/// Adds them, and returns what was added; `gaps` (m) are how far column and slope of each wedge are moved away along
 /// their normals.
-pub(crate) fn add(
-    model: &mut Model,
-    parameters: &Parameters,
-    mount: &Mount,
-    gaps: [[f64; 2]; 4],
-) -> Vec<Suspended> {
+pub(crate) fn add(model: &mut Model, parameters: &Parameters, mount: &Mount, gaps: [[f64; 2]; 4]) -> Added {
     let builder = Builder {
         parameters,
         mount,
         gaps,
         model,
-        suspension: Vec::new(),
+        added: Added::default(),
     };
-    let suspension = builder.build();
-    for element in &suspension {
+    let added = builder.build();
+    for element in &added.suspension {
         let [a, b] = element.ends;
         if a.0 == b.0 || (model.bodies[a.0].is_prescribed() && model.bodies[b.0].is_prescribed()) {
             continue;
@@ -112,7 +134,7 @@ pub(crate) fn add(
             Law::Rim(rim) => model.add(rim.clone(), a, b),
         }
     }
-    suspension
+    added
 }
 
 struct Builder<'p> {
@@ -121,27 +143,63 @@ struct Builder<'p> {
     /// How far column and slope of each wedge are moved away, m.
     gaps: [[f64; 2]; 4],
     model: &'p mut Model,
-    suspension: Vec<Suspended>,
+    added: Added,
 }
 
 impl Builder<'_> {
-    fn build(mut self) -> Vec<Suspended> {
+    fn build(mut self) -> Added {
         for number in 0..4 {
+            self.added.wedges[number] = match self.parameters.wedges[number].kind {
+                WedgeKind::Body => WedgePlace::Body {
+                    column: self.model.faces.len(),
+                },
+                WedgeKind::Massless => WedgePlace::Massless {
+                    connection: self.model.connections.len(),
+                },
+            };
             self.wedge(number);
         }
+        self.added.adapters.start = self.model.faces.len();
         for number in 0..2 {
             self.adapters(number);
         }
+        self.added.adapters.end = self.model.faces.len();
         for (number, side) in [1.0, -1.0].into_iter().enumerate() {
             self.nest(number, side * self.parameters.distances[0]);
         }
+        self.applied_loads();
         if let Some(car) = &self.parameters.car_body {
+            self.added.center_plate = Some(self.model.faces.len());
             self.center_plate(car);
             for (side, name) in [(1.0, "left"), (-1.0, "right")] {
                 self.side_bearing(car, side * car.side_bearings.distance, name);
             }
         }
-        self.suspension
+        self.added
+    }
+
+    /// The loads on bolster, side frames and car body.
+    fn applied_loads(&mut self) {
+        let Parameters {
+            bolster,
+            side_frames,
+            car_body,
+            ..
+        } = self.parameters;
+        let mut all = vec![(BOLSTER, &bolster.applied)];
+        all.extend((SIDE_FRAMES..).zip(side_frames.iter().map(|own| &own.applied)));
+        all.extend(car_body.iter().map(|car| (CAR_BODY, &car.applied)));
+        for (body, applied) in all {
+            for (coordinate, course) in applied.iter().enumerate() {
+                if *course != Motion::Constant(0.0) {
+                    self.model.loads.push(AppliedLoad {
+                        body: self.mount.bodies[body],
+                        coordinate,
+                        course: course.clone(),
+                    });
+                }
+            }
+        }
     }
 
     /// Returns the marker of a body at a place (m), turned about z (rad).
@@ -165,7 +223,7 @@ impl Builder<'_> {
                 stiffness,
             }),
         };
-        self.suspension.push(Suspended {
+        self.added.suspension.push(Suspended {
             role,
             law: Law::Spring(law),
             ends: [self.marker(a, at, 0.0), self.marker(b, at, 0.0)],
@@ -188,7 +246,7 @@ impl Builder<'_> {
             stiffness: clearance.stiffness,
             damping: clearance.damping,
         };
-        self.suspension.push(Suspended {
+        self.added.suspension.push(Suspended {
             role,
             law: Law::Stop(law),
             ends: [self.marker(a, at, 0.0), self.marker(b, at, yaw)],
@@ -202,6 +260,19 @@ impl Builder<'_> {
         let wedge = &parameters.wedges[number];
         let (body, name) = (WEDGES + number, WEDGE_NAMES[number]);
         let side_frame = SIDE_FRAMES + usize::from(way < 0.0);
+        if wedge.kind == WedgeKind::Massless {
+            let ends = [BOLSTER, side_frame].map(|body| self.mount.bodies[body]);
+            let center = self.mount.center;
+            let point = [
+                place * end + center[0],
+                side * way + center[1],
+                HEIGHT + center[2],
+            ];
+            let wedge = (wedge, parameters.damping, end);
+            let connection = massless_wedge(name, ends, point, wedge);
+            self.model.connections.push(connection);
+            return;
+        }
         let length = wedge.height * libm::tan(wedge.angle);
         let middle = HEIGHT + wedge.height / 6.0;
         let at = place + length / 3.0;
@@ -303,6 +374,15 @@ impl Builder<'_> {
             let name = format!("{side}_load_coil_{}", i + 1);
             self.spring(Role::LoadCoil, name, ends, at, &coil.spring);
         }
+        if let Some(moment) = &parameters.warp_spring {
+            let [a, b] = ends.map(|body| self.mount.bodies[body]);
+            let center = self.mount.center;
+            let point = [center[0], y + center[1], HEIGHT + center[2]];
+            if ![a, b].iter().all(|body| self.model.bodies[*body].is_prescribed()) {
+                let spring = warp_spring(format!("{side}_warp_spring"), [a, b], point, moment);
+                self.model.connections.push(spring);
+            }
+        }
         let gib = format!("{side}_gib");
         self.stop(Role::Gib, gib, ends, [0.0, y, HEIGHT], FRAC_PI_2, &parameters.gib);
         for (end, end_name) in [(1.0, "leading"), (-1.0, "trailing")] {
@@ -368,7 +448,7 @@ impl Builder<'_> {
             damping: plate.rim.damping,
         };
         let at = [0.0, 0.0, plate.height];
-        self.suspension.push(Suspended {
+        self.added.suspension.push(Suspended {
             role: Role::CarBody,
             law: Law::Rim(rim),
             ends: [self.marker(CAR_BODY, at, 0.0), self.marker(BOLSTER, at, 0.0)],
@@ -388,7 +468,7 @@ impl Builder<'_> {
                 };
                 // The x axis of the marker is the bolster's z axis.
                 let upright = Marker::new(place.origin.0, [0.0, -FRAC_PI_2, 0.0]);
-                self.suspension.push(Suspended {
+                self.added.suspension.push(Suspended {
                     role: Role::CarBody,
                     law: Law::Stop(law),
                     ends: [self.marker(CAR_BODY, at, 0.0), (bolster, upright)],

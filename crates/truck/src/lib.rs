@@ -22,6 +22,7 @@ mod bodies;
 mod defaults;
 mod elements;
 mod loads;
+mod massless;
 pub mod nest;
 mod parameters;
 mod units;
@@ -30,9 +31,11 @@ pub use assemble::{BOLSTER, BuildError, CAR_BODY, SIDE_FRAMES, Truck, WEDGES, WH
 pub use bodies::bodies;
 pub use elements::{Mount, add_elements};
 pub use loads::{CenterPlateLoads, Loads, WarpMoment, WedgeLoads};
+pub use massless::empirical_warp;
 pub use parameters::{
-    Adapter, AdapterPad, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter, Lading,
-    NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Spring, Wedge, Wheelsets,
+    Adapter, AdapterPad, Applied, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter,
+    Lading, NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Spring, Wedge, WedgeKind,
+    Wheelsets, unloaded,
 };
 
 /// The names of the wedges in the order of all arrays of four: end (leading, trailing), then side.

@@ -6,13 +6,14 @@
 //! exert. The *vertical load of a nest* acts on the side frame, from all that bolster, wedges and coils exert,
 //! positive down. Column friction acts on the side frame, positive up.
 
+use mechanics::connection::ConnectionState;
 use mechanics::element::{Element, Wrench};
 use mechanics::link::{Marker, RelativeMotion};
 use mechanics::system::{BodyState, FaceState, Observation};
 use mechanics::vector::{Matrix, Vector};
 
 use crate::assemble::{BOLSTER, SIDE_FRAMES, Truck, WEDGES};
-use crate::elements::{Law, Role, Suspended};
+use crate::elements::{Law, Role, Suspended, WedgePlace};
 
 /// The moment about z that elements exert on the bolster, by kind of element, N·m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,7 +22,7 @@ pub struct WarpMoment {
     pub load_coils: f64,
     /// Control coils that stand on the bolster.
     pub control_coils: f64,
-    /// Slopes of the pockets: normal forces and friction.
+    /// Slopes of the pockets: normal forces and friction; all of a wedge without mass, whatever its coil stands on.
     pub slopes: f64,
     /// Sides of the pockets.
     pub pocket_sides: f64,
@@ -29,13 +30,16 @@ pub struct WarpMoment {
     pub lands: f64,
     /// Gibs.
     pub gibs: f64,
+    /// Empirical warp springs.
+    pub warp_springs: f64,
 }
 
 impl WarpMoment {
     /// Returns the sum.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.load_coils + self.control_coils + self.slopes + self.pocket_sides + self.lands + self.gibs
+        let stops = self.pocket_sides + self.lands + self.gibs;
+        self.load_coils + self.control_coils + self.slopes + stops + self.warp_springs
     }
 }
 
@@ -48,9 +52,10 @@ pub struct WedgeLoads {
     pub column_friction_z: f64,
     /// Normal force of the slope, N.
     pub slope_normal: f64,
-    /// Displacement of the center of gravity from its nominal place, m.
+    /// Displacement of the center of gravity from its nominal place, m. A wedge without mass goes with the column
+    /// along x, with the bolster along y, and up by what the bolster and its rise in the pocket make.
     pub displacement: [f64; 3],
-    /// Roll, pitch, yaw, rad.
+    /// Roll, pitch, yaw, rad; zero for a wedge without mass.
     pub angles: [f64; 3],
 }
 
@@ -100,7 +105,22 @@ impl Truck {
         let arm = self.axle;
         let bolster = bodies[BOLSTER].center_of_gravity;
         for (number, wedge) in loads.wedges.iter_mut().enumerate() {
-            let [column, slope] = [0, 1].map(|face| &observation.faces[2 * number + face]);
+            let first = match self.added.wedges[number] {
+                WedgePlace::Body { column } => column,
+                WedgePlace::Massless { connection } => {
+                    let state = &observation.connections[connection];
+                    let place = self.wedge_places[number];
+                    let [vertical, longitudinal, lateral] = [0, 1, 2].map(|k| state.forces[k]);
+                    // On the bolster; the opposite acts on the side frame.
+                    let force = Vector([-longitudinal, -lateral, -vertical]);
+                    loads.nest_vertical[number % 2] -= vertical;
+                    loads.warp_moment.slopes += about_z(place, force);
+                    loads.roll_moment += about_x(place - bolster, force);
+                    *wedge = self.massless_wedge(number, state, bodies);
+                    continue;
+                }
+            };
+            let [column, slope] = [first, first + 1].map(|face| &observation.faces[face]);
             let body = &bodies[WEDGES + number];
             *wedge = WedgeLoads {
                 column_normal: normal(column),
@@ -118,8 +138,13 @@ impl Truck {
                 loads.roll_moment -= about_x(*place - bolster, force);
             }
         }
-        for element in &self.suspension {
+        for element in &self.added.suspension {
             self.add(&mut loads, element, bodies);
+        }
+        if let Some(moment) = &self.warp_spring {
+            for side_frame in [SIDE_FRAMES, SIDE_FRAMES + 1] {
+                loads.warp_moment.warp_springs -= moment.evaluate(yaw(BOLSTER) - yaw(side_frame));
+            }
         }
         // Coils of the thesis, which end at the wedges' origins.
         for (mounted, coil) in self.system.coils().iter().zip(&observation.coils) {
@@ -132,11 +157,11 @@ impl Truck {
                 }
             }
         }
-        for (i, adapter) in observation.faces[self.adapters.clone()].iter().enumerate() {
+        for (i, adapter) in observation.faces[self.added.adapters.clone()].iter().enumerate() {
             let on_side_frame = total(&adapter.friction_forces) + total(&adapter.normal_forces);
             loads.interaxle_shear_moment += [arm, -arm][i % 2] * on_side_frame.0[1];
         }
-        if let Some(plate) = self.center_plate {
+        if let Some(plate) = self.added.center_plate {
             let face = &observation.faces[plate];
             let mut moment = Vector::zero();
             for (i, place) in face.point_positions.iter().enumerate() {
@@ -149,6 +174,28 @@ impl Truck {
             };
         }
         loads
+    }
+
+    /// What a wedge without mass does, and where it is.
+    fn massless_wedge(&self, number: usize, state: &ConnectionState, bodies: &[BodyState]) -> WedgeLoads {
+        let Some(inside) = state.wedge else {
+            return WedgeLoads::default();
+        };
+        let place = self.wedge_places[number];
+        let moved = |body: usize| {
+            let body = &bodies[body];
+            let arm = place - (body.origin - body.travel);
+            let turned: Vector<f64> = body.rotation.apply(arm);
+            body.travel + turned - arm
+        };
+        let (bolster, side_frame) = (moved(BOLSTER), moved(SIDE_FRAMES + number % 2));
+        WedgeLoads {
+            column_normal: inside.column_normal,
+            column_friction_z: -inside.column_friction * libm::cos(self.toes[number]),
+            slope_normal: inside.slope_normal,
+            displacement: [side_frame.0[0], bolster.0[1], bolster.0[2] + inside.rise],
+            angles: [0.0; 3],
+        }
     }
 
     /// Adds what one element of the suspension does.

@@ -6,6 +6,8 @@
 //! the damping of contacts (25 lbf·s/in a corner, so that runs converge), bristles instead of tanh (a loaded
 //! truck must not creep), the clearances of pocket sides (0.25 in) and lands (0.21 in: 30 mrad of warp).
 
+use mechanics::curve::Curve;
+use mechanics::motion::Motion;
 use wedge::parameters::{
     Contact, ControlCoil as ThesisCoil, Damping, FaceFriction, NeighbourMotion, Start, Wear,
 };
@@ -31,6 +33,18 @@ pub struct Bolster {
     pub free: [bool; 6],
     /// The prescribed motion, about the center of gravity if no center is given.
     pub motion: NeighbourMotion,
+    /// Applied loads.
+    pub applied: Applied,
+}
+
+/// Loads over time on the free coordinates of a body: forces along x, y, z at its center of gravity (N), moments
+/// about the axes of roll, pitch, yaw (N·m).
+pub type Applied = [Motion; 6];
+
+/// Returns no load at all.
+#[must_use]
+pub fn unloaded() -> Applied {
+    std::array::from_fn(|_| Motion::Constant(0.0))
 }
 
 /// A side frame.
@@ -42,6 +56,8 @@ pub struct SideFrame {
     pub free: [bool; 6],
     /// As [`Bolster::motion`].
     pub motion: NeighbourMotion,
+    /// Applied loads.
+    pub applied: Applied,
 }
 
 /// The wheelsets, which are prescribed, and the adapters on them.
@@ -128,9 +144,23 @@ pub struct FrictionAdapter {
     pub lateral: Clearance,
 }
 
+/// What a wedge is in the model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum WedgeKind {
+    /// A rigid body with faces in contact.
+    #[default]
+    Body,
+    /// The industry's element without mass ([`mechanics::connection::Wedge`] with a plane column): quasi-static
+    /// balance on both faces, no moments, no sides of the pocket; its coil has neither shear stiffness nor damping.
+    /// Its weight is the bolster's.
+    Massless,
+}
+
 /// A wedge and what it touches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wedge {
+    /// What it is in the model.
+    pub kind: WedgeKind,
     /// Wedge angle θ between the vertical and the slope, rad.
     pub angle: f64,
     /// Height of the vertical face, m.
@@ -186,6 +216,8 @@ pub struct CarBody {
     /// Which of x, y, z, roll, pitch, yaw are free; the others are held. Half a car on one truck falls over in
     /// pitch.
     pub free: [bool; 6],
+    /// Applied loads.
+    pub applied: Applied,
     /// The center plate.
     pub center_plate: CenterPlate,
     /// The side bearings.
@@ -261,6 +293,9 @@ pub struct Parameters {
     pub gib: Clearance,
     /// Longitudinal stops between bolster and side frame, four a column.
     pub lands: Clearance,
+    /// An empirical warp spring in each nest: its moment (N·m) by the yaw of bolster against side frame (rad). In the
+    /// industry's models it stands for what massless wedges leave out.
+    pub warp_spring: Option<Curve>,
     /// What stands on the bolster, as a body of its own.
     pub car_body: Option<CarBody>,
     /// Where a run starts.

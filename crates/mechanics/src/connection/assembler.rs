@@ -52,8 +52,7 @@ impl<'m> ConnectionAssembler<'m> {
         connections: Vec<Connection>,
         options: &Options,
     ) -> (Connections, Vec<(usize, usize)>) {
-        for kind in energy_terms(&connections) {
-            let element = String::new();
+        for (kind, element) in energy_terms(&connections) {
             self.parts.energy_terms.push(EnergyTerm { kind, element });
         }
         let placer = &mut self;
@@ -118,37 +117,47 @@ impl<'m> ConnectionAssembler<'m> {
     }
 }
 
-/// Returns the quadratures that connections need.
-pub(crate) fn energy_terms(connections: &[Connection]) -> Vec<EnergyTermKind> {
-    let mut kinds = Vec::new();
+/// Returns the quadratures that connections need: kinds, with the names of accounts.
+pub(crate) fn energy_terms(connections: &[Connection]) -> Vec<(EnergyTermKind, String)> {
+    let mut all = Vec::new();
     for connection in connections {
-        match &connection.law {
-            Law::Springs(list) => {
-                if list
-                    .iter()
-                    .any(|(_, law)| Spring::new(law).is_some_and(|law| law.damps()))
-                {
-                    kinds.push(EnergyTermKind::SpringDamping);
-                }
-            }
-            Law::Gap(..) => kinds.push(EnergyTermKind::GapDamping),
-            Law::Surface(law) => {
-                kinds.push(EnergyTermKind::SurfaceFriction);
-                if law.damper.as_ref().is_some_and(|curve| !curve.is_zero()) {
-                    kinds.push(EnergyTermKind::SurfaceDamping);
-                }
-            }
-            Law::Wedge(law) => {
-                kinds.push(EnergyTermKind::ColumnFriction);
-                if matches!(law.column, ColumnFace::Profile { .. }) {
-                    kinds.extend([EnergyTermKind::SlopeFriction, EnergyTermKind::WedgeKinematics]);
-                }
-            }
-        }
+        let kinds = kinds(&connection.law).into_iter();
+        all.extend(kinds.map(|kind| (kind, connection.account.clone())));
     }
-    kinds.sort();
-    kinds.dedup();
-    kinds
+    all.sort();
+    all.dedup();
+    all
+}
+
+/// Returns the kinds of quadratures that a law needs.
+fn kinds(law: &Law) -> Vec<EnergyTermKind> {
+    match law {
+        Law::Springs(list) => {
+            let damps = |law| Spring::new(law).is_some_and(|law| law.damps());
+            let damps = list.iter().any(|(_, law)| damps(law));
+            damps
+                .then_some(EnergyTermKind::SpringDamping)
+                .into_iter()
+                .collect()
+        }
+        Law::Gap(..) => vec![EnergyTermKind::GapDamping],
+        Law::Surface(law) => {
+            let damps = law.damper.as_ref().is_some_and(|curve| !curve.is_zero());
+            let damping = damps.then_some(EnergyTermKind::SurfaceDamping);
+            [EnergyTermKind::SurfaceFriction]
+                .into_iter()
+                .chain(damping)
+                .collect()
+        }
+        Law::Wedge(law) => match law.column {
+            ColumnFace::Plain { .. } => vec![EnergyTermKind::ColumnFriction],
+            ColumnFace::Profile { .. } => vec![
+                EnergyTermKind::ColumnFriction,
+                EnergyTermKind::SlopeFriction,
+                EnergyTermKind::WedgeKinematics,
+            ],
+        },
+    }
 }
 
 impl ConnectionAssembler<'_> {
@@ -184,7 +193,7 @@ impl ConnectionAssembler<'_> {
             self.parts
                 .energy_terms
                 .iter()
-                .position(|own| Some(own.kind) == kind)
+                .position(|own| Some(own.kind) == kind && own.element == connection.account)
         };
         let energy_terms = losses.map(own);
         let quadratures =

@@ -181,7 +181,9 @@ impl Connection {
                 body: bodies[body].name.clone(),
             });
         }
-        if [*a, *b].iter().all(|body| bodies[*body].is_prescribed()) {
+        // Friction has a history between bodies that are moved, too.
+        let free = [*a, *b].iter().any(|body| !bodies[*body].is_prescribed());
+        if !free && law.accumulator().is_none() {
             return Err(ConnectionError::NothingToMove {
                 index,
                 name: name(),

@@ -5,8 +5,20 @@
 pub struct EnergyTerm {
     /// Its kind.
     pub kind: EnergyTermKind,
-    /// The element's name; empty for the work of the motions.
+    /// The element's name; empty for the work of the motions, and where elements of a kind stand together.
     pub element: String,
+}
+
+impl EnergyTerm {
+    /// Returns its name, as in results: of the element, if it has one, and of the kind.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match (self.kind, self.element.as_str()) {
+            (EnergyTermKind::MotionWork, _) => "motion_work".to_owned(),
+            (kind, "") => kind.name().to_owned(),
+            (kind, element) => format!("{element}_{}", kind.name()),
+        }
+    }
 }
 
 /// Kinds of quadratures; all in J.

@@ -107,6 +107,7 @@ pub fn model(constant: bool, spatial: bool) -> Model {
     let mut connections = Vec::new();
     let mut connect = |name: &str, a: usize, b: usize, point: [f64; 3], law: Law| {
         connections.push(Connection {
+            account: String::new(),
             name: name.to_owned(),
             a,
             b,

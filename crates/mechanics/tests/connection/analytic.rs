@@ -56,6 +56,26 @@ fn curves_mirror_continue_and_integrate() {
     }
 }
 
+/// A curve whose first or last point lies on a limit, or beyond it, goes on from there by its own slope.
+#[test]
+fn clamped_curves_go_on_from_a_limit() {
+    for points in [
+        vec![[0.0, 0.0], [1.0, -3.0]],
+        vec![[-1.0, -3.0], [0.0, 0.0]],
+        vec![[0.0, -3.0], [1.0, -2.0]],
+        vec![[0.0, -2.0], [1.0, -3.0]],
+    ] {
+        let curve = Curve::new(points.clone()).unwrap();
+        for most in [f64::INFINITY, 5.0] {
+            let clamped = curve.clamped(0.0, most);
+            for i in -40..=40 {
+                let x = 0.25 * f64::from(i);
+                close(clamped.evaluate(x), curve.evaluate(x).clamp(0.0, most), 1e-12);
+            }
+        }
+    }
+}
+
 /// A limit of 1e9 lbf on a soft spring does not cost digits of the energy near zero.
 #[test]
 fn far_limits_keep_the_digits_of_energies() {

@@ -27,6 +27,7 @@ fn an_equilibrium_follows_a_motion_that_has_ended() {
     let mut system = System::new(Model {
         bodies: vec![body, Body::linearized_prescribed("input", [0.0; 3], motions)],
         connections: vec![Connection {
+            account: String::new(),
             name: "yaw".to_owned(),
             a: 0,
             b: 1,

@@ -10,6 +10,7 @@ use crate::half_truck::{ALL, vertical};
 
 pub fn connection(a: usize, b: usize, point: [f64; 3], law: Law) -> Connection {
     Connection {
+        account: String::new(),
         name: "connection".to_owned(),
         a,
         b,

@@ -112,6 +112,7 @@ impl Truck {
                 })
             };
             connections.push(Connection {
+                account: String::new(),
                 name: own.name.trim().to_owned(),
                 a: body(*own.body_a)?,
                 b: body(*own.body_b)?,

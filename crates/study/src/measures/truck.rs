@@ -158,9 +158,10 @@ fn measures(case: &TruckCase, result: &TruckResult) -> Measures {
         if cycles.count > 0 { sum } else { f64::NAN }
     };
     let of_faces = |name: &str, wedge: &str| {
-        ["column", "slope"]
-            .iter()
-            .any(|face| name == format!("{wedge}_{face}_friction_loss"))
+        // Of a body's face, and of a wedge without mass.
+        ["column", "slope"].iter().any(|face| {
+            name == format!("{wedge}_{face}_friction_loss") || name == format!("{wedge}_wedge_{face}_loss")
+        })
     };
     let all = losses_of(&|name| WEDGE_NAMES.iter().any(|wedge| of_faces(name, wedge)));
     let mut values = vec![

@@ -1,6 +1,6 @@
 //! What a truck's numbers rest on, in words.
 
-use truck::Adapter;
+use truck::{Adapter, WEDGE_NAMES, WedgeKind};
 use wedge::parameters::{Damping, Start};
 
 use super::TruckCase;
@@ -26,6 +26,27 @@ pub(super) fn of(case: &TruckCase) -> Vec<String> {
          empty cars are decided, not measured."
             .to_owned(),
     ];
+    let massless = WEDGE_NAMES.iter().zip(&p.wedges);
+    let massless: Vec<String> = massless
+        .filter(|(_, wedge)| wedge.kind == WedgeKind::Massless)
+        .map(|(name, _)| name.replace('_', " "))
+        .collect();
+    if !massless.is_empty() {
+        list.push(format!(
+            "Wedges without mass ({}) are the industry's elements: quasi-static balance, friction of the slope as the \
+             toe's sign says, no moments, small displacements; their weight is the bolster's, their coils have neither \
+             shear stiffness nor damping. They do not lock in warp: the wedges' part of it is left out{}.",
+            massless.join(", "),
+            match p.warp_spring {
+                Some(_) => ", and an empirical warp spring stands for it",
+                None => " (warp_spring.kind = \"nothing\")",
+            }
+        ));
+    } else if p.warp_spring.is_some() {
+        list.push(
+            "An empirical warp spring acts beside wedges that have mass: warp is counted twice.".to_owned(),
+        );
+    }
     if p.damping == Damping::Constant {
         list.push(
             "Constant damping without toe: slopes stick, the wedges go with the bolster, and the normal forces of the \

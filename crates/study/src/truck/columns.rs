@@ -223,7 +223,7 @@ impl Columns {
 
     fn parts_of_warp_moment(&mut self) {
         type Part = (&'static str, fn(&Loads) -> f64, &'static str);
-        let parts: [Part; 6] = [
+        let parts: [Part; 7] = [
             (
                 "load_coils",
                 |loads| loads.warp_moment.load_coils,
@@ -246,6 +246,11 @@ impl Columns {
             ),
             ("lands", |loads| loads.warp_moment.lands, "the lands"),
             ("gibs", |loads| loads.warp_moment.gibs, "the gibs"),
+            (
+                "warp_springs",
+                |loads| loads.warp_moment.warp_springs,
+                "empirical warp springs",
+            ),
         ];
         for (name, part, text) in parts {
             let text = format!("part of the warp moment: that of {text}");
@@ -274,12 +279,15 @@ impl Columns {
 
     fn losses_of_wedges(&mut self, system: &System) {
         for name in WEDGE_NAMES {
-            for face in ["column", "slope"] {
+            for (face, massless) in [
+                ("column", EnergyTermKind::ColumnFriction),
+                ("slope", EnergyTermKind::SlopeFriction),
+            ] {
                 let element = format!("{name}_{face}");
-                let terms = system.energy_terms().iter();
-                let place = terms
-                    .into_iter()
-                    .position(|term| term.element == element && term.kind == EnergyTermKind::FrictionLoss);
+                let place = system.energy_terms().iter().position(|term| match term.kind {
+                    EnergyTermKind::FrictionLoss => term.element == element,
+                    kind => kind == massless && term.element == name,
+                });
                 if let Some(place) = place {
                     let text = "energy lost in its friction since the start";
                     self.add(
@@ -294,36 +302,41 @@ impl Columns {
     }
 
     fn energies(&mut self, system: &System) {
-        let of_kind = |kind: EnergyTermKind| -> Vec<usize> {
+        let of_kinds = |kinds: &[EnergyTermKind]| -> Vec<usize> {
             let terms = system.energy_terms().iter().enumerate();
             terms
-                .filter(|(_, term)| term.kind == kind)
+                .filter(|(_, term)| kinds.contains(&term.kind))
                 .map(|(place, _)| place)
                 .collect()
         };
-        for (name, kind, text) in [
+        for (name, kinds, text) in [
             (
                 "motion_work",
-                EnergyTermKind::MotionWork,
-                "work of all prescribed motions since the start",
+                &[EnergyTermKind::MotionWork][..],
+                "work of all prescribed motions and applied loads since the start",
             ),
             (
                 "friction_loss",
-                EnergyTermKind::FrictionLoss,
-                "energy lost in friction since the start",
+                &[
+                    EnergyTermKind::FrictionLoss,
+                    EnergyTermKind::ColumnFriction,
+                    EnergyTermKind::SlopeFriction,
+                    EnergyTermKind::WedgeKinematics,
+                ],
+                "energy lost in friction since the start, with the kinematics of massless wedges",
             ),
             (
                 "contact_damping_loss",
-                EnergyTermKind::ContactDampingLoss,
+                &[EnergyTermKind::ContactDampingLoss],
                 "energy lost in the damping of contacts since the start",
             ),
             (
                 "element_loss",
-                EnergyTermKind::ElementLoss,
+                &[EnergyTermKind::ElementLoss],
                 "energy lost in coils and stops since the start",
             ),
         ] {
-            let places = of_kind(kind);
+            let places = of_kinds(kinds);
             self.add(name, Kind::Energy, text, move |seen| {
                 places
                     .iter()

@@ -230,11 +230,13 @@ fn read(tree: &Table, default_name: &str, tables: Tables<'_>, problems: &mut Pro
     wedges::single(&mut r, &mut parameters, &draft);
     sections::load_springs(&mut r, &mut parameters);
     sections::stops(&mut r, &mut parameters);
+    sections::warp_spring(&mut r, &mut parameters);
     sections::wheelsets(&mut r, &mut parameters);
     r.section("environment", "");
     let gravity = (Kind::Acceleration, Range::NotNegative, Reach::FromZero(9.80665));
     r.quantity("gravity", gravity, &mut parameters.gravity, "standard gravity");
     sections::car_body(&mut r, &mut parameters, load, lading);
+    sections::check_something_moves(&mut r, &parameters);
     let settle = sections::start(&mut r, &mut parameters);
     let simulation = simulation(&mut r);
     let (text, embedded, fields) = r.finish();

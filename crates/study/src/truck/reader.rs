@@ -347,6 +347,33 @@ impl<'r> Reader<'r> {
         }
     }
 
+    /// The loads on the free coordinates of a body, in a section within its own.
+    pub fn loads(&mut self, body: &str, applied: &mut [Motion; 6], free: [bool; 6]) {
+        let path = format!("{body}.load");
+        let about = "Loads on its free coordinates over time: forces at its center of gravity, moments about its axes.\n\
+                     # Written as motions are, in units of forces and moments.";
+        if !self.overlay(&path, about) {
+            return;
+        }
+        for (at, key) in NeighbourSection::COORDINATES.into_iter().enumerate() {
+            let (kind, most) = if at < 3 {
+                (Kind::Force, 1e5)
+            } else {
+                (Kind::Moment, 1e5)
+            };
+            self.motion(key, kind, most, &mut applied[at], false);
+            if !free[at] && applied[at] != Motion::Constant(0.0) {
+                let path = self.path(key);
+                let problem = Problem::new(format!("`{path}` loads a coordinate that is not free"));
+                let help = format!(
+                    "add \"{}\" to {body}.free_coordinates, or prescribe {body}.{key} instead",
+                    Coordinate::NAMES[at].0
+                );
+                self.problem(&path, problem.label("this would have no effect").help(help));
+            }
+        }
+    }
+
     fn motion(&mut self, key: &'static str, kind: Kind, most: f64, value: &mut Motion, free: bool) {
         let path = self.path(key);
         let Some(node) = self.node(key) else {

@@ -67,7 +67,7 @@ pub fn period_of(motion: &Motion) -> Option<[f64; 2]> {
     }
 }
 
-/// Returns period (s) and beginning (s) of the first periodic motion of a truck.
+/// Returns period (s) and beginning (s) of the first periodic motion or load of a truck.
 #[must_use]
 pub fn period(parameters: &Parameters) -> Option<[f64; 2]> {
     let bolster = [&parameters.bolster.motion].into_iter();
@@ -76,8 +76,17 @@ pub fn period(parameters: &Parameters) -> Option<[f64; 2]> {
         .wheelsets
         .iter()
         .flat_map(|wheelsets| &wheelsets.motions);
-    let all = bolster.chain(side_frames).chain(wheelsets);
-    all.flat_map(|motion| &motion.coordinates).find_map(period_of)
+    let motions = bolster.chain(side_frames).chain(wheelsets);
+    let mut loads = vec![&parameters.bolster.applied];
+    loads.extend(
+        parameters
+            .side_frames
+            .iter()
+            .map(|side_frame| &side_frame.applied),
+    );
+    loads.extend(parameters.car_body.iter().map(|car| &car.applied));
+    let motions = motions.flat_map(|motion| &motion.coordinates);
+    motions.chain(loads.into_iter().flatten()).find_map(period_of)
 }
 
 /// Returns the ends (s) and the number of the whole cycles after the first.
@@ -360,7 +369,7 @@ fn cycles(run: &Run<TruckCase>) -> Cycles {
         ..Cycles::default()
     };
     if period(&run.case.parameters).is_none() {
-        return missing("no motion is a sine or a triangle");
+        return missing("no motion or load is a sine or a triangle");
     }
     let (Some((_, count)), [start, end]) = (run.recorder.window, run.recorder.counts.quadratures.as_slice())
     else {
@@ -375,9 +384,7 @@ fn cycles(run: &Run<TruckCase>) -> Cycles {
         if term.kind == EnergyTermKind::MotionWork {
             cycles.work = Some(value);
         } else {
-            cycles
-                .losses
-                .insert(format!("{}_{}", term.element, term.kind.name()), value);
+            cycles.losses.insert(term.name(), value);
         }
     }
     cycles
@@ -390,11 +397,7 @@ fn ledger(run: &mut Run<TruckCase>) -> LedgerSummary {
     let measure = |value: f64| SummaryValue::new(value, Kind::Energy, units);
     let mut entries = BTreeMap::new();
     for (term, value) in run.system.energy_terms().iter().zip(&seen.quadratures) {
-        let name = match term.element.as_str() {
-            "" => "motion_work".to_owned(),
-            element => format!("{element}_{}", term.kind.name()),
-        };
-        entries.insert(name, measure(*value));
+        entries.insert(term.name(), measure(*value));
     }
     entries.insert("stored".to_owned(), measure(seen.energies.total()));
     entries.insert("residual".to_owned(), measure(-seen.residual(run.start_energy)));

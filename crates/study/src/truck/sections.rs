@@ -2,10 +2,11 @@
 
 use mechanics::friction::FrictionLaw;
 use quantity::Kind;
+use truck::empirical_warp;
 use truck::nest::{CatalogCoil, springs, whole_nest};
 use truck::{
     Adapter, Bolster, CarBody, Clearance, FrictionAdapter, Lading, NestCoil, Parameters, RigidBody,
-    SideBearing, SideBearings, Spring, Wheelsets,
+    SideBearing, SideBearings, Spring, WedgeKind, Wheelsets,
 };
 use wedge::parameters::{Contact, Damping, FaceFriction, Start};
 
@@ -61,6 +62,8 @@ const STARTS: Names<Start> = &[
     ("equilibrium", Start::Equilibrium),
 ];
 
+/// kip·in, in N·m.
+const KIP_INCH: f64 = 112.984_829_027_616_7;
 /// A height above the top of rail.
 const HEIGHT: Form = (Kind::Length, Range::Positive, Reach::Positive);
 const INERTIA: Form = (Kind::Inertia, Range::Positive, Reach::Positive);
@@ -132,7 +135,12 @@ pub(super) fn bolster(r: &mut Reader<'_>, parameters: &mut Parameters, load: Loa
     if load == Load::HalfCar {
         parameters.bolster = Bolster::with_half_car(lading);
     }
-    let Bolster { body, free, motion } = &mut parameters.bolster;
+    let Bolster {
+        body,
+        free,
+        motion,
+        applied,
+    } = &mut parameters.bolster;
     r.section(
         "bolster",
         "The bolster, with load.kind = \"half_car\" together with half a car. A motion is one held value, a list of\n\
@@ -147,6 +155,7 @@ pub(super) fn bolster(r: &mut Reader<'_>, parameters: &mut Parameters, load: Loa
     r.free_coordinates(free, None, comment);
     rigid_body(r, body);
     r.motions(motion, free.contains(&true));
+    r.loads("bolster", applied, *free);
 }
 
 pub(super) fn side_frames(
@@ -163,8 +172,8 @@ pub(super) fn side_frames(
     let comment = "of both side frames; [] prescribes the motions below";
     r.free_coordinates(&mut base.free, None, comment);
     rigid_body(r, &mut base.body);
-    let free = base.free.contains(&true);
-    r.motions(&mut base.motion, free);
+    r.motions(&mut base.motion, base.free.contains(&true));
+    r.loads("side_frame", &mut base.applied, base.free);
     parameters.side_frames = [base.clone(), base];
     for (name, own) in ["left_side_frame", "right_side_frame"]
         .into_iter()
@@ -173,9 +182,9 @@ pub(super) fn side_frames(
         if r.overlay(name, "One side frame: what is not given is as in [side_frame].") {
             r.free_coordinates(&mut own.free, None, "of this side frame");
             rigid_body(r, &mut own.body);
-            let free = own.free.contains(&true);
-            r.motions(&mut own.motion, free);
+            r.motions(&mut own.motion, own.free.contains(&true));
         }
+        r.loads(name, &mut own.applied, own.free);
     }
 }
 
@@ -504,6 +513,43 @@ pub(super) fn spring_stiffnesses(r: &mut Reader<'_>, spring: &mut Spring, quarte
         .map(|(travel, stiffness)| [travel, stiffness]);
 }
 
+/// An empirical warp spring of NUCARS's files, by a truck's condition.
+#[derive(Clone, Copy, PartialEq)]
+enum WarpSpring {
+    Nothing,
+    Worn,
+    New,
+    Stiff,
+}
+
+pub(super) fn warp_spring(r: &mut Reader<'_>, parameters: &mut Parameters) {
+    r.section(
+        "warp_spring",
+        "An empirical spring in each nest between the yaw of bolster and side frame, with a stop at 30 mrad: in NUCARS's\n\
+         # files it stands for what massless wedges leave out. With wedge bodies warp would be counted twice.",
+    );
+    const KINDS: Names<WarpSpring> = &[
+        ("nothing", WarpSpring::Nothing),
+        ("worn", WarpSpring::Worn),
+        ("new", WarpSpring::New),
+        ("stiff", WarpSpring::Stiff),
+    ];
+    let mut kind = WarpSpring::Nothing;
+    let comment =
+        "\"nothing\"; \"worn\", \"new\" or \"stiff\" (an H-frame): moment of a nest 52.5, 255, 1275 kip in";
+    r.choice("kind", KINDS, &mut kind, comment);
+    let kip_inches = match kind {
+        WarpSpring::Nothing => return,
+        WarpSpring::Worn => 52.5,
+        WarpSpring::New => 255.0,
+        WarpSpring::Stiff => 1275.0,
+    };
+    let mut moment = kip_inches * KIP_INCH;
+    let form = (Kind::Moment, Range::Positive, Reach::Positive);
+    r.quantity("moment", form, &mut moment, "of a nest at 30 mrad");
+    parameters.warp_spring = empirical_warp(moment).ok();
+}
+
 pub(super) fn stops(r: &mut Reader<'_>, parameters: &mut Parameters) {
     r.section("gib", "Gibs: lateral stops between bolster and side frame.");
     clearance(r, &mut parameters.gib);
@@ -539,6 +585,7 @@ pub(super) fn car_body(r: &mut Reader<'_>, parameters: &mut Parameters, load: Lo
     let comment = "half a car on one truck falls over in pitch";
     r.free_coordinates(&mut car.free, Some("the car body could not move"), comment);
     rigid_body(r, &mut car.body);
+    r.loads("car_body", &mut car.applied, car.free);
     let plate = &mut car.center_plate;
     r.section(
         "center_plate",
@@ -648,4 +695,21 @@ pub(super) fn start(r: &mut Reader<'_>, parameters: &mut Parameters) -> f64 {
         );
     }
     settle
+}
+
+/// Wedges without mass between prescribed neighbors leave nothing that moves.
+pub(super) fn check_something_moves(r: &mut Reader<'_>, parameters: &Parameters) {
+    let massless = |wedge: &truck::Wedge| wedge.kind == WedgeKind::Massless;
+    let held = |free: [bool; 6]| free == [false; 6];
+    let frames = parameters.side_frames.iter().all(|own| held(own.free));
+    if parameters.wedges.iter().all(massless)
+        && frames
+        && parameters.bolster.is_prescribed()
+        && parameters.car_body.is_none()
+    {
+        let message = "nothing can move: bolster and side frames are prescribed, and no wedge has mass";
+        let help = "free the side frames on their adapters and drive the wheelsets, as truck_warp_axles_constant_rising does";
+        let problem = Problem::new(message).label("no mass").help(help);
+        r.problem("wedge.kind", problem);
+    }
 }

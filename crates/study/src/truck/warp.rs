@@ -14,13 +14,14 @@ pub const NUCARS_STIFFNESS: [(&str, f64); 2] = [
 const PER_MRAD: f64 = 112_984.829_027_616_7;
 
 /// The parts of the warp moment, by the endings of their columns' names, and in words.
-pub const PARTS: [(&str, &str); 6] = [
+pub const PARTS: [(&str, &str); 7] = [
     ("load_coils", "load coils"),
     ("control_coils", "control coils"),
     ("slopes", "slopes"),
     ("pocket_sides", "pocket sides"),
     ("lands", "lands"),
     ("gibs", "gibs"),
+    ("warp_springs", "empirical warp springs"),
 ];
 
 /// How the moment goes on where warp grows.
@@ -55,7 +56,7 @@ pub struct WarpCurve {
     /// Warp moment over warp angle where an angle is reached first: angle (rad), secant stiffness (N·m/rad).
     pub stiffness: Vec<(f64, f64)>,
     /// The parts of the moment at these angles, N·m, in the order of [`PARTS`].
-    pub parts: Vec<[f64; 6]>,
+    pub parts: Vec<[f64; PARTS.len()]>,
     /// How the moment goes on.
     pub growth: Growth,
     /// Energy that a loop takes, J: the area of the moment over the angle, over the last whole cycle.

@@ -3,7 +3,7 @@
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
 use quantity::Kind;
-use truck::{ControlCoil, Parameters, Spring, WEDGE_NAMES, Wedge};
+use truck::{ControlCoil, Parameters, Spring, WEDGE_NAMES, Wedge, WedgeKind};
 use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 
 use super::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
@@ -138,6 +138,10 @@ impl Draft {
 
     fn body(&mut self, r: &mut Reader<'_>) {
         let wedge = &mut self.wedge;
+        const KINDS: Names<WedgeKind> = &[("body", WedgeKind::Body), ("massless", WedgeKind::Massless)];
+        let comment =
+            "\"body\": a rigid body with faces in contact; \"massless\": the industry's quasi-static element";
+        r.choice("kind", KINDS, &mut wedge.kind, comment);
         let angle = (Kind::Angle, ANGLE, ANGLES);
         r.quantity(
             "angle",

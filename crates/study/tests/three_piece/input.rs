@@ -94,6 +94,33 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
         ),
         ("bolster = 3", &["`bolster` is a number", "[bolster]"]),
         (
+            "[wedge]\nkind = \"weightless\"",
+            &["`wedge.kind` cannot be \"weightless\"", "massless"],
+        ),
+        (
+            "[wedge]\nkind = \"massless\"\n[side_frame]\nfree_coordinates = []\n[adapter]\nkind = \"nothing\"",
+            &["nothing can move", "no wedge has mass", "drive the wheelsets"],
+        ),
+        (
+            "[bolster.load]\nvertical = \"10 lbf\"",
+            &[
+                "`bolster.load.vertical` loads a coordinate that is not free",
+                "add \"z\" to bolster.free_coordinates",
+            ],
+        ),
+        (
+            "[left_side_frame.load]\nroll = \"10 lbf\"",
+            &["this is a force", "moment"],
+        ),
+        (
+            "[side_frame.load]\nupwards = \"10 lbf\"",
+            &["no key `upwards` in `side_frame.load`"],
+        ),
+        (
+            "[warp_spring]\nkind = \"worn\"\nmoment = \"0 lbf in\"",
+            &["`warp_spring.moment` is 0 lbf in", "greater than zero"],
+        ),
+        (
             "[simulation]\noutput_interval = \"20 s\"",
             &["is longer than the duration"],
         ),

@@ -2,6 +2,7 @@
 
 mod common;
 mod input;
+mod massless;
 mod reproducible;
 mod rigs;
 mod thesis_wedge;
