@@ -48,7 +48,7 @@ pub fn write_stiffness(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> 
         out,
         "test,warp_angle_rad,warp_moment_lbf_in,warp_stiffness_lbf_in_per_rad"
     )?;
-    for (name, _) in PARTS {
+    for (name, ..) in PARTS {
         write!(out, ",{name}_lbf_in")?;
     }
     writeln!(out, ",growth")?;
@@ -88,14 +88,14 @@ pub fn write_stiffness(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> 
 /// The writer's.
 pub fn write_loops(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> {
     write!(out, "test,time_s,warp_angle_rad,warp_moment_lbf_in")?;
-    for (name, _) in PARTS {
+    for (name, ..) in PARTS {
         write!(out, ",{name}_lbf_in")?;
     }
     writeln!(out)?;
     for test in tests {
         let column = |name: &str| test.result.column(name).unwrap_or_default();
         let mut columns = vec![column("warp_moment")];
-        columns.extend(PARTS.map(|(name, _)| column(&format!("warp_moment_{name}"))));
+        columns.extend(PARTS.map(|(name, ..)| column(&format!("warp_moment_{name}"))));
         let (times, angles) = (column("time"), column("warp_angle"));
         for row in test.curve.rows.clone() {
             write!(
@@ -205,7 +205,7 @@ pub fn figure(tests: &[Tested]) -> Figure {
         } else {
             format!(": {}", first.label)
         };
-        let parts = PARTS.iter().enumerate().filter_map(|(number, (name, words))| {
+        let parts = PARTS.iter().enumerate().filter_map(|(number, (name, words, _))| {
             let points = over_angle(first, &format!("warp_moment_{name}"));
             let (colour, line) = distinct(tests.len() + number);
             points.iter().any(|(_, moment)| *moment != 0.0).then(|| Curve {

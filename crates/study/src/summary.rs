@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use integrate::Statistics;
+use mechanics::energy_balance::EnergyBalance;
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
@@ -243,6 +244,27 @@ pub struct LedgerSummary {
     /// The measure of how well the ledger closes: [`mechanics::energy_balance::relative_residual`] of the
     /// largest residual.
     pub largest_relative_residual: f64,
+}
+
+impl LedgerSummary {
+    /// Returns the ledger with these entries, beside what a run's balance found; `start` is the energy stored at the
+    /// start, J.
+    pub(crate) fn new(
+        entries: BTreeMap<String, SummaryValue>,
+        start: f64,
+        balance: &EnergyBalance,
+        units: Units,
+    ) -> Self {
+        let measure = |value: f64| SummaryValue::new(value, Kind::Energy, units);
+        Self {
+            entries,
+            stored_at_start: measure(start),
+            largest_stored_change: measure(balance.largest_stored_change),
+            largest_residual: measure(balance.largest_residual),
+            largest_residual_time: balance.largest_residual_time,
+            largest_relative_residual: balance.relative_residual(),
+        }
+    }
 }
 
 /// What the integrator did.

@@ -251,18 +251,8 @@ fn ledger(run: &mut Run<Case>) -> LedgerSummary {
         ("coil_damping_loss", ledger.coil_damping_loss),
         ("residual", ledger.residual),
     ];
-    let balance = &run.energy_balance;
-    LedgerSummary {
-        entries: entries
-            .into_iter()
-            .map(|(name, value)| (name.to_owned(), measure(value)))
-            .collect(),
-        stored_at_start: measure(run.start_energy),
-        largest_stored_change: measure(balance.largest_stored_change),
-        largest_residual: measure(balance.largest_residual),
-        largest_residual_time: balance.largest_residual_time,
-        largest_relative_residual: balance.relative_residual(),
-    }
+    let entries = entries.map(|(name, value)| (name.to_owned(), measure(value)));
+    LedgerSummary::new(entries.into(), run.start_energy, &run.energy_balance, units)
 }
 
 fn solver(run: &Run<Case>) -> Solver {

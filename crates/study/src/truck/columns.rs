@@ -4,7 +4,9 @@ use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use mechanics::vector::{Matrix, Vector};
 use quantity::Kind;
-use truck::{BOLSTER, BuildError, CAR_BODY, Loads, Parameters, SIDE_FRAMES, Truck, WEDGE_NAMES, WHEELSETS};
+use truck::{
+    BOLSTER, BuildError, CAR_BODY, Loads, Parameters, SIDE_FRAMES, Truck, WEDGE_NAMES, WHEELSETS, WarpMoment,
+};
 
 use super::TruckCase;
 
@@ -74,6 +76,22 @@ pub(super) struct Columns {
 
 /// Names of a body's displacements and angles in columns.
 const COORDINATES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
+
+/// A part of the warp moment: the ending of its column's name, in words, and from the loads.
+type Part = (&'static str, &'static str, fn(&WarpMoment) -> f64);
+
+/// The parts of the warp moment.
+pub const PARTS: [Part; 7] = [
+    ("load_coils", "load coils", |moment| moment.load_coils),
+    ("control_coils", "control coils", |moment| moment.control_coils),
+    ("slopes", "slopes", |moment| moment.slopes),
+    ("pocket_sides", "pocket sides", |moment| moment.pocket_sides),
+    ("lands", "lands", |moment| moment.lands),
+    ("gibs", "gibs", |moment| moment.gibs),
+    ("warp_springs", "empirical warp springs", |moment| {
+        moment.warp_springs
+    }),
+];
 
 impl Columns {
     pub fn new(truck: &Truck, parameters: &Parameters) -> Self {
@@ -222,40 +240,10 @@ impl Columns {
     }
 
     fn parts_of_warp_moment(&mut self) {
-        type Part = (&'static str, fn(&Loads) -> f64, &'static str);
-        let parts: [Part; 7] = [
-            (
-                "load_coils",
-                |loads| loads.warp_moment.load_coils,
-                "the load coils",
-            ),
-            (
-                "control_coils",
-                |loads| loads.warp_moment.control_coils,
-                "control coils that stand on the bolster",
-            ),
-            (
-                "slopes",
-                |loads| loads.warp_moment.slopes,
-                "the slopes of the pockets",
-            ),
-            (
-                "pocket_sides",
-                |loads| loads.warp_moment.pocket_sides,
-                "the sides of the pockets",
-            ),
-            ("lands", |loads| loads.warp_moment.lands, "the lands"),
-            ("gibs", |loads| loads.warp_moment.gibs, "the gibs"),
-            (
-                "warp_springs",
-                |loads| loads.warp_moment.warp_springs,
-                "empirical warp springs",
-            ),
-        ];
-        for (name, part, text) in parts {
-            let text = format!("part of the warp moment: that of {text}");
+        for (name, text, part) in PARTS {
+            let text = format!("part of the warp moment: that of the {text}");
             self.add(format!("warp_moment_{name}"), Kind::Moment, &text, move |seen| {
-                part(seen.loads)
+                part(&seen.loads.warp_moment)
             });
         }
     }

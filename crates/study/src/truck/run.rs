@@ -271,7 +271,7 @@ impl Recorder for TruckRecorder {
 fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     let units = run.case.simulation.output_units;
     let columns = run.recorder.columns.columns.clone();
-    let values = run.recorder.values.clone();
+    let values = std::mem::take(&mut run.recorder.values);
     let balance = run.energy_balance;
     let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
         .into_iter()
@@ -401,13 +401,5 @@ fn ledger(run: &mut Run<TruckCase>) -> LedgerSummary {
     }
     entries.insert("stored".to_owned(), measure(seen.energies.total()));
     entries.insert("residual".to_owned(), measure(-seen.residual(run.start_energy)));
-    let balance = &run.energy_balance;
-    LedgerSummary {
-        entries,
-        stored_at_start: measure(run.start_energy),
-        largest_stored_change: measure(balance.largest_stored_change),
-        largest_residual: measure(balance.largest_residual),
-        largest_residual_time: balance.largest_residual_time,
-        largest_relative_residual: balance.relative_residual(),
-    }
+    LedgerSummary::new(entries, run.start_energy, &run.energy_balance, units)
 }

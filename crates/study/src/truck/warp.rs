@@ -1,5 +1,6 @@
 //! What a warp test says: warp moment over warp angle, its parts, its stiffness, whether the nest locks.
 
+pub use super::columns::PARTS;
 use super::run::TruckResult;
 use super::summary::{WARP_ANGLES, warp_stiffness};
 
@@ -12,17 +13,6 @@ pub const NUCARS_STIFFNESS: [(&str, f64); 2] = [
 
 /// kip·in/mrad, in N·m/rad.
 const PER_MRAD: f64 = 112_984.829_027_616_7;
-
-/// The parts of the warp moment, by the endings of their columns' names, and in words.
-pub const PARTS: [(&str, &str); 7] = [
-    ("load_coils", "load coils"),
-    ("control_coils", "control coils"),
-    ("slopes", "slopes"),
-    ("pocket_sides", "pocket sides"),
-    ("lands", "lands"),
-    ("gibs", "gibs"),
-    ("warp_springs", "empirical warp springs"),
-];
 
 /// How the moment goes on where warp grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +69,7 @@ impl WarpCurve {
         if stiffness.is_empty() {
             return None;
         }
-        let parts = PARTS.map(|(name, _)| column(&format!("warp_moment_{name}")));
+        let parts = PARTS.map(|(name, ..)| column(&format!("warp_moment_{name}")));
         let parts = stiffness
             .iter()
             .map(|(angle, _)| parts.map(|part| signed_growth(angles, part, *angle)))

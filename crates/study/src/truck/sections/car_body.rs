@@ -1,0 +1,115 @@
+//! A car body on center plate and side bearings.
+
+use truck::{CarBody, Lading, Parameters, SideBearing, SideBearings};
+
+use super::super::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
+use super::{HEIGHT, Load, clearance, contact, friction, rigid_body};
+use crate::case::problem::Problem;
+use crate::case::section::Names;
+
+pub(in crate::truck) fn car_body(
+    r: &mut Reader<'_>,
+    parameters: &mut Parameters,
+    load: Load,
+    lading: Lading,
+) {
+    if load != Load::CarBody {
+        for section in ["car_body", "center_plate", "side_bearing"] {
+            if r.has(section) {
+                let problem = Problem::new(format!("[{section}] has no effect: there is no car body"));
+                r.problem(
+                    section,
+                    problem.label("unused").help("write load.kind = \"car_body\""),
+                );
+                // Its keys are not looked at.
+                r.expect("", &["car_body", "center_plate", "side_bearing"]);
+            }
+        }
+        return;
+    }
+    let bearings = match lading {
+        Lading::Loaded => SideBearings::rollers(),
+        Lading::Empty => SideBearings::constant_contact(),
+    };
+    let mut car = CarBody::new(lading, bearings);
+    r.section(
+        "car_body",
+        "Half a car's body, on center plate and side bearings.",
+    );
+    let comment = "half a car on one truck falls over in pitch";
+    r.free_coordinates(&mut car.free, Some("the car body could not move"), comment);
+    rigid_body(r, &mut car.body);
+    r.loads("car_body", &mut car.applied, car.free);
+    let plate = &mut car.center_plate;
+    r.section(
+        "center_plate",
+        "The center plate: two rings of points with friction, and a rim.",
+    );
+    r.quantity(
+        "height",
+        HEIGHT,
+        &mut plate.height,
+        "of its surface above the top of rail",
+    );
+    if let [outer, inner] = plate.rings.as_mut_slice() {
+        r.quantity(
+            "radius",
+            LENGTH,
+            outer,
+            "of the outer ring; the inner one has a third of it",
+        );
+        *inner = *outer / 3.0;
+    }
+    contact(r, &mut plate.contact, "of each of the 16 points: a guess");
+    friction(r, &mut plate.friction);
+    r.quantity(
+        "rim_clearance",
+        CLEARANCE,
+        &mut plate.rim.clearance,
+        "on the radius: a guess",
+    );
+    r.quantity("rim_stiffness", STIFFNESS, &mut plate.rim.stiffness, "of the rim");
+    r.quantity("rim_damping", DAMPING, &mut plate.rim.damping, "of the rim");
+    r.section("side_bearing", "Side bearings.");
+    let mut rolls = matches!(car.side_bearings.kind, SideBearing::Roller(_));
+    const KINDS: Names<bool> = &[("roller", true), ("constant_contact", false)];
+    r.choice(
+        "kind",
+        KINDS,
+        &mut rolls,
+        "\"roller\": a clearance; \"constant_contact\": a preloaded spring with friction",
+    );
+    let mut own = if rolls {
+        SideBearings::rollers()
+    } else {
+        SideBearings::constant_contact()
+    };
+    r.quantity("distance", LENGTH, &mut own.distance, "from the truck's center");
+    match &mut own.kind {
+        SideBearing::Roller(stop) => clearance(r, stop),
+        SideBearing::ConstantContact {
+            preload,
+            contact: soft,
+            travel,
+            solid,
+            friction: law,
+        } => {
+            r.quantity("preload", PRELOAD, preload, "in the nominal layout");
+            contact(r, soft, "until it is solid");
+            r.quantity("travel", CLEARANCE, travel, "until it is solid");
+            r.quantity("solid_stiffness", STIFFNESS, &mut solid.stiffness, "beyond it");
+            r.quantity("solid_damping", DAMPING, &mut solid.damping, "beyond it");
+            friction(r, law);
+        }
+    }
+    car.side_bearings = own;
+    if car.side_bearings.preload() > car.body.mass * parameters.gravity {
+        let message = "the side bearings' preloads are more than the body's weight";
+        let help = "lower side_bearing.preload: AAR allows 85 % of a quarter of the body's weight";
+        r.problem(
+            "side_bearing.preload",
+            Problem::new(message).label("lifts the body").help(help),
+        );
+    }
+    parameters.car_body = Some(car);
+}

@@ -1,0 +1,148 @@
+//! Wheelsets and adapters.
+
+use truck::{Adapter, FrictionAdapter, Parameters, Wheelsets};
+
+use super::super::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
+use super::{contact, friction};
+use crate::case::problem::Problem;
+use crate::case::section::Names;
+
+/// Kinds of adapters.
+#[derive(Clone, Copy, PartialEq)]
+enum AdapterKind {
+    Friction,
+    Pad,
+    Nothing,
+}
+
+pub(in crate::truck) fn wheelsets(r: &mut Reader<'_>, parameters: &mut Parameters) {
+    let mut wheelsets = Wheelsets {
+        motions: std::array::from_fn(|_| wedge::parameters::NeighbourMotion::fixed()),
+        adapter: Adapter::friction(),
+    };
+    r.section(
+        "wheelset",
+        "Both wheelsets, prescribed; [leading_wheelset] and [trailing_wheelset] set one.",
+    );
+    r.motions(&mut wheelsets.motions[0], false);
+    wheelsets.motions[1] = wheelsets.motions[0].clone();
+    for (name, own) in ["leading_wheelset", "trailing_wheelset"]
+        .into_iter()
+        .zip(&mut wheelsets.motions)
+    {
+        if r.overlay(name, "One wheelset: what is not given is as in [wheelset].") {
+            r.motions(own, false);
+        }
+    }
+    r.section("adapter", "Where side frames stand on the bearings.");
+    const KINDS: Names<AdapterKind> = &[
+        ("friction", AdapterKind::Friction),
+        ("pad", AdapterKind::Pad),
+        ("nothing", AdapterKind::Nothing),
+    ];
+    let mut kind = AdapterKind::Friction;
+    let comment = "\"friction\": steel on steel; \"pad\": elastomeric; \"nothing\": wheelsets and adapters are left out";
+    r.choice("kind", KINDS, &mut kind, comment);
+    match kind {
+        AdapterKind::Friction => {
+            if let Adapter::Friction(adapter) = &mut wheelsets.adapter {
+                friction_adapter(r, adapter);
+            }
+        }
+        AdapterKind::Pad => {
+            wheelsets.adapter = Adapter::pad();
+            if let Adapter::Pad(pad) = &mut wheelsets.adapter {
+                r.quantity(
+                    "preload",
+                    PRELOAD,
+                    &mut pad.preload,
+                    "of an adapter in the nominal layout",
+                );
+                r.quantity(
+                    "stiffness",
+                    STIFFNESS,
+                    &mut pad.stiffness,
+                    "vertical: as steel, a guess",
+                );
+                let comment = "along and across: the least of claim 32 of US patent 9,637,143";
+                r.quantity("shear_stiffness", STIFFNESS, &mut pad.shear_stiffness, comment);
+                let comment = "of its two springs: yaw stiffness is the shear stiffness times its square";
+                r.quantity("half_distance", LENGTH, &mut pad.half_distance, comment);
+                r.quantity(
+                    "damping",
+                    DAMPING,
+                    &mut pad.damping,
+                    "of every direction: a guess",
+                );
+            }
+        }
+        AdapterKind::Nothing => {
+            parameters.wheelsets = None;
+            for (name, own) in ["left_side_frame", "right_side_frame"]
+                .iter()
+                .zip(&parameters.side_frames)
+            {
+                if own.free.contains(&true) {
+                    let message = format!("the {} has nothing to stand on", name.replace('_', " "));
+                    let help = "write side_frame.free_coordinates = [] to prescribe its motion, or keep the adapters";
+                    r.problem(
+                        "adapter.kind",
+                        Problem::new(message).label("no adapters").help(help),
+                    );
+                }
+            }
+            return;
+        }
+    }
+    parameters.wheelsets = Some(wheelsets);
+}
+
+fn friction_adapter(r: &mut Reader<'_>, adapter: &mut FrictionAdapter) {
+    let FrictionAdapter {
+        preload,
+        contact: own,
+        friction: law,
+        longitudinal,
+        lateral,
+    } = adapter;
+    r.quantity(
+        "preload",
+        PRELOAD,
+        preload,
+        "of each of the two points in the nominal layout",
+    );
+    contact(r, own, "of each of the two points");
+    friction(r, law);
+    let comment = "to each side; 0.0468 in allow 30 mrad of yaw";
+    r.quantity(
+        "longitudinal_clearance",
+        CLEARANCE,
+        &mut longitudinal.clearance,
+        comment,
+    );
+    r.quantity(
+        "longitudinal_stiffness",
+        STIFFNESS,
+        &mut longitudinal.stiffness,
+        "of each of the two stops",
+    );
+    r.quantity(
+        "longitudinal_damping",
+        DAMPING,
+        &mut longitudinal.damping,
+        "the same",
+    );
+    r.quantity(
+        "lateral_clearance",
+        CLEARANCE,
+        &mut lateral.clearance,
+        "to each side",
+    );
+    r.quantity(
+        "lateral_stiffness",
+        STIFFNESS,
+        &mut lateral.stiffness,
+        "of the stop",
+    );
+    r.quantity("lateral_damping", DAMPING, &mut lateral.damping, "the same");
+}
