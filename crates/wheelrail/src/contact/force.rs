@@ -184,7 +184,14 @@ impl ContactLaw {
             pair,
             side,
             (pose, motion),
-            |take| pair.search_both(pose, moving, take, |patch| rate += energy(&patch).derivative[0]),
+            |take| match size_of::<S>() == size_of::<f64>() {
+                // Without derivatives the patches that move serve alone.
+                true => pair.search(moving, |patch| {
+                    rate += energy(&patch).derivative[0];
+                    take(patch.lifted());
+                }),
+                false => pair.search_both(pose, moving, take, |patch| rate += energy(&patch).derivative[0]),
+            },
             |_, _| (),
         );
         (forces, rate)
