@@ -173,3 +173,40 @@ fn energy_ledger_closes_through_a_curve() {
     assert!(residual.abs() < 1e-5 * lost, "{residual} {lost}");
     assert!(work.abs() < 0.01 * lost, "{work} {lost}");
 }
+
+/// On a vertical sine `z = A sin(ω t)` of both rails the wheels carry `W - m A ω² sin(ω t)`, with the mass m
+/// that follows the rails and the load W at rest: contacts and rails are much stiffer than `m ω²`.
+#[test]
+fn analytic_wheel_loads_on_a_sine_of_both_rails() {
+    let (amplitude, wavelength, speed) = (1e-3, 5.0, 15.0);
+    let sine = vec![Placed {
+        rails: Rails::Both,
+        direction: Direction::Vertical,
+        irregularity: Irregularity::Shape(Shape::Sine {
+            amplitude,
+            wavelength,
+            cycles: 8,
+            start: 5.0,
+        }),
+    }];
+    let mut setup = on_rails(&freight(), track(&[Segment::Tangent(100.0)], sine), POLACH, speed);
+    setup.carriage.damping = [2e4, 2e3];
+    let rate = std::f64::consts::TAU / wavelength;
+    let frequency = rate * speed;
+    let (mass, load) = (1250.0, 280e3 + 1250.0 * 9.81);
+    let swing = mass * amplitude * frequency * frequency;
+    let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+    run(&setup, 1e-6, 2.5, |rig, seen| {
+        let distance = rig.relative(&setup.lines, seen)[0];
+        if !(25.0..40.0).contains(&distance) {
+            return;
+        }
+        // The carriage comes first, then both wheels; creep forces on coned treads carry a part.
+        let sum = seen.elements[1].force.0[2] + seen.elements[2].force.0[2];
+        let (sine, _) = libm::sincos(rate * (distance - 5.0));
+        worst = worst.max((sum - (load - swing * sine)).abs());
+        largest = largest.max((sum - load).abs());
+    });
+    assert!((largest / swing - 1.0).abs() < 0.01, "{largest} {swing}");
+    assert!(worst < 0.01 * swing, "{worst} {swing}");
+}
