@@ -27,7 +27,7 @@ pub struct Wrench<S> {
     pub force: Vector<S>,
     /// Moment about marker A, axes of marker B, N·m.
     pub moment: Vector<S>,
-    /// Powers of the element's dissipation terms, W.
+    /// Power that the element loses, and power that it puts in ([`Element::does_work`]), W.
     pub powers: [S; 2],
 }
 
@@ -51,8 +51,14 @@ pub trait Element: Clone + Debug + Send + Sync + 'static {
     fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S>;
 
     /// Returns the stored energy at a relative motion, J. The power of the wrench must equal minus the rate
-    /// of this energy minus the power lost; otherwise the ledger does not close.
+    /// of this energy minus the power lost, plus the power put in; otherwise the ledger does not close.
     fn energy(&self, motion: &RelativeMotion<f64>) -> f64;
+
+    /// Returns whether the element puts in work, which the ledger then holds as an entry of its own: a drive,
+    /// or a law whose stored energy is not quite a function of the motion.
+    fn does_work(&self) -> bool {
+        false
+    }
 
     /// Returns the inputs of the wrench. Elements between two points cost less to differentiate.
     fn inputs(&self) -> Inputs {
@@ -67,6 +73,7 @@ pub(crate) trait AnyElement: Debug + Send + Sync {
     fn derivative(&self, motion: &RelativeMotion<Dual<1>>) -> Wrench<Dual<1>>;
     fn tangent(&self, motion: &RelativeMotion<f64>) -> Tangent;
     fn energy(&self, motion: &RelativeMotion<f64>) -> f64;
+    fn does_work(&self) -> bool;
     fn boxed(&self) -> Box<dyn AnyElement>;
 }
 
@@ -85,6 +92,9 @@ impl<E: Element> AnyElement for E {
     }
     fn energy(&self, motion: &RelativeMotion<f64>) -> f64 {
         Element::energy(self, motion)
+    }
+    fn does_work(&self) -> bool {
+        Element::does_work(self)
     }
     fn boxed(&self) -> Box<dyn AnyElement> {
         Box::new(self.clone())

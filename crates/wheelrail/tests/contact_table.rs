@@ -95,6 +95,28 @@ fn analytic_tables_agree_with_the_search() {
     assert!(flanges > 50 && treads > 300, "{flanges} {treads}");
 }
 
+/// Where the place of the tread's patch runs to the throat its curvature changes by a factor of 100 within a
+/// millimeter: it stays positive between the points of the table.
+#[test]
+fn limits_curvatures_of_tables_stay_positive() {
+    let table = ContactTable::new(freight_pair(), 1e-4).unwrap();
+    let mut flanges = 0;
+    for k in 0..4000 {
+        let lateral = 8e-3 + 2e-6 * f64::from(k);
+        for roll in [-3e-3, 0.0, 3e-3] {
+            let z = height(table.pair(), lateral, 3e-3, roll, 4e-4);
+            table.search(&WheelPose::of(Side::Left, [lateral, z], 3e-3, roll), |patch| {
+                flanges += usize::from(patch.slope > 1.0);
+                assert!(
+                    patch.curvatures[1] > 0.0 && patch.ellipse.stiffness.is_finite(),
+                    "{lateral}: {patch:?}"
+                );
+            });
+        }
+    }
+    assert!(flanges > 100, "{flanges}");
+}
+
 /// Derivatives by the pose against central differences.
 #[test]
 fn analytic_derivatives_of_tables_are_those_of_differences() {

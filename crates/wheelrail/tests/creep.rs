@@ -47,7 +47,8 @@ fn laws() -> [(&'static str, Law); 4] {
     ]
 }
 
-/// The table's own digits at its nodes, and the values at a Poisson's ratio of 0.28 (parabola of 1/C) and 0.5.
+/// The table's own digits at its nodes, and the values at a Poisson's ratio of 0.28 (parabola of 1/C) and
+/// 0.5.
 #[test]
 fn reproduction_kalkers_coefficients_to_the_digits_of_the_table() {
     let close =
@@ -127,6 +128,73 @@ fn reproduction_lateral_creepage_with_spin_of_contact() {
     assert!((polach.y / -15_917.0 - 1.0).abs() < 0.02, "{}", polach.y);
     let cubic = shen_hedrick_elkins::forces(&patch, &creepage([0.0, -6.25e-4, 0.625]));
     assert!((cubic.y / -13_082.0 - 1.0).abs() < 0.01, "{}", cubic.y);
+}
+
+/// The power that forces and spin moment take over the reference speed, and the sum of the sizes of its
+/// parts.
+fn dissipation(law: Law, patch: &Patch<f64>, c: &Creepage<f64>) -> [f64; 2] {
+    let found = law(patch, c);
+    let parts = [
+        -found.x * c.longitudinal,
+        -found.y * c.lateral,
+        -found.spin_moment * c.spin,
+    ];
+    [parts.iter().sum(), parts.iter().map(|part| part.abs()).sum()]
+}
+
+/// Creepages and spins of all sizes on ellipses from 1:8 to 8:1.
+fn cases(mut see: impl FnMut(&Patch<f64>, &Creepage<f64>)) {
+    for ratio in [0.125, 0.4, 1.0, 2.0, 4.0, 8.0_f64] {
+        let size: f64 = 6e-3;
+        let own = patch([size * ratio.sqrt(), size / ratio.sqrt()], 80e3, 0.4);
+        for x in [0.0, 3e-4, 3e-3, 3e-2] {
+            for y in [0.0, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2] {
+                for spin in [0.03, 0.1, 0.3, 1.0, 2.0] {
+                    for sign in [-1.0, 1.0] {
+                        see(&own, &creepage([x, y, sign * spin]));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// No law gives power, at any ellipse, creepage and spin.
+#[test]
+fn energy_creep_forces_and_spin_moments_never_give_power() {
+    const COARSE: Grid = Grid {
+        cells: 20,
+        strips: 20,
+    };
+    let [linear, cubic, closed, _] = laws();
+    let strips: (&str, Law) = ("FASTSIM", |p, c| fastsim::forces(p, c, COARSE));
+    cases(|patch, creepage| {
+        for (name, law) in [linear, cubic, closed, strips] {
+            let [power, size] = dissipation(law, patch, creepage);
+            assert!(
+                power >= -1e-12 * size,
+                "{name} {creepage:?} {:?}: {power} {size}",
+                patch.axes
+            );
+        }
+    });
+}
+
+/// With the spin moment of linear theory beside reduced forces that law would give power: by the sum of
+/// squares in its head, here on a slender ellipse at half of full saturation, and on a round one far beyond.
+#[test]
+fn limits_an_unreduced_spin_moment_would_give_power() {
+    for (axes, lateral, spin) in [([15e-3, 2e-3], 2.5e-3, 0.3), ([6e-3, 6e-3], 0.1, 5.0)] {
+        let own = patch(axes, 80e3, 0.4);
+        let mut worst = f64::INFINITY;
+        for factor in [0.25, 0.5, 1.0, 2.0, 4.0] {
+            let c = creepage([0.0, lateral, factor * spin]);
+            let reduced = shen_hedrick_elkins::forces(&own, &c);
+            let whole = linear::forces(&own, &c).spin_moment;
+            worst = worst.min(-reduced.y * c.lateral - whole * c.spin);
+        }
+        assert!(worst < 0.0, "{axes:?}: {worst}");
+    }
 }
 
 /// At small creepages all laws are Kalker's, FASTSIM but for its factor 1 + (2/n)²/8 with n strips.

@@ -15,7 +15,7 @@ const FLOORS: &[(&str, &[&str])] = &[
     ("ground", &["numerics", "quantity"]),
     ("integration", &["integrate", "wheelrail"]),
     ("mechanics", &["mechanics"]),
-    ("systems", &["wedge", "nucars"]),
+    ("systems", &["wedge", "nucars", "rolling"]),
     ("vehicles", &["truck"]),
     ("asking", &["study"]),
     ("telling", &["report", "fmi"]),

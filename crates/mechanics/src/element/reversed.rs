@@ -45,4 +45,8 @@ impl<E: Element> Element for Reversed<E> {
     fn energy(&self, motion: &RelativeMotion<f64>) -> f64 {
         self.0.energy(&inverse(motion))
     }
+
+    fn does_work(&self) -> bool {
+        self.0.does_work()
+    }
 }

@@ -36,6 +36,8 @@ pub enum EnergyTermKind {
     CoilGuideWork,
     /// Energy lost in another force element.
     ElementLoss,
+    /// Work that another force element puts in, of either sign ([`crate::element::Element::does_work`]).
+    ElementWork,
     /// Energy lost in dampers of springs.
     SpringDamping,
     /// Energy lost behind gaps.
@@ -55,6 +57,12 @@ pub enum EnergyTermKind {
 }
 
 impl EnergyTermKind {
+    /// Returns whether it is work that is put in, not a loss.
+    #[must_use]
+    pub fn is_work(self) -> bool {
+        matches!(self, Self::MotionWork | Self::CoilGuideWork | Self::ElementWork)
+    }
+
     /// Returns its name, as in results.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -65,6 +73,7 @@ impl EnergyTermKind {
             Self::CoilDampingLoss => "coil_damping_loss",
             Self::CoilGuideWork => "coil_guide_work",
             Self::ElementLoss => "element_loss",
+            Self::ElementWork => "element_work",
             Self::SpringDamping => "spring_damping_loss",
             Self::GapDamping => "gap_damping_loss",
             Self::SurfaceFriction => "surface_friction_loss",

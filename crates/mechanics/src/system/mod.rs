@@ -8,6 +8,7 @@ mod assembler;
 mod chain;
 mod contact_states;
 mod contacts;
+mod eigenvalues;
 mod energies;
 mod energy_term;
 mod equilibrium;
@@ -321,6 +322,18 @@ impl System {
             .iter()
             .position(|k| *k == coordinate)
             .map(|j| free.offset + j)
+    }
+
+    /// Leaves the error of a body's coordinate (0..6) out of the error control, as that of the angle of a
+    /// wheel that spins: its error is without consequence, while its rate's has some. Returns false if it is
+    /// not free.
+    pub fn leave_uncontrolled(&mut self, body: usize, coordinate: usize) -> bool {
+        let Some(position) = self.position_of(body, coordinate) else {
+            return false;
+        };
+        self.scales[position] = f64::INFINITY;
+        self.error_bounds[position] = f64::INFINITY;
+        true
     }
 
     /// Returns the internal states.

@@ -332,7 +332,8 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         let is_free = |body: usize| matches!(free_number.get(body), Some(Some(_)));
         let ([body, on], marker, marked) = placement.mounted(is_free);
         let name = marked.element.name().to_owned();
-        let kinds = [Some(EnergyTermKind::ElementLoss), None];
+        let work = marked.element.does_work().then_some(EnergyTermKind::ElementWork);
+        let kinds = [Some(EnergyTermKind::ElementLoss), work];
         mounted_elements.push(assembler.attach(marked, &name, body, on, marker, kinds, 0)?);
     }
 

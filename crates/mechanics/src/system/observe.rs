@@ -151,7 +151,7 @@ pub struct Observation {
     pub energies: Energies,
     /// Values of the quadratures, J, in the order of [`System::energy_terms`].
     pub quadratures: Vec<f64>,
-    /// Work put in, J: of prescribed motions and of the coils' guiding couples.
+    /// Work put in, J: of prescribed motions, of the coils' guiding couples, and of elements that do work.
     pub work: f64,
     /// Losses, J.
     pub losses: f64,
@@ -168,8 +168,8 @@ impl Observation {
 }
 
 impl System {
-    /// Returns what the energy balance of a run takes from an observation, where the stored energy at the start
-    /// was `start` (J).
+    /// Returns what the energy balance of a run takes from an observation, where the stored energy at the
+    /// start was `start` (J).
     #[must_use]
     pub fn ledger_entries(&self, seen: &Observation, start: f64) -> Entries {
         let mut entries = Entries {
@@ -180,7 +180,7 @@ impl System {
         };
         for (energy_term, value) in self.energy_terms.iter().zip(&seen.quadratures) {
             match energy_term.kind {
-                EnergyTermKind::MotionWork | EnergyTermKind::CoilGuideWork => entries.work += value,
+                kind if kind.is_work() => entries.work += value,
                 // An entry of either sign, which is neither.
                 EnergyTermKind::WedgeKinematics => {}
                 _ => entries.losses += value,
@@ -239,7 +239,7 @@ impl System {
         let (mut work, mut losses) = (0.0, 0.0);
         for (energy_term, value) in self.energy_terms.iter().zip(quadratures) {
             match energy_term.kind {
-                EnergyTermKind::MotionWork | EnergyTermKind::CoilGuideWork => work += value,
+                kind if kind.is_work() => work += value,
                 _ => losses += value,
             }
         }

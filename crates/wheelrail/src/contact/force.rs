@@ -10,7 +10,7 @@
 //!
 //! Forces act on the wheel. Gravitational stiffness comes out of the geometry; none is added.
 
-use numerics::scalar::Real;
+use numerics::scalar::{Dual, Real};
 
 use super::patch::ContactPatch;
 use super::pose::{Side, WheelPose};
@@ -63,6 +63,10 @@ pub struct WheelMotion<S> {
 pub struct PatchForces<S> {
     /// Normal force, N, before its share.
     pub normal: S,
+    /// Its elastic part `k d^1.5`, N.
+    pub elastic: S,
+    /// Rate of the approach, m/s: the velocity of the wheel's material against the normal.
+    pub rate: S,
     /// Semi-axes of the ellipse along and across the rolling direction, m.
     pub axes: [S; 2],
     /// Creepages.
@@ -80,6 +84,10 @@ pub struct WheelForces<S> {
     pub moment: [S; 3],
     /// Power that creep forces dissipate, W.
     pub creep_power: S,
+    /// Power that damping of the normal force dissipates, W: never negative.
+    pub damping_power: S,
+    /// Power of the elastic normal forces, W, positive while they store energy.
+    pub elastic_power: S,
 }
 
 impl ContactLaw {
@@ -108,6 +116,8 @@ impl ContactLaw {
         if load.value() <= 0.0 {
             return PatchForces {
                 normal: S::zero(),
+                elastic,
+                rate,
                 axes: [S::zero(); 2],
                 creepage,
                 creep: CreepForces::none(),
@@ -133,6 +143,8 @@ impl ContactLaw {
         };
         PatchForces {
             normal: load,
+            elastic,
+            rate,
             axes,
             creepage,
             creep,
@@ -140,14 +152,58 @@ impl ContactLaw {
     }
 
     /// Returns the forces on the wheel at a side; each patch with its forces, in the axes of the contact,
-    /// goes to
-    /// `see`.
+    /// goes to `see`.
+    #[inline(always)]
     pub fn on_wheel<S: Real>(
         &self,
         pair: &impl FindPatches,
         side: Side,
         pose: &WheelPose<S>,
         motion: &WheelMotion<S>,
+        see: impl FnMut(&ContactPatch<S>, &PatchForces<S>),
+    ) -> WheelForces<S> {
+        self.of_patches(pair, side, (pose, motion), |take| pair.search(pose, take), see)
+    }
+
+    /// Returns the forces on the wheel, and the rate at which the energy in its contacts grows (W) while the
+    /// pose changes as `moving` says by its derivative.
+    ///
+    /// The energy at a pose is `Σ 2/5 k d^2.5` ([`stored_energy`]). Its rate is not the power of the elastic
+    /// forces ([`WheelForces::elastic_power`]): k changes with the place of the patch, and the normal of a
+    /// section is not quite that of the rail. The difference does not come back.
+    #[inline(always)]
+    pub fn on_moving_wheel<S: Real>(
+        &self,
+        pair: &impl FindPatches,
+        side: Side,
+        (pose, motion): (&WheelPose<S>, &WheelMotion<S>),
+        moving: &WheelPose<Dual<1>>,
+    ) -> (WheelForces<S>, f64) {
+        let mut rate = 0.0;
+        let forces = self.of_patches(
+            pair,
+            side,
+            (pose, motion),
+            |take| match size_of::<S>() == size_of::<f64>() {
+                // Without derivatives the patches that move serve alone.
+                true => pair.search(moving, |patch| {
+                    rate += energy(&patch).derivative[0];
+                    take(patch.lifted());
+                }),
+                false => pair.search_both(pose, moving, take, |patch| rate += energy(&patch).derivative[0]),
+            },
+            |_, _| (),
+        );
+        (forces, rate)
+    }
+
+    #[inline(always)]
+    fn of_patches<S: Real>(
+        &self,
+        pair: &impl FindPatches,
+        side: Side,
+        (pose, motion): (&WheelPose<S>, &WheelMotion<S>),
+        search: impl FnOnce(&mut dyn FnMut(ContactPatch<S>)),
         mut see: impl FnMut(&ContactPatch<S>, &PatchForces<S>),
     ) -> WheelForces<S> {
         let motion = WheelMotion {
@@ -156,7 +212,8 @@ impl ContactLaw {
         };
         let zero = S::zero();
         let (mut force, mut moment, mut power) = ([zero; 3], [zero; 3], zero);
-        pair.search(pose, |patch| {
+        let (mut damping, mut stored) = (zero, zero);
+        search(&mut |patch: ContactPatch<S>| {
             let found = self.at_patch(pair, pose, &patch, &motion);
             let (normal, across) = (patch.normal(), patch.across());
             let [x, y, spin] = [found.creep.x, found.creep.y, found.creep.spin_moment];
@@ -175,14 +232,34 @@ impl ContactLaw {
                 spin: turning,
             } = found.creepage;
             power += (longitudinal * x + lateral * y + turning * spin) * reference * patch.share * -1.0;
+            damping += (found.normal - found.elastic) * found.rate * patch.share;
+            stored += found.elastic * found.rate * patch.share;
             see(&patch, &found);
         });
         WheelForces {
             force: side.mirrored(force),
             moment: side.mirrored_axial(moment),
             creep_power: power,
+            damping_power: damping,
+            elastic_power: stored,
         }
     }
+}
+
+/// Returns the energy of the elastic contacts at a pose, J: that of Hertz's law at the curvatures of the
+/// pose.
+#[must_use]
+pub fn stored_energy(pair: &impl FindPatches, pose: &WheelPose<f64>) -> f64 {
+    let mut sum = 0.0;
+    pair.search(pose, |patch| sum += energy(&patch));
+    sum
+}
+
+/// Energy of a patch, with its share.
+#[inline(always)]
+fn energy<S: Real>(patch: &ContactPatch<S>) -> S {
+    let d = patch.approach;
+    d * d * d.sqrt() * patch.ellipse.stiffness * patch.share * 0.4
 }
 
 /// From the wheel's center to a patch.

@@ -70,6 +70,27 @@ impl<S: Real> ContactPatch<S> {
         [S::zero(), self.cosine, self.slope * self.cosine]
     }
 
+    /// Returns the same patch in another scalar, without derivatives.
+    #[inline(always)]
+    pub(super) fn lifted<T: Real>(&self) -> ContactPatch<T> {
+        let lift = |value: S| T::from(value.value());
+        ContactPatch {
+            share: lift(self.share),
+            place: self.place.map(lift),
+            slope: lift(self.slope),
+            cosine: lift(self.cosine),
+            profile: lift(self.profile),
+            radius: lift(self.radius),
+            approach: lift(self.approach),
+            half_width: lift(self.half_width),
+            curvatures: self.curvatures.map(lift),
+            ellipse: Ellipse {
+                stiffness: lift(self.ellipse.stiffness),
+                axes: self.ellipse.axes.map(lift),
+            },
+        }
+    }
+
     /// Returns the contact angle, rad, positive on treads and flanges that rise to the field side.
     #[must_use]
     pub fn angle(&self) -> f64 {

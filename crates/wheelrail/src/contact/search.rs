@@ -86,6 +86,19 @@ pub trait FindPatches {
     /// Gives each patch at a pose to `take`.
     fn search<S: Real>(&self, pose: &WheelPose<S>, take: impl FnMut(ContactPatch<S>));
 
+    /// Gives each patch at a pose to `take`, and the same patches with other derivatives to `also`: both
+    /// poses have the same values.
+    fn search_both<S: Real, T: Real>(
+        &self,
+        pose: &WheelPose<S>,
+        other: &WheelPose<T>,
+        take: impl FnMut(ContactPatch<S>),
+        also: impl FnMut(ContactPatch<T>),
+    ) {
+        self.search(pose, take);
+        self.search(other, also);
+    }
+
     /// Returns the material.
     fn material(&self) -> Material;
 }
@@ -95,14 +108,26 @@ impl FindPatches for ContactPair {
     fn search<S: Real>(&self, pose: &WheelPose<S>, mut take: impl FnMut(ContactPatch<S>)) {
         let frame = Frame::new(pose);
         let plain = frame.lifted::<f64>();
-        let Some(mut scan) = self.scan(&plain) else {
-            return;
-        };
-        let mut intervals: [Option<Interval>; AREAS] = [None; AREAS];
-        self.intervals(&plain, &mut scan, |interval| keep(&mut intervals, interval));
-        for interval in intervals.into_iter().flatten() {
-            self.patches(&frame, &plain, &scan, &interval, &mut take);
-        }
+        self.areas(&plain, |scan, interval| {
+            self.patches(&frame, &plain, scan, interval, &mut take);
+        });
+    }
+
+    /// One search serves both.
+    fn search_both<S: Real, T: Real>(
+        &self,
+        pose: &WheelPose<S>,
+        other: &WheelPose<T>,
+        mut take: impl FnMut(ContactPatch<S>),
+        mut also: impl FnMut(ContactPatch<T>),
+    ) {
+        let frame = Frame::new(pose);
+        let beside = Frame::new(other);
+        let plain = frame.lifted::<f64>();
+        self.areas(&plain, |scan, interval| {
+            self.patches(&frame, &plain, scan, interval, &mut take);
+            self.patches(&beside, &plain, scan, interval, &mut also);
+        });
     }
 
     fn material(&self) -> Material {
@@ -187,6 +212,18 @@ impl ContactPair {
             }
         }
         best
+    }
+
+    /// Gives the deepest areas of overlap to `take`, with the overlap at the stations.
+    fn areas(&self, plain: &Frame<f64>, mut take: impl FnMut(&Scan, &Interval)) {
+        let Some(mut scan) = self.scan(plain) else {
+            return;
+        };
+        let mut intervals: [Option<Interval>; AREAS] = [None; AREAS];
+        self.intervals(plain, &mut scan, |interval| keep(&mut intervals, interval));
+        for interval in intervals.into_iter().flatten() {
+            take(&scan, &interval);
+        }
     }
 
     /// The overlap at the stations that lie over the rail, by its straight lines; minus infinity where there

@@ -140,8 +140,9 @@ fn weights(t: f64) -> [[f64; 2]; 4] {
     ]
 }
 
-/// Height at which a part touches, place, slope, profile coordinate, radius and sum of curvatures across the
-/// track in the vertical direction; and by how much its largest overlap exceeds that at the division.
+/// Height at which a part touches, place, slope, profile coordinate, radius and logarithm of the sum of
+/// curvatures across the track in the vertical direction; and by how much its largest overlap exceeds that at
+/// the division.
 fn sample(
     pair: &ContactPair,
     nominal: f64,
@@ -152,7 +153,7 @@ fn sample(
     let height = pair.nominal_radius();
     if from == to {
         // There is no such part.
-        return ([-height, 0.0, 0.0, 0.0, height, 1.0, 0.0], 0.0);
+        return ([-height, 0.0, 0.0, 0.0, height, 0.0, 0.0], 0.0);
     }
     let level = (1.0 - inclination * inclination).sqrt();
     let frame = Frame::new(&WheelPose {
@@ -195,7 +196,9 @@ fn sample(
     let depth = 7.0 / 6.0 * cubes / squares;
     let half_width = 15.0 / 16.0 * squares / (depth * depth);
     let touching = height - offset + depth;
-    let curvature = 2.0 * depth / (half_width * half_width);
+    // The logarithm: a cubic through curvatures that change by a factor of 100 from point to point would
+    // become negative.
+    let curvature = libm::log(2.0 * depth / (half_width * half_width));
     (
         [touching, y, slope, profile, radius, curvature, 0.0],
         highest - border,
@@ -216,6 +219,7 @@ impl FindPatches for ContactTable {
         let tangent = x / ((x * x - 1.0) * -1.0).sqrt();
         for part in 0..2 {
             let [touching, place, slope, profile, radius, curvature, share] = self.at(part, column, row);
+            let curvature = curvature.exp();
             let lead = tangent * slope;
             let depth = touching - pose.center[1] + radius * lead * lead * 0.5;
             if depth.value() <= 0.0 || share.value() <= 0.0 {

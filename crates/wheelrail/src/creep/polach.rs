@@ -1,6 +1,7 @@
 //! Polach (1999, 2005): a closed form for creepages with spin.
 //!
-//! With s the size of the creepage, `C = √((C11 ξx)² + (C22 ξy)²) / s` and s_c the creepage that includes spin,
+//! With s the size of the creepage, `C = √((C11 ξx)² + (C22 ξy)²) / s` and s_c the creepage that includes
+//! spin,
 //!
 //! ```text
 //! ε = (π/4) G a b C s_c / (μN),   F = (2 μN/π) (kA ε / (1 + (kA ε)²) + atan(kS ε))
@@ -8,25 +9,29 @@
 //! ```
 //!
 //! with `F_spin = (9/16) a μN K (e (-δ³/3 + δ²/2 - 1/6) + (1 - δ²)^1.5 / 3)`, `K = 1 + 6.3 (1 - exp(-a/b))`,
-//! `e = (8/3) G b √(ab) C23 |s_y| / (μN K)`, `δ = (e² - 1)/(e² + 1)`. At small creepages the longitudinal force
-//! is Kalker's.
+//! `e = (8/3) G b √(ab) C23 |s_y| / (μN K)`, `δ = (e² - 1)/(e² + 1)`. At small creepages the longitudinal
+//! force is Kalker's.
 //!
-//! Deviations from the paper, so that derivatives exist: the lateral creepage with spin, there the larger one of
-//! |ξy| and |ξy + φ a|, is a smooth maximum, at most 1 % larger; creepages of 1e-8 are added to roots. Kalker's
-//! linear spin moment is reduced by the same factor as the force; the paper gives none.
+//! Deviations from the paper, so that derivatives exist: the lateral creepage with spin, there the larger one
+//! of
+//! |ξy| and |ξy + φ a|, is a smooth maximum, at most 1 % larger; creepages of 1e-8 are added to roots.
+//!
+//! The paper gives no spin moment. Here `Mz = F_spin ξy / s_c - G (a b)² C33 φ g` with the factor g by which
+//! the force is smaller than Kalker's. Its first term takes no power together with the spin's part of Fy, as
+//! in linear theory, so that the law never gives power.
 //!
 //! Forces are cut off at μN, which spin on a slender ellipse exceeds by a little.
 //!
 //! Defects: the force opposes the creepage; Kalker's is turned where C11 and C22 differ and the creepage is
-//! oblique (the sizes agree). The force does not saturate fully (0.96 μN at twice the creepage of linear saturation) unless kS is
-//! larger than kA. The reduction factors for wet and dry rails (kA, kS) are remembered from the literature,
-//! unverified.
+//! oblique (the sizes agree). The force does not saturate fully (0.96 μN at twice the creepage of linear
+//! saturation) unless kS is larger than kA. The reduction factors for wet and dry rails (kA, kS) are
+//! remembered from the literature, unverified.
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
 use numerics::scalar::Real;
 
-use super::{CreepForces, Creepage, Patch, linear};
+use super::{CreepForces, Creepage, Patch};
 
 /// Factors of the slope at zero creepage in the area of adhesion and of slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,18 +82,19 @@ pub fn forces<S: Real>(patch: &Patch<S>, creepage: &Creepage<S>, reduction: Redu
     );
     let force = limit * (2.0 / PI) * (adhesion / (adhesion * adhesion + 1.0) + angle);
     let spin = spin_force(patch, lateral_square.sqrt());
-    let linear = linear::forces(patch, creepage);
     let saturation = force / (total * stiffness * coefficient * (4.0 / PI));
     let (mut fx, mut fy) = (-(force * x) / total, -(force * y + spin * creepage.spin) / total);
+    let mut coupling = spin * y / total;
     let size = fx * fx + fy * fy;
     if size.value() > limit.value() * limit.value() {
         let factor = limit / size.sqrt();
         (fx, fy) = (fx * factor, fy * factor);
+        coupling = coupling * factor;
     }
     CreepForces {
         x: fx,
         y: fy,
-        spin_moment: linear.spin_moment * saturation,
+        spin_moment: coupling - (a * b) * (a * b) * c.c33 * creepage.spin * saturation * patch.shear_modulus,
     }
 }
 

@@ -2,9 +2,10 @@
 //!
 //! In a spiral curvature and superelevation change linearly with the distance (a clothoid, as in AREMA's
 //! recommendation), so that curvature, heading and position are continuous by construction. The heading is a
-//! quadratic of the distance in each segment; the position is its integral, exact for tangents and curves and by
-//! Gauss's rule with 8 points on pieces of at most 20 m of a spiral. Grades change linearly between given places.
-//! Before its start and beyond its end the track goes on as it is there, without a change of curvature.
+//! quadratic of the distance in each segment; the position is its integral, exact for tangents and curves and
+//! by Gauss's rule with 8 points on pieces of at most 20 m of a spiral. Grades change linearly between given
+//! places. Before its start and beyond its end the track goes on as it is there, without a change of
+//! curvature.
 
 use thiserror::Error;
 
@@ -143,11 +144,25 @@ pub struct Station {
     pub superelevation: [f64; 2],
     /// Rise by the distance.
     pub grade: f64,
+    /// Its rate by the distance, 1/m.
+    pub grade_rate: f64,
     /// Roll of the track's plane, rad: positive where the left rail is raised, about the forward axis.
     pub roll: f64,
 }
 
 impl Piece {
+    /// Returns the same with another start: curvature and superelevation continue.
+    fn from(&self, start: f64) -> Self {
+        let t = start - self.start;
+        let at = |[value, rate]: [f64; 2]| [value + t * rate, rate];
+        Self {
+            start,
+            curvature: at(self.curvature),
+            superelevation: at(self.superelevation),
+            ..*self
+        }
+    }
+
     /// Returns heading at a distance (m) from the start of the track.
     fn heading(&self, distance: f64) -> f64 {
         let t = distance - self.start;
@@ -187,9 +202,9 @@ impl Piece {
 }
 
 impl CenterLine {
-    /// Returns the center line of these segments; the centers of the rails are `rail_distance` (m) apart (59.5 in
-    /// in North America). `grades` holds places (m, rising) and the grade there; between them it is linear,
-    /// beyond them constant.
+    /// Returns the center line of these segments; the centers of the rails are `rail_distance` (m) apart
+    /// (59.5 in in North America). `grades` holds places (m, rising) and the grade there; between them it is
+    /// linear, beyond them constant.
     ///
     /// # Errors
     /// [`TrackError`]: with the segment and what to do.
@@ -252,9 +267,28 @@ impl CenterLine {
                 heading,
                 place,
             };
-            start += length;
-            (heading, place) = (piece.heading(start), piece.place(start));
-            pieces.push(piece);
+            // A spiral is kept in pieces for one application of Gauss's rule each, so that a place anywhere
+            // in it costs the same.
+            let count = match spiral {
+                true => (length / LONGEST_PIECE).ceil().max(1.0) as usize,
+                false => 1,
+            };
+            let begin = start;
+            for part in 0..count {
+                let own = piece.from(if part == 0 {
+                    begin
+                } else {
+                    begin + length * part as f64 / count as f64
+                });
+                pieces.push(Piece {
+                    heading,
+                    place,
+                    ..own
+                });
+                start = begin + length * (part + 1) as f64 / count as f64;
+                let last = pieces[pieces.len() - 1];
+                (heading, place) = (last.heading(start), last.place(start));
+            }
             before = Some(to);
         }
         Ok(Self {
@@ -269,6 +303,18 @@ impl CenterLine {
     #[must_use]
     pub fn length(&self) -> f64 {
         self.length
+    }
+
+    /// Returns the distance of the rails' centers, m.
+    #[must_use]
+    pub fn rail_distance(&self) -> f64 {
+        self.rail_distance
+    }
+
+    /// Returns whether there is no superelevation anywhere.
+    #[must_use]
+    pub fn is_level_across(&self) -> bool {
+        self.pieces.iter().all(|piece| piece.superelevation == [0.0; 2])
     }
 
     /// Returns the center line at a distance (m).
@@ -296,33 +342,35 @@ impl CenterLine {
         let at = |[value, rate]: [f64; 2]| [value + t * rate, rate];
         let superelevation = at(piece.superelevation);
         let [x, y] = piece.place(distance);
-        let [grade, z] = self.grade_and_height(distance);
+        let [grade, grade_rate, z] = self.grade_and_height(distance);
         Station {
             position: [x, y, z],
             heading: piece.heading(distance),
             curvature: at(piece.curvature),
             superelevation,
             grade,
+            grade_rate,
             roll: -libm::asin(superelevation[0] / self.rail_distance),
         }
     }
 
-    fn grade_and_height(&self, distance: f64) -> [f64; 2] {
+    /// Grade, its rate (1/m) and height (m).
+    fn grade_and_height(&self, distance: f64) -> [f64; 3] {
         let number = self.grades.partition_point(|[place, ..]| *place <= distance);
         let before = number.checked_sub(1).and_then(|number| self.grades.get(number));
         match (before, self.grades.get(number)) {
             (Some([s0, g0, z0]), Some([s1, g1, _])) => {
                 let t = distance - s0;
                 let rate = (g1 - g0) / (s1 - s0);
-                [g0 + t * rate, z0 + t * (g0 + 0.5 * t * rate)]
+                [g0 + t * rate, rate, z0 + t * (g0 + 0.5 * t * rate)]
             }
-            (Some([s, g, z]), None) | (None, Some([s, g, z])) => [*g, z + g * (distance - s)],
-            (None, None) => [0.0; 2],
+            (Some([s, g, z]), None) | (None, Some([s, g, z])) => [*g, 0.0, z + g * (distance - s)],
+            (None, None) => [0.0; 3],
         }
     }
 
-    /// Returns the distance (m) at which the center line's normal plane holds a point (x, y in m), by Newton's
-    /// method from a distance nearby.
+    /// Returns the distance (m) at which the center line's normal plane holds a point (x, y in m), by
+    /// Newton's method from a distance nearby.
     #[must_use]
     pub fn project(&self, point: [f64; 2], nearby: f64) -> f64 {
         let mut distance = nearby;
@@ -344,8 +392,8 @@ impl CenterLine {
     }
 }
 
-/// Returns places, grades and heights of a profile whose height is zero at distance zero or, if it begins later,
-/// at its first place.
+/// Returns places, grades and heights of a profile whose height is zero at distance zero or, if it begins
+/// later, at its first place.
 fn heights(grades: &[[f64; 2]]) -> Result<Vec<[f64; 3]>, TrackError> {
     let mut out: Vec<[f64; 3]> = Vec::new();
     for (index, &[place, grade]) in grades.iter().enumerate() {

@@ -7,8 +7,10 @@
 pub mod center_line;
 pub mod chord;
 pub mod layout;
+pub mod rails;
 pub mod shape;
 pub mod spectrum;
 
 pub use center_line::{CenterLine, CurveElements, Segment, Station, TrackError};
 pub use layout::{Direction, Irregularity, Placed, RailPlace, Rails, Track};
+pub use rails::{Foot, Line, RailLines, Section};

@@ -1,0 +1,55 @@
+//! Eigenvalues of the motion about a state: growth and frequency of all free vibrations, damped and steadily
+//! driven ones too.
+//!
+//! With J the Jacobian matrix of the rates, `δx˙ = J δx`; nothing is left out: velocities, internal states,
+//! forces that follow no potential. About **steady rolling** on straight track J does not depend on distance
+//! and spin angle, which only drift; they give eigenvalues of zero, and the others are those of the motion
+//! relative to the wheelset's steady course.
+//!
+//! The eigenvalues μ of `(σ I - J)⁻¹`, which the integrator's factors give, are `1/(σ - λ)`: those near σ,
+//! the slow ones, are found best.
+
+use integrate::Problem;
+use nalgebra::{DMatrix, linalg::Schur};
+
+use super::{NoVibration, System};
+
+impl System {
+    /// Returns the eigenvalues λ (real and imaginary part, 1/s) of the motion about a state, by falling real
+    /// part; `shift` (1/s) is a positive number of the size of those that matter.
+    ///
+    /// # Errors
+    /// They are not found: the Jacobian matrix is not finite, or `shift` is one of them.
+    pub fn eigenvalues(&mut self, time: f64, x: &[f64], shift: f64) -> Result<Vec<[f64; 2]>, NoVibration> {
+        let n = self.layout.len() - self.layout.quadratures;
+        let mut dx = vec![0.0; x.len()];
+        let mut unused = vec![0.0; x.len()];
+        self.derivative(time, x, &mut dx);
+        self.linearize(time, x, &dx, &mut unused);
+        self.factor(shift).map_err(|_| NoVibration)?;
+        let mut inverse = DMatrix::zeros(n, n);
+        let mut column = vec![0.0; x.len()];
+        for j in 0..n {
+            column.fill(0.0);
+            column[j] = 1.0;
+            self.solve(&mut column);
+            for i in 0..n {
+                inverse[(i, j)] = column[i];
+            }
+        }
+        if !inverse.iter().all(|value: &f64| value.is_finite()) {
+            return Err(NoVibration);
+        }
+        let schur = Schur::try_new(inverse, f64::EPSILON, 100_000).ok_or(NoVibration)?;
+        let values = schur.complex_eigenvalues();
+        let mut found: Vec<[f64; 2]> = values
+            .iter()
+            .map(|mu| {
+                let square = mu.norm_sqr();
+                [shift - mu.re / square, mu.im / square]
+            })
+            .collect();
+        found.sort_by(|a, b| b[0].total_cmp(&a[0]).then(b[1].total_cmp(&a[1])));
+        Ok(found)
+    }
+}

@@ -1,0 +1,23 @@
+//! Wheels on rails as elements of the multibody core.
+//!
+//! | what | where |
+//! |---|---|
+//! | a wheel on a rail: patches, normal and creep forces | [`wheel::WheelOnRail`] |
+//! | a wheelset with linear geometry and creep, in all its motions | [`linear::LinearOnTrack`] |
+//! | a sprung rail that follows its wheel | [`track::RailSupport`], [`track::rail_body`] |
+//! | springs of a carriage that runs along the track, its load and its drive | [`carriage::Carriage`] |
+//! | a wheelset as a body that spins about its axle, last of its angles | [`wheelset::WheelsetBody`] |
+//! | all of it: one wheelset under a carriage on a track | [`rig::Rig`] |
+//!
+//! Elements are [`mechanics::element::Element`]s: marker A is on the wheelset, marker B on the ground or on a
+//! sprung rail, with the fixed axes of the track. All are written over a scalar and have no memory. SI units.
+
+#![warn(missing_docs)]
+
+mod ahead;
+pub mod carriage;
+pub mod linear;
+pub mod rig;
+pub mod track;
+pub mod wheel;
+pub mod wheelset;
