@@ -25,6 +25,7 @@ mod loads;
 pub mod nest;
 mod parameters;
 mod units;
+mod wedge_mount;
 
 pub use assemble::{BOLSTER, BuildError, CAR_BODY, SIDE_FRAMES, Truck, WEDGES, WHEELSETS, held};
 pub use bodies::bodies;
@@ -34,6 +35,7 @@ pub use parameters::{
     Adapter, AdapterPad, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter, Lading,
     NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Spring, Wedge, Wheelsets,
 };
+pub use wedge_mount::{WedgeElements, WedgeMount, add_wedge, wedge_body};
 
 /// The names of the wedges in the order of all arrays of four: end (leading, trailing), then side.
 pub const WEDGE_NAMES: [&str; 4] = ["leading_left", "leading_right", "trailing_left", "trailing_right"];
