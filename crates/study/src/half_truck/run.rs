@@ -103,7 +103,10 @@ impl RunCase for HalfTruckCase {
 
     fn begin(&self) -> Result<Beginning<HalfTruckRecorder>, RunError> {
         let mut system = System::new(self.truck.model.clone())?;
-        let x = start(&mut system, self.start)?;
+        let x = match self.start {
+            HalfTruckStart::Equilibrium if !self.wedge_bodies.is_empty() => self.rest()?,
+            other => start(&mut system, other)?,
+        };
         let table = Table::new(self, &system);
         let frictional = system.frictional_connections().iter();
         let faces = system.faces().iter().map(|face| &face.element);
@@ -131,6 +134,18 @@ impl RunCase for HalfTruckCase {
 
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> HalfTruckResult {
         output(run, stopped)
+    }
+}
+
+impl HalfTruckCase {
+    /// Returns the state of rest without friction, also on the faces of wedges' bodies; with it the bristles, which
+    /// are not deflected there, hold nothing.
+    fn rest(&self) -> Result<Vec<f64>, RunError> {
+        let mut model = self.truck.model.clone();
+        for (.., face) in &mut model.faces {
+            face.coefficient = 0.0;
+        }
+        Ok(start(&mut System::new(model)?, HalfTruckStart::Equilibrium)?)
     }
 }
 

@@ -68,6 +68,31 @@ fn analytic_column_force_without_friction() {
     }
 }
 
+/// A run that starts at rest starts there whatever the friction: its faces carry what they carry without, and no friction.
+#[test]
+fn analytic_rest_with_friction_is_that_without() {
+    let name = "nucars_69_constant_toe_out";
+    let rest = "simulation.start=equilibrium";
+    let without = [rest, "wedges.column_friction=0", "wedges.slope_friction=0"];
+    let results = run_cases(&[bodies(name, 0.02, &[rest]), bodies(name, 0.02, &without)]);
+    for number in WEDGES {
+        let [found, expected] = [0, 1].map(|run| column(&results[run], number, "column_normal_force")[0]);
+        println!("{number}: {found} N, without friction {expected} N");
+        assert!(
+            (found / expected - 1.0).abs() < 1e-9 && found > 4000.0 * POUND,
+            "{found} {expected}"
+        );
+        assert!(
+            column(&results[0], number, "column_friction")[0].abs() < 1e-3,
+            "{number}"
+        );
+        assert!(
+            column(&results[0], number, "column_friction")[1].abs() > 1.0,
+            "{number}"
+        );
+    }
+}
+
 fn stiffer(factor: f64, with_bodies: bool) -> Vec<String> {
     let root = factor.sqrt();
     let mut set = vec![
