@@ -7,8 +7,9 @@ mod common;
 use common::Random;
 use integrate::{Integrator, Options, Problem};
 use mechanics::body::Body;
+use mechanics::curve::Curve;
 use mechanics::element::Element;
-use mechanics::elements::{RadialStop, ShearSpring, Solid, Stop};
+use mechanics::elements::{RadialStop, ShearSpring, Solid, Stop, TableSpring};
 use mechanics::link::{Marker, RelativeMotion};
 use mechanics::system::{Model, System};
 use mechanics::vector::{Matrix, Vector};
@@ -34,6 +35,15 @@ fn spring() -> ShearSpring {
             stiffness: 4e6,
         }),
     }
+}
+
+fn table_spring() -> TableSpring {
+    let points = vec![[-0.03, 8000.0], [-0.01, 3000.0], [0.0, 2000.0], [0.02, -100.0]];
+    let mut spring = TableSpring::new("table_spring", &Curve::new(points).unwrap());
+    spring.shear_stiffness = 7e4;
+    spring.tilt_stiffness = 300.0;
+    spring.damping = 200.0;
+    spring
 }
 
 fn stop() -> Stop {
@@ -77,6 +87,40 @@ fn analytic_a_spring_pushes_shears_goes_solid_and_lifts_off() {
         [-350.0, 0.0, 50.0 - 150.0],
     );
     close(force([0.01, 0.02, 0.021], [1.0, 2.0, 3.0]), [0.0; 3]);
+}
+
+/// Loads of the table, never negative; shear and damping act without load too; a tilt is pushed back by `k_t sin`.
+#[test]
+fn analytic_a_table_spring_pushes_by_its_table_and_rights_its_body() {
+    let spring = table_spring();
+    for (z, load) in [
+        (0.0, 2000.0),
+        (-0.02, 5500.0),
+        (-0.05, 13_000.0),
+        (0.01, 950.0),
+        (0.03, 0.0),
+    ] {
+        let force = spring
+            .evaluate(&motion([0.01, -0.02, z], [0.0, 0.0, 0.1]))
+            .force
+            .0;
+        for (found, expected) in force.iter().zip([-700.0, 1400.0, load - 20.0]) {
+            assert!(
+                (found - expected).abs() < 1e-9 * (1.0 + expected.abs()),
+                "{z}: {force:?}"
+            );
+        }
+    }
+    let (sine, cosine) = 0.3_f64.sin_cos();
+    let mut tilted = motion([0.0; 3], [0.0; 3]);
+    // About x: the z axis goes towards -y.
+    tilted.rotation = Matrix([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]]);
+    let moment = spring.evaluate(&tilted).moment.0;
+    assert!((moment[0] + 300.0 * sine).abs() < 1e-12 && moment[1] == 0.0 && moment[2] == 0.0);
+    assert!((spring.energy(&tilted) - 300.0 * (1.0 - cosine)).abs() < 1e-12);
+    let about_z = Matrix([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]]);
+    tilted.rotation = about_z;
+    assert!(spring.evaluate(&tilted).moment.0.iter().all(|own| *own == 0.0));
 }
 
 #[test]
@@ -135,6 +179,7 @@ fn energy_rate_and_loss_of_each_law_make_its_power() {
     }
     let mut random = Random(7);
     check(&spring(), &mut random, 0.05);
+    check(&table_spring(), &mut random, 0.05);
     check(&stop(), &mut random, 0.05);
     check(&rim(), &mut random, 0.02);
 }
@@ -147,6 +192,7 @@ fn pair(random: &mut Random) -> System {
     let turned = |angles| Marker::new([0.0, 0.05, 0.3], angles);
     let at = Marker::new([0.001, 0.049, -0.002], [0.0; 3]);
     model.add(spring(), (1, at), (0, turned(random.vector(0.1))));
+    model.add(table_spring(), (1, at), (0, turned(random.vector(0.3))));
     model.add(stop(), (1, at), (0, turned(random.vector(3.0))));
     model.add(rim(), (1, at), (0, turned(random.vector(3.0))));
     System::new(model).unwrap()

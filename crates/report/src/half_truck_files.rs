@@ -32,6 +32,7 @@ use std::io::{self, Write};
 use mechanics::connection::{Accumulator, Law};
 use quantity::System as Units;
 use study::half_truck::{HalfTruckCase, HalfTruckResult, yaw};
+use wedge::parameters::Damping;
 
 use crate::csv::converted;
 use crate::files::{FileError, Folder};
@@ -53,17 +54,20 @@ impl ScriptArray {
     /// The array of a run; `None` without wedges of type 6.8 or 6.9.
     #[must_use]
     pub fn of(case: &HalfTruckCase) -> Option<Self> {
-        let place = case.truck.wedges().next()?;
+        let place = *case.wedges().first()?;
         let law = &case.truck.model.connections[place].law;
-        let Law::Wedge(wedge) = law else { return None };
-        if !matches!(wedge.accumulator, Accumulator::Bristle { .. }) {
-            return None;
-        }
+        let constant = match (case.wedge_body(place), law) {
+            (Some(wedge), _) => wedge.damping == Damping::Constant,
+            (None, Law::Wedge(wedge)) if matches!(wedge.accumulator, Accumulator::Bristle { .. }) => {
+                wedge.coil_in_bolster
+            }
+            _ => return None,
+        };
         let number = case.truck.connections[place];
         let spatial = law.coordinates().contains(&0);
         let name = format!(
             "{}_{}_{}_out",
-            if wedge.coil_in_bolster { "const" } else { "var" },
+            if constant { "const" } else { "var" },
             if yaw::is_commanded(&case.truck) {
                 "yaw"
             } else {

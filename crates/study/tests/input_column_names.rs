@@ -165,12 +165,17 @@ fn wedge_columns() -> Vec<Column> {
 
 /// The columns of half-trucks with all that their data files ask for.
 fn truck_columns() -> Vec<Column> {
-    ["nucars_68_variable_toe_out", "nucars_69_constant_toe_out"]
-        .iter()
-        .flat_map(|name| {
+    let massless =
+        ["nucars_68_variable_toe_out", "nucars_69_constant_toe_out"].map(|name| (name, "massless"));
+    let bodies = [("nucars_68_variable_toe_out", "bodies")];
+    massless
+        .into_iter()
+        .chain(bodies)
+        .flat_map(|(name, wedges)| {
             let settings = Settings {
                 all_outputs: true,
                 duration: Some(0.02),
+                set: vec![format!("option.wedges={wedges}")],
                 ..Settings::default()
             };
             let case = entry(name).unwrap().case_with(&settings).unwrap();

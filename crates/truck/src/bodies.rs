@@ -6,6 +6,7 @@ use wedge::parameters::NeighbourMotion;
 
 use crate::elements::HEIGHT;
 use crate::parameters::{Parameters, RigidBody, WedgeKind};
+use crate::wedge_mount::wedge_body;
 use crate::{PLACES, WEDGE_NAMES};
 
 /// A body at a place: with free coordinates, or with a prescribed motion.
@@ -79,17 +80,12 @@ pub fn bodies(parameters: &Parameters, center: [f64; 3]) -> Vec<Body> {
         bodies.push(rigid(name, &frame.body, place, frame.free, Some(&frame.motion)));
     }
     for ((name, wedge), [end, way]) in WEDGE_NAMES.into_iter().zip(&parameters.wedges).zip(PLACES) {
-        let to_center = wedge.origin_to_center(end);
-        let mass = RigidBody {
-            mass: wedge.mass,
-            inertia: wedge.inertia,
-            height: HEIGHT - to_center[2],
-        };
-        let origin = [place * end - to_center[0], side * way - to_center[1], 0.0];
+        let at = [place * end, side * way, HEIGHT];
+        let mut body = wedge_body(&format!("{name}_wedge"), wedge, at, end);
         // A wedge without mass is no body: a placeholder stands still.
-        let free = wedge.free.map(|free| free && wedge.kind == WedgeKind::Body);
-        let mut body = rigid(&format!("{name}_wedge"), &mass, origin, free, None);
-        body.center_of_gravity = to_center;
+        if wedge.kind == WedgeKind::Massless {
+            body.free = [false; 6];
+        }
         bodies.push(moved(body));
     }
     if let Some(car) = &parameters.car_body {

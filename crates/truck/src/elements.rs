@@ -3,23 +3,19 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
 
-use mechanics::coil::{Coil, CoilLine};
-use mechanics::contact::{ContactFace, ContactPoint};
-use mechanics::elements::{RadialStop, ShearSpring, Solid, Stop};
+use mechanics::elements::{RadialStop, ShearSpring, Solid, Stop, TableSpring};
 use mechanics::link::Marker;
 use mechanics::motion::Motion;
-use mechanics::surface::Plane;
 use mechanics::system::{AppliedLoad, Model};
-use mechanics::vector::Vector;
-use wedge::parameters::{Contact, ControlCoil as ThesisCoil, Damping, FaceFriction};
+use wedge::parameters::{Contact, FaceFriction};
 
 use crate::assemble::{BOLSTER, CAR_BODY, SIDE_FRAMES, WEDGES, WHEELSETS};
 use crate::massless::{massless_wedge, warp_spring};
 use crate::parameters::{
-    Adapter, AdapterPad, CarBody, Clearance, ControlCoil, FrictionAdapter, Parameters, SideBearing, Spring,
-    Wedge, WedgeKind,
+    Adapter, AdapterPad, CarBody, Clearance, FrictionAdapter, Parameters, SideBearing, Spring, WedgeKind,
 };
 use crate::units::INCH;
+use crate::wedge_mount::{WedgeMount, attach, plane, point};
 use crate::{PLACES, WEDGE_NAMES};
 
 /// Height of the wedges' centers of gravity and of the gibs, m.
@@ -51,6 +47,7 @@ pub(crate) enum Role {
 #[derive(Clone, Debug)]
 pub(crate) enum Law {
     Spring(ShearSpring),
+    Table(TableSpring),
     Stop(Stop),
     Rim(RadialStop),
 }
@@ -123,18 +120,24 @@ pub(crate) fn add(model: &mut Model, parameters: &Parameters, mount: &Mount, gap
         added: Added::default(),
     };
     let added = builder.build();
-    for element in &added.suspension {
+    join(model, &added.suspension);
+    added
+}
+
+/// Adds elements to a model, but for those between two prescribed bodies, or between two that are one.
+pub(crate) fn join(model: &mut Model, suspension: &[Suspended]) {
+    for element in suspension {
         let [a, b] = element.ends;
         if a.0 == b.0 || (model.bodies[a.0].is_prescribed() && model.bodies[b.0].is_prescribed()) {
             continue;
         }
         match &element.law {
             Law::Spring(spring) => model.add(spring.clone(), a, b),
+            Law::Table(spring) => model.add(spring.clone(), a, b),
             Law::Stop(stop) => model.add(stop.clone(), a, b),
             Law::Rim(rim) => model.add(rim.clone(), a, b),
         }
     }
-    added
 }
 
 struct Builder<'p> {
@@ -258,110 +261,29 @@ impl Builder<'_> {
         let parameters = self.parameters;
         let ([end, way], [side, place, _]) = (PLACES[number], parameters.distances);
         let wedge = &parameters.wedges[number];
-        let (body, name) = (WEDGES + number, WEDGE_NAMES[number]);
-        let side_frame = SIDE_FRAMES + usize::from(way < 0.0);
+        let center = [place * end, side * way, HEIGHT];
+        let bodies = &self.mount.bodies;
+        let [bolster, side_frame] = [BOLSTER, SIDE_FRAMES + usize::from(way < 0.0)].map(|body| bodies[body]);
         if wedge.kind == WedgeKind::Massless {
-            let ends = [BOLSTER, side_frame].map(|body| self.mount.bodies[body]);
-            let center = self.mount.center;
-            let point = [
-                place * end + center[0],
-                side * way + center[1],
-                HEIGHT + center[2],
-            ];
+            let point = std::array::from_fn(|k| center[k] + self.mount.center[k]);
             let wedge = (wedge, parameters.damping, end);
-            let connection = massless_wedge(name, ends, point, wedge);
+            let connection = massless_wedge(WEDGE_NAMES[number], [bolster, side_frame], point, wedge);
             self.model.connections.push(connection);
             return;
         }
-        let length = wedge.height * libm::tan(wedge.angle);
-        let middle = HEIGHT + wedge.height / 6.0;
-        let at = place + length / 3.0;
-        // Wedges at the leading end are turned by half a turn about z, and so are the normals that they meet.
-        let pitch = |pitch: f64| if end > 0.0 { PI - pitch } else { pitch };
-        let [column_gap, slope_gap] = self.gaps[number];
-        let faces = [
-            (
-                side_frame,
-                "column",
-                at,
-                pitch(wedge.toe),
-                wedge.wear.column + column_gap,
-                &wedge.column_friction,
-            ),
-            (
-                BOLSTER,
-                "slope",
-                at - 0.5 * length,
-                pitch(PI - wedge.angle),
-                wedge.wear.slope + slope_gap,
-                &wedge.slope_friction,
-            ),
-        ];
-        for (on, face, x, pitch, gap, friction) in faces {
-            let lower = if face == "column" { -1.0 } else { 2.0 };
-            let points = wedge_points(wedge, end, lower * length / 3.0, -length / 3.0);
-            // The normal is the marker's x axis.
-            let (sine, cosine) = libm::sincos(pitch);
-            let surface = [end * x - gap * cosine, side * way, middle + gap * sine];
-            let (on, place) = self.marker(on, surface, 0.0);
-            let body = self.mount.bodies[body];
-            let marker = Marker::new(place.origin.0, [0.0, pitch, 0.0]);
-            let face = plane(format!("{name}_{face}"), points, friction);
-            self.model.faces.push((body, on, marker, face));
-        }
-        let seat = match parameters.damping {
-            Damping::Constant => BOLSTER,
-            Damping::Variable => side_frame,
-        };
-        let center = [place * end, side * way, HEIGHT];
-        let bottom = [center[0], center[1], HEIGHT - wedge.height / 3.0];
-        match &wedge.control_coil {
-            ControlCoil::Shear(spring) => {
-                let coil = format!("{name}_control_coil");
-                self.spring(Role::ControlCoil, coil, [body, seat], bottom, spring);
-            }
-            ControlCoil::Thesis(coil, _) => {
-                self.thesis_coil([body, seat], center, wedge.origin_to_center(end), coil);
-            }
-        }
-        let sides = format!("{name}_pocket_sides");
-        self.stop(
-            Role::PocketSide,
-            sides,
-            [body, BOLSTER],
+        let at = WedgeMount {
+            name: WEDGE_NAMES[number],
+            body: bodies[WEDGES + number],
+            side_frame,
+            bolster,
+            damping: parameters.damping,
+            end,
             center,
-            FRAC_PI_2,
-            &wedge.pocket_sides,
-        );
-    }
-
-    /// Adds the coil of Steets (2007), which ends at the wedge's origin; the center of gravity is at `center` (m), and
-    /// `to_center` (m) from there.
-    fn thesis_coil(
-        &mut self,
-        [body, seat]: [usize; 2],
-        center: [f64; 3],
-        to_center: [f64; 3],
-        coil: &ThesisCoil,
-    ) {
-        let law = Coil {
-            end: Vector::zero(),
-            acts_at: match coil.acts_at {
-                CoilLine::CenterOfGravity => Vector(to_center),
-                CoilLine::Seat => Vector::zero(),
-            },
-            law: coil.law.clone(),
-            free_length: coil.free_length,
-            damping: coil.damping,
-            rotational_damping: coil.rotational_damping,
-            pulls: coil.pulls,
+            from: self.mount.center,
+            gaps: self.gaps[number],
         };
-        let mut foot: [f64; 3] = std::array::from_fn(|k| center[k] - to_center[k]);
-        foot[2] -= coil.nominal_length;
-        let (seat, marker) = self.marker(seat, foot, 0.0);
-        self.model
-            .coils
-            .push((self.mount.bodies[body], seat, marker, law));
+        let own = attach(self.model, wedge, &at);
+        self.added.suspension.extend(own);
     }
 
     /// Load coils, gib and lands of one side.
@@ -559,43 +481,5 @@ impl Builder<'_> {
                 &half,
             );
         }
-    }
-}
-
-/// The four corners of a wedge's face: lower right, lower left, upper right, upper left, with the lower and the
-/// upper edge's x from the center of gravity in the wedge's own axes.
-fn wedge_points(wedge: &Wedge, end: f64, lower: f64, upper: f64) -> Vec<ContactPoint> {
-    let (bottom, top) = (-wedge.height / 3.0, 2.0 * wedge.height / 3.0);
-    let half = 0.5 * wedge.width;
-    [
-        [lower, -half, bottom],
-        [lower, half, bottom],
-        [upper, -half, top],
-        [upper, half, top],
-    ]
-    .map(|[x, y, z]| {
-        let own = [-end * x, -end * y, z];
-        let from_origin = std::array::from_fn(|k| own[k] + wedge.origin_to_center(end)[k]);
-        point(from_origin, &wedge.contact, 0.25)
-    })
-    .to_vec()
-}
-
-fn point(place: [f64; 3], contact: &Contact, share: f64) -> ContactPoint {
-    ContactPoint {
-        position: Vector(place),
-        stiffness: contact.stiffness,
-        damping: contact.damping,
-        share,
-    }
-}
-
-fn plane(name: String, points: Vec<ContactPoint>, friction: &FaceFriction) -> ContactFace<Plane> {
-    ContactFace {
-        name,
-        points,
-        surface: Plane,
-        coefficient: friction.coefficient,
-        law: friction.law,
     }
 }

@@ -26,6 +26,7 @@ mod massless;
 pub mod nest;
 mod parameters;
 mod units;
+mod wedge_mount;
 
 pub use assemble::{BOLSTER, BuildError, CAR_BODY, SIDE_FRAMES, Truck, WEDGES, WHEELSETS, held};
 pub use bodies::bodies;
@@ -37,6 +38,7 @@ pub use parameters::{
     Lading, NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Spring, Wedge, WedgeKind,
     Wheelsets, unloaded,
 };
+pub use wedge_mount::{WedgeElements, WedgeMount, add_wedge, wedge_body};
 
 /// The names of the wedges in the order of all arrays of four: end (leading, trailing), then side.
 pub const WEDGE_NAMES: [&str; 4] = ["leading_left", "leading_right", "trailing_left", "trailing_right"];

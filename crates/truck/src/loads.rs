@@ -254,6 +254,7 @@ fn at_marker(
     };
     let wrench: Wrench<f64> = match law {
         Law::Spring(spring) => spring.evaluate(&motion),
+        Law::Table(spring) => spring.evaluate(&motion),
         Law::Stop(stop) => stop.evaluate(&motion),
         Law::Rim(rim) => rim.evaluate(&motion),
     };

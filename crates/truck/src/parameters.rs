@@ -7,6 +7,7 @@
 //! truck must not creep), the clearances of pocket sides (0.25 in) and lands (0.21 in: 30 mrad of warp).
 
 use mechanics::curve::Curve;
+use mechanics::elements::TableSpring;
 use mechanics::motion::Motion;
 use wedge::parameters::{
     Contact, ControlCoil as ThesisCoil, Damping, FaceFriction, NeighbourMotion, Start, Wear,
@@ -197,6 +198,8 @@ pub enum ControlCoil {
     /// The coil of Steets (2007): its force acts along the line from the seat to the wedge; with the place of
     /// the wedge's center of gravity from the coil's end (x towards the bolster, y, z), m.
     Thesis(ThesisCoil, [f64; 3]),
+    /// A spring whose load is a table, below the wedge's center of gravity. Its name is given where it is mounted.
+    Table(TableSpring),
 }
 
 /// Whether a car carries its load.
@@ -373,7 +376,7 @@ impl Wedge {
     /// which the wedge of Steets (2007) turns about where y is locked.
     pub(crate) fn origin_to_center(&self, end: f64) -> [f64; 3] {
         match self.control_coil {
-            ControlCoil::Shear(_) => [0.0; 3],
+            ControlCoil::Shear(_) | ControlCoil::Table(_) => [0.0; 3],
             // Wedges at the leading end are turned by half a turn about z.
             ControlCoil::Thesis(_, [x, y, z]) => [-end * x, -end * y, z],
         }
@@ -386,6 +389,7 @@ impl ControlCoil {
     pub fn preload(&self) -> f64 {
         match self {
             Self::Shear(spring) => spring.preload,
+            Self::Table(spring) => spring.load(0.0),
             Self::Thesis(coil, _) => coil.law.force(coil.free_length - coil.nominal_length),
         }
     }

@@ -118,6 +118,12 @@ impl HalfTruck {
                 .map_err(|error| Error::new(error.to_string()))?,
             Origin::Files(texts) => of_texts(texts, settings)?,
         };
+        if !case.wedge_bodies.is_empty() {
+            return Err(Error::new(
+                "FMUs of half-trucks have massless wedges, and wedges=bodies is set; leave it out, or export a truck or a wedge"
+                    .to_owned(),
+            ));
+        }
         let text = serde_json::to_string_pretty(&resource)
             .map_err(|error| Error::new(format!("the run cannot be written: {error}")))?;
         Ok(Self { case, text })

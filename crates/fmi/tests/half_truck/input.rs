@@ -191,6 +191,11 @@ fn resources_are_read_again_and_damaged_ones_are_refused_with_the_reason() {
         ("/settings/duration", json!(-1.0), "must be positive"),
         ("/settings/interval", json!(1e-300), "at most"),
         ("/settings/choices/speed", json!(-1.0), "`speed` is -1"),
+        (
+            "/settings/choices/wedges",
+            json!("bodies"),
+            "have massless wedges",
+        ),
         ("/settings", json!({}), "missing field"),
     ] {
         let text = edited(place, value);

@@ -3,10 +3,12 @@
 mod radial_stop;
 mod shear_spring;
 mod stop;
+mod table_spring;
 
 pub use radial_stop::RadialStop;
 pub use shear_spring::{ShearSpring, Solid};
 pub use stop::Stop;
+pub use table_spring::TableSpring;
 
 use numerics::scalar::Real;
 

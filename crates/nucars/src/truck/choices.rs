@@ -40,6 +40,34 @@ impl Yaw {
     }
 }
 
+/// What stands for the wedges of types 6.8 and 6.9.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Wedges {
+    /// The files' law: a wedge without mass.
+    #[default]
+    Massless,
+    /// A body with mass between its pocket and its column. What adds it knows bodies and contact; a
+    /// [`Truck`](super::Truck) has massless wedges.
+    Bodies,
+}
+
+/// What a wedge's body has that the files do not say; what is left open takes a default of what adds the body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct WedgeBody {
+    /// Mass, kg.
+    pub mass: Option<f64>,
+    /// Height of the vertical face, m.
+    pub height: Option<f64>,
+    /// Width across the track, m.
+    pub width: Option<f64>,
+    /// Stiffness of each corner's contact, N/m.
+    pub contact_stiffness: Option<f64>,
+    /// Damping of each corner's contact, N·s/m.
+    pub contact_damping: Option<f64>,
+}
+
 /// The choices.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -52,6 +80,10 @@ pub struct Choices {
     pub yaw: Yaw,
     /// Speed along the track, m/s; only distance-based histories and inputs with lag need it.
     pub speed: Option<f64>,
+    /// What stands for the wedges of types 6.8 and 6.9.
+    pub wedges: Wedges,
+    /// What the wedges' bodies have.
+    pub wedge_body: WedgeBody,
 }
 
 impl Choices {

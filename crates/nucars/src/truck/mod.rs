@@ -11,5 +11,5 @@ pub(crate) mod units;
 mod yaw;
 
 pub use build::{BuildError, Truck};
-pub use choices::{Bend, Choices, Yaw};
+pub use choices::{Bend, Choices, WedgeBody, Wedges, Yaw};
 pub use yaw::{DRIVEN_YAW_STIFFNESS, intended_yaw};

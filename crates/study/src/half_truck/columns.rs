@@ -14,7 +14,7 @@ impl Columns {
     /// energy ledger is not meaningful among them: it counts from a start with no stored energy.
     #[must_use]
     pub fn new(case: &HalfTruckCase, system: &System) -> Self {
-        Self(Table::new(&case.truck, system, &case.requests))
+        Self(Table::new(case, system))
     }
 
     /// Returns what the columns are.

@@ -7,12 +7,13 @@ use input::limits;
 use nucars::Severity;
 use nucars::together::RunFiles;
 use nucars::tree::{DataFile, InputFile, RunFile, SystemFile};
-use nucars::truck::{BuildError, Choices, Truck, Yaw};
+use nucars::truck::{BuildError, Choices, Truck, Wedges, Yaw};
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::set::{self, SetError};
+use super::wedge_bodies::{self, Replaced, WedgeBodyError};
 use super::{HalfTruckCase, HalfTruckStart, requests, yaw};
 
 /// The trees of the files of a run.
@@ -96,6 +97,9 @@ pub enum FilesError {
         /// Why.
         error: SetError,
     },
+    /// A wedge makes no body.
+    #[error(transparent)]
+    WedgeBody(#[from] WedgeBodyError),
     /// The intended yaw of files that command none.
     #[error("the yaw as intended was asked for, but no input body that drives a body yaws")]
     NoYaw,
@@ -133,11 +137,20 @@ pub fn case(
         return Err(FilesError::Rows { duration, interval });
     }
     let choices = &settings.choices;
-    let truck = Truck::new(&system, input.as_deref(), choices)?;
+    let mut truck = Truck::new(&system, input.as_deref(), choices)?;
     if choices.yaw != Yaw::AsPrinted && yaw::drive(&truck.model).is_none() {
         return Err(FilesError::NoYaw);
     }
     let mut assumptions = choices.describe();
+    let replaced = match choices.wedges {
+        Wedges::Massless => Replaced::default(),
+        Wedges::Bodies => wedge_bodies::replace(&mut truck, choices, settings.units)?,
+    };
+    if !replaced.wedges.is_empty() && truck.wedges().next().is_none() {
+        // What is said of the law of massless wedges.
+        assumptions.retain(|text| !text.starts_with("wedge") && !text.starts_with("viscous wedges"));
+    }
+    assumptions.extend(replaced.assumptions.iter().cloned());
     assumptions.push(
         match settings.start {
             HalfTruckStart::Drawn => "start: at rest in the drawn layout, springs and wedges without history",
@@ -178,6 +191,8 @@ pub fn case(
         name: name.to_owned(),
         title: title.to_owned(),
         truck,
+        wedge_bodies: replaced.wedges,
+        wedge_notes: replaced.assumptions,
         assumptions,
         requests,
         start: settings.start,

@@ -12,6 +12,8 @@ pub mod requests;
 pub mod run;
 pub mod set;
 mod table;
+pub mod wedge_bodies;
+mod wedge_seen;
 pub mod yaw;
 
 use std::collections::BTreeMap;
@@ -24,6 +26,7 @@ use serde::{Deserialize, Serialize};
 use crate::result::RunResult;
 use crate::summary::{Stopped, SummaryValue, run_summary};
 use requests::Request;
+use wedge_bodies::MountedWedge;
 pub use yaw::YawSummary;
 
 /// How a run begins.
@@ -46,6 +49,10 @@ pub struct HalfTruckCase {
     pub title: String,
     /// The model.
     pub truck: Truck,
+    /// The wedges that are bodies with mass.
+    pub wedge_bodies: Vec<MountedWedge>,
+    /// What these take from the files and what is added, in words; the assumptions have it too.
+    pub wedge_notes: Vec<String>,
     /// What it rests on, in words.
     pub assumptions: Vec<String>,
     /// What is written besides time, wedges and energies.

@@ -2,12 +2,12 @@
 
 use input::shortened;
 use mechanics::connection::{Branch, GapTension, NegativeRise};
-use nucars::truck::{Bend, Choices};
+use nucars::truck::{Bend, Choices, Wedges};
 use quantity::{Kind, Quantity, nearest};
 use thiserror::Error;
 
 /// Names and what is expected of each.
-const OPTIONS: [(&str, &str); 8] = [
+const OPTIONS: [(&str, &str); 14] = [
     ("bend", "half_cosine or linear"),
     ("speed", "a speed along the track, such as \"60 mph\""),
     ("plain_toe_angle", "an angle, such as \"0.2 deg\""),
@@ -19,6 +19,18 @@ const OPTIONS: [(&str, &str); 8] = [
     ("negative_rise", "extend or stop"),
     ("accumulator_damping", "a number, 1 for the files' damping"),
     ("gap_tension", "never or allowed"),
+    ("wedges", "massless or bodies"),
+    ("wedge_mass", "a mass, such as \"50 lb\""),
+    ("wedge_height", "a length, such as \"6.125 in\""),
+    ("wedge_width", "a length, such as \"10.5 in\""),
+    (
+        "wedge_contact_stiffness",
+        "a stiffness of each corner, such as \"2.5e5 lbf/in\"",
+    ),
+    (
+        "wedge_contact_damping",
+        "a damping of each corner, such as \"25 lbf*s/in\"",
+    ),
 ];
 
 /// A choice that cannot be taken.
@@ -85,7 +97,7 @@ pub fn set(choices: &mut Choices, typed: &str) -> Result<(), OptionError> {
         Some(value).filter(|value| value.is_finite()).ok_or_else(wrong)
     };
     let positive = |value: f64| Some(value).filter(|value| *value > 0.0).ok_or_else(wrong);
-    let elements = &mut choices.elements;
+    let (elements, body) = (&mut choices.elements, &mut choices.wedge_body);
     match (name, value) {
         ("bend", "half_cosine") => choices.bend = Bend::HalfCosine,
         ("bend", "linear") => choices.bend = Bend::Linear,
@@ -106,6 +118,18 @@ pub fn set(choices: &mut Choices, typed: &str) -> Result<(), OptionError> {
         }
         ("gap_tension", "never") => elements.gap_tension = GapTension::Never,
         ("gap_tension", "allowed") => elements.gap_tension = GapTension::Allowed,
+        ("wedges", "massless") => choices.wedges = Wedges::Massless,
+        ("wedges", "bodies") => choices.wedges = Wedges::Bodies,
+        ("wedge_mass", _) => body.mass = Some(positive(measure(Kind::Mass)?)?),
+        ("wedge_height", _) => body.height = Some(positive(measure(Kind::Length)?)?),
+        ("wedge_width", _) => body.width = Some(positive(measure(Kind::Length)?)?),
+        ("wedge_contact_stiffness", _) => {
+            body.contact_stiffness = Some(positive(measure(Kind::Stiffness)?)?);
+        }
+        ("wedge_contact_damping", _) => {
+            let damping = Some(measure(Kind::Damping)?).filter(|damping| *damping >= 0.0);
+            body.contact_damping = Some(damping.ok_or_else(wrong)?);
+        }
         _ => return Err(wrong()),
     }
     Ok(())
@@ -114,6 +138,8 @@ pub fn set(choices: &mut Choices, typed: &str) -> Result<(), OptionError> {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+
+    use nucars::truck::WedgeBody;
 
     use super::*;
 
@@ -129,6 +155,12 @@ mod tests {
             "negative_rise=stop",
             "accumulator_damping=0.1",
             "gap_tension=allowed",
+            "wedges=bodies",
+            "wedge_mass=40 lb",
+            "wedge_height=150 mm",
+            "wedge_width=11 in",
+            "wedge_contact_stiffness=1e6 lbf/in",
+            "wedge_contact_damping=0 lbf*s/in",
         ] {
             let before = choices.clone();
             set(&mut choices, typed).unwrap();
@@ -149,10 +181,12 @@ mod tests {
             "gap_tension=never",
             "accumulator_damping=1",
             "plain_toe_angle=0 deg",
+            "wedges=massless",
         ] {
             set(&mut choices, typed).unwrap();
         }
         choices.speed = None;
+        choices.wedge_body = WedgeBody::default();
         assert_eq!(choices, Choices::default());
     }
 
@@ -169,6 +203,9 @@ mod tests {
             ("rise_in_slip=yes", "true or false"),
             ("accumulator_damping=0", "a number"),
             ("accumulator_damping=inf", "a number"),
+            ("wedges=heavy", "massless or bodies"),
+            ("wedge_mass=0 lb", "such as \"50 lb\""),
+            ("wedge_contact_damping=-1 lbf*s/in", "a damping"),
         ] {
             let error = set(&mut Choices::default(), typed).unwrap_err().to_string();
             assert!(error.contains(text), "{error}");

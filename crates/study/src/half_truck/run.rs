@@ -5,14 +5,18 @@ use std::ops::ControlFlow;
 
 use integrate::{Integrator, Options};
 use mechanics::body::COORDINATES;
+use mechanics::connection::Law;
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
 use mechanics::plausibility::Finding;
 use mechanics::system::{ContactState, NoEquilibrium, StaticFriction, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
+use wedge::outputs::CORNERS;
+use wedge::parameters::Damping;
 
-use super::table::{Table, input_motion};
+use super::table::{Table, input_motion, ledger_name};
+use super::wedge_seen::friction_loss;
 use super::{HalfTruckCase, HalfTruckResult, HalfTruckStart, HalfTruckSummary, SCHEMA, WedgeSummary};
 use crate::energy;
 use crate::finite::{find, is_finite};
@@ -62,6 +66,8 @@ pub struct HalfTruckRecorder {
     table: Table,
     values: Vec<Vec<f64>>,
     works: Works,
+    /// The corners of wedges' bodies, by their names.
+    points: Vec<String>,
     /// The connections that have contact states, by their numbers in the files.
     frictional: Vec<u32>,
     numbers: [Vec<u32>; 2],
@@ -97,14 +103,26 @@ impl RunCase for HalfTruckCase {
 
     fn begin(&self) -> Result<Beginning<HalfTruckRecorder>, RunError> {
         let mut system = System::new(self.truck.model.clone())?;
-        let x = start(&mut system, self.start)?;
-        let table = Table::new(&self.truck, &system, &self.requests);
+        let x = match self.start {
+            HalfTruckStart::Equilibrium if !self.wedge_bodies.is_empty() => self.rest()?,
+            other => start(&mut system, other)?,
+        };
+        let table = Table::new(self, &system);
         let frictional = system.frictional_connections().iter();
+        let faces = system.faces().iter().map(|face| &face.element);
+        let points = faces.flat_map(|face| {
+            let corners = 0..face.points.len();
+            corners.map(|corner| match CORNERS.get(corner) {
+                Some(corner) => format!("{}_{corner}", face.name),
+                None => format!("{}_{}", face.name, corner + 1),
+            })
+        });
         Ok(Beginning {
             recorder: HalfTruckRecorder {
                 values: vec![Vec::new(); table.columns.len()],
                 row: Vec::with_capacity(table.columns.len()),
-                works: Works::new(self),
+                works: Works::new(self, &system),
+                points: points.collect(),
                 frictional: frictional.map(|place| self.truck.connections[*place]).collect(),
                 numbers: [self.truck.bodies.clone(), self.truck.connections.clone()],
                 table,
@@ -116,6 +134,18 @@ impl RunCase for HalfTruckCase {
 
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> HalfTruckResult {
         output(run, stopped)
+    }
+}
+
+impl HalfTruckCase {
+    /// Returns the state of rest without friction, also on the faces of wedges' bodies; with it the bristles, which
+    /// are not deflected there, hold nothing.
+    fn rest(&self) -> Result<Vec<f64>, RunError> {
+        let mut model = self.truck.model.clone();
+        for (.., face) in &mut model.faces {
+            face.coefficient = 0.0;
+        }
+        Ok(start(&mut System::new(model)?, HalfTruckStart::Equilibrium)?)
     }
 }
 
@@ -157,13 +187,12 @@ impl Recorder for HalfTruckRecorder {
     }
 
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
-        let pairs = self.frictional.iter().zip(contact_states);
-        pairs
-            .map(|(number, state)| {
-                let name = ContactState::from_number(*state).name();
-                (format!("connection_{number}"), name.to_owned())
-            })
-            .collect()
+        let (points, others) = contact_states.split_at(self.points.len().min(contact_states.len()));
+        let words = |state: &u8| ContactState::from_number(*state).name().to_owned();
+        let points = self.points.iter().cloned().zip(points.iter().map(words));
+        let others = self.frictional.iter().zip(others.iter().map(words));
+        let others = others.map(|(number, state)| (format!("connection_{number}"), state));
+        points.chain(others).collect()
     }
 
     fn numbers(&self) -> [&[u32]; 2] {
@@ -251,10 +280,13 @@ pub(crate) fn cycle(case: &HalfTruckCase) -> Option<Cycle> {
 }
 
 /// The work of each wedge's friction at the column over whole cycles, taken step by step from the dense
-/// output (Simpson's rule): the input springs ring, which rows would miss.
+/// output (of massless ones by Simpson's rule: the input springs ring, which rows would miss; of bodies from the
+/// ledger's loss).
 struct Works {
     window: Option<(f64, f64, u32)>,
     wedges: Vec<usize>,
+    /// Of a wedge's body the loss of its column among the quadratures.
+    losses: Vec<Option<usize>>,
     counts: HalfTruckCounts,
     powers: [Vec<f64>; 3],
 }
@@ -269,8 +301,9 @@ pub struct HalfTruckCounts {
 }
 
 impl Works {
-    fn new(case: &HalfTruckCase) -> Self {
-        let wedges: Vec<usize> = case.truck.wedges().collect();
+    fn new(case: &HalfTruckCase, system: &System) -> Self {
+        let wedges = case.wedges();
+        let loss = |place: &usize| friction_loss(system, case.wedge_body(*place)?.faces[0]);
         let none = vec![0.0; wedges.len()];
         Self {
             window: cycle(case).and_then(|cycle| cycle.window(case.duration)),
@@ -279,6 +312,7 @@ impl Works {
                 works: none,
                 reached: 0.0,
             },
+            losses: wedges.iter().map(loss).collect(),
             wedges,
         }
     }
@@ -303,6 +337,15 @@ impl Works {
                 }
             });
         }
+        if self.losses.iter().any(Option::is_some) {
+            for (time, sign) in [(from, -1.0), (to, 1.0)] {
+                integrator.interpolate_range(time, 0, buffer);
+                let [_, _, _, quadratures] = system.layout().split(buffer);
+                for (loss, work) in self.losses.iter().zip(&mut self.counts.works) {
+                    *work += loss.map_or(0.0, |loss| sign * quadratures[loss]);
+                }
+            }
+        }
         let [a, b, c] = &self.powers;
         for (index, work) in self.counts.works.iter_mut().enumerate() {
             *work += (to - from) / 6.0 * (a[index] + 4.0 * b[index] + c[index]);
@@ -320,15 +363,24 @@ fn summarize(case: &HalfTruckCase, system: &System, works: &Works, result: &mut 
     let units = case.units;
     let times = result.column("time").unwrap_or_default().to_vec();
     let mut wedges = BTreeMap::new();
-    for place in case.truck.wedges() {
+    for place in case.wedges() {
         let number = case.truck.connections[place];
         wedges.insert(number.to_string(), wedge(case, result, works, place));
     }
     let mut largest = BTreeMap::new();
-    for (place, number) in case.truck.bodies.iter().enumerate() {
+    let bodies = case.truck.bodies.iter().enumerate();
+    let bodies = bodies.map(|(place, number)| (place, format!("body_{number}")));
+    let own = case.wedge_bodies.iter();
+    let own = own.map(|wedge| {
+        (
+            wedge.body,
+            format!("wedge_{}", case.truck.connections[wedge.connection]),
+        )
+    });
+    for (place, body) in bodies.chain(own) {
         let free = &case.truck.model.bodies[place].free;
         for (coordinate, name) in COORDINATES.iter().enumerate().filter(|(k, _)| free[*k]) {
-            let column = format!("body_{number}_{name}");
+            let column = format!("{body}_{name}");
             let Some(values) = result.column(&column) else {
                 continue;
             };
@@ -344,12 +396,14 @@ fn summarize(case: &HalfTruckCase, system: &System, works: &Works, result: &mut 
         "spring_energy",
         "coil_energy",
         "accumulator_energy",
+        "contact_energy",
+        "element_energy",
         "ledger_residual",
     ];
     let energy_terms = system
         .energy_terms()
         .iter()
-        .map(|energy_term| energy_term.kind.name());
+        .map(|energy_term| ledger_name(energy_term.kind));
     for name in names.into_iter().chain(energy_terms) {
         if let Some(last) = result.column(name).and_then(<[f64]>::last) {
             ledger.insert(name.to_owned(), SummaryValue::new(*last, Kind::Energy, units));
@@ -379,9 +433,6 @@ fn summarize(case: &HalfTruckCase, system: &System, works: &Works, result: &mut 
 }
 
 fn wedge(case: &HalfTruckCase, result: &HalfTruckResult, works: &Works, place: usize) -> WedgeSummary {
-    use mechanics::connection::Law;
-    use wedge::parameters::Damping;
-
     let (units, number) = (case.units, case.truck.connections[place]);
     let times = result.column("time").unwrap_or_default();
     let column = |what: &str| {
@@ -391,7 +442,8 @@ fn wedge(case: &HalfTruckCase, result: &HalfTruckResult, works: &Works, place: u
     let jammed = column("jammed");
     let normal = column("column_normal_force");
     let mut summary = WedgeSummary {
-        jammed: jammed.iter().sum::<f64>() / jammed.len().max(1) as f64,
+        // The sum of nothing is minus zero.
+        jammed: jammed.iter().sum::<f64>() / jammed.len().max(1) as f64 + 0.0,
         largest_normal_force: normal
             .iter()
             .copied()
@@ -399,13 +451,13 @@ fn wedge(case: &HalfTruckCase, result: &HalfTruckResult, works: &Works, place: u
             .map(|most| SummaryValue::new(most, Kind::Force, units)),
         ..WedgeSummary::default()
     };
-    let (Some(cycle), Law::Wedge(law)) = (cycle(case), &case.truck.model.connections[place].law) else {
-        return summary;
+    let damping = match (case.wedge_body(place), &case.truck.model.connections[place].law) {
+        (Some(wedge), _) => wedge.damping,
+        (None, Law::Wedge(law)) if law.coil_in_bolster => Damping::Constant,
+        _ => Damping::Variable,
     };
-    let damping = if law.coil_in_bolster {
-        Damping::Constant
-    } else {
-        Damping::Variable
+    let Some(cycle) = cycle(case) else {
+        return summary;
     };
     let friction = column("column_friction");
     summary.energy_per_cycle = works

@@ -6,13 +6,14 @@
 use mechanics::body::COORDINATES;
 use mechanics::motion::Motion;
 use mechanics::output::Column;
-use mechanics::system::ContactState;
-use mechanics::system::{Model, Observation, System};
+use mechanics::system::{ContactState, EnergyTermKind, Model, Observation, System};
 use nucars::tree::{DofQuantity, ElementQuantity};
-use nucars::truck::Truck;
 use quantity::Kind;
 
+use super::HalfTruckCase;
 use super::requests::Request;
+use super::wedge_bodies::MountedWedge;
+use super::wedge_seen::{Source, column_moment, friction_loss};
 
 /// Takes a value from an observation and the stored energy at the start (J).
 type Value = Box<dyn Fn(&Observation, f64) -> f64 + Send + Sync>;
@@ -24,7 +25,8 @@ pub(super) struct Table {
 }
 
 impl Table {
-    pub fn new(truck: &Truck, system: &System, requests: &[Request]) -> Self {
+    pub fn new(case: &HalfTruckCase, system: &System) -> Self {
+        let truck = &case.truck;
         let mut table = Self {
             columns: Vec::new(),
             values: Vec::new(),
@@ -40,21 +42,27 @@ impl Table {
                 seen.bodies[body].speeds[2]
             });
         }
-        for place in truck.wedges() {
-            table.wedge(place, truck.connections[place], &truck.model);
+        for place in case.wedges() {
+            let number = truck.connections[place];
+            table.wedge(place, number, &truck.model, &case.source(place));
+            if let Some(wedge) = case.wedge_body(place) {
+                table.wedge_body(number, wedge, system);
+            }
         }
-        for (body, own) in truck.model.bodies.iter().enumerate() {
+        // Those of the files; wedges' bodies come after them.
+        let bodies = truck.model.bodies.iter().enumerate();
+        for (body, own) in bodies.take(truck.bodies.len()) {
             for coordinate in (0..6).filter(|k| own.free[*k]) {
                 let displacement = Request::Body {
                     quantity: DofQuantity::Displacement,
                     body,
                     coordinate,
                 };
-                table.request(&displacement, truck);
+                table.request(&displacement, case);
             }
         }
-        for request in requests {
-            table.request(request, truck);
+        for request in &case.requests {
+            table.request(request, case);
         }
         table.energies(system);
         // A data file may ask twice for the same.
@@ -103,62 +111,86 @@ impl Table {
         self.values.push(value);
     }
 
-    fn wedge(&mut self, place: usize, number: u32, model: &Model) {
+    fn wedge(&mut self, place: usize, number: u32, model: &Model, source: &Source) {
         let wedge = format!("wedge_{number}");
-        let inside = move |seen: &Observation| seen.connections[place].wedge.unwrap_or_default();
+        let at = || {
+            let source = source.clone();
+            move |seen: &Observation| source.at(seen)
+        };
         self.add(
             format!("{wedge}_column_friction"),
             Kind::Force,
             "friction of the column on the side frame, positive up",
-            move |seen| -inside(seen).column_friction,
+            {
+                let at = at();
+                move |seen| at(seen).column_friction
+            },
         );
         self.add(
             format!("{wedge}_column_normal_force"),
             Kind::Force,
             "normal force of the column",
-            move |seen| inside(seen).column_normal,
+            {
+                let at = at();
+                move |seen| at(seen).column_normal
+            },
         );
         self.add(
             format!("{wedge}_slope_normal_force"),
             Kind::Force,
             "normal force of the slope",
-            move |seen| inside(seen).slope_normal,
+            {
+                let at = at();
+                move |seen| at(seen).slope_normal
+            },
         );
         self.add(
             format!("{wedge}_slope_friction"),
             Kind::Force,
             "friction of the slope on the wedge, positive up the slope",
-            move |seen| inside(seen).slope_friction,
+            {
+                let at = at();
+                move |seen| at(seen).slope_friction
+            },
         );
         self.add(
             format!("{wedge}_coil_force"),
             Kind::Force,
             "force of the control coil, positive pushing",
-            move |seen| inside(seen).coil_force,
+            {
+                let at = at();
+                move |seen| at(seen).coil
+            },
         );
         self.add(
             format!("{wedge}_vertical_force"),
             Kind::Force,
             "vertical force on the side frame, positive up: friction and inclined normal force, and the coil where it \
              stands on the side frame",
-            move |seen| seen.connections[place].forces[0],
+            { let at = at(); move |seen| at(seen).force[2] },
         );
         let coordinates = model.connections[place].law.coordinates();
-        if let Some(component) = coordinates.iter().position(|own| *own == 0) {
+        if coordinates.contains(&0) || matches!(source, Source::Body(_)) {
             self.add(
                 format!("{wedge}_longitudinal_force"),
                 Kind::Force,
                 "force of the column across it",
-                move |seen| seen.connections[place].forces[component].abs(),
+                {
+                    let at = at();
+                    move |seen| at(seen).force[0].abs()
+                },
             );
         }
         let lateral = coordinates.iter().position(|own| *own == 1);
-        if let Some(component) = lateral {
+        if lateral.is_some() {
             self.add(
                 format!("{wedge}_lateral_force"),
                 Kind::Force,
                 "lateral friction of the column, in the sense of the stroke",
-                move |seen| seen.connections[place].forces[component],
+                {
+                    let at = at();
+                    move |seen| at(seen).force[1]
+                },
             );
         }
         self.add(
@@ -196,35 +228,81 @@ impl Table {
             format!("{wedge}_friction_power"),
             Kind::Power,
             "power of the column's vertical friction, negative where energy is lost",
-            move |seen| inside(seen).column_friction * seen.connections[place].velocities[0],
+            {
+                let at = at();
+                move |seen| at(seen).friction_power
+            },
         );
         self.add(
             format!("{wedge}_rise"),
             Kind::Length,
             "rise of the wedge in its pocket",
-            move |seen| inside(seen).rise,
+            {
+                let at = at();
+                move |seen| at(seen).rise
+            },
         );
-        self.add(
-            format!("{wedge}_jammed"),
-            Kind::Count,
-            "1 where no steady sliding exists and only the limit holds the normal force",
-            move |seen| f64::from(u8::from(inside(seen).jammed)),
-        );
+        if let Source::Massless(_) = source {
+            self.add(
+                format!("{wedge}_jammed"),
+                Kind::Count,
+                "1 where no steady sliding exists and only the limit holds the normal force",
+                {
+                    let at = at();
+                    move |seen| f64::from(u8::from(at(seen).jammed))
+                },
+            );
+        }
         self.add(
             format!("{wedge}_state"),
             Kind::Count,
             "state of its friction: 0 open, 1 stick, 2 slip",
-            move |seen| {
-                f64::from(
-                    seen.connections[place]
-                        .contact_state
-                        .unwrap_or(ContactState::Open) as u8,
-                )
+            {
+                let at = at();
+                move |seen| f64::from(at(seen).state.unwrap_or(ContactState::Open) as u8)
             },
         );
     }
 
-    fn request(&mut self, request: &Request, truck: &Truck) {
+    /// What a wedge's body has besides.
+    fn wedge_body(&mut self, number: u32, wedge: &MountedWedge, system: &System) {
+        let (name, body) = (format!("wedge_{number}"), wedge.body);
+        for (k, coordinate) in COORDINATES.into_iter().enumerate() {
+            let name = format!("{name}_{coordinate}");
+            if k < 3 {
+                let (text, center) = ("displacement of its center of gravity", wedge.center[k]);
+                self.add(name, Kind::Length, text, move |seen| {
+                    seen.bodies[body].center_of_gravity.0[k] - center
+                });
+            } else {
+                self.add(name, Kind::Angle, "its angle", move |seen| {
+                    seen.bodies[body].coordinates[k]
+                });
+            }
+        }
+        for (k, axis) in ["roll", "pitch", "yaw"].into_iter().enumerate() {
+            let own = wedge.clone();
+            self.add(
+                format!("{name}_column_moment_{axis}"),
+                Kind::Moment,
+                "moment of the column's forces on the wedge about its center of gravity",
+                move |seen| column_moment(seen, &own)[k],
+            );
+        }
+        for (face, place) in ["column", "slope"].into_iter().zip(wedge.faces) {
+            if let Some(place) = friction_loss(system, place) {
+                self.add(
+                    format!("{name}_{face}_friction_loss"),
+                    Kind::Energy,
+                    "energy lost in its friction since the start",
+                    move |seen| seen.quadratures[place],
+                );
+            }
+        }
+    }
+
+    fn request(&mut self, request: &Request, case: &HalfTruckCase) {
+        let truck = &case.truck;
         match request {
             Request::Body {
                 quantity,
@@ -284,7 +362,7 @@ impl Table {
                         format!("force_{place}"),
                         kinds(Kind::Force, Kind::Moment),
                         "force or moment of a connection, extension positive",
-                        move |seen| seen.connections[connection].forces[component],
+                        force(case, connection, component),
                     ),
                     ElementQuantity::Stroke => self.add(
                         format!("stroke_{place}"),
@@ -306,14 +384,12 @@ impl Table {
                     .iter()
                     .filter(|own| own.name.starts_with("sum_"))
                     .count();
-                let terms = terms.clone();
+                let terms = terms.iter();
+                let terms: Vec<_> = terms
+                    .map(|(connection, component, factor)| (force(case, *connection, *component), *factor))
+                    .collect();
                 self.add(format!("sum_{number}"), Kind::Force, name.clone(), move |seen| {
-                    terms
-                        .iter()
-                        .map(|(connection, component, factor)| {
-                            factor * seen.connections[*connection].forces[*component]
-                        })
-                        .sum()
+                    terms.iter().map(|(force, factor)| factor * force(seen)).sum()
                 });
             }
         }
@@ -347,17 +423,55 @@ impl Table {
         for (name, value, text) in stored {
             self.add(name, Kind::Energy, text, value);
         }
+        if !system.faces().is_empty() {
+            let text = "energy of the contacts of wedges' bodies";
+            self.add("contact_energy", Kind::Energy, text, |seen| seen.energies.contact);
+            let text = "energy of the coils of wedges' bodies and of the sides of their pockets";
+            self.add("element_energy", Kind::Energy, text, |seen| seen.energies.element);
+        }
+        let mut kinds: Vec<(EnergyTermKind, Vec<usize>)> = Vec::new();
         for (number, energy_term) in system.energy_terms().iter().enumerate() {
-            self.add(
-                energy_term.kind.name(),
-                Kind::Energy,
-                "work or loss since the start",
-                move |seen| seen.quadratures[number],
-            );
+            match kinds.iter_mut().find(|(kind, _)| *kind == energy_term.kind) {
+                Some((_, places)) => places.push(number),
+                None => kinds.push((energy_term.kind, vec![number])),
+            }
+        }
+        for (kind, places) in kinds {
+            let text = "work or loss since the start";
+            self.add(ledger_name(kind), Kind::Energy, text, move |seen| {
+                let (first, others) = places.split_first().map_or((0, &[][..]), |(a, b)| (*a, b));
+                let others = others.iter().map(|place| seen.quadratures[*place]);
+                others.fold(seen.quadratures[first], |sum, own| sum + own)
+            });
         }
         let text = "work less stored energy and losses";
         let residual = Box::new(|seen: &Observation, start_energy| -seen.residual(start_energy));
         self.push("ledger_residual".into(), Kind::Energy, text.into(), residual);
+    }
+}
+
+/// Returns the name of a column of the ledger: friction of faces is that of wedges' bodies.
+pub(super) fn ledger_name(kind: EnergyTermKind) -> &'static str {
+    match kind {
+        EnergyTermKind::FrictionLoss => "wedge_friction_loss",
+        other => other.name(),
+    }
+}
+
+/// Takes the force of a component of a connection, extension positive: of a wedge's body that on the side frame.
+fn force(
+    case: &HalfTruckCase,
+    connection: usize,
+    component: usize,
+) -> Box<dyn Fn(&Observation) -> f64 + Send + Sync> {
+    let wedge = case.wedge_body(connection);
+    let along = wedge.and_then(|wedge| wedge.components.get(component).copied());
+    match along {
+        Some(coordinate) => {
+            let source = case.source(connection);
+            Box::new(move |seen| source.at(seen).force[coordinate])
+        }
+        None => Box::new(move |seen| seen.connections[connection].forces[component]),
     }
 }
 

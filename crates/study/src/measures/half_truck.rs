@@ -69,7 +69,7 @@ pub fn definitions(case: &HalfTruckCase) -> Definitions {
         "lost in the friction of all columns each cycle of the vertical input",
         false,
     )];
-    for place in case.truck.wedges() {
+    for place in case.wedges() {
         let number = case.truck.connections[place];
         all.extend(
             OF_WEDGES
@@ -144,7 +144,7 @@ fn of_summary(case: &HalfTruckCase, summary: &HalfTruckSummary) -> Measures {
         .sum::<Option<f64>>()
         .filter(|_| !summary.wedges.is_empty());
     let mut values = vec![or_none(total)];
-    for place in case.truck.wedges() {
+    for place in case.wedges() {
         let wedge = summary.wedges.get(&case.truck.connections[place].to_string());
         values.extend(OF_WEDGES.iter().map(|(_, _, _, of)| or_none(wedge.and_then(of))));
     }

@@ -83,7 +83,7 @@ impl Draft {
         let (thesis, to_center) = thesis_coil(parameters.damping);
         let spring = match wedge.control_coil {
             ControlCoil::Shear(spring) => spring,
-            ControlCoil::Thesis(..) => Spring::default(),
+            ControlCoil::Thesis(..) | ControlCoil::Table(_) => Spring::default(),
         };
         let bristle = match wedge.column_friction.law {
             FrictionLaw::Bristle { stiffness, damping } => [stiffness, damping],

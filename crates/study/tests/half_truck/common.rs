@@ -3,6 +3,7 @@
 
 use nucars::truck::Choices;
 use study::half_truck::catalog::{Entry, entries, entry};
+use study::half_truck::files::Settings;
 use study::half_truck::run::run;
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
 
@@ -17,6 +18,38 @@ pub fn case(name: &str, duration: f64) -> HalfTruckCase {
 
 pub fn result(name: &str, duration: f64) -> HalfTruckResult {
     run(&case(name, duration), |_| ()).unwrap()
+}
+
+/// A run with wedges' bodies and values set over it.
+pub fn bodies(name: &str, duration: f64, set: &[&str]) -> HalfTruckCase {
+    set_over(name, duration, &[&["option.wedges=bodies"], set].concat())
+}
+
+/// A run with values set over it.
+pub fn set_over(name: &str, duration: f64, set: &[&str]) -> HalfTruckCase {
+    let settings = Settings {
+        duration: Some(duration),
+        set: set.iter().map(|typed| (*typed).to_owned()).collect(),
+        ..Settings::default()
+    };
+    entry(name).unwrap().case_with(&settings).unwrap()
+}
+
+/// Runs several cases at a time.
+pub fn run_cases(cases: &[HalfTruckCase]) -> Vec<HalfTruckResult> {
+    let half = cases.len().div_ceil(2).max(1);
+    std::thread::scope(|scope| {
+        let parts: Vec<_> = cases
+            .chunks(half)
+            .map(|part| {
+                scope.spawn(move || {
+                    let run = |case: &HalfTruckCase| run(case, |_| ()).unwrap();
+                    part.iter().map(run).collect::<Vec<_>>()
+                })
+            })
+            .collect();
+        parts.into_iter().flat_map(|part| part.join().unwrap()).collect()
+    })
 }
 
 /// Runs all entries that are chosen, several at a time.

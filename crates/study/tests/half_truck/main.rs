@@ -8,3 +8,5 @@ mod input;
 mod limits;
 mod reproducible;
 mod reproduction;
+mod wedge_bodies;
+mod wedge_bodies_input;

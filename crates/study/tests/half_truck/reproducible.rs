@@ -2,11 +2,11 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use serde_json::Value;
-use study::half_truck::run::HalfTruckCounts;
+use study::half_truck::run::{HalfTruckCounts, run};
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
 use study::run::{Run, RunError, RunState};
 
-use super::common::{case, result};
+use super::common::{bodies, case, result};
 
 fn bits(values: &[Vec<f64>]) -> Vec<Vec<u64>> {
     let bits = |column: &Vec<f64>| column.iter().map(|value| value.to_bits()).collect();
@@ -59,6 +59,22 @@ fn reproducible_across_save_and_continue() {
             let other = b.wedges[number].energy_per_cycle.as_ref().unwrap();
             assert_eq!(energy.value.to_bits(), other.value.to_bits(), "{name}");
         }
+    }
+}
+
+#[test]
+fn reproducible_across_save_and_continue_with_wedge_bodies() {
+    for name in ["nucars_69_variable_toe_out", "nucars_68_constant_toe_in_yaw"] {
+        let case = bodies(name, 4.9, &[]);
+        let straight = run(&case, |_| ()).unwrap();
+        let (together, pieces) = in_pieces(&case, 0.7);
+        assert!(pieces >= 5, "{name}: {pieces} pieces");
+        assert!(bits(&straight.values) == bits(&together.values), "{name}");
+        let (a, b) = (&straight.summary, &together.summary);
+        assert_eq!(a.ledger, b.ledger, "{name}");
+        let [energy, other] = [a, b].map(|own| own.wedges["127"].energy_per_cycle.as_ref().unwrap().value);
+        assert!(energy > 1000.0, "{name}: {energy} lbf·in");
+        assert_eq!(energy.to_bits(), other.to_bits(), "{name}");
     }
 }
 

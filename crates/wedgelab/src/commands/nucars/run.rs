@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use nucars::Severity;
 use nucars::together::{self, RunFiles, find, kind, load};
-use nucars::truck::{Choices, Yaw};
+use nucars::truck::{Choices, Wedges, Yaw};
 use quantity::{Kind, Quantity, System as Units, nearest};
 use report::half_truck_files;
 use study::half_truck::catalog::{self, Entry, YawCase};
@@ -36,6 +36,10 @@ use crate::table::Table;
 /// (friction_force, or a reference speed), rise_in_slip (true, false), negative_rise (extend, stop),
 /// accumulator_damping (a factor), gap_tension (never, allowed).
 ///
+/// --wedges bodies puts a body with mass, corners with contact and a coil in the place of each wedge of type 6.8
+/// or 6.9. What the files do not say of it has defaults, which the run tells and the summary lists; wedge_mass,
+/// wedge_height, wedge_width, wedge_contact_stiffness and wedge_contact_damping are options.
+///
 /// --set lays single values over the files, by the numbers that these give:
 /// characteristic.301.column_friction, wedges.slope_friction (of all wedges), body.2.mass, connection.127.z,
 /// function.7.factor, history.1.frequency; simulation.duration and simulation.relative_tolerance.
@@ -46,6 +50,7 @@ Examples:
   wedgelab nucars run yaw.run --data results.dat --yaw drop
   wedgelab nucars run half_truck.run --option branch=\"0.1 in/s\" --option gap_tension=allowed --out other
   wedgelab nucars run nucars_69_constant_toe_out_yaw
+  wedgelab nucars run nucars_69_constant_toe_out --wedges bodies --option wedge_contact_stiffness=\"1e6 lbf/in\" --out bodies
   wedgelab nucars run half_truck.run --set wedges.column_friction=0.3 --set 'body.2.mass=\"2000 lb\"' --out softer
 
 Exit codes: 0 done; 1 the run could not finish or files could not be written; 2 the input is wrong;
@@ -77,6 +82,9 @@ pub struct Arguments {
     /// How the bolster's yaw is reached
     #[arg(long, value_name = "HOW")]
     yaw: Option<YawArgument>,
+    /// What stands for the wedges of types 6.8 and 6.9
+    #[arg(long, value_name = "WHAT")]
+    wedges: Option<WedgesArgument>,
     /// A choice where the files leave one open
     #[arg(long, value_name = "NAME=VALUE")]
     option: Vec<String>,
@@ -100,6 +108,15 @@ pub enum YawArgument {
     Drop,
     /// As they mean it: the outer input bodies move along
     Drive,
+}
+
+/// What stands for wedges.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+enum WedgesArgument {
+    /// The files' law, without mass
+    Massless,
+    /// Bodies with mass between pocket and column
+    Bodies,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -144,6 +161,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     writeln!(out, "{}\n", summary.title)?;
     table(summary).write(&mut out)?;
+    if !case.wedge_notes.is_empty() {
+        writeln!(out, "\nWedges as bodies:")?;
+        for note in &case.wedge_notes {
+            writeln!(out, "  {note}")?;
+        }
+    }
     writeln!(
         out,
         "\n{TABLE_NOTE}\nRelative residual of the energy ledger: {:.1e}, the largest at any output time over the largest of work, losses and\n\
@@ -160,7 +183,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
 impl Arguments {
     fn settings(&self) -> Result<Settings, Message> {
-        let choices = choices(self.yaw, &self.option)?;
+        let mut choices = choices(self.yaw, &self.option)?;
+        match self.wedges {
+            None => {}
+            Some(WedgesArgument::Massless) => choices.wedges = Wedges::Massless,
+            Some(WedgesArgument::Bodies) => choices.wedges = Wedges::Bodies,
+        }
         Ok(Settings {
             choices,
             start: if self.equilibrium {

@@ -1,0 +1,231 @@
+//! A wedge with mass between a pocket and a column: its body, its two faces, its control coil and the sides of its
+//! pocket. Trucks mount four of them; so can any model that has a body with a pocket and a body with a column.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use mechanics::body::Body;
+use mechanics::coil::{Coil, CoilLine};
+use mechanics::contact::{ContactFace, ContactPoint};
+use mechanics::elements::{ShearSpring, Solid, Stop};
+use mechanics::frame::Frame;
+use mechanics::link::Marker;
+use mechanics::surface::Plane;
+use mechanics::system::Model;
+use mechanics::vector::Vector;
+use wedge::parameters::{Contact, ControlCoil as ThesisCoil, Damping, FaceFriction};
+
+use crate::elements::{Law, Role, Suspended, join};
+use crate::parameters::{ControlCoil, Wedge};
+
+/// Where a wedge is mounted in a model whose bodies are there, at rest in their nominal places. Its neighbors stand
+/// along the fixed axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WedgeMount<'n> {
+    /// Its name, with which those of its elements begin.
+    pub name: &'n str,
+    /// The number of its body.
+    pub body: usize,
+    /// The number of the body with the column.
+    pub side_frame: usize,
+    /// The number of the body with the pocket.
+    pub bolster: usize,
+    /// Where its coil stands: in the pocket (constant) or on the body with the column (variable).
+    pub damping: Damping,
+    /// +1: the column lies ahead of it (+x), -1: behind.
+    pub end: f64,
+    /// Its center of gravity in the nominal layout, from [`WedgeMount::from`], m.
+    pub center: [f64; 3],
+    /// The place from which its center of gravity is counted, m.
+    pub from: [f64; 3],
+    /// How far column and slope are moved away along their normals, m.
+    pub gaps: [f64; 2],
+}
+
+/// The elements of a wedge by their numbers in the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WedgeElements {
+    /// Column and slope, among the faces.
+    pub faces: [usize; 2],
+    /// The control coil among the elements; `None` for a coil of the thesis, which is among the coils.
+    pub coil: Option<usize>,
+    /// The sides of the pocket, among the elements.
+    pub pocket_sides: usize,
+}
+
+/// Returns the body of a wedge whose center of gravity is at `center` (m) in the nominal layout; `end` is +1 where its
+/// column lies ahead of it, else -1.
+#[must_use]
+pub fn wedge_body(name: &str, wedge: &Wedge, center: [f64; 3], end: f64) -> Body {
+    let to_center = wedge.origin_to_center(end);
+    let mut body = Body::free(name, wedge.mass, wedge.inertia, [0.0; 6]);
+    body.frame = Frame::fixed(std::array::from_fn(|k| center[k] - to_center[k]), [0.0; 3]);
+    body.free = wedge.free;
+    body.center_of_gravity = to_center;
+    body
+}
+
+/// Adds faces, control coil and pocket sides of a wedge to a model.
+pub fn add_wedge(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> WedgeElements {
+    let (face, element) = (model.faces.len(), model.elements.len());
+    let suspension = attach(model, wedge, at);
+    join(model, &suspension);
+    let place = |role: Role| suspension.iter().position(|own| own.role == role);
+    WedgeElements {
+        faces: [face, face + 1],
+        coil: place(Role::ControlCoil).map(|place| element + place),
+        pocket_sides: element + place(Role::PocketSide).unwrap_or_default(),
+    }
+}
+
+/// Adds the faces of a wedge, and its coil if it is that of the thesis; returns the other elements.
+pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> Vec<Suspended> {
+    let ([x, y, z], end, name) = (at.center, at.end, at.name);
+    let length = wedge.height * libm::tan(wedge.angle);
+    let middle = z + wedge.height / 6.0;
+    let column = x + end * (length / 3.0);
+    // Wedges at the leading end are turned by half a turn about z, and so are the normals that they meet.
+    let pitch = |pitch: f64| if end > 0.0 { PI - pitch } else { pitch };
+    let [column_gap, slope_gap] = at.gaps;
+    let faces = [
+        (
+            at.side_frame,
+            "column",
+            column,
+            pitch(wedge.toe),
+            wedge.wear.column + column_gap,
+            &wedge.column_friction,
+        ),
+        (
+            at.bolster,
+            "slope",
+            column - end * (0.5 * length),
+            pitch(PI - wedge.angle),
+            wedge.wear.slope + slope_gap,
+            &wedge.slope_friction,
+        ),
+    ];
+    for (on, face, x, pitch, gap, friction) in faces {
+        let lower = if face == "column" { -1.0 } else { 2.0 };
+        let points = corners(wedge, end, lower * length / 3.0, -length / 3.0);
+        // The normal is the marker's x axis.
+        let (sine, cosine) = libm::sincos(pitch);
+        let surface = [x - gap * cosine, y, middle + gap * sine];
+        let (on, place) = at.marker(model, on, surface, 0.0);
+        let marker = Marker::new(place.origin.0, [0.0, pitch, 0.0]);
+        let face = plane(format!("{name}_{face}"), points, friction);
+        model.faces.push((at.body, on, marker, face));
+    }
+    let seat = match at.damping {
+        Damping::Constant => at.bolster,
+        Damping::Variable => at.side_frame,
+    };
+    let bottom = [x, y, z - wedge.height / 3.0];
+    let coil_name = format!("{name}_control_coil");
+    let law = match &wedge.control_coil {
+        ControlCoil::Shear(spring) => Some(Law::Spring(ShearSpring {
+            name: coil_name,
+            preload: spring.preload,
+            stiffness: spring.stiffness,
+            shear_stiffness: spring.shear_stiffness,
+            damping: spring.damping,
+            solid: spring.solid.map(|[travel, stiffness]| Solid {
+                at: -travel,
+                stiffness,
+            }),
+        })),
+        ControlCoil::Table(spring) => Some(Law::Table(spring.named(coil_name))),
+        ControlCoil::Thesis(coil, _) => {
+            thesis_coil(model, at, seat, wedge.origin_to_center(end), coil);
+            None
+        }
+    };
+    let coil = law.map(|law| Suspended {
+        role: Role::ControlCoil,
+        law,
+        ends: [at.body, seat].map(|body| at.marker(model, body, bottom, 0.0)),
+    });
+    let sides = Stop {
+        name: format!("{name}_pocket_sides"),
+        clearances: [wedge.pocket_sides.clearance; 2],
+        stiffness: wedge.pocket_sides.stiffness,
+        damping: wedge.pocket_sides.damping,
+    };
+    let ends = [
+        at.marker(model, at.body, at.center, 0.0),
+        at.marker(model, at.bolster, at.center, FRAC_PI_2),
+    ];
+    let sides = Suspended {
+        role: Role::PocketSide,
+        law: Law::Stop(sides),
+        ends,
+    };
+    coil.into_iter().chain([sides]).collect()
+}
+
+impl WedgeMount<'_> {
+    /// Returns the marker of a body at a place (m), turned about z (rad).
+    fn marker(&self, model: &Model, body: usize, at: [f64; 3], yaw: f64) -> (usize, Marker) {
+        let origin = model.bodies[body].frame.origin;
+        let place = std::array::from_fn(|k| at[k] + self.from[k] - origin[k]);
+        (body, Marker::new(place, [0.0, 0.0, yaw]))
+    }
+}
+
+/// Adds the coil of Steets (2007), which ends at the wedge's origin; the center of gravity is `to_center` (m) from
+/// there.
+fn thesis_coil(model: &mut Model, at: &WedgeMount<'_>, seat: usize, to_center: [f64; 3], coil: &ThesisCoil) {
+    let law = Coil {
+        end: Vector::zero(),
+        acts_at: match coil.acts_at {
+            CoilLine::CenterOfGravity => Vector(to_center),
+            CoilLine::Seat => Vector::zero(),
+        },
+        law: coil.law.clone(),
+        free_length: coil.free_length,
+        damping: coil.damping,
+        rotational_damping: coil.rotational_damping,
+        pulls: coil.pulls,
+    };
+    let mut foot: [f64; 3] = std::array::from_fn(|k| at.center[k] - to_center[k]);
+    foot[2] -= coil.nominal_length;
+    let (seat, marker) = at.marker(model, seat, foot, 0.0);
+    model.coils.push((at.body, seat, marker, law));
+}
+
+/// The four corners of a wedge's face: lower right, lower left, upper right, upper left, with the lower and the
+/// upper edge's x from the center of gravity in the wedge's own axes.
+fn corners(wedge: &Wedge, end: f64, lower: f64, upper: f64) -> Vec<ContactPoint> {
+    let (bottom, top) = (-wedge.height / 3.0, 2.0 * wedge.height / 3.0);
+    let half = 0.5 * wedge.width;
+    [
+        [lower, -half, bottom],
+        [lower, half, bottom],
+        [upper, -half, top],
+        [upper, half, top],
+    ]
+    .map(|[x, y, z]| {
+        let own = [-end * x, -end * y, z];
+        let from_origin = std::array::from_fn(|k| own[k] + wedge.origin_to_center(end)[k]);
+        point(from_origin, &wedge.contact, 0.25)
+    })
+    .to_vec()
+}
+
+pub(crate) fn point(place: [f64; 3], contact: &Contact, share: f64) -> ContactPoint {
+    ContactPoint {
+        position: Vector(place),
+        stiffness: contact.stiffness,
+        damping: contact.damping,
+        share,
+    }
+}
+
+pub(crate) fn plane(name: String, points: Vec<ContactPoint>, friction: &FaceFriction) -> ContactFace<Plane> {
+    ContactFace {
+        name,
+        points,
+        surface: Plane,
+        coefficient: friction.coefficient,
+        law: friction.law,
+    }
+}
