@@ -5,6 +5,7 @@
 //! | profiles of wheels and rails: arcs and lines, points from files, nominal ones | [`profile`] |
 //! | contact: search for patches, normal force with damping, wrench on a wheel | [`contact`] |
 //! | a rigid wheelset on rails: rolling radii, contact angles | [`wheelset`] |
+//! | a wheelset under given loads, in the frame of the program CONTACT | [`loaded`] |
 //! | equivalent conicity, linear geometry | [`conicity`] |
 //! | elastic contact of two curved bodies | [`hertz`] |
 //! | creep forces: Kalker's coefficients and linear theory, Shen-Hedrick-Elkins, Polach, FASTSIM | [`creep`] |
@@ -32,6 +33,7 @@ pub mod conicity;
 pub mod contact;
 pub mod creep;
 pub mod hertz;
+pub mod loaded;
 pub mod profile;
 pub mod track;
 pub mod wheelset;
