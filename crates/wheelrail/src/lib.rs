@@ -9,7 +9,7 @@
 //! | equivalent conicity, linear geometry | [`conicity`] |
 //! | elastic contact of two curved bodies | [`hertz`] |
 //! | creep forces: Kalker's coefficients and linear theory, Shen-Hedrick-Elkins, Polach, FASTSIM | [`creep`] |
-//! | center line of a track: tangents, spirals, curves; mid-chord offsets; irregularities from spectra | [`track`] |
+//! | center line of a track: tangents, spirals, curves; mid-chord offsets; irregularities from spectra and tables | [`track`] |
 //!
 //! SI units. Axes of a contact: x in the rolling direction, y in the tangent plane, z along the normal. All
 //! laws are written over a scalar, so that derivatives come from the same lines.

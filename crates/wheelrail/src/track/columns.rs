@@ -29,7 +29,7 @@ const WIDE: [&str; 2] = ["wide", "tight"];
 
 /// Names and signs (positive, negative) of the quantities.
 const COLUMNS: [(&str, Column, [&str; 2]); 14] = [
-    ("distance", Column::Distance, ["forward", "forward or nothing"]),
+    ("distance", Column::Distance, ["forward", "nothing"]),
     ("left_profile", Column::LeftProfile, VERTICAL),
     ("right_profile", Column::RightProfile, VERTICAL),
     ("profile", Column::Profile, VERTICAL),

@@ -188,7 +188,7 @@ impl MeasuredTable {
                 let sign = match cell.trim_matches('"').to_ascii_lowercase().as_str() {
                     "" if head.column == Column::Distance => 1.0,
                     own if own == plus => 1.0,
-                    own if own == minus => -1.0,
+                    own if own == minus && head.column != Column::Distance => -1.0,
                     _ => {
                         let found = format!(
                             "the sign row has {} under {}; {plus} or {minus} is expected",
