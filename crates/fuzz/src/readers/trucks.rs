@@ -142,7 +142,7 @@ fn track_corpus() -> Vec<Vec<u8>> {
           direction = \"vertical\"\ndepth = \"0.75 in\"\nstart = \"519.5 ft\"\n"
             .to_vec(),
         b"name = \"flat\"\n[[segments]]\ntangent = \"100 m\"\n[[grades]]\ndistance = \"0 m\"\ngrade = 0.01\n[[irregularities]]\n\
-          spectrum = \"fra_lateral\"\nclass = 6\ndirection = \"lateral\"\nterms = 20\nseed = 3\n"
+          spectrum = \"fra_lateral\"\nclass = 6\ndirection = \"lateral\"\nterms = 70\nseed = 3\n"
             .to_vec(),
     ]
 }
