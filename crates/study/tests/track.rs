@@ -48,8 +48,8 @@ fn refused(text: &str) -> String {
         .collect()
 }
 
-/// A curve of 10 degrees has a radius of 573.7 ft, right curves and their superelevation have the signs of the
-/// conventions, and irregularities are on the rails that they are said to be on.
+/// A curve of 10 degrees has a radius of 573.7 ft, right curves and their superelevation have the signs of
+/// the conventions, and irregularities are on the rails that they are said to be on.
 #[test]
 fn analytic_a_track_is_what_its_file_says() {
     let file = TrackFile::parse("curve_10.toml", CURVE).unwrap();
@@ -139,4 +139,127 @@ fn input_messages_of_track_files_say_what_to_write() {
     assert!(refused("title = \"no track\"").contains("`segments` is missing"));
     let spectrum = "[[segments]]\ntangent = \"500 ft\"\n[[irregularities]]\nspectrum = \"fra_vertical\"\nclass = 9\ndirection = \"vertical\"\n";
     assert!(refused(spectrum).contains("no class 9"));
+}
+
+fn in_folder(files: &[(&str, String)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+fn refused_file(folder: &tempfile::TempDir) -> String {
+    let error = TrackFile::read(&folder.path().join("track.toml")).unwrap_err();
+    let problems = error.problems().iter();
+    problems
+        .map(|problem| {
+            let help = miette::Diagnostic::help(problem).map(|help| help.to_string());
+            format!("{problem}\n{}\n", help.unwrap_or_default())
+        })
+        .collect()
+}
+
+/// A table beside the track file gives irregularities and the center line; support and cubic spirals are
+/// read.
+#[test]
+fn analytic_measured_tables_are_part_of_a_track() {
+    use study::track::Support;
+    let mut table =
+        "distance [ft],left_profile [in],curvature [1/ft],superelevation [in]\n,down,right,right_high\n"
+            .to_owned();
+    for k in 0..=1000 {
+        table += &format!("{k},0.25,-0.001,3\n");
+    }
+    let track = "support = { kind = \"rigid\" }\n[center_line]\ntable = \"car.csv\"\n[[irregularities]]\ntable = \"car.csv\"\n\
+                 form = \"space_curve\"\n";
+    let folder = in_folder(&[("car.csv", table.clone()), ("track.toml", track.to_owned())]);
+    let file = TrackFile::read(&folder.path().join("track.toml")).unwrap();
+    assert_eq!(file.support, Support::Rigid);
+    let middle = file.track.center_line.at(500.0 * FOOT);
+    assert!(
+        (middle.curvature[0] * FOOT - 0.001).abs() < 1e-12,
+        "right is negative, twice"
+    );
+    assert!((middle.superelevation[0] - 3.0 * INCH).abs() < 1e-12);
+    let [left, right] = file.track.rails(500.0 * FOOT);
+    assert!((left.vertical[0] + 0.25 * INCH).abs() < 1e-12 && right.vertical[0] == 0.0);
+    let cubic = CURVE.replace("spiral = \"200 ft\"", "spiral = \"200 ft\"\nform = \"cubic\"");
+    let cubic = TrackFile::parse("cubic.toml", &cubic).unwrap();
+    let line = &cubic.track.center_line;
+    let quarter = line.at(550.0 * FOOT).curvature[0] / line.at(900.0 * FOOT).curvature[0];
+    assert!((quarter - 0.156_25).abs() < 1e-9, "{quarter}");
+    let Support::Sprung { vertical, lateral } = cubic.support else {
+        panic!("tracks are sprung if nothing is said");
+    };
+    assert_eq!([vertical.stiffness, vertical.mass], [80e6, 345.0]);
+    assert!((lateral.damping - 140e3 / 3.0).abs() < 1e-9);
+    let stiff = format!("{CURVE}\n[support]\nkind = \"sprung\"\nvertical_stiffness = \"100 kN/mm\"\n");
+    let Support::Sprung { vertical, .. } = TrackFile::parse("stiff.toml", &stiff).unwrap().support else {
+        panic!("sprung");
+    };
+    assert!((vertical.stiffness - 1e8).abs() < 1.0);
+}
+
+#[test]
+fn input_irregularities_must_cover_the_track_and_be_space_curves() {
+    let mut table = "distance [ft],left_profile [in]\n,up\n".to_owned();
+    for k in 0..=800 {
+        table += &format!("{k},0.25\n");
+    }
+    let track = |length: u32, more: &str| {
+        format!("[[segments]]\ntangent = \"{length} ft\"\n[[irregularities]]\ntable = \"car.csv\"\n{more}")
+    };
+    for (length, more, parts) in [
+        (700, "", &["form` is missing", "mid-chord"][..]),
+        (
+            900,
+            "form = \"space_curve\"",
+            &["ends at 800.0 ft", "900.0 ft long", "beyond = \"level\""],
+        ),
+        (700, "form = \"mid_chord\"", &["chord"]),
+        (
+            700,
+            "form = \"mid_chord\"\nchord = \"62 ft\"\nshortest = \"20 ft\"\nlongest = \"200 ft\"",
+            &["cannot be inverted"],
+        ),
+        (
+            700,
+            "form = \"space_curve\"\nsigns = \"row\"\ntaper = \"500 ft\"",
+            &["taper"],
+        ),
+        (
+            700,
+            "form = \"space_curve\"\nsigns = \"usual\"",
+            &["car.csv:2", "no number of a track"],
+        ),
+    ] {
+        let folder = in_folder(&[("car.csv", table.clone()), ("track.toml", track(length, more))]);
+        let message = refused_file(&folder);
+        assert!(
+            parts.iter().all(|part| message.contains(part)),
+            "{more}: {message}"
+        );
+    }
+    let level = in_folder(&[
+        ("car.csv", table.clone()),
+        (
+            "track.toml",
+            track(900, "form = \"space_curve\"\nbeyond = \"level\""),
+        ),
+    ]);
+    assert!(TrackFile::read(&level.path().join("track.toml")).is_ok());
+    let none = in_folder(&[("track.toml", track(700, "form = \"space_curve\""))]);
+    assert!(refused_file(&none).contains("car.csv"));
+    let both = format!("{CURVE}\n[center_line]\ntable = \"car.csv\"\n");
+    assert!(refused(&both).contains("either `center_line` or `segments`"));
+    // 1000 waves from 1.5 to 91.44 m repeat themselves after 5003 ft.
+    let long = "[[segments]]\ntangent = \"9000 ft\"\n[[irregularities]]\nspectrum = \"fra_vertical\"\ndirection = \"vertical\"\n";
+    let message = refused(long);
+    assert!(
+        message.contains("repeats itself after 5003 ft") && message.contains("terms = 1799"),
+        "{message}"
+    );
+    let own = long.replace("fra_vertical", "psd.csv");
+    assert!(refused(&own).contains("unit"), "{}", refused(&own));
 }

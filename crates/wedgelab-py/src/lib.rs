@@ -2,8 +2,8 @@
 //!
 //! Python code in `python/wedgelab` gives it names, types and tables; the work is done by lower floors. One
 //! module a thing: `case`, `outcome` (results), `run` and `many` (running), `step` (users' own loops),
-//! `study`, `figures`, `nucars` and `half_truck`, `truck`, `quasi_static`, `quantity`, and `values` and `errors` for the
-//! way between the languages.
+//! `study`, `figures`, `nucars` and `half_truck`, `truck`, `quasi_static`, `wheelrail`, `quantity`, and
+//! `values` and `errors` for the way between the languages.
 //!
 //! Nothing panics through: what calls into lower floors runs in `errors::guarded`.
 
@@ -23,6 +23,7 @@ mod step;
 mod study;
 mod truck;
 mod values;
+mod wheelrail;
 
 /// The native part of `wedgelab`.
 #[pymodule]
@@ -53,6 +54,8 @@ mod _wedgelab {
     use crate::study::{NativeStudy, NativeStudyFolder};
     #[pymodule_export]
     use crate::truck::NativeTruckCase;
+    #[pymodule_export]
+    use crate::wheelrail::{NativeProfile, NativeTrack, NativeWheelset, creep_forces};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

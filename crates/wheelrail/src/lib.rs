@@ -5,10 +5,11 @@
 //! | profiles of wheels and rails: arcs and lines, points from files, nominal ones | [`profile`] |
 //! | contact: search for patches, normal force with damping, wrench on a wheel | [`contact`] |
 //! | a rigid wheelset on rails: rolling radii, contact angles | [`wheelset`] |
+//! | a wheelset under given loads, in the frame of the program CONTACT | [`loaded`] |
 //! | equivalent conicity, linear geometry | [`conicity`] |
 //! | elastic contact of two curved bodies | [`hertz`] |
 //! | creep forces: Kalker's coefficients and linear theory, Shen-Hedrick-Elkins, Polach, FASTSIM | [`creep`] |
-//! | center line of a track: tangents, spirals, curves; mid-chord offsets; irregularities from spectra | [`track`] |
+//! | center line of a track: tangents, spirals, curves; mid-chord offsets; irregularities from spectra and tables | [`track`] |
 //!
 //! SI units. Axes of a contact: x in the rolling direction, y in the tangent plane, z along the normal. All
 //! laws are written over a scalar, so that derivatives come from the same lines.
@@ -32,6 +33,7 @@ pub mod conicity;
 pub mod contact;
 pub mod creep;
 pub mod hertz;
+pub mod loaded;
 pub mod profile;
 pub mod track;
 pub mod wheelset;

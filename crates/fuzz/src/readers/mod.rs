@@ -33,12 +33,13 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 24] = [
+pub const ALL: [Reader; 25] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,
     trucks::TRUCKS,
     trucks::TRACKS,
+    trucks::MEASURED_TRACKS,
     trucks::PROFILES,
     studies::STUDIES,
     studies::MANIFESTS,

@@ -3,6 +3,7 @@
 use study::track::TrackFile;
 use study::truck::{TruckCase, builtin};
 use wheelrail::profile::{Kind, Points, Profile};
+use wheelrail::track::{Form, MeasuredTable};
 
 use super::cases::{messages, refused};
 use super::{Outcome, Reader, nowhere, refused_as_written};
@@ -57,6 +58,27 @@ pub const TRACKS: Reader = Reader {
         b"rails = \"against\"",
     ],
     read: track,
+};
+
+/// Tables of measured track.
+pub const MEASURED_TRACKS: Reader = Reader {
+    name: "measured_tracks",
+    about: "tables of measured track: irregularities, center lines",
+    corpus: measured_corpus,
+    dictionary: &[
+        b"distance [ft]",
+        b"left_profile [in]",
+        b"right_alignment_in",
+        b"cross_level [mm]",
+        b"gauge [in]",
+        b"degree_of_curve",
+        b"curvature [1/ft]",
+        b"grade [%]",
+        b"_offset_62_ft_in",
+        b"right_high",
+        b"wide",
+    ],
+    read: measured,
 };
 
 /// Points of profiles.
@@ -120,7 +142,7 @@ fn track_corpus() -> Vec<Vec<u8>> {
           direction = \"vertical\"\ndepth = \"0.75 in\"\nstart = \"519.5 ft\"\n"
             .to_vec(),
         b"name = \"flat\"\n[[segments]]\ntangent = \"100 m\"\n[[grades]]\ndistance = \"0 m\"\ngrade = 0.01\n[[irregularities]]\n\
-          spectrum = \"fra_lateral\"\nclass = 6\ndirection = \"lateral\"\nterms = 20\nseed = 3\n"
+          spectrum = \"fra_lateral\"\nclass = 6\ndirection = \"lateral\"\nterms = 70\nseed = 3\n"
             .to_vec(),
     ]
 }
@@ -148,6 +170,52 @@ fn track(input: &[u8]) -> Outcome {
         }
         Err(error) => refused(&error),
     }
+}
+
+fn measured_corpus() -> Vec<Vec<u8>> {
+    let mut rails =
+        "distance [ft],left_profile [in],right_profile_offset_62_ft_in,gauge [in]\n,down,up,wide\n"
+            .to_owned();
+    let mut line = "distance_ft;degree_of_curve;superelevation_in;grade\n".to_owned();
+    for k in 0..40 {
+        rails += &format!("{k},0.{k},-0.1,56.{k}\n");
+        line += &format!("{};{k};0.1;0.01\n", 10 * k);
+    }
+    vec![rails.into_bytes(), line.into_bytes()]
+}
+
+fn measured(input: &[u8]) -> Outcome {
+    let Ok(text) = std::str::from_utf8(input) else {
+        return Outcome::NO_TEXT;
+    };
+    let read = |signs_known| {
+        let table = MeasuredTable::parse("table.csv", text, signs_known)?;
+        let forms = [
+            Form::SpaceCurve,
+            Form::MidChord {
+                chord: 18.8976,
+                wavelengths: [11.0, 100.0],
+            },
+        ];
+        for form in forms {
+            for placed in table.irregularities(form, 0.0, 1.0).into_iter().flatten() {
+                if let wheelrail::track::Irregularity::Samples(samples) = &placed.irregularity {
+                    let [first, last] = samples.range();
+                    let at = samples.at(0.5 * (first + last));
+                    assert!(at[0].is_finite(), "no value in {first} to {last} m");
+                }
+            }
+        }
+        if let Ok(line) = table.center_line(1.5) {
+            let station = line.at(0.5 * line.length());
+            assert!(station.position.iter().all(|own| own.is_finite()), "no place");
+        }
+        Ok(Outcome::ACCEPTED)
+    };
+    let told = |error: wheelrail::track::MeasuredError| {
+        Outcome::refused_with(&format!("{error}; {}", error.remedy()))
+    };
+    read(true).or_else(|_| read(false)).unwrap_or_else(told)
 }
 
 fn profile_corpus() -> Vec<Vec<u8>> {

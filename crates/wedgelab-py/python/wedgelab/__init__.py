@@ -3,7 +3,7 @@
 Units: a text carries its unit (``"32 deg"``), a bare number is in SI units. ``docs/python.md`` is a short tour.
 """
 
-from . import cluster, nucars
+from . import cluster, nucars, wheelrail
 from ._wedgelab import Quantity, __version__
 from .case import Case, Group, built_in
 from .errors import (
@@ -21,6 +21,7 @@ from .errors import (
     StudyError,
     UnitError,
     WedgelabError,
+    WheelRailError,
 )
 from .figures import Curve, Figure, Mark, Panel, report_figures
 from .many import run_many
@@ -100,6 +101,7 @@ __all__ = [
     "Wedge",
     "WedgeSection",
     "WedgelabError",
+    "WheelRailError",
     "__version__",
     "built_in",
     "cluster",
@@ -107,4 +109,5 @@ __all__ = [
     "quasi_static",
     "report_figures",
     "run_many",
+    "wheelrail",
 ]

@@ -19,18 +19,22 @@ _Load = tuple[list[float], list[float]]
 __all__ = [
     "NativeCase",
     "NativeFile",
+    "NativeProfile",
     "NativeResult",
     "NativeStudy",
     "NativeStudyFolder",
     "NativeTruckCase",
     "NativeHalfTruckCase",
+    "NativeTrack",
     "NativeWedge",
+    "NativeWheelset",
     "Quantity",
     "__version__",
     "_fail_inside",
     "built_in_groups",
     "built_in_half_trucks",
     "check_files",
+    "creep_forces",
     "read_file",
     "report_figures",
     "run_figures",
@@ -289,3 +293,61 @@ class NativeStudyFolder:
     def compute(self, jobs: int, progress: Callable[[int], object] | None) -> int: ...
     def finish(self) -> tuple[list[int], list[tuple[int, str]], str | None]: ...
     def close(self) -> None: ...
+
+@final
+class NativeProfile:
+    @staticmethod
+    def read(path: _Path, wheel: bool, deviation: float) -> NativeProfile: ...
+    @staticmethod
+    def of_points(y: _Floats, z: _Floats, wheel: bool, deviation: float) -> NativeProfile: ...
+    @staticmethod
+    def nominal(name: str) -> NativeProfile: ...
+    @staticmethod
+    def cone(slope: float, half_width: float) -> NativeProfile: ...
+    def inclined(self, slope: float) -> NativeProfile: ...
+    def sample(self, spacing: float) -> tuple[_Floats, _Floats]: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def is_wheel(self) -> bool: ...
+    @property
+    def note(self) -> str: ...
+    @property
+    def deviation(self) -> float: ...
+
+@final
+class NativeWheelset:
+    def __new__(
+        cls,
+        wheel: NativeProfile,
+        rail: NativeProfile,
+        gauge: float,
+        gauge_depth: float,
+        tape_distance: float,
+        radius: float,
+        shear_modulus: float,
+        poisson: float,
+    ) -> NativeWheelset: ...
+    def contact(
+        self, left: bool, given: list[_Floats], creep: str, cells: int
+    ) -> tuple[_Floats, _Floats, list[str]]: ...
+    def positions(self, shifts: _Floats) -> list[_Floats]: ...
+    def conicity(self, amplitudes: _Floats, largest: float, count: int) -> list[_Floats]: ...
+
+def creep_forces(
+    law: str, given: list[_Floats], shear_modulus: float, poisson: float, cells: int
+) -> list[_Floats]: ...
+
+@final
+class NativeTrack:
+    @staticmethod
+    def read(path: _Path) -> NativeTrack: ...
+    @staticmethod
+    def parse(text: str, source: str) -> NativeTrack: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def length(self) -> float: ...
+    def sample(self, distances: _Floats) -> _Floats: ...

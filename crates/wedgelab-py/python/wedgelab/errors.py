@@ -27,6 +27,7 @@ __all__ = [
     "StudyError",
     "UnitError",
     "WedgelabError",
+    "WheelRailError",
 ]
 
 
@@ -154,6 +155,10 @@ class NucarsError(WedgelabError, ValueError):
         self.args = (message, shown, tuple(findings))
         self.findings: tuple[Finding, ...] = tuple(findings)
         """The errors with their places."""
+
+
+class WheelRailError(WedgelabError, ValueError):
+    """A profile, a contact or a creep law cannot be: what was found, and what it must be."""
 
 
 class FileError(WedgelabError, OSError):

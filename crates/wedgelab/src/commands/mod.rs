@@ -15,3 +15,4 @@ pub mod study;
 pub mod track;
 pub mod warp;
 pub mod wheelrail;
+mod wheelrail_contact;

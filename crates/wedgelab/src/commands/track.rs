@@ -25,8 +25,9 @@ pub struct Arguments {
 enum Command {
     /// Show what a car will meet over the distance, with the chord offsets that inspectors know
     ///
-    /// Reads a track file (docs/wheelrail.md) and writes track.csv (curvature, superelevation, grade, profile and alignment of
-    /// both rails, cross level, gauge, mid-chord offsets of 31, 62 and 124 ft), track.svg and track.png.
+    /// Reads a track file (docs/wheelrail.md) and writes track.csv (curvature, superelevation, grade, profile
+    /// and alignment of both rails, cross level, gauge, mid-chord offsets of 31, 62 and 124 ft), track.svg
+    /// and track.png.
     Show {
         /// Track file
         track: PathBuf,
@@ -64,7 +65,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         out,
         force,
     } = &arguments.command;
-    let TrackFile { name, title, track } = TrackFile::read(path)?;
+    let TrackFile {
+        name, title, track, ..
+    } = TrackFile::read(path)?;
     let interval = interval.to_si();
     let length = track.center_line.length();
     if length / interval > MOST_ROWS {

@@ -13,19 +13,22 @@ use wheelrail::profile::{Kind, Profile, ProfileError, nominal};
 use wheelrail::wheelset::{Layout, RigidPosition, RigidWheelset};
 
 use super::warp::draw;
+use super::wheelrail_contact;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::table::Table;
 
-/// Profiles of wheels and rails: checks, rolling radius difference, contact angles, equivalent conicity
+/// Profiles of wheels and rails: checks, rolling radius difference, contact angles, equivalent conicity,
+/// contact
 ///
-/// WHEEL is aar_1b, cone_1:20 (any slope), or a file; RAIL is 136re, or a file: CSV with units in its header, or
-/// Simpack's .prw and .prr. The nominal profiles are from memory, not from drawings.
+/// WHEEL is aar_1b, cone_1:20 (any slope), or a file; RAIL is 136re, or a file: CSV with units in its header,
+/// or Simpack's .prw and .prr. The nominal profiles are from memory, not from drawings.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
   wedgelab wheelrail check aar_1b 136re
-  wedgelab wheelrail plot worn.csv rail.prr --gauge \"56.75 in\" --out worn")]
+  wedgelab wheelrail plot worn.csv rail.prr --gauge \"56.75 in\" --out worn
+  wedgelab wheelrail contact aar_1b 136re --lateral \"0.25 in\" --load \"33 kip\"")]
 pub struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -46,11 +49,14 @@ enum Command {
         #[arg(long)]
         force: bool,
     },
+    /// Gives the contact patches of a loaded wheelset in a given position: places, forces, creepages,
+    /// ellipses
+    Contact(Box<wheelrail_contact::Arguments>),
 }
 
 /// A wheel and a rail, and where they are.
 #[derive(Debug, Args)]
-struct Pair {
+pub(super) struct Pair {
     /// Wheel profile
     wheel: String,
     /// Rail profile
@@ -58,27 +64,28 @@ struct Pair {
     /// Gauge
     #[arg(long, default_value = "56.5 in", value_parser = length)]
     gauge: Quantity,
-    /// Depth below the top of the rail at which gauge is measured
-    #[arg(long, value_name = "DEPTH", default_value = "0.625 in", value_parser = length)]
-    gauge_depth: Quantity,
-    /// Distance of the tape circles of the wheels
-    #[arg(long, value_name = "DISTANCE", default_value = "59.21875 in", value_parser = length)]
-    tape_distance: Quantity,
-    /// Nominal radius of the wheels
-    #[arg(long, default_value = "18 in", value_parser = length)]
-    radius: Quantity,
+    /// Depth below the top of the rail at which gauge is measured [default: 5/8 in; 14 mm for rails from
+    /// .prr]
+    #[arg(long, value_name = "DEPTH", value_parser = length)]
+    gauge_depth: Option<Quantity>,
+    /// Distance of the tape circles of the wheels [default: 59.21875 in; 1500 mm for wheels from .prw]
+    #[arg(long, value_name = "DISTANCE", value_parser = length)]
+    tape_distance: Option<Quantity>,
+    /// Nominal radius of the wheels [default: 18 in; 460 mm for wheels from .prw]
+    #[arg(long, value_parser = length)]
+    radius: Option<Quantity>,
     /// Inclination of the rails, such as 1:40 or 0 [default: 1:40 for nominal rails, 0 for files]
     #[arg(long, value_name = "SLOPE", value_parser = slope)]
     inclination: Option<f64>,
-    /// How far splines may lie from the points of a file
-    #[arg(long, value_name = "LENGTH", default_value = "0.02 mm", value_parser = length_or_zero)]
-    deviation: Quantity,
+    /// How far splines may lie from the points of a file [default: 0.02 mm; 0 for contact]
+    #[arg(long, value_name = "LENGTH", value_parser = length_or_zero)]
+    deviation: Option<Quantity>,
     /// Largest lateral shift
     #[arg(long, value_name = "SHIFT", default_value = "0.5 in", value_parser = length)]
     shift: Quantity,
 }
 
-fn length(text: &str) -> Result<Quantity, String> {
+pub(super) fn length(text: &str) -> Result<Quantity, String> {
     let quantity = length_or_zero(text)?;
     if quantity.to_si() > 0.0 {
         Ok(quantity)
@@ -114,7 +121,14 @@ fn slope(text: &str) -> Result<f64, String> {
     }
 }
 
+/// What is given, m, or else what is usual with Simpack's files, and with others.
+fn or_usual(given: Option<&Quantity>, simpack: bool, usual: [f64; 2]) -> f64 {
+    given.map_or(usual[usize::from(!simpack)], Quantity::to_si)
+}
+
 const INCH: f64 = 0.0254;
+/// How far splines may lie from the points of a file, m.
+const DEVIATION: f64 = 2e-5;
 /// Half width of a conical tread, m.
 const TREAD: f64 = 2.0 * INCH;
 const STEEL: Material = Material {
@@ -127,19 +141,15 @@ const POSITIONS: usize = 280;
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (pair, files) = match &arguments.command {
+        Command::Contact(own) => return wheelrail_contact::execute(own),
         Command::Check(pair) => (pair, None),
         Command::Plot { pair, out, force } => (pair, Some((out, *force))),
     };
     let folder = files
         .map(|(out, force)| folders::check(out, &NAMES, force))
         .transpose()?;
-    let (wheel, rail) = (pair.wheel()?, pair.rail()?);
-    let layout = Layout {
-        tape_distance: pair.tape_distance.to_si(),
-        gauge: pair.gauge.to_si(),
-        gauge_depth: pair.gauge_depth.to_si(),
-    };
-    let radius = pair.radius.to_si();
+    let (wheel, rail) = (pair.wheel(DEVIATION)?, pair.rail(DEVIATION)?);
+    let (layout, radius) = (pair.layout(), pair.radius());
     let wheelset = RigidWheelset::new([&wheel; 2], [radius; 2], [&rail; 2], layout, STEEL)
         .map_err(|error| wrong(&error))?;
     let largest = pair.shift.to_si();
@@ -205,12 +215,39 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn wrong(error: &ProfileError) -> Failure {
+pub(super) fn wrong(error: &ProfileError) -> Failure {
     Message::new(error.to_string(), error.remedy()).into()
 }
 
 impl Pair {
-    fn wheel(&self) -> Result<Profile, Failure> {
+    pub(super) fn layout(&self) -> Layout {
+        let (depth, distance) = (Self::is_simpack(&self.rail), Self::is_simpack(&self.wheel));
+        Layout {
+            tape_distance: or_usual(self.tape_distance.as_ref(), distance, [1.5, 59.21875 * INCH]),
+            gauge: self.gauge.to_si(),
+            gauge_depth: or_usual(self.gauge_depth.as_ref(), depth, [14e-3, nominal::GAUGE_DEPTH]),
+        }
+    }
+
+    /// The nominal radius of the wheels, m.
+    pub(super) fn radius(&self) -> f64 {
+        or_usual(
+            self.radius.as_ref(),
+            Self::is_simpack(&self.wheel),
+            [0.46, 18.0 * INCH],
+        )
+    }
+
+    /// Simpack's files mostly hold European profiles.
+    fn is_simpack(name: &str) -> bool {
+        let extension = Path::new(name)
+            .extension()
+            .and_then(|extension| extension.to_str());
+        extension.is_some_and(|own| own.eq_ignore_ascii_case("prw") || own.eq_ignore_ascii_case("prr"))
+    }
+
+    /// The wheel; splines lie at most `deviation` (m) from their points if nothing is given.
+    pub(super) fn wheel(&self, deviation: f64) -> Result<Profile, Failure> {
         match self.wheel.as_str() {
             "aar_1b" => nominal::aar_1b().map_err(|error| wrong(&error)),
             name => match name.strip_prefix("cone_") {
@@ -219,15 +256,16 @@ impl Pair {
                         .map_err(|reason| Message::new(format!("`{name}`: {reason}"), "write cone_1:20"))?;
                     nominal::cone(slope, TREAD).map_err(|error| wrong(&error))
                 }
-                None => self.of_file(name, Kind::Wheel, "aar_1b, cone_1:20"),
+                None => self.of_file(name, Kind::Wheel, "aar_1b, cone_1:20", deviation),
             },
         }
     }
 
-    fn rail(&self) -> Result<Profile, Failure> {
+    /// As [`Pair::wheel`].
+    pub(super) fn rail(&self, deviation: f64) -> Result<Profile, Failure> {
         let (rail, usual) = match self.rail.as_str() {
             "136re" => (nominal::rail_136re().map_err(|error| wrong(&error))?, 1.0 / 40.0),
-            name => (self.of_file(name, Kind::Rail, "136re")?, 0.0),
+            name => (self.of_file(name, Kind::Rail, "136re", deviation)?, 0.0),
         };
         Ok(match self.inclination.unwrap_or(usual) {
             0.0 => rail,
@@ -235,14 +273,15 @@ impl Pair {
         })
     }
 
-    fn of_file(&self, name: &str, kind: Kind, nominal: &str) -> Result<Profile, Failure> {
+    fn of_file(&self, name: &str, kind: Kind, nominal: &str, deviation: f64) -> Result<Profile, Failure> {
         let path = Path::new(name);
         if !path.exists() {
             let message = format!("there is neither a file nor a nominal {} `{name}`", kind.word());
             let advice = format!("name a file of points, or {nominal}");
             return Err(Message::new(message, advice).into());
         }
-        Profile::read(path, kind, self.deviation.to_si()).map_err(|error| wrong(&error))
+        let deviation = self.deviation.as_ref().map_or(deviation, Quantity::to_si);
+        Profile::read(path, kind, deviation).map_err(|error| wrong(&error))
     }
 }
 

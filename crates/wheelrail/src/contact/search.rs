@@ -171,6 +171,30 @@ impl ContactPair {
         self.wheel.nominal_radius()
     }
 
+    /// Returns the range of y (m) that the rail's section covers.
+    #[must_use]
+    pub fn rail_range(&self) -> [f64; 2] {
+        self.rail.range()
+    }
+
+    /// Returns the range of y (m) of the wheel's profile that the search covers.
+    #[must_use]
+    pub fn wheel_range(&self) -> [f64; 2] {
+        let stations = self.wheel.stations();
+        let at = |k: usize| stations.get(k).map_or(0.0, |station| station[0]);
+        [at(0), at(stations.len().saturating_sub(1))]
+    }
+
+    /// Returns y (m) on the wheel's profile at which the face of the flange ends and its tip begins: where
+    /// the slope falls below nine tenths of its largest; none if the wheel has no flange.
+    #[must_use]
+    pub fn flange_crest(&self) -> Option<f64> {
+        let faces = self.wheel.stations().iter().filter(|station| station[0] < 0.0);
+        let steepest = faces.clone().map(|station| -station[2]).fold(0.0, f64::max);
+        let mut face = faces.filter(|station| -station[2] > 0.9 * steepest);
+        face.next().filter(|_| steepest > 0.5).map(|station| station[0])
+    }
+
     /// Returns all patches at a pose.
     #[must_use]
     pub fn patches_at(&self, pose: &WheelPose<f64>) -> Vec<ContactPatch<f64>> {

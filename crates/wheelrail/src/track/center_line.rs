@@ -1,11 +1,11 @@
 //! The center line of a track: tangents, spirals and curves, with superelevation and grade.
 //!
 //! In a spiral curvature and superelevation change linearly with the distance (a clothoid, as in AREMA's
-//! recommendation), so that curvature, heading and position are continuous by construction. The heading is a
-//! quadratic of the distance in each segment; the position is its integral, exact for tangents and curves and
-//! by Gauss's rule with 8 points on pieces of at most 20 m of a spiral. Grades change linearly between given
-//! places. Before its start and beyond its end the track goes on as it is there, without a change of
-//! curvature.
+//! recommendation), or as `3u² - 2u³` of the share u of the length (a cubic spiral), so that their rates are
+//! continuous too. Heading and position are continuous by construction. The heading is a polynomial of the
+//! distance in each segment; the position is its integral, exact for tangents and curves and by Gauss's rule
+//! with 8 points on pieces of at most 20 m of a spiral. Grades change linearly between given places. Before
+//! its start and beyond its end the track goes on as it is there, without a change of curvature.
 
 use thiserror::Error;
 
@@ -13,6 +13,8 @@ use thiserror::Error;
 const DEGREE_CHORD: f64 = 30.48;
 /// Longest piece of a spiral for one application of Gauss's rule, m.
 const LONGEST_PIECE: f64 = 20.0;
+/// Largest curvature of a table, 1/m.
+const SHARPEST: f64 = 1.0;
 /// Points of Gauss's rule on -1 .. 1 and their weights (half of them; the others are symmetric).
 const GAUSS: [[f64; 2]; 4] = [
     [0.183_434_642_495_649_8, 0.362_683_783_378_362],
@@ -49,6 +51,8 @@ pub enum Segment {
     Tangent(f64),
     /// From the curvature before it to that of the segment after it, within a length (m).
     Spiral(f64),
+    /// The same with curvature and superelevation as cubics, whose rates are zero at both ends.
+    CubicSpiral(f64),
     /// A curve of a length (m).
     Curve(f64, CurveElements),
 }
@@ -100,6 +104,16 @@ pub enum TrackError {
         /// The distance of the rails' centers, m.
         distance: f64,
     },
+    /// A table of curvature and superelevation is none.
+    #[error(
+        "row {row} (from 1) of the center line's table is at {distance} m: rows begin at 0 m, rise, and have curvatures of at most 1/m"
+    )]
+    Row {
+        /// The row, from 1.
+        row: usize,
+        /// Its distance, m.
+        distance: f64,
+    },
     /// Places of grades do not rise, or a number is not finite.
     #[error("grade {number} (from 1) lies at {place} m, which is not beyond the one before it")]
     Grade {
@@ -110,13 +124,13 @@ pub enum TrackError {
     },
 }
 
-/// A piece on which curvature and superelevation are linear.
+/// A piece on which curvature and superelevation are polynomials of the distance from its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Piece {
     start: f64,
-    /// Curvature and superelevation at its start, and their rates by the distance.
-    curvature: [f64; 2],
-    superelevation: [f64; 2],
+    /// Coefficients, from the constant on.
+    curvature: [f64; 4],
+    superelevation: [f64; 4],
     heading: f64,
     place: [f64; 2],
 }
@@ -150,11 +164,23 @@ pub struct Station {
     pub roll: f64,
 }
 
+/// Returns a cubic and its derivative.
+fn value_and_rate([c0, c1, c2, c3]: &[f64; 4], t: f64) -> [f64; 2] {
+    [
+        c0 + t * (c1 + t * (c2 + t * c3)),
+        c1 + t * (2.0 * c2 + 3.0 * t * c3),
+    ]
+}
+
 impl Piece {
     /// Returns the same with another start: curvature and superelevation continue.
     fn from(&self, start: f64) -> Self {
         let t = start - self.start;
-        let at = |[value, rate]: [f64; 2]| [value + t * rate, rate];
+        let at = |cubic: [f64; 4]| {
+            let [value, rate] = value_and_rate(&cubic, t);
+            let [.., c2, c3] = cubic;
+            [value, rate, c2 + 3.0 * c3 * t, c3]
+        };
         Self {
             start,
             curvature: at(self.curvature),
@@ -166,14 +192,15 @@ impl Piece {
     /// Returns heading at a distance (m) from the start of the track.
     fn heading(&self, distance: f64) -> f64 {
         let t = distance - self.start;
-        self.heading + t * (self.curvature[0] + 0.5 * t * self.curvature[1])
+        let [c0, c1, c2, c3] = self.curvature;
+        self.heading + t * (c0 + t * (0.5 * c1 + t * (c2 / 3.0 + t * 0.25 * c3)))
     }
 
     /// Returns the place in plan, m.
     fn place(&self, distance: f64) -> [f64; 2] {
         let t = distance - self.start;
         let [x, y] = self.place;
-        if self.curvature[1] == 0.0 {
+        if self.curvature[1..] == [0.0; 3] {
             // Chord and direction of an arc.
             let half = 0.5 * t * self.curvature[0];
             let chord = if half.abs() < 1e-4 {
@@ -215,14 +242,17 @@ impl CenterLine {
         let own = |index: usize| match segments.get(index)? {
             Segment::Tangent(_) => Some(CurveElements::default()),
             Segment::Curve(_, elements) => Some(*elements),
-            Segment::Spiral(_) => None,
+            Segment::Spiral(_) | Segment::CubicSpiral(_) => None,
         };
         let mut pieces = Vec::new();
         let (mut start, mut heading, mut place) = (0.0, 0.0, [0.0; 2]);
         let mut before = own(0);
         for (index, segment) in segments.iter().enumerate() {
             let number = index + 1;
-            let (Segment::Tangent(length) | Segment::Spiral(length) | Segment::Curve(length, _)) = *segment;
+            let (Segment::Tangent(length)
+            | Segment::Spiral(length)
+            | Segment::CubicSpiral(length)
+            | Segment::Curve(length, _)) = *segment;
             if !(length > 0.0 && length.is_finite()) {
                 return Err(TrackError::Length {
                     segment: number,
@@ -243,7 +273,7 @@ impl CenterLine {
                     ]
                 }
             };
-            let spiral = matches!(segment, Segment::Spiral(_));
+            let spiral = matches!(segment, Segment::Spiral(_) | Segment::CubicSpiral(_));
             if !spiral && from != to {
                 return Err(TrackError::Jump {
                     segment: number,
@@ -259,11 +289,18 @@ impl CenterLine {
                     distance: rail_distance,
                 });
             }
-            let linear = |from: f64, to: f64| [from, (to - from) / length];
+            let cubic = matches!(segment, Segment::CubicSpiral(_));
+            let change = |from: f64, to: f64| {
+                let rate = (to - from) / length;
+                match cubic {
+                    true => [from, 0.0, 3.0 * rate / length, -2.0 * rate / (length * length)],
+                    false => [from, rate, 0.0, 0.0],
+                }
+            };
             let piece = Piece {
                 start,
-                curvature: linear(from.curvature, to.curvature),
-                superelevation: linear(from.superelevation, superelevation),
+                curvature: change(from.curvature, to.curvature),
+                superelevation: change(from.superelevation, superelevation),
                 heading,
                 place,
             };
@@ -299,6 +336,63 @@ impl CenterLine {
         })
     }
 
+    /// Returns the center line whose curvature (1/m, positive to the left) and superelevation (m, positive
+    /// where the right rail is raised) are given at distances (m, from 0) and linear between them;
+    /// `rail_distance` and `grades` as for [`CenterLine::new`].
+    ///
+    /// # Errors
+    /// [`TrackError`]: distances do not begin at 0 and rise, or a superelevation is too large.
+    pub fn of_table(
+        distances: &[f64],
+        curvature: &[f64],
+        superelevation: &[f64],
+        rail_distance: f64,
+        grades: &[[f64; 2]],
+    ) -> Result<Self, TrackError> {
+        let rows = distances.len().min(curvature.len()).min(superelevation.len());
+        if rows < 2 {
+            return Err(TrackError::Empty);
+        }
+        let mut pieces: Vec<Piece> = Vec::with_capacity(rows - 1);
+        let (mut heading, mut place) = (0.0, [0.0; 2]);
+        for k in 0..rows {
+            let (distance, own) = (distances[k], superelevation[k]);
+            let rises = match k {
+                0 => distance == 0.0,
+                _ => distance > distances[k - 1],
+            };
+            if !(rises && curvature[k].abs() <= SHARPEST && own.is_finite()) {
+                return Err(TrackError::Row { row: k + 1, distance });
+            }
+            if own.abs() >= rail_distance {
+                return Err(TrackError::Superelevation {
+                    segment: k + 1,
+                    superelevation: own,
+                    distance: rail_distance,
+                });
+            }
+        }
+        for k in 0..rows - 1 {
+            let length = distances[k + 1] - distances[k];
+            let linear = |values: &[f64]| [values[k], (values[k + 1] - values[k]) / length, 0.0, 0.0];
+            let piece = Piece {
+                start: distances[k],
+                curvature: linear(curvature),
+                superelevation: linear(superelevation),
+                heading,
+                place,
+            };
+            (heading, place) = (piece.heading(distances[k + 1]), piece.place(distances[k + 1]));
+            pieces.push(piece);
+        }
+        Ok(Self {
+            pieces,
+            length: distances[rows - 1],
+            rail_distance,
+            grades: heights(grades)?,
+        })
+    }
+
     /// Returns the length of the segments, m.
     #[must_use]
     pub fn length(&self) -> f64 {
@@ -314,7 +408,7 @@ impl CenterLine {
     /// Returns whether there is no superelevation anywhere.
     #[must_use]
     pub fn is_level_across(&self) -> bool {
-        self.pieces.iter().all(|piece| piece.superelevation == [0.0; 2])
+        self.pieces.iter().all(|piece| piece.superelevation == [0.0; 4])
     }
 
     /// Returns the center line at a distance (m).
@@ -332,21 +426,20 @@ impl CenterLine {
             let t = end - piece.start;
             piece = Piece {
                 start: end,
-                curvature: [piece.curvature[0] + t * piece.curvature[1], 0.0],
-                superelevation: [piece.superelevation[0] + t * piece.superelevation[1], 0.0],
+                curvature: [value_and_rate(&piece.curvature, t)[0], 0.0, 0.0, 0.0],
+                superelevation: [value_and_rate(&piece.superelevation, t)[0], 0.0, 0.0, 0.0],
                 heading: piece.heading(end),
                 place: piece.place(end),
             };
         }
         let t = distance - piece.start;
-        let at = |[value, rate]: [f64; 2]| [value + t * rate, rate];
-        let superelevation = at(piece.superelevation);
+        let superelevation = value_and_rate(&piece.superelevation, t);
         let [x, y] = piece.place(distance);
         let [grade, grade_rate, z] = self.grade_and_height(distance);
         Station {
             position: [x, y, z],
             heading: piece.heading(distance),
-            curvature: at(piece.curvature),
+            curvature: value_and_rate(&piece.curvature, t),
             superelevation,
             grade,
             grade_rate,

@@ -1,6 +1,7 @@
 //! A track: its center line, and where each rail lies beside its nominal place.
 
 use super::center_line::CenterLine;
+use super::samples::Samples;
 use super::shape::Shape;
 use super::spectrum::Realization;
 
@@ -33,6 +34,8 @@ pub enum Irregularity {
     Shape(Shape),
     /// A realization of a spectrum.
     Spectrum(Realization),
+    /// Values at distances, such as measured ones.
+    Samples(Samples),
 }
 
 /// An irregularity of a track.
@@ -73,6 +76,7 @@ impl Track {
             let value = match &placed.irregularity {
                 Irregularity::Shape(shape) => shape.at(distance),
                 Irregularity::Spectrum(realization) => realization.at(distance),
+                Irregularity::Samples(samples) => samples.at(distance),
             };
             let factors = match placed.rails {
                 Rails::Left => [1.0, 0.0],

@@ -1,16 +1,21 @@
 //! Track: its center line, and what inspectors measure of irregularities.
 //!
-//! Distance s along the track is measured in plan, from its start. Curvature is positive in curves to the left,
-//! superelevation is positive where the right rail is raised (the outer rail of a curve to the left). Axes: x and
-//! y in plan, z up; at the start the track leads along x at the origin.
+//! Distance s along the track is measured in plan, from its start. Curvature is positive in curves to the
+//! left, superelevation is positive where the right rail is raised (the outer rail of a curve to the left).
+//! Axes: x and y in plan, z up; at the start the track leads along x at the origin.
 
 pub mod center_line;
 pub mod chord;
+mod columns;
 pub mod layout;
+pub mod measured;
 pub mod rails;
+pub mod samples;
 pub mod shape;
 pub mod spectrum;
 
 pub use center_line::{CenterLine, CurveElements, Segment, Station, TrackError};
 pub use layout::{Direction, Irregularity, Placed, RailPlace, Rails, Track};
+pub use measured::{Form, MeasuredError, MeasuredTable};
 pub use rails::{Foot, Line, RailLines, Section};
+pub use samples::Samples;

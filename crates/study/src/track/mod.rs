@@ -16,21 +16,29 @@
 //! direction = "vertical"
 //! depth = "0.75 in"
 //! start = "519.5 ft"
+//! [[irregularities]]
+//! table = "measured.csv"      # foot by foot, see wheelrail::track::measured
+//! form = "space_curve"
+//! [support]
+//! kind = "sprung"             # or rigid
 //! ```
+
+mod irregularity;
+mod measured;
+mod support;
 
 use std::path::Path;
 
-use quantity::{Kind, Quantity, nearest};
-use wheelrail::track::shape::Shape;
-use wheelrail::track::spectrum::{Realization, Spectrum};
-use wheelrail::track::{
-    CenterLine, CurveElements, Direction, Irregularity, Placed, Rails, Segment, Track, TrackError,
-};
+use quantity::{Kind, Quantity};
+use wheelrail::track::{CenterLine, CurveElements, Placed, Segment, Track, TrackError};
 
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::{Names, Range, Section};
 use crate::case::tree::{self, Node, Table, Value};
 use crate::case::{CaseError, name, text_of};
+
+use irregularity::irregularity;
+pub use support::{Spring, Support};
 
 /// A track with its name.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,36 +49,24 @@ pub struct TrackFile {
     pub title: String,
     /// The track.
     pub track: Track,
+    /// What its rails lie on.
+    pub support: Support,
 }
 
-const KEYS: [&str; 6] = [
+const KEYS: [&str; 8] = [
     "name",
     "title",
     "rail_distance",
+    "support",
+    "center_line",
     "segments",
     "grades",
     "irregularities",
 ];
-const RAILS: Names<Rails> = &[
-    ("left", Rails::Left),
-    ("right", Rails::Right),
-    ("both", Rails::Both),
-    ("against", Rails::Against),
-];
-const DIRECTIONS: Names<Direction> = &[("lateral", Direction::Lateral), ("vertical", Direction::Vertical)];
 const TURNS: Names<f64> = &[("left", 1.0), ("right", -1.0)];
-const SHAPES: [&str; 4] = ["joints", "sine", "dip", "jog"];
-const SPECTRA: [&str; 5] = [
-    "fra_vertical",
-    "fra_lateral",
-    "fra_cross_level",
-    "erri_vertical_low",
-    "erri_vertical_high",
-];
+const SPIRALS: Names<bool> = &[("linear", false), ("cubic", true)];
 /// The longest track, m.
 const LONGEST: f64 = 1e6;
-/// Rail length in North America, m.
-const RAIL: f64 = 39.0 * 0.3048;
 
 impl TrackFile {
     /// Reads a track file.
@@ -109,8 +105,37 @@ fn read(tree: &Table, source: &str, problems: &mut Problems) -> Option<TrackFile
         None => "",
     };
     let rail_distance = optional_length(&top, "rail_distance", 59.5 * 0.0254, problems);
-    let help = "write [[segments]] and below it tangent = \"500 ft\"";
-    top.require("segments", help, problems)?;
+    let support = match tree.get("support") {
+        Some(_) => top
+            .section("support", problems)
+            .and_then(|section| support::support(&section, problems)),
+        None => Some(Support::USUAL),
+    };
+    let folder = Path::new(source).parent().unwrap_or(Path::new(""));
+    let measured = match (
+        tree.get("center_line"),
+        tree.entry("segments").or(tree.entry("grades")),
+    ) {
+        (Some(_), Some(second)) => {
+            let problem = Problem::new("a track has either `center_line` or `segments` with `grades`");
+            problems.push(
+                problem
+                    .at(&second.key_place)
+                    .label("and these")
+                    .help("leave one of them out"),
+            );
+            return None;
+        }
+        (Some(_), None) => {
+            let section = top.section("center_line", problems)?;
+            Some(measured::center_line(&section, folder, rail_distance?, problems)?)
+        }
+        (None, _) => None,
+    };
+    if measured.is_none() {
+        let help = "write [[segments]] and below it tangent = \"500 ft\"";
+        top.require("segments", help, problems)?;
+    }
     let segments: Vec<Option<Segment>> = tables(&top, "segments", problems)
         .iter()
         .map(|section| segment(section, problems))
@@ -125,23 +150,33 @@ fn read(tree: &Table, source: &str, problems: &mut Problems) -> Option<TrackFile
             Some([distance?, grade?])
         })
         .collect();
-    let irregularities: Vec<Option<Placed>> = tables(&top, "irregularities", problems)
+    let segments: Option<Vec<Segment>> = segments.into_iter().collect();
+    let grades: Option<Vec<[f64; 2]>> = grades.into_iter().collect();
+    let center_line = match (measured, segments, grades, rail_distance) {
+        (Some(line), ..) => Some(line),
+        (None, Some(segments), Some(grades), Some(rail_distance)) => {
+            let made = CenterLine::new(&segments, rail_distance, &grades);
+            made.map_err(|error| problems.push(impossible(tree, &error))).ok()
+        }
+        _ => None,
+    };
+    let end = center_line.as_ref().map(CenterLine::length);
+    let irregularities: Vec<Option<Vec<Placed>>> = tables(&top, "irregularities", problems)
         .iter()
-        .map(|section| irregularity(section, problems))
+        .map(|section| match section.table.get("table") {
+            Some(_) => measured::irregularities(section, folder, end, problems),
+            None => irregularity(section, end, problems).map(|placed| vec![placed]),
+        })
         .collect();
-    let segments: Vec<Segment> = segments.into_iter().collect::<Option<_>>()?;
-    let grades: Vec<[f64; 2]> = grades.into_iter().collect::<Option<_>>()?;
-    let irregularities: Vec<Placed> = irregularities.into_iter().collect::<Option<_>>()?;
-    let center_line = CenterLine::new(&segments, rail_distance?, &grades).map_err(|error| {
-        problems.push(impossible(tree, &error));
-    });
+    let irregularities: Vec<Vec<Placed>> = irregularities.into_iter().collect::<Option<_>>()?;
     Some(TrackFile {
         name: name?,
         title: title.to_owned(),
         track: Track {
-            center_line: center_line.ok()?,
-            irregularities,
+            center_line: center_line?,
+            irregularities: irregularities.into_iter().flatten().collect(),
         },
+        support: support?,
     })
 }
 
@@ -280,16 +315,23 @@ fn segment(section: &Section<'_>, problems: &mut Problems) -> Option<Segment> {
     };
     let own: &[&str] = match *kind {
         "curve" => &["curve", "degree", "radius", "direction", "superelevation"],
-        other => std::slice::from_ref(match other {
-            "spiral" => &"spiral",
-            _ => &"tangent",
-        }),
+        "spiral" => &["spiral", "form"],
+        _ => &["tangent"],
     };
     section.allow_in(own, &[], "a track", problems);
     let along = length(section, kind, false, problems);
     match *kind {
         "tangent" => return Some(Segment::Tangent(along?)),
-        "spiral" => return Some(Segment::Spiral(along?)),
+        "spiral" => {
+            let cubic = optional(section, "form", false, |section| {
+                section.choice("form", SPIRALS, problems)
+            });
+            let along = along?;
+            return Some(match cubic? {
+                true => Segment::CubicSpiral(along),
+                false => Segment::Spiral(along),
+            });
+        }
         _ => {}
     }
     let turn = optional(section, "direction", 1.0, |section| {
@@ -327,188 +369,4 @@ fn segment(section: &Section<'_>, problems: &mut Problems) -> Option<Segment> {
         superelevation: turn * superelevation,
     };
     Some(Segment::Curve(along?, elements))
-}
-
-fn irregularity(section: &Section<'_>, problems: &mut Problems) -> Option<Placed> {
-    let (shape, spectrum) = (section.table.get("shape"), section.table.get("spectrum"));
-    let irregularity = match (shape, spectrum) {
-        (Some(_), None) => shaped(section, problems).map(Irregularity::Shape),
-        (None, Some(_)) => realized(section, problems).map(Irregularity::Spectrum),
-        _ => {
-            let message = format!("`{}` must have either `shape` or `spectrum`", section.path);
-            let help = format!(
-                "shapes are {}; spectra are {}",
-                SHAPES.join(", "),
-                SPECTRA.join(", ")
-            );
-            let problem = Problem::new(message).label("which one?").help(help);
-            problems.push(match &section.place {
-                Some(place) => problem.at(place),
-                None => problem,
-            });
-            None
-        }
-    };
-    let rails = optional(section, "rails", Rails::Both, |section| {
-        section.choice("rails", RAILS, problems)
-    });
-    let direction = section.choice("direction", DIRECTIONS, problems);
-    Some(Placed {
-        rails: rails?,
-        direction: direction?,
-        irregularity: irregularity?,
-    })
-}
-
-/// The text of a name among others.
-fn named<'t>(section: &Section<'t>, key: &str, names: &[&str], problems: &mut Problems) -> Option<&'t str> {
-    let (text, node) = section.text(key, problems)?;
-    if names.contains(&text) {
-        return Some(text);
-    }
-    let all = format!("write one of \"{}\"", names.join("\", \""));
-    let help = match nearest(text, names.iter().copied()) {
-        Some(near) => format!("did you mean \"{near}\"? {all}"),
-        None => all,
-    };
-    let problem = Problem::new(format!("`{}` cannot be \"{text}\"", section.path_of(key)));
-    problems.push(problem.at(&node.place).label("not one of the choices").help(help));
-    None
-}
-
-/// A whole number.
-fn whole(section: &Section<'_>, key: &str, default: u64, problems: &mut Problems) -> Option<u64> {
-    if section.table.get(key).is_none() {
-        return Some(default);
-    }
-    let range = Range::UpTo(1e9, "a whole number, 0 to 1e9");
-    let number = section.number(key, range, "1", problems)?;
-    if number.fract() == 0.0 {
-        return Some(number as u64);
-    }
-    let problem = Problem::new(format!(
-        "`{}` is {number}; a whole number is expected",
-        section.path_of(key)
-    ));
-    problems.push(match section.table.place_of(key) {
-        Some(place) => problem.at(place).label("not whole"),
-        None => problem,
-    });
-    None
-}
-
-/// An amplitude, depth or offset, m: either sign.
-fn size(section: &Section<'_>, key: &str, problems: &mut Problems) -> Option<f64> {
-    let range = Range::Between(-1.0, 1.0, "below 1 m");
-    section
-        .quantity(key, Kind::Length, range, problems)
-        .map(|size| size.to_si())
-}
-
-fn shaped(section: &Section<'_>, problems: &mut Problems) -> Option<Shape> {
-    let shape = named(section, "shape", &SHAPES, problems)?;
-    let common = ["shape", "rails", "direction", "start"];
-    let own: &[&str] = match shape {
-        "joints" => &["depth", "spacing", "joints", "rounding"],
-        "sine" => &["amplitude", "wavelength", "cycles"],
-        "dip" => &["depth", "length"],
-        _ => &["offset", "length"],
-    };
-    let keys: Vec<&str> = common.iter().chain(own).copied().collect();
-    section.allow_in(&keys, &[], "a track", problems);
-    let start = length(section, "start", true, problems);
-    Some(match shape {
-        "joints" => {
-            let depth = size(section, "depth", problems);
-            let spacing = optional_length(section, "spacing", RAIL, problems);
-            let rounding = optional_length(section, "rounding", 0.3048, problems);
-            let joints = whole(section, "joints", 10, problems);
-            let (spacing, rounding) = (spacing?, rounding?);
-            if 2.0 * rounding >= spacing {
-                let problem = Problem::new(format!(
-                    "`{}.rounding` is half the spacing of joints or more",
-                    section.path
-                ));
-                problems.push(match section.table.place_of("rounding") {
-                    Some(place) => problem.at(place).label("too long"),
-                    None => problem,
-                });
-                return None;
-            }
-            Shape::Joints {
-                depth: depth?,
-                spacing,
-                joints: joints? as usize,
-                rounding,
-                start: start?,
-            }
-        }
-        "sine" => {
-            let amplitude = size(section, "amplitude", problems);
-            let wavelength = optional_length(section, "wavelength", RAIL, problems);
-            let cycles = whole(section, "cycles", 5, problems);
-            Shape::Sine {
-                amplitude: amplitude?,
-                wavelength: wavelength?,
-                cycles: cycles? as usize,
-                start: start?,
-            }
-        }
-        "dip" => {
-            let depth = size(section, "depth", problems);
-            let along = length(section, "length", false, problems);
-            Shape::Dip {
-                depth: depth?,
-                length: along?,
-                start: start?,
-            }
-        }
-        _ => {
-            let offset = size(section, "offset", problems);
-            let along = length(section, "length", false, problems);
-            Shape::Jog {
-                offset: offset?,
-                length: along?,
-                start: start?,
-            }
-        }
-    })
-}
-
-fn realized(section: &Section<'_>, problems: &mut Problems) -> Option<Realization> {
-    let spectrum = named(section, "spectrum", &SPECTRA, problems)?;
-    let keys = [
-        "spectrum",
-        "class",
-        "rails",
-        "direction",
-        "shortest",
-        "longest",
-        "terms",
-        "taper",
-        "seed",
-    ];
-    section.allow_in(&keys, &[], "a track", problems);
-    let class = whole(section, "class", 4, problems)?.min(255) as u8;
-    let spectrum = match spectrum {
-        "fra_vertical" => Spectrum::FraVertical(class),
-        "fra_lateral" => Spectrum::FraLateral(class),
-        "fra_cross_level" => Spectrum::FraCrossLevel(class),
-        "erri_vertical_low" => Spectrum::ErriVerticalLow,
-        _ => Spectrum::ErriVerticalHigh,
-    };
-    let shortest = optional_length(section, "shortest", 1.5, problems);
-    let longest = optional_length(section, "longest", 91.44, problems);
-    let taper = optional_length(section, "taper", 30.0, problems);
-    let terms = whole(section, "terms", 1000, problems);
-    let seed = whole(section, "seed", 1, problems);
-    let made = Realization::new(spectrum, [shortest?, longest?], terms? as usize, taper?, seed?);
-    made.map_err(|error| {
-        let problem = Problem::new(format!("`{}`: {error}", section.path));
-        problems.push(match &section.place {
-            Some(place) => problem.at(place).label("this spectrum"),
-            None => problem,
-        });
-    })
-    .ok()
 }

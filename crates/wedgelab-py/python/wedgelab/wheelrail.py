@@ -1,0 +1,443 @@
+"""Wheel on rail and track, over NumPy arrays: profiles, contact of a loaded wheelset, creep forces, conicity, tracks.
+
+Texts carry units (``"56.5 in"``), bare numbers are in SI units (m, N, rad, m/s, 1/m, Pa). Axes are x forward, y to the left,
+z up, but for ``contact``, which is the command ``wedgelab wheelrail contact`` and speaks CONTACT's frame: y to the right, z down.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _wedgelab as _native
+from ._units import si
+from .errors import WheelRailError
+from .quasi_static import Floats, Values, _values
+from .sections import QuantityLike
+
+__all__ = [
+    "Contact",
+    "CreepForces",
+    "CreepLaw",
+    "Positions",
+    "Profile",
+    "Track",
+    "TrackSample",
+    "WheelContact",
+    "Wheelset",
+    "contact",
+    "creep_forces",
+]
+
+CreepLaw = Literal["linear", "shen_hedrick_elkins", "polach", "fastsim"]
+_PATCHES = 9
+_STEEL = 82e9
+_POISSON = 0.28
+
+
+def _flat(values: Sequence[Floats]) -> tuple[tuple[int, ...], list[Floats]]:
+    """The common shape, and flat arrays of it."""
+    try:
+        arrays = np.broadcast_arrays(*values)
+    except ValueError:
+        shapes = ", ".join(str(one.shape) for one in values)
+        raise WheelRailError(f"the shapes of the arguments do not fit together: {shapes}") from None
+    return arrays[0].shape, [np.ascontiguousarray(one, dtype=float).ravel() for one in arrays]
+
+
+def _cells(cells: int) -> int:
+    if not 1 <= cells <= 1000:
+        raise WheelRailError(f"cells is {cells}; it must be between 1 and 1000")
+    return cells
+
+
+class Profile:
+    """A profile of a wheel or a rail: y to the field side, z up, m. A wheel's origin lies in its tape circle."""
+
+    def __init__(self, native: _native.NativeProfile) -> None:
+        self._native = native
+
+    @classmethod
+    def read(
+        cls, path: str | os.PathLike[str], kind: Literal["wheel", "rail"], *, deviation: QuantityLike = "0.02 mm"
+    ) -> Profile:
+        """Reads CSV with units in its header, or Simpack's ``.prw`` and ``.prr``; the spline lies at most ``deviation`` from
+        the points."""
+        return cls(_native.NativeProfile.read(path, _is_wheel(kind), si(deviation, "length", "deviation")))
+
+    @classmethod
+    def from_points(
+        cls, y: Values, z: Values, kind: Literal["wheel", "rail"], *, deviation: QuantityLike = 0.0
+    ) -> Profile:
+        """A spline along points, from the gauge side to the field side."""
+        _, (y_points, z_points) = _flat([_values(y, "length", "y"), _values(z, "length", "z")])
+        return cls(
+            _native.NativeProfile.of_points(y_points, z_points, _is_wheel(kind), si(deviation, "length", "deviation"))
+        )
+
+    @classmethod
+    def nominal(cls, name: str) -> Profile:
+        """``"aar_1b"`` (a wheel) or ``"136re"`` (a rail, upright). From memory, not from drawings: see ``note``."""
+        return cls(_native.NativeProfile.nominal(name))
+
+    @classmethod
+    def cone(cls, slope: float, *, half_width: QuantityLike = "2 in") -> Profile:
+        """The tread of a cone without flange; 0.05 is 1:20."""
+        return cls(_native.NativeProfile.cone(slope, si(half_width, "length", "half_width")))
+
+    def inclined(self, slope: float) -> Profile:
+        """The profile inclined towards the track's center, such as by 1/40."""
+        return Profile(self._native.inclined(slope))
+
+    def points(self, spacing: QuantityLike = "0.5 mm") -> tuple[Floats, Floats]:
+        """y and z of points along the profile, m."""
+        return self._native.sample(si(spacing, "length", "spacing"))
+
+    @property
+    def name(self) -> str:
+        """The file, or the name of a nominal profile."""
+        return self._native.name
+
+    @property
+    def kind(self) -> Literal["wheel", "rail"]:
+        """Wheel or rail."""
+        return "wheel" if self._native.is_wheel else "rail"
+
+    @property
+    def note(self) -> str:
+        """What must be known of its source; empty if nothing."""
+        return self._native.note
+
+    @property
+    def deviation(self) -> float:
+        """How far the curve lies from the points that it was made of, m."""
+        return self._native.deviation
+
+    def __repr__(self) -> str:
+        return f"<Profile of a {self.kind}: {self.name}>"
+
+
+def _is_wheel(kind: str) -> bool:
+    if kind not in ("wheel", "rail"):
+        raise WheelRailError(f'the kind of a profile cannot be {kind!r}; write "wheel" or "rail"')
+    return kind == "wheel"
+
+
+@dataclass(frozen=True)
+class WheelContact:
+    """The contact of one wheel, in CONTACT's frame: y to the right, z down, forces on the rail.
+
+    Arrays of patches have the shape of the arguments with a last axis of nine patches, the deepest first, NaN where there is
+    none; others have the shape of the arguments. ``share`` is 1 but where two areas grow together, which are given as one patch
+    and as two; forces contain it.
+    """
+
+    share: Floats
+    """Share with which a patch counts."""
+    y: Floats
+    """Lateral place on the track, m."""
+    angle: Floats
+    """Angle of the plane of contact about x, rad."""
+    normal: Floats
+    """Normal force, N."""
+    fx: Floats
+    """Creep force along x, N."""
+    fy: Floats
+    """Creep force in the plane of contact, to the right, N."""
+    spin_moment: Floats
+    """Moment about the normal that points down, N m."""
+    creepage_x: Floats
+    """Longitudinal creepage: velocity of the rail less that of the wheel over the speed."""
+    creepage_y: Floats
+    """Lateral creepage."""
+    spin: Floats
+    """Spin, 1/m."""
+    a: Floats
+    """Semi-axis along the rolling direction, m."""
+    b: Floats
+    """Semi-axis across it, m."""
+    greatest_pressure: Floats
+    """Greatest pressure, Pa."""
+    center: Floats
+    """Lateral place of the wheel's center, m."""
+    height: Floats
+    """Height of the wheel's center above the top of its rail, m; NaN off the rail."""
+    lateral_force: Floats
+    """Lateral force on the rail, N."""
+    vertical_force: Floats
+    """Vertical force on the rail, N."""
+    seat: npt.NDArray[np.str_]
+    """``on_rail``, ``flange_tip`` (climbed), ``rim_edge`` (about to fall in), ``off_rail``."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """The contact of both wheels."""
+
+    left: WheelContact
+    """The left wheel."""
+    right: WheelContact
+    """The right wheel."""
+
+
+@dataclass(frozen=True)
+class Positions:
+    """A rigid wheelset that touches both rails, over lateral shifts (to the left); NaN where a wheel is not over its rail."""
+
+    rolling_radius_difference: Floats
+    """Rolling radius of the left wheel less that of the right one, m."""
+    left_angle: Floats
+    """Contact angle of the left wheel, rad: positive where its plane of contact rises to the field side."""
+    right_angle: Floats
+    """Contact angle of the right wheel, rad."""
+    roll: Floats
+    """Roll of the axle, rad: positive with the right side down."""
+
+
+class Wheelset:
+    """A wheelset on rails: two wheels, two rails of one profile each."""
+
+    def __init__(
+        self,
+        wheel: Profile,
+        rail: Profile,
+        *,
+        gauge: QuantityLike = "56.5 in",
+        gauge_depth: QuantityLike = "0.625 in",
+        tape_distance: QuantityLike = "59.21875 in",
+        radius: QuantityLike = "18 in",
+        shear_modulus: float = _STEEL,
+        poisson: float = _POISSON,
+    ) -> None:
+        """Gauge is measured ``gauge_depth`` below the top of the rail; the tape circles of the wheels, of the nominal
+        ``radius``, are ``tape_distance`` apart; ``shear_modulus`` in Pa. Rails stand as their profile is: incline nominal ones
+        (``Profile.nominal("136re").inclined(1 / 40)``)."""
+        for given, what in ((wheel, "wheel"), (rail, "rail")):
+            if not isinstance(given, Profile):
+                raise WheelRailError(f"{what} is a {type(given).__name__}; a Profile is expected, such as Profile.read(...)")
+        self._radius = si(radius, "length", "radius")
+        self._native = _native.NativeWheelset(
+            wheel._native,
+            rail._native,
+            si(gauge, "length", "gauge"),
+            si(gauge_depth, "length", "gauge_depth"),
+            si(tape_distance, "length", "tape_distance"),
+            self._radius,
+            float(shear_modulus),
+            float(poisson),
+        )
+
+    def contact(
+        self,
+        *,
+        load: Values,
+        lateral: Values = 0.0,
+        yaw: Values = 0.0,
+        roll: Values = 0.0,
+        speed: Values = "2 m/s",
+        pitch_rate: Values | None = None,
+        friction: Values = 0.3,
+        creep: CreepLaw = "polach",
+        cells: int = 50,
+    ) -> Contact:
+        """The contact patches under a vertical load of each wheel, as ``wedgelab wheelrail contact`` gives them.
+
+        **CONTACT's frame**: x forward, y to the right, z down. Lateral place and yaw are to the right, roll has the right side
+        down, forward rolling is a negative pitch rate (by default the speed over the nominal radius). Arguments may be arrays,
+        which are broadcast.
+        """
+        speeds = _values(speed, "speed", "speed")
+        rates = -speeds / self._radius if pitch_rate is None else _values(pitch_rate, "angular_speed", "pitch_rate")
+        shape, flat = _flat(
+            [
+                _values(lateral, "length", "lateral"),
+                _values(yaw, "angle", "yaw"),
+                _values(roll, "angle", "roll"),
+                speeds,
+                rates,
+                _values(load, "force", "load"),
+                _values(friction, "dimensionless", "friction"),
+            ]
+        )
+        left, right = (self._side(side, shape, flat, creep, cells) for side in (True, False))
+        return Contact(left, right)
+
+    def _side(self, left: bool, shape: tuple[int, ...], flat: list[Floats], creep: str, cells: int) -> WheelContact:
+        patches, whole, seats = self._native.contact(left, flat, creep, _cells(cells))
+        of_patch = np.moveaxis(patches.reshape(*shape, _PATCHES, -1), -1, 0)
+        of_wheel = np.moveaxis(whole.reshape(*shape, -1), -1, 0)
+        names = [field.name for field in fields(WheelContact) if field.name != "seat"]
+        numbers = dict(zip(names, [*of_patch, *of_wheel], strict=True))
+        return WheelContact(**numbers, seat=np.array(seats, dtype=np.str_).reshape(shape))
+
+    def positions(self, shift: Values) -> Positions:
+        """Rolling radius difference, contact angles and roll at lateral shifts (to the left, at the height of the rails'
+        tops), with rigid bodies."""
+        shape, (flat,) = _flat([_values(shift, "length", "shift")])
+        return Positions(*(one.reshape(shape) for one in self._native.positions(flat)))
+
+    def equivalent_conicity(
+        self,
+        amplitude: Values = "3 mm",
+        *,
+        method: Literal["wavelength", "linearization"] = "wavelength",
+        largest_shift: QuantityLike = "0.5 in",
+        positions: int = 400,
+    ) -> Floats:
+        """Equivalent conicity at amplitudes: by the wavelength (EN 15302) or by harmonic linearization, from a table of
+        rolling radius differences up to ``largest_shift``. The axle rolls, which the standard neglects (0.8 % with cones of
+        1:40)."""
+        if method not in ("wavelength", "linearization"):
+            raise WheelRailError(f'method cannot be {method!r}; write "wavelength" or "linearization"')
+        if not 2 <= positions <= 100_000:
+            raise WheelRailError(f"positions is {positions}; it must be between 2 and 100000")
+        shape, (flat,) = _flat([_values(amplitude, "length", "amplitude")])
+        found = self._native.conicity(flat, si(largest_shift, "length", "largest_shift"), positions)
+        return found[0 if method == "wavelength" else 1].reshape(shape)
+
+
+def contact(wheel: Profile, rail: Profile, *, load: Values, **given: Any) -> Contact:
+    """``Wheelset(wheel, rail, ...).contact(load=..., ...)`` in one call: takes the arguments of both."""
+    names = ("gauge", "gauge_depth", "tape_distance", "radius", "shear_modulus", "poisson")
+    layout = {name: given.pop(name) for name in names if name in given}
+    return Wheelset(wheel, rail, **layout).contact(load=load, **given)
+
+
+@dataclass(frozen=True)
+class CreepForces:
+    """Creep forces on the wheel, in the common shape of the arguments."""
+
+    x: Floats
+    """Along the rolling direction, N."""
+    y: Floats
+    """Across it, N."""
+    spin_moment: Floats
+    """About the normal, N m."""
+
+
+def creep_forces(
+    law: CreepLaw,
+    *,
+    a: Values,
+    b: Values,
+    load: Values,
+    longitudinal: Values = 0.0,
+    lateral: Values = 0.0,
+    spin: Values = 0.0,
+    friction: Values = 0.3,
+    shear_modulus: float = _STEEL,
+    poisson: float = _POISSON,
+    cells: int = 50,
+) -> CreepForces:
+    """Creep forces of an ellipse with the semi-axes ``a`` along and ``b`` across the rolling direction under a normal load.
+
+    Creepages are velocities of the wheel relative to the rail over the rolling speed, ``spin`` in 1/m; forces act on the wheel
+    and oppose them. FASTSIM has ``cells`` by ``cells`` cells. Arguments may be arrays, which are broadcast.
+    """
+    values = [
+        _values(a, "length", "a"),
+        _values(b, "length", "b"),
+        _values(load, "force", "load"),
+        _values(friction, "dimensionless", "friction"),
+        _values(longitudinal, "dimensionless", "longitudinal"),
+        _values(lateral, "dimensionless", "lateral"),
+        _values(spin, "dimensionless", "spin"),
+    ]
+    for value, what in zip(values[:3], ("a", "b", "load"), strict=True):
+        if not ((value > 0.0) & np.isfinite(value)).all():
+            raise WheelRailError(f"{what} must be positive and finite everywhere")
+    if not ((values[3] >= 0.0) & np.isfinite(values[3])).all():
+        raise WheelRailError("friction must be finite, 0 or more, everywhere")
+    if not all(np.isfinite(value).all() for value in values[4:]):
+        raise WheelRailError("creepages and spin must be finite everywhere")
+    if not (shear_modulus > 0.0 and 0.0 <= poisson <= 0.5):
+        raise WheelRailError("shear_modulus (Pa) must be positive, and poisson between 0 and 0.5")
+    shape, flat = _flat(values)
+    found = _native.creep_forces(law, flat, float(shear_modulus), float(poisson), _cells(cells))
+    return CreepForces(*(one.reshape(shape) for one in found))
+
+
+@dataclass(frozen=True)
+class TrackSample:
+    """A track at distances: arrays of their shape. Curvature and lateral irregularities are positive to the left, profiles up,
+    superelevation and cross level where the right rail is higher."""
+
+    x: Floats
+    """Place of the center line, m: along the track at its start."""
+    y: Floats
+    """Place, m: to the left."""
+    z: Floats
+    """Height, m."""
+    heading: Floats
+    """Heading, rad: to the left."""
+    curvature: Floats
+    """Curvature, 1/m."""
+    superelevation: Floats
+    """Superelevation, m."""
+    grade: Floats
+    """Rise by the distance."""
+    left_profile: Floats
+    """Vertical irregularity of the left rail, m."""
+    right_profile: Floats
+    """Vertical irregularity of the right rail, m."""
+    left_alignment: Floats
+    """Lateral irregularity of the left rail, m."""
+    right_alignment: Floats
+    """Lateral irregularity of the right rail, m."""
+    left_profile_slope: Floats
+    """Derivative of the left profile by the distance."""
+    right_profile_slope: Floats
+    """Derivative of the right profile by the distance."""
+    left_alignment_slope: Floats
+    """Derivative of the left alignment by the distance."""
+    right_alignment_slope: Floats
+    """Derivative of the right alignment by the distance."""
+    cross_level: Floats
+    """Right rail above the left one, with superelevation, m."""
+    gauge_deviation: Floats
+    """Gauge less its nominal value, m."""
+
+
+class Track:
+    """A track: curves, superelevation, grades, irregularities (docs/wheelrail.md)."""
+
+    def __init__(self, native: _native.NativeTrack) -> None:
+        self._native = native
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Track:
+        """Reads a track file. Raises ``CaseError`` with all mistakes and their places."""
+        return cls(_native.NativeTrack.read(path))
+
+    @classmethod
+    def parse(cls, text: str, source: str = "track.toml") -> Track:
+        """A track from the text of a track file; tables are looked for beside ``source``."""
+        return cls(_native.NativeTrack.parse(text, source))
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self._native.name
+
+    @property
+    def title(self) -> str:
+        """One line for people; may be empty."""
+        return self._native.title
+
+    @property
+    def length(self) -> float:
+        """Length of its center line in plan, m."""
+        return self._native.length
+
+    def sample(self, distance: Values) -> TrackSample:
+        """The track at distances from its start, in plan."""
+        shape, (flat,) = _flat([_values(distance, "length", "distance")])
+        if not np.isfinite(flat).all():
+            raise WheelRailError("distances must be finite")
+        found = self._native.sample(flat).reshape(*shape, -1)
+        return TrackSample(*np.moveaxis(found, -1, 0))

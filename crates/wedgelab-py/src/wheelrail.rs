@@ -1,0 +1,455 @@
+//! Wheel on rail and track over arrays: profiles, contact of a loaded wheelset, creep forces, conicity,
+//! tracks.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use ::wheelrail::conicity::RollingRadiusDifference;
+use ::wheelrail::contact::{ContactLaw, CreepLaw, Side};
+use ::wheelrail::creep::fastsim::Grid;
+use ::wheelrail::creep::{Coefficients, Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins};
+use ::wheelrail::hertz::Material;
+use ::wheelrail::loaded::{Attitude, LoadError, LoadedPatch, LoadedWheel};
+use ::wheelrail::profile::{Kind, Points, Profile, ProfileError, nominal};
+use ::wheelrail::wheelset::{Layout, RigidWheelset};
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use study::track::TrackFile;
+
+use crate::errors::{case_error, guarded, simple};
+
+type Array<'py> = Bound<'py, PyArray1<f64>>;
+type Given<'py> = PyReadonlyArray1<'py, f64>;
+
+/// Most patches of a wheel: three areas, each as a whole and in two parts.
+const PATCHES: usize = 9;
+/// Numbers of a patch.
+const OF_PATCH: usize = 13;
+/// Numbers of a wheel: center, height, lateral and vertical force.
+const OF_WHEEL: usize = 4;
+/// Numbers of a track at a distance.
+const OF_TRACK: usize = 17;
+
+fn refused(py: Python<'_>, message: &str, help: &str) -> PyErr {
+    simple(py, "WheelRailError", message, help)
+}
+
+fn of_profile(py: Python<'_>, error: &ProfileError) -> PyErr {
+    refused(py, &error.to_string(), &error.remedy())
+}
+
+fn of_load(py: Python<'_>, error: &LoadError) -> PyErr {
+    refused(py, &error.to_string(), error.remedy())
+}
+
+/// A profile of a wheel or a rail.
+#[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeProfile")]
+pub struct NativeProfile {
+    profile: Arc<Profile>,
+}
+
+impl NativeProfile {
+    fn of(py: Python<'_>, made: Result<Profile, ProfileError>) -> PyResult<Self> {
+        let profile = Arc::new(made.map_err(|error| of_profile(py, &error))?);
+        Ok(Self { profile })
+    }
+}
+
+fn kind(wheel: bool) -> Kind {
+    if wheel { Kind::Wheel } else { Kind::Rail }
+}
+
+#[pymethods]
+impl NativeProfile {
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf, wheel: bool, deviation: f64) -> PyResult<Self> {
+        guarded(py, || Self::of(py, Profile::read(&path, kind(wheel), deviation)))
+    }
+
+    #[staticmethod]
+    fn of_points(py: Python<'_>, y: Given<'_>, z: Given<'_>, wheel: bool, deviation: f64) -> PyResult<Self> {
+        let (y, z) = (y.as_slice()?, z.as_slice()?);
+        if y.len() != z.len() {
+            return Err(PyValueError::new_err("the arrays differ in length"));
+        }
+        let points: Vec<[f64; 2]> = y.iter().zip(z).map(|(y, z)| [*y, *z]).collect();
+        let points = Points::new("points", &points);
+        guarded(py, || {
+            Self::of(py, Profile::of_points(&points, kind(wheel), deviation))
+        })
+    }
+
+    #[staticmethod]
+    fn nominal(py: Python<'_>, name: &str) -> PyResult<Self> {
+        guarded(py, || match name {
+            "aar_1b" => Self::of(py, nominal::aar_1b()),
+            "136re" => Self::of(py, nominal::rail_136re()),
+            _ => Err(refused(
+                py,
+                &format!("there is no nominal profile {name:?}"),
+                "nominal profiles are \"aar_1b\" and \"136re\"; cone(slope) is a cone",
+            )),
+        })
+    }
+
+    #[staticmethod]
+    fn cone(py: Python<'_>, slope: f64, half_width: f64) -> PyResult<Self> {
+        guarded(py, || Self::of(py, nominal::cone(slope, half_width)))
+    }
+
+    fn inclined(&self, slope: f64) -> Self {
+        Self {
+            profile: Arc::new(self.profile.inclined(slope)),
+        }
+    }
+
+    #[getter]
+    fn name(&self) -> String {
+        self.profile.name().to_owned()
+    }
+
+    #[getter]
+    fn is_wheel(&self) -> bool {
+        self.profile.kind() == Kind::Wheel
+    }
+
+    #[getter]
+    fn note(&self) -> String {
+        self.profile.note().to_owned()
+    }
+
+    #[getter]
+    fn deviation(&self) -> f64 {
+        self.profile.deviation().largest
+    }
+
+    /// y and z of points along the profile, m.
+    fn sample<'py>(&self, py: Python<'py>, spacing: f64) -> PyResult<(Array<'py>, Array<'py>)> {
+        if !(spacing >= 1e-6 && spacing.is_finite()) {
+            return Err(refused(
+                py,
+                "the spacing of points must be 1 μm or more",
+                "give for example \"0.5 mm\"",
+            ));
+        }
+        let sample = self.profile.curve().sample(spacing);
+        let column = |axis: usize| sample.iter().map(|(_, point)| point.position[axis]).collect();
+        Ok((
+            PyArray1::from_vec(py, column(0)),
+            PyArray1::from_vec(py, column(1)),
+        ))
+    }
+}
+
+/// A wheelset on rails.
+#[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeWheelset")]
+pub struct NativeWheelset {
+    wheelset: RigidWheelset,
+    layout: Layout,
+}
+
+fn law_of(py: Python<'_>, name: &str, cells: usize) -> PyResult<CreepLaw> {
+    Ok(match name {
+        "linear" => CreepLaw::Linear,
+        "shen_hedrick_elkins" => CreepLaw::ShenHedrickElkins,
+        "polach" => CreepLaw::Polach(polach::DRY),
+        "fastsim" => CreepLaw::Fastsim(Grid { cells, strips: cells }),
+        _ => {
+            let help = "creep laws are \"linear\", \"shen_hedrick_elkins\", \"polach\", \"fastsim\"";
+            return Err(refused(py, &format!("there is no creep law {name:?}"), help));
+        }
+    })
+}
+
+fn numbers(patch: &LoadedPatch) -> [f64; OF_PATCH] {
+    [
+        patch.share,
+        patch.y,
+        patch.angle,
+        patch.normal,
+        patch.fx,
+        patch.fy,
+        patch.spin_moment,
+        patch.creepage[0],
+        patch.creepage[1],
+        patch.spin,
+        patch.axes[0],
+        patch.axes[1],
+        patch.greatest_pressure,
+    ]
+}
+
+#[pymethods]
+impl NativeWheelset {
+    #[new]
+    #[allow(clippy::too_many_arguments)]
+    fn new(
+        py: Python<'_>,
+        wheel: &NativeProfile,
+        rail: &NativeProfile,
+        gauge: f64,
+        gauge_depth: f64,
+        tape_distance: f64,
+        radius: f64,
+        shear_modulus: f64,
+        poisson: f64,
+    ) -> PyResult<Self> {
+        let layout = Layout {
+            tape_distance,
+            gauge,
+            gauge_depth,
+        };
+        let material = Material {
+            youngs_modulus: 2.0 * shear_modulus * (1.0 + poisson),
+            poisson,
+        };
+        guarded(py, || {
+            let made = RigidWheelset::new(
+                [&*wheel.profile; 2],
+                [radius; 2],
+                [&*rail.profile; 2],
+                layout,
+                material,
+            );
+            let wheelset = made.map_err(|error| of_profile(py, &error))?;
+            Ok(Self { wheelset, layout })
+        })
+    }
+
+    /// The loaded wheels of one side. Arrays of one length in; out: numbers of patches (entry, patch, number)
+    /// as one flat array, numbers of wheels (entry, number), and the seats' names.
+    #[allow(clippy::too_many_arguments)]
+    fn contact<'py>(
+        &self,
+        py: Python<'py>,
+        left: bool,
+        given: [Given<'py>; 7],
+        creep: &str,
+        cells: usize,
+    ) -> PyResult<(Array<'py>, Array<'py>, Vec<&'static str>)> {
+        let law = law_of(py, creep, cells)?;
+        let columns: Vec<&[f64]> = given
+            .iter()
+            .map(|column| column.as_slice())
+            .collect::<Result<_, _>>()?;
+        let count = columns[0].len();
+        if columns.iter().any(|column| column.len() != count) {
+            return Err(PyValueError::new_err("the arrays differ in length"));
+        }
+        let side = if left { Side::Left } else { Side::Right };
+        let made: Result<Vec<LoadedWheel>, LoadError> = guarded(py, || {
+            Ok(py.detach(|| {
+                (0..count)
+                    .map(|k| {
+                        let attitude = Attitude {
+                            lateral: columns[0][k],
+                            yaw: columns[1][k],
+                            roll: columns[2][k],
+                            speed: columns[3][k],
+                            pitch_rate: columns[4][k],
+                        };
+                        let law = ContactLaw {
+                            friction: columns[6][k],
+                            damping: 0.0,
+                            creep: law,
+                            slowest: 0.0,
+                        };
+                        self.wheelset.loaded(side, &attitude, columns[5][k], &law)
+                    })
+                    .collect()
+            }))
+        })?;
+        let wheels = made.map_err(|error| of_load(py, &error))?;
+        let mut patches = vec![f64::NAN; count * PATCHES * OF_PATCH];
+        let mut whole = Vec::with_capacity(count * OF_WHEEL);
+        for (k, wheel) in wheels.iter().enumerate() {
+            for (j, patch) in wheel.patches.iter().take(PATCHES).enumerate() {
+                let at = (k * PATCHES + j) * OF_PATCH;
+                patches[at..at + OF_PATCH].copy_from_slice(&numbers(patch));
+            }
+            whole.extend([wheel.center, wheel.height, wheel.force[0], wheel.force[1]]);
+        }
+        let seats = wheels.iter().map(|wheel| wheel.seat.word()).collect();
+        Ok((
+            PyArray1::from_vec(py, patches),
+            PyArray1::from_vec(py, whole),
+            seats,
+        ))
+    }
+
+    /// Rolling radius difference, contact angles left and right, and roll at lateral shifts (m, to the left);
+    /// NaN where a wheel is not over its rail.
+    fn positions<'py>(&self, py: Python<'py>, shifts: Given<'py>) -> PyResult<[Array<'py>; 4]> {
+        let shifts = shifts.as_slice()?;
+        let rows: Vec<[f64; 4]> = guarded(py, || {
+            Ok(py.detach(|| {
+                let row = |shift: &f64| {
+                    self.wheelset
+                        .position(*shift, 0.0)
+                        .map_or([f64::NAN; 4], |found| {
+                            let [left, right] = found.contact_angles();
+                            [found.rolling_radius_difference(), left, right, found.roll]
+                        })
+                };
+                shifts.iter().map(row).collect()
+            }))
+        })?;
+        Ok([0, 1, 2, 3].map(|k: usize| PyArray1::from_vec(py, rows.iter().map(|row| row[k]).collect())))
+    }
+
+    /// Equivalent conicity after EN 15302 and by harmonic linearization at amplitudes (m), from a table of
+    /// `count` positions up to `largest` (m).
+    fn conicity<'py>(
+        &self,
+        py: Python<'py>,
+        amplitudes: Given<'py>,
+        largest: f64,
+        count: usize,
+    ) -> PyResult<[Array<'py>; 2]> {
+        let amplitudes = amplitudes.as_slice()?;
+        guarded(py, || {
+            let wrong = |text: String| refused(py, &text, "look at gauge, tape distance and amplitude");
+            let positions = self.wheelset.sweep(largest, count, false);
+            let table = RollingRadiusDifference::of_positions(&positions)
+                .map_err(|error| wrong(error.to_string()))?;
+            let (radius, distance) = (self.wheelset.nominal_radius(), self.layout.tape_distance);
+            let found: Vec<[f64; 2]> = amplitudes
+                .iter()
+                .map(|amplitude| {
+                    let found = table.equivalent_conicity(*amplitude, radius, distance);
+                    let found = found.map_err(|error| wrong(error.to_string()))?;
+                    Ok([found.by_wavelength, found.by_linearization])
+                })
+                .collect::<PyResult<_>>()?;
+            Ok([0, 1].map(|k: usize| PyArray1::from_vec(py, found.iter().map(|row| row[k]).collect())))
+        })
+    }
+}
+
+/// Creep forces over arrays of one length: semi-axes along and across (m), load (N), friction, creepages,
+/// spin (1/m). Gives forces on the wheel along and across (N) and the spin moment (N m).
+#[pyfunction]
+pub fn creep_forces<'py>(
+    py: Python<'py>,
+    law: &str,
+    given: [Given<'py>; 7],
+    shear_modulus: f64,
+    poisson: f64,
+    cells: usize,
+) -> PyResult<[Array<'py>; 3]> {
+    let law = law_of(py, law, cells)?;
+    let columns: Vec<&[f64]> = given
+        .iter()
+        .map(|column| column.as_slice())
+        .collect::<Result<_, _>>()?;
+    let count = columns[0].len();
+    if columns.iter().any(|column| column.len() != count) {
+        return Err(PyValueError::new_err("the arrays differ in length"));
+    }
+    let rows: Vec<[f64; 3]> = guarded(py, || {
+        Ok(py.detach(|| {
+            (0..count)
+                .map(|k| {
+                    let axes = [columns[0][k], columns[1][k]];
+                    let patch = Patch {
+                        axes,
+                        load: columns[2][k],
+                        friction: columns[3][k],
+                        shear_modulus,
+                        coefficients: Coefficients::of(axes[0] / axes[1], poisson),
+                    };
+                    let creepage = Creepage {
+                        longitudinal: columns[4][k],
+                        lateral: columns[5][k],
+                        spin: columns[6][k],
+                    };
+                    let found = match law {
+                        CreepLaw::ShenHedrickElkins => shen_hedrick_elkins::forces(&patch, &creepage),
+                        CreepLaw::Polach(reduction) => polach::forces(&patch, &creepage, reduction),
+                        CreepLaw::Fastsim(grid) => fastsim::forces(&patch, &creepage, grid),
+                        CreepLaw::Linear | CreepLaw::Frictionless => linear::forces(&patch, &creepage),
+                    };
+                    [found.x, found.y, found.spin_moment]
+                })
+                .collect()
+        }))
+    })?;
+    Ok([0, 1, 2].map(|k: usize| PyArray1::from_vec(py, rows.iter().map(|row| row[k]).collect())))
+}
+
+/// A track.
+#[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeTrack")]
+pub struct NativeTrack {
+    file: TrackFile,
+}
+
+#[pymethods]
+impl NativeTrack {
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        guarded(py, || {
+            let file = TrackFile::read(&path).map_err(|error| case_error(py, &error))?;
+            Ok(Self { file })
+        })
+    }
+
+    #[staticmethod]
+    fn parse(py: Python<'_>, text: &str, source: &str) -> PyResult<Self> {
+        guarded(py, || {
+            let file = TrackFile::parse(source, text).map_err(|error| case_error(py, &error))?;
+            Ok(Self { file })
+        })
+    }
+
+    #[getter]
+    fn name(&self) -> String {
+        self.file.name.clone()
+    }
+
+    #[getter]
+    fn title(&self) -> String {
+        self.file.title.clone()
+    }
+
+    #[getter]
+    fn length(&self) -> f64 {
+        self.file.track.center_line.length()
+    }
+
+    /// What the track is at distances (m), a flat array (entry, number).
+    fn sample<'py>(&self, py: Python<'py>, distances: Given<'py>) -> PyResult<Array<'py>> {
+        let distances = distances.as_slice()?;
+        let values: Vec<f64> = guarded(py, || {
+            Ok(py.detach(|| distances.iter().flat_map(|distance| self.at(*distance)).collect()))
+        })?;
+        Ok(PyArray1::from_vec(py, values))
+    }
+}
+
+impl NativeTrack {
+    fn at(&self, distance: f64) -> [f64; OF_TRACK] {
+        let station = self.file.track.center_line.at(distance);
+        let [left, right] = self.file.track.rails(distance);
+        let [x, y, z] = station.position;
+        [
+            x,
+            y,
+            z,
+            station.heading,
+            station.curvature[0],
+            station.superelevation[0],
+            station.grade,
+            left.vertical[0],
+            right.vertical[0],
+            left.lateral[0],
+            right.lateral[0],
+            left.vertical[1],
+            right.vertical[1],
+            left.lateral[1],
+            right.lateral[1],
+            station.superelevation[0] + right.vertical[0] - left.vertical[0],
+            left.lateral[0] - right.lateral[0],
+        ]
+    }
+}
