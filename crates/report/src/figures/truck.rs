@@ -254,3 +254,81 @@ fn ledger(run: &TruckRun) -> Figure {
         ..Figure::default()
     }
 }
+
+/// The figures of all rigs together, for the report: vertical and roll loops, warp loops, states of the wedges.
+#[must_use]
+pub fn of_rigs(runs: &[TruckRun], worn: Option<&TruckRun>) -> Vec<Exhibit> {
+    let exhibit = |name: &str, title: &str, figure: Figure| Exhibit {
+        name: format!("truck_{name}"),
+        thesis: String::new(),
+        figure: Figure {
+            title: title.to_owned(),
+            ..figure
+        },
+    };
+    let short = |run: &TruckRun, stem: &str| {
+        let name = run
+            .case
+            .name
+            .trim_start_matches("truck_")
+            .trim_start_matches(stem);
+        name.trim_start_matches('_').replace('_', " ")
+    };
+    let loops = |stem: &str| -> Vec<(String, LoopCurve)> {
+        let own = runs
+            .iter()
+            .filter(|run| run.case.name.starts_with(&format!("truck_{stem}")));
+        own.filter_map(|run| Some((short(run, stem), run.hysteresis()?)))
+            .collect()
+    };
+    let tested = |run: &TruckRun, label: String| {
+        Some(Tested {
+            label,
+            result: run.result.clone(),
+            curve: run.warp()?,
+        })
+    };
+    let named = |name: &str| runs.iter().find(|run| run.case.name == name);
+    let mut warps: Vec<Tested> = Vec::new();
+    for (name, label) in [
+        ("truck_warp_nest_constant_rising", "constant, new"),
+        ("truck_warp_nest_variable_rising", "variable, new"),
+    ] {
+        warps.extend(named(name).and_then(|run| tested(run, label.to_owned())));
+    }
+    warps.extend(worn.and_then(|run| tested(run, "constant, worn".to_owned())));
+    let mut exhibits = Vec::new();
+    for (stem, title) in [
+        ("vertical", "Up and down: both nests"),
+        ("roll", "Roll: both nests"),
+    ] {
+        let own = loops(stem);
+        if !own.is_empty() {
+            exhibits.push(exhibit(
+                &format!("{stem}_loops"),
+                title,
+                curves_files::figure(&own),
+            ));
+        }
+    }
+    if !warps.is_empty() {
+        exhibits.push(exhibit(
+            "warp_loops",
+            "Warp of the nests",
+            warp_files::figure(&warps),
+        ));
+    }
+    for name in ["truck_vertical_variable", "truck_warp_nest_constant_rising"] {
+        if let Some(run) = named(name)
+            && let Some(contacts) = &run.contacts
+        {
+            let figure = contact_states(run, contacts);
+            let title = format!("{name}: contact states");
+            exhibits.push(Exhibit {
+                name: format!("{name}_contact_states"),
+                ..exhibit("", &title, figure)
+            });
+        }
+    }
+    exhibits
+}

@@ -5,6 +5,7 @@ mod claims;
 pub mod explorer;
 mod runs;
 pub mod study;
+pub mod truck;
 pub mod truck_run;
 mod viewer;
 
@@ -68,6 +69,8 @@ pub struct Contents<'c> {
     pub interactive: Option<(Viewer, &'c str)>,
     /// The comparison with the comparison program's wedges, if there is one.
     pub comparison: Option<Comparison<'c>>,
+    /// Whether the page of the three-piece truck stands beside.
+    pub truck: bool,
 }
 
 /// The page as HTML.
@@ -109,6 +112,7 @@ pub fn render(contents: &Contents<'_>) -> String {
                         @if contents.comparison.is_some() { li { a href="#agreement" { "How far the models agree" } } }
                         @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
                         @if !folded.is_empty() { li { a href="#run-by-run" { "Run by run" } } }
+                        @if contents.truck { li { a href=(truck::FILE_NAME) { "The three-piece truck (a page of its own)" } } }
                         li { a href="#assumptions" { "Assumptions" } }
                         li { a href="#files" { "Files" } }
                     }
