@@ -71,7 +71,7 @@ export interface Body {
   steady: (string | null)[];
 }
 
-export type Role = "wedge" | "column" | "pocket" | "seat" | "body";
+export type Role = "wedge" | "column" | "pocket" | "seat" | "wheelset" | "body";
 
 export interface Solid {
   id: string;

@@ -47,6 +47,7 @@ pub mod study_work;
 pub mod summary;
 pub mod table;
 pub mod thin;
+pub mod three_piece;
 pub mod track_files;
 pub mod view;
 pub mod warp_files;

@@ -445,6 +445,7 @@ fn the_page_tells_how_far_they_agree() {
         claims: &claims,
         sections: &[],
         comparison: Some(comparison),
+        truck: false,
     };
     let text = page::render(&contents);
     let straight = numbers(

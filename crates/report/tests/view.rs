@@ -300,6 +300,7 @@ fn the_page_takes_viewer_and_data_or_does_without() {
             beyond: &[],
             claims: &Claims::of(Vec::new()),
             comparison: None,
+            truck: false,
             sections: &[],
             interactive,
         })

@@ -9,6 +9,9 @@ use report::run_files::RunFiles;
 use study::result::RunResult;
 use study::run::{Run, RunCase};
 use study::summary::{RunSummary, Stopped, Summary, SummaryValue};
+use study::truck::TruckCase;
+use study::truck::contacts::ContactTable;
+use study::truck::run::TruckResult;
 
 use crate::failure::{Failure, Message, say};
 use crate::interrupt;
@@ -42,6 +45,25 @@ pub fn compute<C: RunCase>(case: &C, progress: &Progress) -> Result<Done<C::Outp
         result,
         wall: start.elapsed(),
     })
+}
+
+/// As [`compute`], of a truck, with the corners of its wedges.
+pub fn compute_truck(
+    case: &TruckCase,
+    progress: &Progress,
+) -> Result<(Done<TruckResult>, Option<ContactTable>), Failure> {
+    let start = Instant::now();
+    let run = Run::with_contacts(case).map_err(|error| {
+        let message = format!("the run {} cannot begin: {error}", case.name);
+        Message::new(message, TruckCase::WHERE_TO_LOOK)
+    })?;
+    let mut reached = progress.of_run(case.simulation.duration);
+    let (result, contacts) = run.finish_with_contacts(|time| {
+        reached(time);
+        interrupt::go_on()
+    });
+    let wall = start.elapsed();
+    Ok((Done { result, wall }, contacts))
 }
 
 /// Writes the files of a run, and says what makes its numbers doubtful.

@@ -33,6 +33,11 @@ fn page() -> String {
     fs::read_to_string(reproduction().join("index.html")).unwrap()
 }
 
+/// The page of the three-piece truck.
+fn truck_page() -> String {
+    fs::read_to_string(reproduction().join("truck.html")).unwrap()
+}
+
 /// The values of an attribute.
 fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {
     let start = format!(" {attribute}=\"");
@@ -44,12 +49,17 @@ fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {
 
 #[test]
 fn every_link_leads_somewhere() {
-    let page = page();
-    let ids: Vec<&str> = values(&page, "id");
+    for (page, least) in [(page(), 200), (truck_page(), 80)] {
+        links_lead_somewhere(&page, least);
+    }
+}
+
+fn links_lead_somewhere(page: &str, least: usize) {
+    let ids: Vec<&str> = values(page, "id");
     let unique: BTreeSet<&str> = ids.iter().copied().collect();
     assert_eq!(ids.len(), unique.len(), "an id stands twice");
-    let links = values(&page, "href");
-    assert!(links.len() > 200, "{}", links.len());
+    let links = values(page, "href");
+    assert!(links.len() > least, "{}", links.len());
     for link in links {
         match link.strip_prefix('#') {
             Some(id) => assert!(unique.contains(id), "{link}"),
@@ -86,7 +96,7 @@ fn the_page_needs_nothing_else() {
 
 #[test]
 fn every_figure_is_there_twice_and_has_its_caption() {
-    let page = page();
+    let page = page() + &truck_page();
     let figures = page.matches("<figure ").count();
     assert_eq!(figures, page.matches("<figcaption>").count());
     assert_eq!(figures, page.matches("<svg role=\"img\"").count());
@@ -108,6 +118,25 @@ fn every_figure_is_there_twice_and_has_its_caption() {
             assert!(has_ink(&bytes), "{file} is empty");
         }
     }
+}
+
+/// The truck's page has every number of its file, and is not too large to be opened.
+#[test]
+fn the_trucks_page_tells_the_numbers_of_its_file() {
+    let page = truck_page();
+    assert!(page.len() < 15_000_000, "{} bytes", page.len());
+    let text = fs::read_to_string(reproduction().join("truck.json")).unwrap();
+    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let checks = found["checks"].as_array().unwrap();
+    assert!(checks.len() > 30, "{}", checks.len());
+    for check in checks {
+        let what = check["what"].as_str().unwrap();
+        assert!(page.contains(&what.replace('&', "&amp;")), "{what}");
+        if check["basis"] != "massless_wedge" {
+            assert_eq!(check["agrees"], true, "{check}");
+        }
+    }
+    assert_eq!(found["sensitivities"].as_array().unwrap().len(), 10);
 }
 
 /// Whether a picture is more than a blank page: a blank one of this size packs into a few kilobytes.

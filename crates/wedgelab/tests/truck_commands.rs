@@ -98,6 +98,16 @@ fn a_printed_truck_runs_and_is_refused_where_it_exists() {
         out.contains("leading left") && out.contains("mine: result.csv"),
         "{out}"
     );
+    let page = fs::read_to_string(at.join("mine/index.html")).unwrap();
+    assert!(page.contains("leading left") && page.contains("<svg"));
+    // The page alone is in the way too.
+    for file in ["result.csv", "result.mat", "case.toml", "summary.json"] {
+        fs::remove_file(at.join("mine").join(file)).unwrap();
+    }
+    let again = wedgelab(at, &run);
+    assert_eq!(again.code, Some(2), "{}", again.err);
+    assert!(again.err.contains("index.html"), "{}", again.err);
+    done(at, &[&run[..], &["--force"]].concat());
     let again = wedgelab(at, &run);
     assert_eq!(again.code, Some(2), "{}", again.err);
     assert!(again.err.contains("--force"), "{}", again.err);

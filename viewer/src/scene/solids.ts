@@ -28,6 +28,7 @@ const LOOKS: Record<Role, { colour: number; opacity: number; edge: number }> = {
   column: { colour: 0x7da3bf, opacity: 0.26, edge: 0x4d7591 },
   pocket: { colour: 0xc9ad7f, opacity: 0.22, edge: 0x8a6d3b },
   seat: { colour: 0x8f989f, opacity: 0.7, edge: 0x5a6167 },
+  wheelset: { colour: 0xa8b0b7, opacity: 0.16, edge: 0x9aa2a9 },
   body: { colour: 0xa8b0b7, opacity: 0.5, edge: 0x5a6167 },
 };
 

@@ -45,7 +45,7 @@ after(async () => {
 });
 
 /** A page on which every complaint, and every look at the network, is noted. */
-async function open(hash = "", size = { width: 1280, height: 900 }) {
+async function open(hash = "", size = { width: 1280, height: 900 }, at = address) {
   faults = [];
   const page = await browser.newPage({ viewport: size });
   page.on("pageerror", (error) => faults.push(String(error)));
@@ -56,7 +56,7 @@ async function open(hash = "", size = { width: 1280, height: 900 }) {
     }
   });
   page.on("request", (request) => request.url().startsWith("http") && faults.push(request.url()));
-  await page.goto(address + hash);
+  await page.goto(at + hash);
   await page.waitForSelector("html[data-viewer=ready]", { state: "attached" });
   return page;
 }
@@ -384,6 +384,40 @@ test("at a time, the half-truck's bodies, wedges, forces and plots are where its
     seen.push(places.body_1[2]);
   }
   assert.ok(Math.max(...seen) - Math.min(...seen) > 0.01, "the bolster moves");
+  await page.close();
+});
+
+test("the truck's page shows each rig: bodies are where the table says, all corners have states and forces", async () => {
+  const name = "truck_warp_axles_variable_rising";
+  const page = await open(`#run-${name}`, undefined, pathToFileURL(join(folder, "truck.html")).href);
+  const run = page.locator(`details[data-run="${name}"] .wl-run`);
+  await run.and(page.locator("[data-ready]")).waitFor();
+  await scrub(run, 4.5);
+  await run.getByLabel("exaggeration").selectOption("1");
+  const said = await state(run);
+  assert.equal(said.states.split(" ").length, 32);
+  assert.ok(said.states.split(" ").every((one) => ["0", "1", "2"].includes(one)), said.states);
+  assert.ok(said.visibleArrows.split(" ").length >= 12, said.visibleArrows);
+  const places = JSON.parse(said.places);
+  const columns = table(name);
+  const row = columns.time_s.findIndex((time) => Math.abs(time - 4.5) < 1e-6);
+  for (const [id, stem, place] of [
+    ["bolster", "bolster", [0, 0, 22]],
+    ["leading_left_wedge", "leading_left", [8.5, 39.5, 18]],
+    ["trailing_right_wedge", "trailing_right", [-8.5, -39.5, 18]],
+    ["left_side_frame", "left_side_frame", [0, 39.5, 18]],
+    ["leading_wheelset", "leading_wheelset", [35, 0, 18]],
+  ]) {
+    ["x", "y", "z"].forEach((axis, k) => {
+      const expected = (place[k] + columns[`${stem}_${axis}_in`][row]) * INCH;
+      assert.ok(Math.abs(places[id][k] - expected) < 2e-6, `${id} ${axis}: ${places[id][k]} m is not ${expected} m`);
+    });
+  }
+  // The wheelsets have moved by 0.7 in against each other.
+  assert.ok(Math.abs(columns.leading_wheelset_y_in[row] - 0.7) < 1e-3);
+  const seen = await pixels(page, run);
+  assert.ok(seen.empty < 0.9 * seen.all && seen.normal > 50, JSON.stringify(seen));
+  assert.deepEqual(faults, []);
   await page.close();
 });
 

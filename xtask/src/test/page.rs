@@ -1,4 +1,4 @@
-//! The report's page against an HTML validator, which npm installs into `target/tools` from a lock file.
+//! The report's pages against an HTML validator, which npm installs into `target/tools` from a lock file.
 
 use std::fs;
 use std::process::Command;
@@ -9,7 +9,7 @@ use crate::shell::{self, Workspace};
 const TOOL: &str = "xtask/page";
 const FILES: [&str; 3] = ["package.json", "package-lock.json", ".htmlvalidate.json"];
 
-/// Makes a report and validates its page.
+/// Makes a report and validates its pages.
 pub fn check(workspace: &Workspace) -> Outcome {
     let tool = workspace.target.join("tools").join("page");
     let failed = |error: std::io::Error| format!("cannot prepare {}: {error}", tool.display());
@@ -45,7 +45,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
     let mut validate = Command::new("node");
     validate
         .arg("node_modules/html-validate/bin/html-validate.mjs")
-        .arg(report.join("index.html"))
+        .args(["index.html", "truck.html"].map(|name| report.join(name)))
         .current_dir(&tool);
     shell::run(&mut validate)?;
     Ok(None)

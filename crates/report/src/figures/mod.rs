@@ -4,6 +4,7 @@
 //! - [`comparison`]: the stand-alone wedge against types 6.8 and 6.9 of the comparison program.
 //! - [`model`]: the bolster's motion, the friction law, the coil.
 //! - [`run`]: what the thesis lacks, run by run.
+//! - [`truck`]: a run of a three-piece truck.
 //! - [`study`]: main effects and contours of studies; [`jam`]: their jam map.
 
 pub mod comparison;
@@ -12,6 +13,7 @@ pub mod model;
 pub mod run;
 pub mod study;
 pub mod thesis;
+pub mod truck;
 
 use ::study::case::Case;
 use ::study::result::RunResult;

@@ -5,6 +5,8 @@ mod claims;
 pub mod explorer;
 mod runs;
 pub mod study;
+pub mod truck;
+pub mod truck_run;
 mod viewer;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -67,6 +69,8 @@ pub struct Contents<'c> {
     pub interactive: Option<(Viewer, &'c str)>,
     /// The comparison with the comparison program's wedges, if there is one.
     pub comparison: Option<Comparison<'c>>,
+    /// Whether the page of the three-piece truck stands beside.
+    pub truck: bool,
 }
 
 /// The page as HTML.
@@ -108,6 +112,7 @@ pub fn render(contents: &Contents<'_>) -> String {
                         @if contents.comparison.is_some() { li { a href="#agreement" { "How far the models agree" } } }
                         @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
                         @if !folded.is_empty() { li { a href="#run-by-run" { "Run by run" } } }
+                        @if contents.truck { li { a href=(truck::FILE_NAME) { "The three-piece truck (a page of its own)" } } }
                         li { a href="#assumptions" { "Assumptions" } }
                         li { a href="#files" { "Files" } }
                     }
@@ -164,19 +169,51 @@ fn body(section: &Section) -> Markup {
 }
 
 fn shown(drawn: &Drawn) -> Markup {
-    let exhibit = &drawn.exhibit;
+    shown_in(&drawn.exhibit, &drawn.svg, Some(FIGURES))
+}
+
+/// A figure; `folder` is where its files are, if it has any.
+fn shown_in(exhibit: &Exhibit, svg: &str, folder: Option<&str>) -> Markup {
     let name = exhibit.name.as_str();
     html! {
         figure id=(anchor(name)) data-figure=(name) {
-            (PreEscaped(inline(&Figure::named(&drawn.svg, &anchor(name)), &exhibit.figure.title)))
+            (PreEscaped(inline(&Figure::named(svg, &anchor(name)), &exhibit.figure.title)))
             figcaption {
                 @if !exhibit.thesis.is_empty() { strong { "Thesis, " (exhibit.thesis) ". " } }
-                (exhibit.figure.caption) " "
-                a href={ (FIGURES) "/" (name) ".svg" } { "SVG" } ", "
-                a href={ (FIGURES) "/" (name) ".png" } { "PNG" }
+                (exhibit.figure.caption)
+                @if let Some(folder) = folder {
+                    " "
+                    a href={ (folder) "/" (name) ".svg" } { "SVG" } ", "
+                    a href={ (folder) "/" (name) ".png" } { "PNG" }
+                }
             }
         }
     }
+}
+
+/// A page with its heading, what stands below it, and its interactive part if there is one.
+fn document(heading: &str, lead: &str, main: &Markup, interactive: Option<(Viewer, &str)>) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (heading) }
+                style { (PreEscaped(STYLE)) }
+                @if let Some((viewer, _)) = interactive { style { (PreEscaped(viewer.style)) } }
+            }
+            body {
+                header { h1 { (heading) } p.lead { (lead) } }
+                main { (main) }
+                @if let Some((viewer, data)) = interactive {
+                    script type="application/json" id="wedgelab-view" { (PreEscaped(data)) }
+                    script { (PreEscaped(viewer.script)) }
+                }
+            }
+        }
+    };
+    page.into_string()
 }
 
 /// A name as the target of links, where points are not allowed.

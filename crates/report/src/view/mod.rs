@@ -3,15 +3,18 @@
 //! - [`data`]: numbers as text, each list once.
 //! - [`chart`]: figures as curves instead of drawings.
 //! - [`run`]: a run's columns, and which belong in one plot.
-//! - [`scene`]: what a run looks like: bodies, solids, coils, contacts; [`half_truck`]: that of a half-truck.
+//! - [`scene`]: what a run looks like: bodies, solids, coils, contacts; [`truck`] and [`half_truck`]: that of a truck
+//!   and of a half-truck, by what both have in common.
 //!
 //! All numbers are in SI units; how they are shown in either system stands with them.
 
+mod carriage;
 pub mod chart;
 pub mod data;
 pub mod half_truck;
 pub mod run;
 pub mod scene;
+pub mod truck;
 
 use std::collections::BTreeMap;
 

@@ -5,11 +5,14 @@ use std::collections::BTreeMap;
 use mechanics::output::Column;
 use serde::Serialize;
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
+use study::truck::TruckCase;
+use study::truck::contacts::ContactTable;
+use study::truck::run::TruckResult;
 use wedge::outputs::{CORNERS, FACES};
 
 use super::data::{Data, Precision};
 use super::scene::{self, Scene};
-use super::{half_truck, kind_name};
+use super::{half_truck, kind_name, truck};
 use crate::figures::Outcome;
 
 /// The most rows of a thinned run.
@@ -84,6 +87,25 @@ impl Recording {
         let table = table(&result.columns, &result.values);
         let scene = scene::stand_alone(&case.parameters, result);
         Self::new((&case.name, &case.title), &table, plots(), scene, detail)
+    }
+
+    /// Of a three-piece truck, with the corners of its wedges if the run took them along.
+    #[must_use]
+    pub fn of_three_piece_truck(
+        case: &TruckCase,
+        result: &TruckResult,
+        contacts: Option<&ContactTable>,
+        detail: Detail,
+    ) -> Self {
+        let mut all = table(&result.columns, &result.values);
+        let mut scene = truck::scene(case);
+        match (contacts, &mut scene) {
+            (Some(contacts), _) => all.extend(table(&contacts.columns, &contacts.values)),
+            (None, Some(scene)) => scene.contacts.clear(),
+            (None, None) => {}
+        }
+        let plots = truck::plots(result);
+        Self::new((&case.name, &case.title), &all, plots, scene, detail)
     }
 
     /// Of a half-truck.

@@ -98,6 +98,8 @@ pub enum Role {
     Pocket,
     /// Where a coil stands.
     Seat,
+    /// A wheelset, which stands before what is looked at.
+    Wheelset,
     /// Any other body.
     Body,
 }
@@ -196,6 +198,28 @@ impl Scene {
                 .chain(&contact.gap)
         });
         bodies.chain(coils).chain(contacts)
+    }
+
+    /// Rounds sizes to a micrometre: they are for the eye, and shorter to write.
+    pub(super) fn round(&mut self) {
+        for solid in &mut self.solids {
+            for part in solid.vertices.iter_mut().flatten() {
+                *part = (*part * 1e6).round() / 1e6;
+            }
+        }
+    }
+}
+
+impl Solid {
+    /// Makes one solid of two on the same mount.
+    pub(super) fn join(&mut self, other: Self) {
+        let before = self.vertices.len();
+        self.vertices.extend(other.vertices);
+        let moved = other
+            .triangles
+            .into_iter()
+            .map(|corners| corners.map(|corner| before + corner));
+        self.triangles.extend(moved);
     }
 }
 

@@ -15,6 +15,7 @@ use wedge::parameters::Start;
 
 use super::TruckCase;
 use super::columns::{Columns, Seen};
+use super::contacts::ContactTable;
 use super::summary::{Cycles, SCHEMA, TruckSummary, warp_stiffnesses};
 use crate::energy;
 use crate::finite::{find, is_finite};
@@ -40,6 +41,8 @@ pub struct TruckRecorder {
     window: Option<([f64; 2], u32)>,
     counts: TruckCounts,
     row: Vec<f64>,
+    /// The corners of the wedges, where they are asked for.
+    pub(super) contacts: Option<ContactTable>,
 }
 
 /// What is counted along a truck's run.
@@ -142,6 +145,7 @@ impl RunCase for TruckCase {
                 row: Vec::with_capacity(columns.columns.len()),
                 window: window(self),
                 counts: TruckCounts::default(),
+                contacts: None,
                 columns,
                 truck,
             },
@@ -239,6 +243,9 @@ impl Recorder for TruckRecorder {
         self.row.clear();
         self.columns.read(&seen, &mut self.row);
         append(&mut self.values, &self.columns.columns, &self.row, row.time)?;
+        if let Some(contacts) = &mut self.contacts {
+            contacts.take(&observation, row.contact_states);
+        }
         Ok(system.ledger_entries(&observation, row.start_energy))
     }
 

@@ -1,6 +1,7 @@
 //! `wedgelab reproduce`: all built-in cases, told in a report.
 
 mod interrupted;
+mod three_piece;
 mod trucks;
 
 use std::io::{self, Write};
@@ -21,6 +22,7 @@ use report::view::run::{Detail, Recording};
 use report::{beyond, run_files, sections};
 use study::case::{Case, builtin};
 use study::half_truck::HalfTruckCase;
+use study::truck::TruckCase;
 
 use crate::execute::{TABLE_NOTE, execute_whole, table, unsound};
 use crate::failure::{Failure, Message};
@@ -39,7 +41,9 @@ const USUAL: &str = "reproduction";
 /// with and without yaw of the bolster), and the cases beyond the thesis. Writes the report index.html, its
 /// statements with verdicts claims.json, each figure as SVG and PNG, and for each run runs/NAME/result.csv,
 /// result.mat, case.toml and summary.json; prints a table of the runs. Without --only the half-truck of the
-/// comparison program's files is run too (28 runs: result.csv and summary.json), and the report compares.
+/// comparison program's files is run too (28 runs: result.csv and summary.json), and the report compares; and the three-piece
+/// truck with four wedges that have mass on its 16 loaded rigs, told in truck.html (numbers in truck.json): loops, warp,
+/// wedges, closed forms, what contact and bristle stiffness move.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -80,15 +84,17 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .map(builtin::case)
         .collect::<Result<Vec<Case>, _>>()?;
     let places = check(&arguments.out, &cases, arguments.force)?;
-    // A choice of runs leaves the half-trucks out.
-    let half_trucks = if arguments.only.is_empty() {
-        trucks::plan(&arguments.out, arguments.force)?
+    // A choice of runs leaves the trucks out.
+    let (half_trucks, rigs) = if arguments.only.is_empty() {
+        let half_trucks = trucks::plan(&arguments.out, arguments.force)?;
+        (half_trucks, three_piece::plan(&arguments.out, arguments.force)?)
     } else {
-        Vec::new()
+        (Vec::new(), Vec::new())
     };
 
-    let progress = Progress::new(cases.len() + half_trucks.len(), arguments.quiet);
-    let planned = Planned::of(arguments, &cases, &half_trucks);
+    let progress = Progress::new(cases.len() + half_trucks.len() + rigs.len(), arguments.quiet);
+    let names = three_piece::names(&rigs);
+    let planned = Planned::of(arguments, &cases, &half_trucks, &names);
     interrupt::stops(
         "stopping: the runs under way are not written (once more: ends at once)",
         &format!(
@@ -100,20 +106,30 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .num_threads(arguments.jobs.map_or(0, usize::from))
         .build()
         .map_err(|error| Failure::Failed(Message::new(error.to_string(), "try --jobs 1").into()))?;
-    let (kept, half_trucks): (Vec<Result<Option<ReproducedRun>, Failure>>, _) = pool.install(|| {
+    let (kept, (half_trucks, rigs)): (Vec<Result<Option<ReproducedRun>, Failure>>, _) = pool.install(|| {
         let work = cases.into_par_iter().zip(&places.runs).with_max_len(1);
         let work = work.map(|(case, folder)| keep(case, folder, &progress));
-        rayon::join(|| work.collect(), || trucks::trucks(half_trucks, &progress))
+        let of_trucks = || {
+            rayon::join(
+                || trucks::trucks(half_trucks, &progress),
+                || three_piece::run(rigs, &progress),
+            )
+        };
+        rayon::join(|| work.collect(), of_trucks)
     });
     progress.finish();
     let half_trucks: Vec<Option<trucks::ReproducedTruck>> = half_trucks?;
+    let rigs: Vec<Option<three_piece::Made>> = rigs?;
     let kept = kept
         .into_iter()
         .collect::<Result<Vec<Option<ReproducedRun>>, Failure>>()?;
     interrupt::ends(&planned.without_report());
     if interrupt::wanted() {
         let wedges = kept.iter().map(Option::is_some);
-        let trucks = half_trucks.iter().map(Option::is_some);
+        let trucks = half_trucks
+            .iter()
+            .map(Option::is_some)
+            .chain(three_piece::written(&rigs, names.len()));
         return Err(planned.interrupted(wedges, trucks));
     }
     let (half_trucks, of_trucks): (Vec<TruckOutcome>, Vec<_>) = half_trucks.into_iter().flatten().unzip();
@@ -125,7 +141,13 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .unzip();
     let recordings = recordings.into_iter().chain(of_trucks).flatten().collect();
 
-    let figures = pool.install(|| tell(&outcomes, &half_trucks, recordings, &places))?;
+    let rigs: Vec<three_piece::Made> = rigs.into_iter().flatten().collect();
+    let told = if rigs.is_empty() {
+        None
+    } else {
+        Some(pool.install(|| three_piece::tell(rigs, &places.figures))?)
+    };
+    let figures = pool.install(|| tell(&outcomes, &half_trucks, recordings, &places, told.as_ref()))?;
 
     let mut out = io::stdout().lock();
     let summaries = outcomes.iter().map(|(_, result)| &result.summary);
@@ -140,6 +162,16 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         page::FIGURES,
         run_files::NAMES.join(", "),
     )?;
+    if let Some(told) = &told {
+        let agreeing = told.findings.checks.iter().filter(|check| check.agrees).count();
+        writeln!(
+            out,
+            "The three-piece truck: {} and {}, {agreeing} of {} numbers as expected.",
+            page::truck::FILE_NAME,
+            report::three_piece::FILE_NAME,
+            told.findings.checks.len()
+        )?;
+    }
     if Viewer::embedded().is_none() {
         writeln!(out, "{}", page::MISSING)?;
     }
@@ -154,6 +186,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         if let Some(failure) =
             unsound::<HalfTruckCase>(&result.summary, &planned.runs.join(&result.summary.name))
         {
+            code = failure.report();
+        }
+    }
+    for run in told.iter().flat_map(|told| &told.runs) {
+        let summary = &run.result.summary;
+        if let Some(failure) = unsound::<TruckCase>(summary, &planned.runs.join(&summary.name)) {
             code = failure.report();
         }
     }
@@ -220,6 +258,7 @@ fn tell(
     half_trucks: &[TruckOutcome],
     recordings: Vec<Recording>,
     places: &Places,
+    told: Option<&three_piece::Told>,
 ) -> Result<usize, Failure> {
     let units = outcomes.first().map(|(_, result)| result.summary.units);
     // The thesis's runs come first in the list of cases.
@@ -268,12 +307,16 @@ fn tell(
             trucks: half_trucks,
             units,
         }),
+        truck: told.is_some(),
     });
     places.sheets.write(|files| {
         files.add(page::FILE_NAME, |out| out.write_all(page.as_bytes()))?;
+        if let Some(told) = told {
+            three_piece::add(files, told)?;
+        }
         files.add(claims::FILE_NAME, |out| claims::write(&verdicts, out))
     })?;
-    Ok(count)
+    Ok(count + told.map_or(0, |told| told.figures))
 }
 
 /// The folders that are written into.
@@ -294,7 +337,12 @@ fn check(out: &Path, cases: &[Case], force: bool) -> Result<Places, Failure> {
             .collect()
     });
     let present: Vec<&str> = present.iter().map(String::as_str).collect();
-    let sheets = [page::FILE_NAME, claims::FILE_NAME];
+    let sheets = [
+        page::FILE_NAME,
+        claims::FILE_NAME,
+        page::truck::FILE_NAME,
+        report::three_piece::FILE_NAME,
+    ];
     let folders = [(out.to_owned(), sheets.as_slice()), (figures, present.as_slice())];
     let runs = cases
         .iter()

@@ -7,13 +7,16 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::{Kind, nearest};
+use report::figures::truck::TruckRun;
+use report::files::Folder;
+use report::page::{self, Viewer};
 use report::run_files::RunFiles;
 use study::any_case::AnyCase;
 use study::case::{Case, builtin};
 use study::truck::run::TruckResult;
-use study::truck::{self, WEDGE_NAMES};
+use study::truck::{self, TruckCase, WEDGE_NAMES};
 
-use crate::execute::{Done, TABLE_NOTE, compute, table, unsound, write};
+use crate::execute::{Done, TABLE_NOTE, compute, compute_truck, table, unsound, write};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -24,7 +27,8 @@ use crate::table::Table;
 ///
 /// Runs a case file, of a wedge or of a truck, and writes result.csv (the time histories), result.mat (the same, of a wedge under the
 /// thesis's names), case.toml (the case, completed) and summary.json (averages, extremes, events, energy ledger,
-/// solver statistics, assumptions) into a folder named as the case.
+/// solver statistics, assumptions) into a folder named as the case; of a truck also index.html, where it is seen moving in
+/// 3D with its loops and wedges.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -57,7 +61,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         AnyCase::Wedge(case) => run(&*case, arguments, |done| {
             (table([(&done.result.summary, done.wall)]), TABLE_NOTE)
         }),
-        AnyCase::Truck(case) => run(&*case, arguments, |done| (truck_table(&done.result), TRUCK_NOTE)),
+        AnyCase::Truck(case) => run_truck(&case, arguments),
         // Those have a command of their own.
         AnyCase::HalfTruck(case) => Err(Message::new(
             format!("{} is a half-truck", case.name),
@@ -94,6 +98,45 @@ fn run<C: RunFiles>(
         C::FILES.join(", ")
     )?;
     match unsound::<C>(&done.result.summary, folder.path()) {
+        Some(failure) => Err(failure),
+        None => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// Runs a truck, and writes its page besides.
+fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
+    let names = [<TruckCase as RunFiles>::FILES, &[page::FILE_NAME]].concat();
+    let folder = folders::check(path, &names, arguments.force)?;
+    let progress = Progress::new(1, arguments.quiet);
+    interrupt::stops_run();
+    let done = compute_truck(case, &progress)
+        .and_then(|(done, contacts)| write(&done, case, &folder, &progress).map(|()| (done, contacts)));
+    progress.finish();
+    let (done, contacts) = done?;
+    let run = TruckRun {
+        case: case.clone(),
+        result: done.result,
+        contacts,
+    };
+    let html = page::truck_run::render(&run, Viewer::embedded()).map_err(|error| {
+        let message = format!("cannot write the page's data: {error}");
+        Failure::Failed(Message::new(message, "").into())
+    })?;
+    Folder::check(folder.path(), &[page::FILE_NAME], true)?
+        .write(|files| files.add(page::FILE_NAME, |out| out.write_all(html.as_bytes())))?;
+    let mut out = io::stdout().lock();
+    truck_table(&run.result).write(&mut out)?;
+    writeln!(
+        out,
+        "\n{TRUCK_NOTE}\n\nWritten into {}: {} (open it in a browser).",
+        folder.path().display(),
+        names.join(", ")
+    )?;
+    if Viewer::embedded().is_none() {
+        writeln!(out, "{}", page::MISSING)?;
+    }
+    match unsound::<TruckCase>(&run.result.summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
     }

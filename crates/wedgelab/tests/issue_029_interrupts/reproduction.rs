@@ -76,7 +76,7 @@ fn issue_029_an_interrupted_reproduction_tells_the_missing_half_trucks() {
         .split("--only ")
         .nth(1)
         .unwrap();
-    let trucks = after("The missing runs of the half-truck").trim();
+    let trucks = after("The missing runs of trucks").trim();
     let missing: Vec<&str> = wedges.split(' ').chain(trucks.split(' ')).collect();
     let told = format!("{} of {} runs are whole", kept.len(), kept.len() + missing.len());
     contains(&ended.err, &[&told, "wedgelab reproduce --force"]);

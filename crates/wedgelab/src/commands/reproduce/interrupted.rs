@@ -20,15 +20,19 @@ pub struct Planned {
 }
 
 impl Planned {
-    /// Those of these cases and half-trucks.
-    pub fn of(arguments: &Arguments, cases: &[Case], trucks: &[trucks::Planned]) -> Self {
+    /// Those of these cases, half-trucks and rigs of trucks.
+    pub fn of(arguments: &Arguments, cases: &[Case], trucks: &[trucks::Planned], rigs: &[String]) -> Self {
         Self {
             runs: arguments.out.join("runs"),
             out: arguments.out.clone(),
             only: arguments.only.clone(),
             force: arguments.force,
             wedges: cases.iter().map(|case| case.name.clone()).collect(),
-            trucks: trucks.iter().map(|truck| truck.name().to_owned()).collect(),
+            trucks: trucks
+                .iter()
+                .map(|truck| truck.name().to_owned())
+                .chain(rigs.iter().cloned())
+                .collect(),
         }
     }
 
@@ -46,7 +50,7 @@ impl Planned {
         )
     }
 
-    /// Tells what is missing and how to go on, when those runs of the wedge and of the half-truck are there
+    /// Tells what is missing and how to go on, when those runs of the wedge and of trucks are there
     /// for which true comes.
     pub fn interrupted(
         &self,
@@ -69,7 +73,7 @@ impl Planned {
         }
         if !trucks.is_empty() {
             advice += &format!(
-                "The missing runs of the half-truck are computed with all others only:\n  {}\n",
+                "The missing runs of trucks are computed with all others only:\n  {}\n",
                 trucks.join(" ")
             );
         }

@@ -1,0 +1,334 @@
+//! Figures of one run of a truck: its loop, its warp, the states of its wedges' corners, its energies.
+
+use ::study::truck::TruckCase;
+use ::study::truck::WEDGE_NAMES;
+use ::study::truck::contacts::ContactTable;
+use ::study::truck::loop_curve::LoopCurve;
+use ::study::truck::run::{TruckResult, period};
+use ::study::truck::warp::WarpCurve;
+use quantity::Kind;
+
+use super::{Exhibit, axis};
+use crate::csv::converted;
+use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
+use crate::warp_files::Tested;
+use crate::{curves_files, warp_files};
+
+/// A run of a truck.
+#[derive(Clone, Debug)]
+pub struct TruckRun {
+    /// Its case.
+    pub case: TruckCase,
+    /// What came out.
+    pub result: TruckResult,
+    /// The corners of its wedges, if the run took them along.
+    pub contacts: Option<ContactTable>,
+}
+
+impl TruckRun {
+    /// A column over time, in output units.
+    fn over_time(&self, name: &str, kind: Kind) -> Vec<(f64, f64)> {
+        let units = self.result.summary.units;
+        let times = self.result.column("time").unwrap_or_default();
+        let values = self.result.column(name).unwrap_or_default();
+        let pairs = times.iter().zip(values);
+        pairs
+            .map(|(t, value)| (*t, converted(*value, kind, units)))
+            .collect()
+    }
+
+    /// What its warp says, if it warps.
+    #[must_use]
+    pub fn warp(&self) -> Option<WarpCurve> {
+        let period = period(&self.case.parameters).map(|[period, _]| period);
+        WarpCurve::of(&self.result, period)
+    }
+
+    /// Its vertical or roll loop, if it has one.
+    #[must_use]
+    pub fn hysteresis(&self) -> Option<LoopCurve> {
+        LoopCurve::of(&self.case, &self.result)
+    }
+}
+
+/// The figures of a run.
+#[must_use]
+pub fn exhibits(run: &TruckRun) -> Vec<Exhibit> {
+    let name = run.case.name.as_str();
+    let exhibit = |what: &str, figure: Figure| Exhibit {
+        name: format!("{name}_{what}"),
+        thesis: String::new(),
+        figure: Figure {
+            title: format!("{name}: {}", lowered(&figure.title)),
+            ..figure
+        },
+    };
+    let mut exhibits = Vec::new();
+    if let Some(own) = run.hysteresis() {
+        exhibits.push(exhibit(
+            "loop",
+            Figure {
+                title: "Hysteresis loop".to_owned(),
+                ..curves_files::figure(&[(String::new(), own)])
+            },
+        ));
+    }
+    if let Some(curve) = run.warp() {
+        let tested = Tested {
+            label: String::new(),
+            result: run.result.clone(),
+            curve,
+        };
+        exhibits.push(exhibit("warp", warp_files::figure(&[tested])));
+    }
+    exhibits.push(exhibit("wedges", wedges(run)));
+    if let Some(contacts) = &run.contacts {
+        exhibits.push(exhibit("contact_states", contact_states(run, contacts)));
+    }
+    exhibits.push(exhibit("energy_ledger", ledger(run)));
+    exhibits
+}
+
+/// A title behind a name.
+fn lowered(title: &str) -> String {
+    let mut letters = title.chars();
+    letters.next().map_or(String::new(), |first| {
+        first.to_lowercase().chain(letters).collect()
+    })
+}
+
+/// Forces of the wedges over time.
+fn wedges(run: &TruckRun) -> Figure {
+    let units = run.result.summary.units;
+    let panel = |letter: char, title: &str, what: &str| {
+        let curves = WEDGE_NAMES.into_iter().enumerate().map(|(number, wedge)| {
+            let (colour, line) = distinct(number);
+            Curve {
+                label: wedge.replace('_', " "),
+                colour,
+                line,
+                points: run.over_time(&format!("{wedge}_{what}"), Kind::Force),
+            }
+        });
+        Panel {
+            title: format!("({letter}) {title}"),
+            x_label: "time (s)".to_owned(),
+            y_label: axis("force", Kind::Force, units),
+            curves: curves.collect(),
+            ..Panel::default()
+        }
+    };
+    Figure {
+        title: "Forces of the wedges".to_owned(),
+        caption: "Wedge by wedge: normal force of the column, its friction on the side frame along z (positive up), normal \
+                  force of the slope."
+            .to_owned(),
+        panels: vec![
+            panel('a', "column, normal", "column_normal"),
+            panel('b', "column, friction", "column_friction_z"),
+            panel('c', "slope, normal", "slope_normal"),
+        ],
+        ..Figure::default()
+    }
+}
+
+/// For each wedge and face how many of its four corners are open, stick and slip.
+fn contact_states(run: &TruckRun, contacts: &ContactTable) -> Figure {
+    const STATES: [(&str, Colour, Line); 3] = [
+        ("open", Colour::Sky, Line::Solid),
+        ("stick", Colour::Black, Line::Solid),
+        ("slip", Colour::Orange, Line::Solid),
+    ];
+    let times = run.result.column("time").unwrap_or_default();
+    let mut panels = Vec::new();
+    for face in ["column", "slope"] {
+        for wedge in WEDGE_NAMES {
+            let stem = format!("{wedge}_{face}_");
+            let strips: Vec<&[f64]> = contacts
+                .columns
+                .iter()
+                .zip(&contacts.values)
+                .filter(|(column, _)| column.name.starts_with(&stem) && column.name.ends_with("_state"))
+                .map(|(_, values)| values.as_slice())
+                .collect();
+            if strips.is_empty() {
+                continue;
+            }
+            let curves = STATES
+                .into_iter()
+                .enumerate()
+                .map(|(state, (label, colour, line))| {
+                    let share = |row: usize| {
+                        let own = strips
+                            .iter()
+                            .filter(|strip| strip.get(row).is_some_and(|own| *own == state as f64));
+                        100.0 * own.count() as f64 / strips.len() as f64
+                    };
+                    // Steps: only where the share changes, held until then.
+                    let mut points: Vec<(f64, f64)> = Vec::new();
+                    for (row, time) in times.iter().enumerate() {
+                        let now = share(row);
+                        match points.last().copied() {
+                            Some((_, before)) if before == now && row + 1 < times.len() => {}
+                            Some((_, before)) => points.extend([(*time, before), (*time, now)]),
+                            None => points.push((*time, now)),
+                        }
+                    }
+                    Curve {
+                        label: label.to_owned(),
+                        colour,
+                        line,
+                        points,
+                    }
+                });
+            panels.push(Panel {
+                title: format!("{}, {face}", wedge.replace('_', " ")),
+                x_label: "time (s)".to_owned(),
+                y_label: "corners (%)".to_owned(),
+                curves: curves.collect(),
+                ..Panel::default()
+            });
+        }
+    }
+    Figure {
+        title: "Contact states".to_owned(),
+        caption: "Of the four corners of each wedge at column and slope, the share that is open, sticks, and slips. With bristles a corner \
+                  slips where its friction has reached its limit."
+            .to_owned(),
+        panels,
+        columns: 4,
+        ..Figure::default()
+    }
+}
+
+fn ledger(run: &TruckRun) -> Figure {
+    const ENTRIES: [(&str, &str); 5] = [
+        ("motion_work", "work of the motions"),
+        ("friction_loss", "lost in friction"),
+        ("stored_energy_change", "stored, less that at the start"),
+        ("contact_damping_loss", "lost in contact damping"),
+        ("element_loss", "lost in coils and stops"),
+    ];
+    let units = run.result.summary.units;
+    let curve = |number: usize, name: &str, label: &str| {
+        let (colour, line) = distinct(number);
+        Curve {
+            label: label.to_owned(),
+            colour,
+            line,
+            points: run.over_time(name, Kind::Energy),
+        }
+    };
+    let panel = |title: &str, curves: Vec<Curve>| Panel {
+        title: title.to_owned(),
+        x_label: "time (s)".to_owned(),
+        y_label: axis("energy", Kind::Energy, units),
+        curves,
+        ..Panel::default()
+    };
+    let entries = ENTRIES.into_iter().enumerate();
+    let faces = ["column", "slope"]
+        .into_iter()
+        .flat_map(|face| WEDGE_NAMES.map(|wedge| (face, wedge)))
+        .enumerate()
+        .map(|(number, (face, wedge))| {
+            let label = format!("{}, {face}", wedge.replace('_', " "));
+            curve(number, &format!("{wedge}_{face}_friction_loss"), &label)
+        });
+    Figure {
+        title: "Energy ledger".to_owned(),
+        caption: "(a) Work since the start and where it went; every loss is integrated from its own force and velocity. (b) What the \
+                  friction of each wedge's faces took. (c) What does not add up: the work less stored energy and losses."
+            .to_owned(),
+        panels: vec![
+            panel(
+                "(a) entries",
+                entries.map(|(number, (name, label))| curve(number, name, label)).collect(),
+            ),
+            panel("(b) by wedge and face", faces.collect()),
+            panel(
+                "(c) residual",
+                vec![curve(1, "ledger_residual", "residual")],
+            ),
+        ],
+        ..Figure::default()
+    }
+}
+
+/// The figures of all rigs together, for the report: vertical and roll loops, warp loops, states of the wedges.
+#[must_use]
+pub fn of_rigs(runs: &[TruckRun], worn: Option<&TruckRun>) -> Vec<Exhibit> {
+    let exhibit = |name: &str, title: &str, figure: Figure| Exhibit {
+        name: format!("truck_{name}"),
+        thesis: String::new(),
+        figure: Figure {
+            title: title.to_owned(),
+            ..figure
+        },
+    };
+    let short = |run: &TruckRun, stem: &str| {
+        let name = run
+            .case
+            .name
+            .trim_start_matches("truck_")
+            .trim_start_matches(stem);
+        name.trim_start_matches('_').replace('_', " ")
+    };
+    let loops = |stem: &str| -> Vec<(String, LoopCurve)> {
+        let own = runs
+            .iter()
+            .filter(|run| run.case.name.starts_with(&format!("truck_{stem}")));
+        own.filter_map(|run| Some((short(run, stem), run.hysteresis()?)))
+            .collect()
+    };
+    let tested = |run: &TruckRun, label: String| {
+        Some(Tested {
+            label,
+            result: run.result.clone(),
+            curve: run.warp()?,
+        })
+    };
+    let named = |name: &str| runs.iter().find(|run| run.case.name == name);
+    let mut warps: Vec<Tested> = Vec::new();
+    for (name, label) in [
+        ("truck_warp_nest_constant_rising", "constant, new"),
+        ("truck_warp_nest_variable_rising", "variable, new"),
+    ] {
+        warps.extend(named(name).and_then(|run| tested(run, label.to_owned())));
+    }
+    warps.extend(worn.and_then(|run| tested(run, "constant, worn".to_owned())));
+    let mut exhibits = Vec::new();
+    for (stem, title) in [
+        ("vertical", "Up and down: both nests"),
+        ("roll", "Roll: both nests"),
+    ] {
+        let own = loops(stem);
+        if !own.is_empty() {
+            exhibits.push(exhibit(
+                &format!("{stem}_loops"),
+                title,
+                curves_files::figure(&own),
+            ));
+        }
+    }
+    if !warps.is_empty() {
+        exhibits.push(exhibit(
+            "warp_loops",
+            "Warp of the nests",
+            warp_files::figure(&warps),
+        ));
+    }
+    for name in ["truck_vertical_variable", "truck_warp_nest_constant_rising"] {
+        if let Some(run) = named(name)
+            && let Some(contacts) = &run.contacts
+        {
+            let figure = contact_states(run, contacts);
+            let title = format!("{name}: contact states");
+            exhibits.push(Exhibit {
+                name: format!("{name}_contact_states"),
+                ..exhibit("", &title, figure)
+            });
+        }
+    }
+    exhibits
+}

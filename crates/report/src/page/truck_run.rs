@@ -1,0 +1,121 @@
+//! The page of one run of a truck: what it looks like, its loops, its wedges, its assumptions.
+
+use maud::{Markup, html};
+use quantity::Kind;
+use study::truck::WEDGE_NAMES;
+use study::truck::summary::TruckSummary;
+
+use super::{Viewer, document, shown_in};
+use crate::figures::truck::{TruckRun, exhibits};
+use crate::figures::{Exhibit, capital};
+use crate::view::View;
+use crate::view::run::{Detail, Recording};
+
+/// The page as HTML; it needs nothing else to be shown.
+///
+/// # Errors
+/// What the writer of JSON says.
+pub fn render(run: &TruckRun, viewer: Option<Viewer>) -> Result<String, serde_json::Error> {
+    let summary = &run.result.summary;
+    let exhibits = exhibits(run);
+    let data = viewer
+        .map(|viewer| {
+            let contacts = run.contacts.as_ref();
+            let recording =
+                Recording::of_three_piece_truck(&run.case, &run.result, contacts, Detail::Thinned);
+            let view = View::new(summary.units, [recording], &exhibits).to_json();
+            view.map(|view| (viewer, view))
+        })
+        .transpose()?;
+    let heading = if summary.title.is_empty() {
+        &summary.name
+    } else {
+        &summary.title
+    };
+    let lead = format!(
+        "The run {} of a three-piece truck with four wedges that have mass. Computed by {}.",
+        summary.name, summary.program
+    );
+    let main = html! {
+        (doubts(summary))
+        @if data.is_some() {
+            details id={ "run-" (super::anchor(&summary.name)) } data-run=(summary.name) open {
+                summary { "Moving" }
+            }
+        }
+        section { h2 { "Wedges" } (wedges(summary)) }
+        section {
+            h2 { "Figures" }
+            @for exhibit in &exhibits { (figure(exhibit)) }
+        }
+        section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
+    };
+    let data = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
+    Ok(document(&capital(heading), &lead, &main, data))
+}
+
+/// A figure without files of its own.
+fn figure(exhibit: &Exhibit) -> Markup {
+    shown_in(exhibit, &exhibit.figure.to_svg(), None)
+}
+
+/// What makes the numbers of a run doubtful.
+pub(super) fn doubts(summary: &TruckSummary) -> Markup {
+    html! {
+        @if let Some(stopped) = &summary.stopped {
+            p.warning { (summary.name) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
+        }
+        @for warning in &summary.warnings { p.warning { (summary.name) ": " (warning) } }
+        @if summary.failed.is_some() { p.warning { (summary.name) (super::runs::FAILED) } }
+    }
+}
+
+/// The energy (output units) that the friction of a wedge's face takes in a cycle.
+pub(super) fn loss(summary: &TruckSummary, wedge: &str, face: &str) -> Option<f64> {
+    let name = format!("{wedge}_{face}_friction_loss");
+    summary.cycles.losses.get(&name).map(|loss| loss.value)
+}
+
+/// The table of a run's wedges.
+fn wedges(summary: &TruckSummary) -> Markup {
+    let [force, energy] = [Kind::Force, Kind::Energy].map(|kind| kind.label(summary.units));
+    let cell = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1}"));
+    html! {
+        p {
+            "Normal force of the column at any output time; energy lost in friction in a cycle of the first periodic motion, from \
+             its second one on."
+            @if !summary.cycles.missing.is_empty() { " No energies: " (summary.cycles.missing) "." }
+        }
+        div.wide {
+            table {
+                thead {
+                    tr {
+                        th scope="col" { "wedge" }
+                        th.number scope="col" { "column, least" br; span.unit { (force) } }
+                        th.number scope="col" { "column, largest" br; span.unit { (force) } }
+                        th.number scope="col" { "lost at the column" br; span.unit { (energy) } }
+                        th.number scope="col" { "lost at the slope" br; span.unit { (energy) } }
+                    }
+                }
+                tbody {
+                    @for wedge in WEDGE_NAMES {
+                        @let column = format!("{wedge}_column_normal_{}", Kind::Force.suffix(summary.units));
+                        @let extremes = summary.extremes.get(&column);
+                        tr {
+                            th scope="row" { (wedge.replace('_', " ")) }
+                            td.number { (cell(extremes.map(|found| found.minimum))) }
+                            td.number { (cell(extremes.map(|found| found.maximum))) }
+                            td.number { (cell(loss(summary, wedge, "column"))) }
+                            td.number { (cell(loss(summary, wedge, "slope"))) }
+                        }
+                    }
+                }
+            }
+        }
+        p {
+            "Energy ledger: its largest residual at any output time is "
+            (format!("{:.1e}", summary.ledger.largest_relative_residual))
+            " of the largest of work, losses and change of stored energy. " (summary.statistics.steps) " steps."
+        }
+    }
+}

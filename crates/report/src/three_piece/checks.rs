@@ -1,0 +1,521 @@
+//! What was found in runs against what is expected, one number and one sentence each.
+
+use std::f64::consts::PI;
+
+use mechanics::quasi_static::{Direction, QuasiStaticWedge};
+use mechanics::system::{Held, StaticFriction};
+use serde::Serialize;
+use study::truck::loop_curve::LoopCurve;
+use study::truck::run::TruckResult;
+use study::truck::{TruckCase, WEDGE_NAMES};
+use truck::{BOLSTER, Bolster, ControlCoil, Lading, Parameters, Truck};
+use wedge::parameters::Damping;
+
+use super::rigs::{INCH, KIP_INCH, POUND, Rigs, at};
+
+/// What an expected value rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Basis {
+    /// A formula for this truck.
+    ClosedForm,
+    /// The massless wedge in quasi-static sliding.
+    MasslessWedge,
+    /// A calculation of the same rigs in another program.
+    IndependentCalculation,
+}
+
+impl Basis {
+    /// All of them, in the order in which they are told.
+    pub const ALL: [Self; 3] = [
+        Self::ClosedForm,
+        Self::MasslessWedge,
+        Self::IndependentCalculation,
+    ];
+
+    /// Its heading.
+    #[must_use]
+    pub fn heading(self) -> &'static str {
+        match self {
+            Self::ClosedForm => "Against closed forms",
+            Self::MasslessWedge => "Against the massless wedge",
+            Self::IndependentCalculation => "Against an independent calculation of the rigs",
+        }
+    }
+}
+
+/// A number of the truck against what is expected of it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Check {
+    /// What is compared.
+    pub what: String,
+    /// What the expectation rests on.
+    pub basis: Basis,
+    /// What runs say.
+    pub found: f64,
+    /// What is expected, from and to; the same twice where it is one number.
+    pub expected: [f64; 2],
+    /// The unit of both.
+    pub unit: &'static str,
+    /// By how much more than expected was found, relative to that; zero within a range. In the unit of both where
+    /// zero is expected.
+    pub difference: f64,
+    /// The most that counts as agreement, alike.
+    pub margin: f64,
+    /// Whether they agree.
+    pub agrees: bool,
+    /// One sentence on it.
+    pub remark: String,
+}
+
+/// Collects checks.
+struct Found {
+    checks: Vec<Check>,
+    basis: Basis,
+}
+
+impl Found {
+    fn add(
+        &mut self,
+        what: impl Into<String>,
+        found: Option<f64>,
+        expected: impl Into<Option<[f64; 2]>>,
+        (unit, margin): (&'static str, f64),
+        remark: impl Into<String>,
+    ) {
+        let (Some(found), Some(expected)) = (found, expected.into()) else {
+            return;
+        };
+        let [low, high] = expected;
+        let nearest = found.clamp(low, high);
+        let scale = if nearest == 0.0 { 1.0 } else { nearest.abs() };
+        let difference = (found - nearest) / scale;
+        self.checks.push(Check {
+            what: what.into(),
+            basis: self.basis,
+            found,
+            expected,
+            unit,
+            difference,
+            margin,
+            agrees: difference.abs() <= margin,
+            remark: remark.into(),
+        });
+    }
+}
+
+/// One number as a range.
+fn exactly(value: f64) -> [f64; 2] {
+    [value; 2]
+}
+
+/// All checks whose runs are there.
+#[must_use]
+pub fn checks(rigs: &Rigs) -> Vec<Check> {
+    let mut found = Found {
+        checks: Vec::new(),
+        basis: Basis::ClosedForm,
+    };
+    rest(&mut found, rigs);
+    frictionless(&mut found, rigs);
+    plate_and_ledger(&mut found, rigs);
+    found.basis = Basis::MasslessWedge;
+    massless(&mut found, rigs);
+    found.basis = Basis::IndependentCalculation;
+    independent(&mut found, rigs);
+    found.checks
+}
+
+/// Masses, m·g in lbf, of what the nests carry, and of the side frames.
+fn weights(parameters: &Parameters) -> [f64; 2] {
+    let wedges: f64 = parameters.wedges.iter().map(|wedge| wedge.mass).sum();
+    let frames: f64 = parameters.side_frames.iter().map(|frame| frame.body.mass).sum();
+    [parameters.bolster.body.mass + wedges, frames].map(|mass| mass * parameters.gravity / POUND)
+}
+
+/// Statics and the bounce of a truck under its half car.
+fn rest(found: &mut Found, rigs: &Rigs) {
+    for damping in ["constant", "variable"] {
+        let Some((case, result)) = rigs.get(&format!("rest, {damping}")) else {
+            continue;
+        };
+        let [carried, _] = weights(&case.parameters);
+        found.add(
+            format!("load of a nest, {damping} damping"),
+            at(result, "left_nest_vertical_force", 0.0).map(|force| force / POUND),
+            exactly(0.5 * carried),
+            ("lbf", 1e-6),
+            "At rest two nests carry the half car, its bolster and the wedges.",
+        );
+    }
+    if let Some((empty, result)) = rigs.get("rest, constant_empty") {
+        let coils: f64 = empty
+            .parameters
+            .load_coils
+            .iter()
+            .flatten()
+            .map(|coil| coil.spring.stiffness)
+            .sum();
+        let preload: f64 = empty
+            .parameters
+            .load_coils
+            .iter()
+            .flatten()
+            .map(|coil| coil.spring.preload)
+            .sum();
+        let [carried, frames] = weights(&empty.parameters);
+        // Four adapters of two points.
+        let (adapters, on_them) = (8.0 * 5e5, 8.0 * 15_691.0);
+        let rise =
+            (preload / POUND - carried) / (coils * INCH / POUND) + (on_them - carried - frames) / adapters;
+        found.add(
+            "height of the empty car above the loaded one, constant damping",
+            at(result, "bolster_z", 0.0).map(|z| z / INCH),
+            exactly(rise),
+            ("in", 1e-4),
+            "Coils and adapters in series are relieved of the lading; the wedges' forces are internal to bolster and wedges.",
+        );
+    }
+    let half_car = Parameters {
+        bolster: Bolster::with_half_car(Lading::Loaded),
+        ..Parameters::new(Damping::Constant).with_wedge_friction(0.0)
+    };
+    found.add(
+        "bounce of a truck under its half car, without friction",
+        bounce(&half_car),
+        exactly(two_masses(&half_car)),
+        ("Hz", 2e-3),
+        "Two masses on coils and adapters; wedges go with the bolster.",
+    );
+}
+
+/// The frequency (Hz) of the vibration in which the bolster moves most.
+fn bounce(parameters: &Parameters) -> Option<f64> {
+    let mut truck = Truck::new(parameters).ok()?;
+    let x = truck.system.initial_state();
+    let rest = truck.system.equilibrium(0.0, &x, StaticFriction::Without).ok()?;
+    let z = truck.system.position_of(BOLSTER, 2)?;
+    let modes = truck.system.vibrations(0.0, &rest, Held::Nothing).ok()?.modes;
+    let most = modes
+        .iter()
+        .filter(|mode| mode.frequency > 0.5)
+        .max_by(|a, b| a.shape[z].abs().total_cmp(&b.shape[z].abs()))?;
+    Some(most.frequency)
+}
+
+/// The lower frequency (Hz) of two masses: the car on its coils, the side frames on their adapters.
+fn two_masses(parameters: &Parameters) -> f64 {
+    let wedges: f64 = parameters.wedges.iter().map(|wedge| wedge.mass).sum();
+    let upper = parameters.bolster.body.mass + wedges;
+    let lower: f64 = parameters.side_frames.iter().map(|frame| frame.body.mass).sum();
+    let coils: f64 = parameters
+        .load_coils
+        .iter()
+        .flatten()
+        .map(|coil| coil.spring.stiffness)
+        .sum();
+    let adapters = 8.0 * 5e5 * POUND / INCH;
+    // det(K - w² M) = 0
+    let b = coils / upper + (coils + adapters) / lower;
+    let c = coils * adapters / (upper * lower);
+    (0.5 * (b - (b * b - 4.0 * c).sqrt())).sqrt() / (2.0 * PI)
+}
+
+/// Preload and weight (N) of the leading left wedge's coil.
+fn coil_and_weight(case: &TruckCase) -> [f64; 2] {
+    let wedge = &case.parameters.wedges[0];
+    let preload = match &wedge.control_coil {
+        ControlCoil::Shear(spring) => spring.preload,
+        thesis @ ControlCoil::Thesis(..) => thesis.preload(),
+    };
+    [preload, wedge.mass * case.parameters.gravity]
+}
+
+fn frictionless(found: &mut Found, rigs: &Rigs) {
+    if let Some((case, result)) = rigs.get("frictionless warp") {
+        let wedge = &case.parameters.wedges[0];
+        let cotangent = 1.0 / libm::tan(wedge.angle);
+        let time = 4.5;
+        let warp = at(result, "warp_angle", time);
+        found.add(
+            "roll of a wedge over the warp angle, without friction",
+            at(result, "trailing_left_roll", time)
+                .zip(warp)
+                .map(|(roll, warp)| roll / warp),
+            exactly(cotangent),
+            ("-", 3e-3),
+            "A wedge that is free to roll rolls by ψ cot θ and stays flush on both faces.",
+        );
+        let shear: f64 = case
+            .parameters
+            .load_coils
+            .iter()
+            .zip([1.0, -1.0])
+            .flat_map(|(coils, way)| coils.iter().map(move |coil| (coil, way)))
+            .map(|(coil, way)| {
+                let [x, y] = coil.place;
+                let y = y + way * case.parameters.distances[0];
+                // A side frame turns about its own center: the seat moves by (-ψ y', ψ x').
+                let own = y - way * case.parameters.distances[0];
+                coil.spring.shear_stiffness * (x * x + y * own)
+            })
+            .sum();
+        found.add(
+            "moment of the load coils' shear over the warp angle, both nests",
+            at(result, "warp_moment_load_coils", time)
+                .zip(warp)
+                .map(|(moment, warp)| moment / warp / (1e3 * KIP_INCH)),
+            exactly(shear / (1e3 * KIP_INCH)),
+            ("1e6 lbf·in/rad", 2e-3),
+            "Each coil shears by ψ times its distance from the nest's center.",
+        );
+        let [coil, weight] = coil_and_weight(case);
+        found.add(
+            "normal force of a column, without friction",
+            at(result, "leading_left_column_normal", 1.9).map(|force| force / POUND),
+            exactly((coil - weight) * cotangent / POUND),
+            ("lbf", 2e-2),
+            "(F_s - m g)/tan θ, F_s being the coil's static load; the contacts' give relaxes the coil a little.",
+        );
+    }
+    if let Some((case, result)) = rigs.get("frictionless vertical") {
+        let coils: f64 = case
+            .parameters
+            .load_coils
+            .iter()
+            .flatten()
+            .map(|coil| coil.spring.stiffness)
+            .sum();
+        let adapters = 8.0 * 5e5 * POUND / INCH;
+        let own = LoopCurve::of(case, result);
+        found.add(
+            "vertical stiffness of the truck, without friction",
+            own.map(|own| own.stiffness * INCH / POUND),
+            exactly(coils * adapters / (coils + adapters) * INCH / POUND),
+            ("lbf/in", 2e-3),
+            "Coils and adapters in series; control coils with constant damping act within the bolster.",
+        );
+    }
+    if let Some((case, result)) = rigs.get("truck_vertical_variable") {
+        let losses: f64 = result.summary.cycles.losses.values().map(|loss| loss.value).sum();
+        let joule = quantity::Kind::Energy.from_si(result.summary.units);
+        let own = LoopCurve::of(case, result);
+        found.add(
+            "area of the vertical loop, variable damping",
+            own.map(|own| own.energy / (POUND * INCH)),
+            exactly(losses / joule / (POUND * INCH)),
+            ("in·lbf", 2e-2),
+            "What a cycle loses at all elements; the area is a sum over output times.",
+        );
+    }
+}
+
+/// Turning moment of the center plate, ledger, symmetry.
+fn plate_and_ledger(found: &mut Found, rigs: &Rigs) {
+    if let Some((case, result)) = rigs.get("turned plate")
+        && let Some(car) = &case.parameters.car_body
+    {
+        let plate = &car.center_plate;
+        let load = car.body.mass * case.parameters.gravity - car.side_bearings.preload();
+        let radius = plate.rings.iter().fold(0.0, |most: f64, own| most.max(*own));
+        found.add(
+            "turning moment of the loaded center plate",
+            at(result, "center_plate_turning_moment", 0.6).map(|moment| moment.abs() / KIP_INCH),
+            exactly(2.0 / 3.0 * plate.friction.coefficient * load * radius / KIP_INCH),
+            ("kip·in", 2e-3),
+            "(2/3) μ W R: two rings of points have the friction radius of a flat plate.",
+        );
+    }
+    let residuals = rigs
+        .all()
+        .map(|(_, result)| result.summary.ledger.largest_relative_residual);
+    found.add(
+        "largest residual of the energy ledger of any run told here",
+        residuals.reduce(f64::max),
+        exactly(0.0),
+        ("-", 1e-5),
+        "Work, losses and stored energy add up; each loss is integrated from its own force and velocity.",
+    );
+    if let Some((_, result)) = rigs.get("truck_vertical_variable") {
+        let normals = WEDGE_NAMES.map(|wedge| {
+            result
+                .column(&format!("{wedge}_column_normal"))
+                .unwrap_or_default()
+        });
+        let [first, others @ ..] = normals;
+        let largest = first.iter().fold(0.0, |most: f64, force| most.max(*force));
+        let apart = others
+            .iter()
+            .flat_map(|own| own.iter().zip(first).map(|(a, b)| (a - b).abs()));
+        found.add(
+            "largest difference between wedges going up and down, over the largest normal force",
+            (largest > 0.0).then(|| apart.fold(0.0, f64::max) / largest),
+            exactly(0.0),
+            ("-", 1e-6),
+            "A symmetric rig loads its four wedges alike.",
+        );
+    }
+}
+
+/// The values of a column where the bolster passes its middle height in the last cycle: going up, going down (SI).
+fn in_the_middle(result: &TruckResult, name: &str, period: f64) -> Option<[f64; 2]> {
+    let (times, z, values) = (
+        result.column("time")?,
+        result.column("bolster_z")?,
+        result.column(name)?,
+    );
+    let last = times.last()?;
+    let first = times.partition_point(|time| *time < last - period - 1e-9);
+    let (mut up, mut down) = (None, None);
+    for row in first..times.len().saturating_sub(1) {
+        if (z[row] <= 0.0) != (z[row + 1] <= 0.0) {
+            let share = z[row] / (z[row] - z[row + 1]);
+            let value = values[row] + share * (values[row + 1] - values[row]);
+            *(if z[row + 1] > z[row] { &mut up } else { &mut down }) = Some(value);
+        }
+    }
+    up.zip(down).map(|(up, down)| [up, down])
+}
+
+/// The vertical rigs at the middle of the stroke against steady sliding of a massless wedge.
+fn massless(found: &mut Found, rigs: &Rigs) {
+    const WAYS: [(&str, Direction); 2] = [("up", Direction::Up), ("down", Direction::Down)];
+    for (rig, damping, toe) in [
+        ("much toe, constant", "constant", "toe out 2°"),
+        ("much toe, variable", "variable", "toe out 2°"),
+        ("truck_vertical_constant_toe_out", "constant", "toe out 0.2°"),
+        ("truck_vertical_variable_toe_out", "variable", "toe out 0.2°"),
+        ("truck_vertical_constant", "constant", "no toe"),
+        ("truck_vertical_variable", "variable", "no toe"),
+    ] {
+        let Some((case, result)) = rigs.get(rig) else {
+            continue;
+        };
+        let own = &case.parameters.wedges[0];
+        let wedge = QuasiStaticWedge {
+            angle: own.angle,
+            toe: own.toe,
+            column_friction: own.column_friction.coefficient,
+            slope_friction: own.slope_friction.coefficient,
+        };
+        let [coil, weight] = coil_and_weight(case);
+        let stroke = case.parameters.bolster.motion.coordinates[2].evaluate(0.25 * PI, 0.0)[0];
+        // How far the wedge slides along the slope from the middle of the stroke to its end, and what corners give.
+        let slide = stroke.abs() * libm::sin(own.toe) / libm::sin(own.angle + own.toe);
+        let give = coil / (4.0 * own.contact.stiffness);
+        let remark = if own.toe == 0.0 {
+            "The slope sticks and the wedge goes with the bolster: its normal force is not that of a branch, which lets the slope \
+             slide."
+                .to_owned()
+        } else {
+            format!(
+                "Toe makes the wedge slide on the slope by {:.4} in in half a stroke, where the faces give by about {:.4} in{}.",
+                slide / INCH,
+                give / INCH,
+                if slide > 4.0 * give {
+                    ": enough to come to the branches"
+                } else {
+                    ": too little to reach the branches"
+                }
+            )
+        };
+        let stiffness = match &own.control_coil {
+            ControlCoil::Shear(spring) => spring.stiffness,
+            ControlCoil::Thesis(..) => continue,
+        };
+        let seat = match case.parameters.damping {
+            Damping::Constant => "bolster_z",
+            Damping::Variable => "left_side_frame_z",
+        };
+        let [wedge_z, seat_z] = ["leading_left_z", seat].map(|name| in_the_middle(result, name, PI));
+        let lift = wedge_z
+            .zip(seat_z)
+            .map(|(wedge, seat)| [wedge[0] - seat[0], wedge[1] - seat[1]]);
+        // sin(2 rad/s t)
+        let normals = in_the_middle(result, "leading_left_column_normal", PI);
+        let frictions = in_the_middle(result, "leading_left_column_friction_z", PI);
+        for (k, (way, direction)) in WAYS.into_iter().enumerate() {
+            // The coil is as long as the run says: a wedge between faces that lean by the toe rides on edges, and rises.
+            let load = lift.map(|both| coil - stiffness * both[k] - weight);
+            let sliding = load.and_then(|load| wedge.slide(direction, wedge.branch(direction), load));
+            found.add(
+                format!("normal force of a column going {way}, {damping} damping, {toe}"),
+                normals.map(|both| both[k] / POUND),
+                sliding.map(|sliding| exactly(sliding.column_normal / POUND)),
+                ("lbf", 0.05),
+                remark.clone(),
+            );
+            found.add(
+                format!("friction of a column going {way}, {damping} damping, {toe}"),
+                frictions.map(|both| both[k].abs() / POUND),
+                sliding.map(|sliding| exactly(sliding.column_friction * libm::cos(own.toe) / POUND)),
+                ("lbf", 0.05),
+                "μ times the normal force, since the column slides.",
+            );
+        }
+    }
+}
+
+/// What another program's calculation of the rigs says.
+fn independent(found: &mut Found, rigs: &Rigs) {
+    let moment = |key: &str, time: f64| {
+        let (_, result) = rigs.get(key)?;
+        Some(at(result, "warp_moment", time)?.abs() / KIP_INCH)
+    };
+    let normal = |key: &str, time: f64| {
+        let (_, result) = rigs.get(key)?;
+        let all = WEDGE_NAMES
+            .iter()
+            .filter_map(|wedge| at(result, &format!("{wedge}_column_normal"), time));
+        all.reduce(f64::max).map(|force| force / POUND)
+    };
+    let growth = |key: &str| Some(moment(key, 4.5)? / moment(key, 3.25)?);
+    found.add(
+        "warp moment of a worn truck at 20 mrad",
+        moment("warp, worn", 4.5),
+        exactly(225.0),
+        ("kip·in", 0.05),
+        "With friction of 0.25 the moment has a plateau; lateral friction at the columns adds to what their edges hold.",
+    );
+    found.add(
+        "its growth from 10 to 20 mrad",
+        growth("warp, worn"),
+        [1.0, 1.15],
+        ("-", 0.0),
+        "A plateau.",
+    );
+    found.add(
+        "growth of the warp moment of a new truck from 10 to 20 mrad",
+        growth("warp, new"),
+        [1.5, 2.0],
+        ("-", 0.0),
+        "With friction of 0.4 the nest locks, and the contacts' stiffness sets the moment.",
+    );
+    found.add(
+        "largest normal force of its columns at 20 mrad, on the way to the other side",
+        normal("warp, new", 9.5),
+        [20_000.0, 30_000.0],
+        ("lbf", 0.0),
+        "Where the nest locks the wedges are pressed in, five to eight times as hard as without warp.",
+    );
+    found.add(
+        "what the adapters' friction adds to the inter-axle shear moment at 20 mrad",
+        rigs.get("truck_warp_axles_constant_rising")
+            .and_then(|(_, result)| {
+                let shear = at(result, "interaxle_shear_moment", 4.5)?.abs();
+                Some((shear - at(result, "warp_moment", 4.5)?.abs()) / KIP_INCH)
+            }),
+        [180.0, 210.0],
+        ("kip·in", 0.05),
+        "Side frames turn on their bearings while the wheelsets move against each other.",
+    );
+    found.add(
+        "normal force of a column going up and down, constant damping, no toe",
+        rigs.get("truck_vertical_constant")
+            .and_then(|(_, result)| at(result, "leading_left_column_normal", 5.0))
+            .map(|force| force / POUND),
+        exactly(3400.0),
+        ("lbf", 0.05),
+        "The start locks it in: the contacts' damping decides it.",
+    );
+}

@@ -1,0 +1,54 @@
+//! What the report says of the three-piece truck: its rigs against closed forms, against the massless wedge, and
+//! against independent calculations, and how far its answers hang on the stiffness of contacts and bristles.
+//!
+//! Every number is computed from runs; nothing is stored. [`shown`] and [`variants`] say which runs are
+//! needed.
+
+mod checks;
+mod rigs;
+mod sensitivity;
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+pub use checks::{Basis, Check, checks};
+pub use rigs::{Rigs, Variant, shown, variants};
+pub use sensitivity::{Sensitivity, sensitivities};
+
+/// The file of the numbers.
+pub const FILE_NAME: &str = "truck.json";
+/// Its schema's name and version.
+pub const SCHEMA: &str = "wedgelab.truck_checks/1";
+
+/// All that is said.
+#[derive(Clone, Debug, Serialize)]
+pub struct Findings {
+    /// [`SCHEMA`].
+    pub schema: &'static str,
+    /// What was found against what is expected.
+    pub checks: Vec<Check>,
+    /// What stiffness of contacts and bristles moves.
+    pub sensitivities: Vec<Sensitivity>,
+}
+
+impl Findings {
+    /// What these runs say. A check whose runs are missing is left out.
+    #[must_use]
+    pub fn of(rigs: &Rigs) -> Self {
+        Self {
+            schema: SCHEMA,
+            checks: checks(rigs),
+            sensitivities: sensitivities(rigs),
+        }
+    }
+
+    /// Writes them as JSON.
+    ///
+    /// # Errors
+    /// The writer's.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        serde_json::to_writer_pretty(&mut *out, self)?;
+        writeln!(out)
+    }
+}
