@@ -65,8 +65,11 @@ fn limits_the_massless_wedge_is_told_where_it_agrees_and_where_not() {
                 println!("{check:?}");
                 check.difference.abs()
             });
-            // Found: 0.8 and 5.3 % with constant, 0.2 and 2.1 % with variable damping: half a stroke is not quite enough.
-            assert!(differences[0] < 0.06, "{damping}, {way}: {differences:?}");
+            // Half a stroke is not quite enough to reach them all.
+            assert!(
+                differences[0] < 0.5 * differences[1],
+                "{damping}, {way}: {differences:?}"
+            );
             assert!(differences[1] > 0.1, "{damping}, {way}: {differences:?}");
         }
     }

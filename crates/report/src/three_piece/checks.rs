@@ -121,6 +121,7 @@ pub fn checks(rigs: &Rigs) -> Vec<Check> {
     plate_and_ledger(&mut found, rigs);
     found.basis = Basis::MasslessWedge;
     massless(&mut found, rigs);
+    massless_trucks(&mut found, rigs);
     found.basis = Basis::IndependentCalculation;
     independent(&mut found, rigs);
     found.checks
@@ -224,11 +225,7 @@ fn two_masses(parameters: &Parameters) -> f64 {
 /// Preload and weight (N) of the leading left wedge's coil.
 fn coil_and_weight(case: &TruckCase) -> [f64; 2] {
     let wedge = &case.parameters.wedges[0];
-    let preload = match &wedge.control_coil {
-        ControlCoil::Shear(spring) => spring.preload,
-        thesis @ ControlCoil::Thesis(..) => thesis.preload(),
-    };
-    [preload, wedge.mass * case.parameters.gravity]
+    [wedge.control_coil.preload(), wedge.mass * case.parameters.gravity]
 }
 
 fn frictionless(found: &mut Found, rigs: &Rigs) {
@@ -421,7 +418,7 @@ fn massless(found: &mut Found, rigs: &Rigs) {
         };
         let stiffness = match &own.control_coil {
             ControlCoil::Shear(spring) => spring.stiffness,
-            ControlCoil::Thesis(..) => continue,
+            _ => continue,
         };
         let seat = match case.parameters.damping {
             Damping::Constant => "bolster_z",
@@ -453,6 +450,61 @@ fn massless(found: &mut Found, rigs: &Rigs) {
                 "μ times the normal force, since the column slides.",
             );
         }
+    }
+}
+
+/// The loss of the leading left wedge in a cycle, on both faces, J.
+fn loss_of_wedge(result: &TruckResult) -> Option<f64> {
+    let losses = result.summary.cycles.losses.iter();
+    let own = losses.filter(|(name, _)| {
+        let kind = name.strip_prefix("leading_left_");
+        let kinds = [
+            "column_friction_loss",
+            "slope_friction_loss",
+            "wedge_column_loss",
+            "wedge_slope_loss",
+        ];
+        kind.is_some_and(|kind| kinds.contains(&kind))
+    });
+    own.map(|(_, loss)| loss.value).reduce(|sum, loss| sum + loss)
+}
+
+/// The same rigs with massless wedges in the truck, and with the industry's empirical warp springs in place of what
+/// they leave out.
+fn massless_trucks(found: &mut Found, rigs: &Rigs) {
+    for damping in ["constant", "variable"] {
+        let loss = |key: &str| rigs.get(key).and_then(|(_, result)| loss_of_wedge(result));
+        found.add(
+            format!("loss of a wedge in a cycle, {damping} damping, toe out 0.2°, against massless wedges in the truck"),
+            loss(&format!("truck_vertical_{damping}_toe_out")),
+            loss(&format!("massless, {damping}")).map(exactly),
+            ("lbf·in", 0.05),
+            "A massless wedge turns its slope's friction over at once; a body's faces give way first, and it slides less.",
+        );
+    }
+    for (condition, remark) in [
+        (
+            "new",
+            "NUCARS's empirical stiffness grows in proportion to warp; wedges of a friction of 0.4 lock, and resist far more \
+             at small angles.",
+        ),
+        (
+            "worn",
+            "NUCARS's empirical stiffness of worn trucks is a third of what wedges of a friction of 0.25 hold on their plateau, \
+             and less still at small angles.",
+        ),
+    ] {
+        let moment = |key: &str| {
+            let (_, result) = rigs.get(&format!("{key}, {condition}"))?;
+            Some(at(result, "warp_moment", 4.5)?.abs() / KIP_INCH)
+        };
+        found.add(
+            format!("warp moment, {condition}, axles apart by 20 mrad, against massless wedges with empirical warp springs"),
+            moment("axles"),
+            moment("massless axles").map(exactly),
+            ("kip·in", 0.05),
+            remark,
+        );
     }
 }
 

@@ -47,6 +47,9 @@ pub(super) const STIFFENED: [(&str, &str); 2] = [
     ("bristles", "friction.bristle_stiffness=2000000 lbf/in"),
 ];
 
+/// The rig that warps the truck by its axles.
+const AXLES: &str = "truck_warp_axles_constant_rising";
+
 /// The runs for comparison.
 ///
 /// # Errors
@@ -98,6 +101,16 @@ pub fn variants() -> Result<Vec<Variant>, CaseError> {
             &format!("truck_vertical_{damping}_toe_out"),
             &["side_frame.toe=2 deg out"],
         )?;
+    }
+    for damping in ["constant", "variable"] {
+        let rig = format!("truck_vertical_{damping}_toe_out");
+        add(&format!("massless, {damping}"), &rig, &["wedge.kind=massless"])?;
+    }
+    for condition in ["new", "worn"] {
+        let [truck, spring] = ["truck.condition", "warp_spring.kind"].map(|key| format!("{key}={condition}"));
+        add(&format!("axles, {condition}"), AXLES, &[&truck])?;
+        let set = [truck.as_str(), "wedge.kind=massless", spring.as_str()];
+        add(&format!("massless axles, {condition}"), AXLES, &set)?;
     }
     for (key, name, set) in SENSITIVE {
         add(key, name, set)?;

@@ -282,7 +282,7 @@ pub fn plots(result: &TruckResult) -> Vec<Plot> {
         vec![friction, normals, nests, moments, angle]
     };
     plots.push(of_all("Normal forces of the slopes", "slope_normal"));
-    let parts = PARTS.map(|(name, words)| (format!("warp_moment_{name}"), words));
+    let parts = PARTS.map(|(name, words, _)| (format!("warp_moment_{name}"), words));
     plots.push(Plot::new(
         "Parts of the warp moment",
         parts
