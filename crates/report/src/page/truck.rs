@@ -47,8 +47,8 @@ pub fn render(contents: &TruckContents<'_>) -> String {
                 findings.checks.iter().partition(|check| check.basis == Basis::MasslessWedge);
             p {
                 (massless.iter().filter(|check| check.agrees).count()) " of " (massless.len())
-                " numbers are those of a massless wedge in steady sliding: its branches are reached only where toe makes the \
-                 slope slide by more than the faces give. "
+                " numbers agree with massless wedges: their branches are reached only where toe makes the slope slide by more \
+                 than the faces give, and in warp empirical springs stand for them. "
                 (others.iter().filter(|check| check.agrees).count()) " of " (others.len())
                 " others, from closed forms and an independent calculation, agree."
             }
@@ -121,7 +121,8 @@ fn checks(basis: Basis, all: &[Check]) -> Markup {
                 @if basis == Basis::MasslessWedge {
                     p {
                         "Steady sliding of a wedge without mass under the coil's force of that moment (eq. 5-1 of Steets 2007 put right), \
-                         beside the truck's wedges where the bolster passes the middle of its stroke in the last cycle."
+                         beside the truck's wedges where the bolster passes the middle of its stroke in the last cycle. Then \
+                         the same rigs with massless wedges in the truck, in warp with NUCARS's empirical springs."
                     }
                 }
                 div.wide {
