@@ -156,7 +156,6 @@ fn warp_writes_what_industry_programs_take() {
         (&["warp", "truck_vertical_variable"][..], "stays below 0.5 mrad"),
         (&["warp", "vdrun_toe_0_psi_0"], "is no truck"),
         (&["curves", "truck_warp_nest_variable_rising"], "no whole cycle"),
-        (&["explore", "truck_vertical_variable"], "takes a single wedge"),
     ] {
         let refused = wedgelab(at, arguments);
         assert_eq!(refused.code, Some(2), "{arguments:?}: {}", refused.err);

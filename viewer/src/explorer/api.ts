@@ -60,11 +60,6 @@ export interface Wanted {
   set: Record<string, string>;
 }
 
-export interface Measure {
-  value: number;
-  unit: string;
-}
-
 export interface Summary {
   name: string;
   title: string;
@@ -73,13 +68,31 @@ export interface Summary {
   stopped: { time: number; reason: string } | null;
   failed: string | null;
   warnings: string[];
-  averages: { missing: string; energy_per_cycle: Record<string, Measure> };
+}
+
+/** An axis of the loop: a column of the run, and in words. */
+export interface LoopAxis {
+  column: string;
+  name: string;
+}
+
+/** The loop that is shown over earlier ones. */
+export interface Shown {
+  title: string;
+  x: LoopAxis;
+  y: LoopAxis;
+  energy_of: string;
+  /** J a cycle. */
+  energy: number | null;
+  /** Why there is none; empty where there is one. */
+  missing: string;
 }
 
 export interface Answer {
   schema: string;
   view: ViewDocument;
   summary: Summary;
+  loop: Shown;
   sections: Section[];
   seconds: number;
 }

@@ -7,19 +7,20 @@ import { element } from "../dom.js";
 import { FigurePlots } from "../plots/figure.js";
 import type { Store } from "../store.js";
 import { type Units } from "../units.js";
-import type { Summary } from "./api.js";
+import type { Shown } from "./api.js";
 
 /** How many loops are shown. */
 export const MOST = 8;
 
 export interface Loop {
   number: number;
+  /** Which loop it is, and the quantities of its axes. */
+  shown: Shown;
+  quantities: [string, string];
   /** What was changed. */
   label: string;
   travel: Float32Array;
   force: Float32Array;
-  /** J a cycle at the side frame; missing where there are no cycles. */
-  energy: number | undefined;
   seconds: number;
   /** Whether a slider was still being moved. */
   live: boolean;
@@ -47,15 +48,14 @@ export function colour(age: number): string {
   return age === 0 ? "#0072b2" : `#${mix(0x8a, 0xdc)}${mix(0x9b, 0xe0)}${mix(0xa8, 0xe4)}`;
 }
 
-/** An energy of the summary in J. */
-export function joules(summary: Summary, quantities: Record<string, Quantity>): number | undefined {
-  const energy = summary.averages.energy_per_cycle.side_frame;
-  const factor = summary.units === "us" ? (quantities.energy?.us_from_si ?? 1) : 1;
-  return energy && energy.value / factor;
-}
-
-export function loopOf(run: RunData): Pick<Loop, "travel" | "force"> {
-  return { travel: run.values("bolster_vertical"), force: run.values("vertical_wedge_force") };
+export function loopOf(run: RunData, shown: Shown): Pick<Loop, "shown" | "quantities" | "travel" | "force"> {
+  const { x, y } = shown;
+  return {
+    shown,
+    quantities: [run.quantity(x.column), run.quantity(y.column)],
+    travel: run.values(x.column),
+    force: run.values(y.column),
+  };
 }
 
 export class Loops {
@@ -63,6 +63,7 @@ export class Loops {
   private readonly place = element("div");
   private readonly rows = element("tbody");
   private readonly head = element("th", { scope: "col" });
+  private readonly caption = element("caption");
   private readonly loops: Loop[] = [];
   private plots: FigurePlots | undefined;
   private count = 0;
@@ -79,7 +80,7 @@ export class Loops {
         element(
           "table",
           {},
-          element("caption", {}, "Energy lost in friction at the side frame, the latest run first"),
+          this.caption,
           element("thead", {}, element("tr", {}, element("th", { scope: "col" }, "run"), element("th", { scope: "col" }, "changed"), this.head, element("th", { scope: "col" }, "computed in"))),
           this.rows,
         ),
@@ -90,6 +91,10 @@ export class Loops {
 
   /** Puts a loop over the others; one that came while a slider moved gives way to the next. */
   add(loop: Omit<Loop, "number">): void {
+    // Loops of other axes are no company.
+    if (this.loops[0] && this.loops[0].shown.title !== loop.shown.title) {
+      this.loops.length = 0;
+    }
     if (this.loops[0]?.live) {
       this.loops.shift();
       this.count -= 1;
@@ -114,6 +119,12 @@ export class Loops {
   }
 
   private draw(): void {
+    const [latest] = this.loops;
+    if (!latest) {
+      return;
+    }
+    const { shown, quantities } = latest;
+    this.caption.textContent = `${shown.energy_of}, the latest run first`;
     const lists = this.loops.flatMap(({ travel, force }) => [travel, force]);
     const curves = this.loops.map(({ number }, k) => ({
       label: `run ${number}`,
@@ -129,9 +140,9 @@ export class Loops {
       common_axes: true,
       panels: [
         {
-          title: "Vertical wedge force over the bolster's travel",
-          x: { name: "bolster, vertical", quantity: "length" },
-          y: { name: "vertical force on the side frame", quantity: "force" },
+          title: shown.title,
+          x: { name: shown.x.name, quantity: quantities[0] },
+          y: { name: shown.y.name, quantity: quantities[1] },
           x_window: null,
           y_names: [],
           marks: [],
@@ -148,7 +159,7 @@ export class Loops {
     this.plots.refit();
     this.root.dataset.loops = String(this.loops.length);
     this.root.dataset.run = String(this.count);
-    this.root.dataset.energy = String(this.loops[0]?.energy ?? "");
+    this.root.dataset.energy = String(shown.energy ?? "");
     this.table();
   }
 
@@ -156,10 +167,10 @@ export class Loops {
     const units = this.units.value;
     this.head.textContent = `energy per cycle (${units.label("energy")})`;
     this.rows.replaceChildren(
-      ...this.loops.map(({ number, label, energy, seconds }, k) => {
+      ...this.loops.map(({ number, label, shown: { energy }, seconds }, k) => {
         const mark = element("i", { class: "wl-stroke" });
         mark.style.background = colour(k);
-        const shown = energy === undefined ? "–" : (energy * units.factor("energy")).toFixed(1).replace("-", "\u2212");
+        const shown = energy === null ? "–" : (energy * units.factor("energy")).toFixed(1).replace("-", "\u2212");
         return element(
           "tr",
           {},

@@ -12,7 +12,7 @@ import { Store } from "../store.js";
 import { Units } from "../units.js";
 import { keep, opening, run, why, type Answer, type Mistake, type Opening, type Outcome, type Wanted } from "./api.js";
 import { Form } from "./form.js";
-import { joules, loopOf, Loops } from "./loops.js";
+import { loopOf, Loops } from "./loops.js";
 
 /** A run that takes longer than this is not waited for when something else was changed, ms. */
 const PATIENCE = 600;
@@ -232,7 +232,7 @@ class Explorer {
   }
 
   private take(answer: Answer, wanted: Wanted, { live, first }: { live: boolean; first: boolean }): void {
-    const { summary, view, sections, seconds } = answer;
+    const { summary, view, loop, sections, seconds } = answer;
     this.last = JSON.stringify(wanted);
     this.form.complain([]);
     this.form.show(sections, this.set, first, (path) => within(this.set, path) !== within(wanted.set, path));
@@ -243,13 +243,13 @@ class Explorer {
     if (summary.stopped) {
       notes.unshift({ path: "", message: `The run stopped at ${summary.stopped.time.toPrecision(4)} s: ${summary.stopped.reason}`, help: "Values far from the thesis's are the first suspects." });
     }
-    if (summary.averages.missing) {
-      notes.push({ path: "", message: `No energy per cycle: ${summary.averages.missing}`, help: "" });
+    if (loop.missing) {
+      notes.push({ path: "", message: `No energy per cycle: ${loop.missing}`, help: "" });
     }
     this.show(notes);
     const found = new Data(view).run(summary.name);
     if (found) {
-      this.loops.add({ label: this.label, ...loopOf(found), energy: joules(summary, view.quantities), seconds, live });
+      this.loops.add({ label: this.label, ...loopOf(found, loop), seconds, live });
     }
     this.number += 1;
     this.root.dataset.runs = String(this.number);

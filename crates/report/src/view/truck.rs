@@ -282,6 +282,12 @@ pub fn plots(result: &TruckResult) -> Vec<Plot> {
         vec![friction, normals, nests, moments, angle]
     };
     plots.push(of_all("Normal forces of the slopes", "slope_normal"));
+    if moves("bolster_roll") {
+        plots.push(some(
+            "Roll moment",
+            &[("bolster_roll_moment", "on the bolster, of nests and stops")],
+        ));
+    }
     let parts = PARTS.map(|(name, words, _)| (format!("warp_moment_{name}"), words));
     plots.push(Plot::new(
         "Parts of the warp moment",

@@ -117,6 +117,79 @@ fn a_case_file_is_explored_and_kept() {
     assert_eq!(preset.json()["summary"]["name"], "vdrun_toe_0_psi_0");
 }
 
+/// A truck is explored as a wedge is: its loop, its energy and its files are those of the command line; from a wedge
+/// a truck is a click away, and back.
+#[test]
+fn a_truck_is_explored_and_kept() {
+    let folder = temporary();
+    let name = "truck_warp_nest_constant_rising";
+    let server = Server::start(folder.path(), &[name]);
+    let opening = server.get("/api/case").json();
+    assert_eq!(opening["preset"], name);
+    let set = [
+        ("truck.condition", "worn"),
+        ("wedge.leading_left.toe", "0.1 deg out"),
+    ];
+    let wanted: serde_json::Map<String, Value> = set
+        .iter()
+        .map(|(path, text)| ((*path).to_owned(), json!(text)))
+        .collect();
+    let answer = server.post("/api/run", &json!({ "set": wanted.clone() })).json();
+    let shown = &answer["loop"];
+    assert_eq!(
+        (&shown["x"]["column"], &shown["y"]["column"], &shown["missing"]),
+        (&json!("warp_angle"), &json!("warp_moment"), &json!(""))
+    );
+    let columns = answer["view"]["runs"][0]["columns"].as_object().unwrap();
+    assert!(columns.contains_key("warp_angle") && columns.contains_key("warp_moment"));
+    let told = run(folder.path(), name, &set);
+    let losses = summary(&told)["cycles"]["losses"].as_object().unwrap().clone();
+    let of_wedges = losses.iter().filter(|(name, _)| {
+        ["leading_", "trailing_"].iter().any(|end| name.starts_with(end)) && !name.contains("wheelset")
+    });
+    let sum: f64 = of_wedges.map(|(_, loss)| loss["value"].as_f64().unwrap()).sum();
+    // lbf·in, in J.
+    let energy = shown["energy"].as_f64().unwrap() / 0.112_984_829_027_616_7;
+    assert!(sum > 1e3 && (energy / sum - 1.0).abs() < 1e-12, "{energy} {sum}");
+    for (path, text) in set {
+        let field = fields(&answer)
+            .into_iter()
+            .find(|field| field["path"] == *path)
+            .unwrap();
+        assert_eq!(field["text"], *text);
+    }
+    for file in ["case.toml", "result.csv", "result.mat", "summary.json"] {
+        let kept = server.post(&format!("/api/export/{file}"), &json!({ "set": wanted.clone() }));
+        assert_eq!(kept.status, 200, "{file}");
+        assert_eq!(kept.body, fs::read(told.join(file)).unwrap(), "{file}");
+    }
+    for (preset, y) in [
+        ("vdrun_toe_0_psi_0", "vertical_wedge_force"),
+        ("truck_vertical_constant", "left_nest_vertical_force"),
+        ("truck_roll_variable", "bolster_roll_moment"),
+    ] {
+        let answer = server
+            .post("/api/run", &json!({ "preset": preset, "set": {} }))
+            .json();
+        assert_eq!(answer["summary"]["name"], preset);
+        assert_eq!(answer["loop"]["y"]["column"], y, "{preset}");
+        let columns = answer["view"]["runs"][0]["columns"].as_object().unwrap();
+        assert!(columns.contains_key(y), "{preset}");
+    }
+    for (path, text, word) in [
+        ("wedge.angle", "95 deg", "between 0 deg and 90 deg"),
+        ("wedge.leading_left.kind", "heavy", "massless"),
+        ("gib.clearance", "3 lbf", "a length is expected"),
+        ("simulation.output_interval", "1e-3 s", "20001 rows"),
+    ] {
+        let answer = server.post("/api/run", &json!({ "set": { path: text } }));
+        assert_eq!(answer.status, 422, "{path}={text}");
+        let answer = answer.json();
+        assert!(answer.to_string().contains(word), "{word} is not in {answer}");
+        assert_eq!(answer["errors"][0]["path"], path, "{answer}");
+    }
+}
+
 #[test]
 fn mistakes_are_told_where_they_were_typed() {
     let folder = temporary();

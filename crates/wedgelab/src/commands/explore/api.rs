@@ -5,17 +5,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::Instant;
 
+use report::run_files;
 use report::view::View;
-use report::view::run::{Detail, Recording};
-use report::{csv, mat, run_files, summary};
 use serde::{Deserialize, Serialize};
-use study::case::{Case, CaseError, FieldSection, builtin};
-use study::result::RunResult;
-use study::run::Run;
-use study::summary::Summary;
+use study::any_case::AnyCase;
+use study::case::builtin::Group;
+use study::case::{CaseError, FieldSection, builtin};
+use study::truck;
 
 use super::base::Base;
 use super::limits;
+use super::outcome::{AnySummary, Loop, Outcome, compute};
 
 /// The name and version of the answers.
 pub const SCHEMA: &str = "wedgelab.explore/1";
@@ -66,8 +66,10 @@ pub struct Answer {
     schema: &'static str,
     /// `wedgelab.view/1`.
     view: View,
-    /// `wedgelab.summary/2`, without the list of events.
-    summary: Summary,
+    summary: AnySummary,
+    /// The loop that is shown over earlier ones.
+    #[serde(rename = "loop")]
+    shown_loop: Loop,
     /// The case's fields as they are now: a change may change what is completed from it.
     sections: Vec<FieldSection>,
     /// What the run took, s.
@@ -100,7 +102,7 @@ pub enum Refused {
 
 impl Refused {
     /// One mistake.
-    fn mistake(path: &str, message: String, help: &str) -> Self {
+    pub fn mistake(path: &str, message: String, help: &str) -> Self {
         Self::Mistakes(vec![Mistake {
             path: path.to_owned(),
             message,
@@ -180,7 +182,7 @@ pub struct Turn {
 
 struct StoredRun {
     wanted: Wanted,
-    outcome: Arc<(Case, RunResult)>,
+    outcome: Arc<Outcome>,
 }
 
 impl Explorer {
@@ -216,7 +218,7 @@ impl Explorer {
     /// A table that the case names has changed since the start and is wrong now.
     pub fn opening(&self) -> Result<Opening, Refused> {
         let case = self.case(&Wanted::default())?;
-        let presets = builtin::groups().iter().map(|group| Presets {
+        let presets = |group: &'static Group| Presets {
             name: group.name,
             title: group.title,
             look_at: group.look_at,
@@ -228,13 +230,14 @@ impl Explorer {
                     title: &case.title,
                 })
                 .collect(),
-        });
+        };
+        let groups = builtin::groups().iter().chain(truck::builtin::groups());
         Ok(Opening {
             schema: SCHEMA,
             preset: self.base.preset().map(str::to_owned),
-            name: case.name.clone(),
-            presets: presets.collect(),
-            sections: case.document.fields(),
+            name: case.name().to_owned(),
+            presets: groups.map(presets).collect(),
+            sections: case.fields(),
         })
     }
 
@@ -246,16 +249,12 @@ impl Explorer {
         let begun = Instant::now();
         let outcome = self.outcome(wanted, turn)?;
         let seconds = begun.elapsed().as_secs_f64();
-        let (case, result) = &*outcome;
-        let recording = Recording::of_wedge(&outcome, Detail::Full);
-        let view = View::new(result.summary.units, [recording], []);
-        let mut summary = result.summary.clone();
-        summary.events.listed.clear();
         Ok(Answer {
             schema: SCHEMA,
-            view,
-            summary,
-            sections: case.document.fields(),
+            view: outcome.view(),
+            summary: outcome.summary(),
+            shown_loop: outcome.shown_loop(),
+            sections: self.case(wanted)?.fields(),
             seconds,
         })
     }
@@ -269,8 +268,8 @@ impl Explorer {
         let mut bytes = Vec::new();
         let (name, media) = if file == run_files::CASE_FILE_NAME {
             let case = self.case(wanted)?;
-            bytes = case.document.with_tables_embedded().to_toml().into_bytes();
-            (case.name, "application/toml")
+            bytes = case.to_toml().unwrap_or_default().into_bytes();
+            (case.name().to_owned(), "application/toml")
         } else {
             if !run_files::NAMES.contains(&file) {
                 let names = run_files::NAMES.join(", ");
@@ -279,13 +278,8 @@ impl Explorer {
                 )));
             }
             let outcome = self.outcome(wanted, &self.begin(client))?;
-            let (case, result) = &*outcome;
-            let media = match file {
-                csv::FILE_NAME => csv::write(result, &mut bytes).map(|()| "text/csv"),
-                mat::FILE_NAME => mat::write(case, result, &mut bytes).map(|()| "application/octet-stream"),
-                _ => summary::write(&result.summary, &mut bytes).map(|()| "application/json"),
-            };
-            (case.name.clone(), media.map_err(failed)?)
+            let media = outcome.write(file, &mut bytes).map_err(failed)?;
+            (outcome.name().to_owned(), media)
         };
         Ok(Export {
             name: format!("{name}_{file}"),
@@ -294,7 +288,7 @@ impl Explorer {
         })
     }
 
-    fn case(&self, wanted: &Wanted) -> Result<Case, Refused> {
+    fn case(&self, wanted: &Wanted) -> Result<AnyCase, Refused> {
         wanted.check()?;
         let overrides: Vec<String> = wanted
             .set
@@ -304,10 +298,10 @@ impl Explorer {
         let built_in = wanted.preset.clone().map(Base::BuiltIn);
         let base = built_in.as_ref().unwrap_or(&self.base);
         let case = base.with(&overrides).map_err(|error| {
-            let known = base.with(&[]).map_or(Vec::new(), |case| case.document.fields());
+            let known = base.with(&[]).map_or(Vec::new(), |case| case.fields());
             Refused::Mistakes(mistakes(&error, &wanted.set, &known))
         })?;
-        limits::rows(&case.simulation).map_err(|refused| {
+        limits::rows(limits::simulation(&case)).map_err(|refused| {
             let typed = ["simulation.output_interval", "simulation.duration"];
             let path = typed.iter().find(|path| wanted.set.contains_key(**path));
             Refused::mistake(path.unwrap_or(&typed[0]), refused.message, &refused.help)
@@ -316,55 +310,23 @@ impl Explorer {
     }
 
     /// What comes out; that of the latest run if it is what was wanted then.
-    fn outcome(&self, wanted: &Wanted, turn: &Turn) -> Result<Arc<(Case, RunResult)>, Refused> {
+    fn outcome(&self, wanted: &Wanted, turn: &Turn) -> Result<Arc<Outcome>, Refused> {
         let case = self.case(wanted)?;
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         // Tables in files may have changed: the case must be the same, too.
         if let Some(kept) = kept
             .as_ref()
-            .filter(|kept| kept.wanted == *wanted && kept.outcome.0 == case)
+            .filter(|kept| kept.wanted == *wanted && kept.outcome.is_of(&case))
         {
             return Ok(Arc::clone(&kept.outcome));
         }
         drop(kept);
-        let result = self.compute(&case, turn)?;
-        finite(&result)?;
-        let outcome = Arc::new((case, result));
+        let outcome = Arc::new(compute(case, || self.goes_on(turn))?);
         *self.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(StoredRun {
             wanted: wanted.clone(),
             outcome: Arc::clone(&outcome),
         });
         Ok(outcome)
-    }
-
-    fn compute(&self, case: &Case, turn: &Turn) -> Result<RunResult, Refused> {
-        let mut run = Run::new(case).map_err(|error| {
-            Refused::mistake("", format!("the run cannot begin: {error}"), OUT_OF_PROPORTION)
-        })?;
-        while !run.is_finished() {
-            if !self.goes_on(turn) {
-                return Err(Refused::Replaced);
-            }
-            if let Err(error) = run.advance() {
-                let stopped = run.stopped(error.to_string());
-                return Ok(run.result(Some(stopped)));
-            }
-        }
-        Ok(run.result(None))
-    }
-}
-
-const OUT_OF_PROPORTION: &str = "look for values that are out of proportion";
-
-/// Refuses results whose averages are not finite: no number can be shown for them. Rows always are.
-fn finite(result: &RunResult) -> Result<(), Refused> {
-    match result.summary.not_finite() {
-        Some(what) => Err(Refused::mistake(
-            "",
-            format!("{what} is not a finite number"),
-            OUT_OF_PROPORTION,
-        )),
-        None => Ok(()),
     }
 }
 
@@ -430,9 +392,12 @@ mod tests {
         let client = Client::default();
         let turn = explorer.begin(client.watch());
         let outcome = explorer.outcome(&Wanted::default(), &turn).unwrap();
-        assert_eq!(finite(&outcome.1), Ok(()));
-        let mut result = outcome.1.clone();
-        result
+        assert_eq!(outcome.finite(), Ok(()));
+        let Outcome::Wedge(own) = &*outcome else {
+            unreachable!("it is a wedge");
+        };
+        let mut own = own.clone();
+        own.1
             .summary
             .averages
             .energy_per_cycle
@@ -440,7 +405,7 @@ mod tests {
             .next()
             .unwrap()
             .value = f64::NAN;
-        let Err(Refused::Mistakes(told)) = finite(&result) else {
+        let Err(Refused::Mistakes(told)) = Outcome::Wedge(own).finite() else {
             unreachable!("it is not finite");
         };
         assert!(

@@ -5,7 +5,8 @@
 
 use std::path::{Path, PathBuf};
 
-use study::case::{Case, CaseError, Tables, builtin, text_of};
+use study::any_case::AnyCase;
+use study::case::{CaseError, Tables, builtin, text_of};
 
 use super::super::run;
 use super::limits;
@@ -30,7 +31,7 @@ pub enum Base {
 impl Base {
     /// The case of `wedgelab run PATH`, checked.
     pub fn open(path: &Path) -> Result<Self, Failure> {
-        run::read(path, &[])?;
+        run::read_any(path, &[])?;
         let base = if run::is_built_in(path) {
             Self::BuiltIn(path.display().to_string())
         } else {
@@ -41,7 +42,8 @@ impl Base {
             }
         };
         let case = base.with(&[])?;
-        limits::rows(&case.simulation).map_err(|refused| Message::new(refused.message, refused.help))?;
+        limits::rows(limits::simulation(&case))
+            .map_err(|refused| Message::new(refused.message, refused.help))?;
         Ok(base)
     }
 
@@ -49,13 +51,17 @@ impl Base {
     ///
     /// # Errors
     /// A change is wrong, or the built-in case does not exist.
-    pub fn with(&self, overrides: &[String]) -> Result<Case, CaseError> {
+    pub fn with(&self, overrides: &[String]) -> Result<AnyCase, CaseError> {
         match self {
             Self::BuiltIn(name) => {
+                if let Some(case) = AnyCase::built_in(name, overrides)? {
+                    return Ok(case);
+                }
+                // Its message says what there is.
                 let text = builtin::text(name)?;
-                Case::parse(&format!("{name}.toml"), text, Tables::nowhere(), overrides)
+                AnyCase::parse(&format!("{name}.toml"), text, Tables::nowhere(), overrides)
             }
-            Self::File { name, text, folder } => Case::parse(name, text, Tables::below(folder), overrides),
+            Self::File { name, text, folder } => AnyCase::parse(name, text, Tables::below(folder), overrides),
         }
     }
 

@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-use study::case::Simulation;
+use study::any_case::AnyCase;
+use study::run::RunCase;
 
 /// Rows of output of a run, at most: one such run and its answer take some 40 MB.
 pub const ROWS: u64 = 20_001;
@@ -57,12 +58,20 @@ pub struct TooManyRows {
     pub help: String,
 }
 
+/// Duration and output interval of a case, s.
+pub fn simulation(case: &AnyCase) -> [f64; 2] {
+    match case {
+        AnyCase::Wedge(case) => [case.simulation.duration, case.simulation.output_interval],
+        AnyCase::Truck(case) => [case.simulation.duration, case.simulation.output_interval],
+        AnyCase::HalfTruck(case) => case.duration_and_interval(),
+    }
+}
+
 /// Refuses a run of more rows than [`ROWS`].
 ///
 /// # Errors
 /// The run has more.
-pub fn rows(simulation: &Simulation) -> Result<(), TooManyRows> {
-    let (duration, interval) = (simulation.duration, simulation.output_interval);
+pub fn rows([duration, interval]: [f64; 2]) -> Result<(), TooManyRows> {
     let most = (ROWS - 1) as f64;
     // As much is forgiven as in the count of rows: 200 s in steps of 0.01 s are 20,001 rows.
     if duration / interval <= most * (1.0 + 1e-12) {
@@ -89,24 +98,12 @@ fn rounded_up(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use integrate::Method;
-    use quantity::System;
-
-    fn simulation(duration: f64, output_interval: f64) -> Simulation {
-        Simulation {
-            duration,
-            output_interval,
-            relative_tolerance: 1e-6,
-            output_units: System::Us,
-            method: Method::default(),
-        }
-    }
 
     #[test]
     fn rows_are_counted_before_they_are_made() {
-        assert_eq!(rows(&simulation(200.0, 0.01)), Ok(()));
-        assert_eq!(rows(&simulation(10.0, 0.01)), Ok(()));
-        let refused = rows(&simulation(10.0, 1e-8)).unwrap_err();
+        assert_eq!(rows([200.0, 0.01]), Ok(()));
+        assert_eq!(rows([10.0, 0.01]), Ok(()));
+        let refused = rows([10.0, 1e-8]).unwrap_err();
         assert!(refused.message.contains("more than 20001 rows"), "{refused:?}");
         assert!(refused.help.contains("write 0.0005 s or more"), "{refused:?}");
         for (duration, interval) in [
@@ -116,10 +113,10 @@ mod tests {
             (201.0, 0.01),
             (1e300, 1.0),
         ] {
-            assert!(rows(&simulation(duration, interval)).is_err());
+            assert!(rows([duration, interval]).is_err());
             let advised = rounded_up(duration / (ROWS - 1) as f64);
             assert_eq!(
-                rows(&simulation(duration, advised)),
+                rows([duration, advised]),
                 Ok(()),
                 "{duration} s in steps of {advised} s"
             );

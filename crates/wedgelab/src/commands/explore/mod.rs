@@ -2,6 +2,7 @@
 //!
 //! - [`guard`], [`token`]: which requests are answered.
 //! - [`base`]: the case that changes are laid over.
+//! - [`outcome`]: a run of a wedge or of a truck, what the page shows of it, its files.
 //! - [`api`]: requests and answers, `wedgelab.explore/1`, described in `docs/explore.md`.
 //! - [`limits`]: what a request, a connection, and all of them may take.
 //! - [`routes`]: reading requests, work on other threads, answering.
@@ -13,6 +14,7 @@ mod base;
 mod connections;
 mod guard;
 mod limits;
+mod outcome;
 mod routes;
 mod server;
 mod token;
@@ -38,9 +40,10 @@ const FIRST: &str = "vdrun_toe_0_psi_0";
 Examples:
   wedgelab explore
   wedgelab explore my.toml
+  wedgelab explore truck_warp_nest_constant_rising
   wedgelab explore cdrun_toe_0_psi_0.012 --port 8080")]
 pub struct Arguments {
-    /// Case file, or, if there is no such file, the name of a built-in case [default: vdrun_toe_0_psi_0]
+    /// Case file of a wedge or of a truck, or, if there is no such file, the name of a built-in case [default: vdrun_toe_0_psi_0]
     case: Option<PathBuf>,
     /// Port to listen at; 0: any that is free
     #[arg(long, value_name = "PORT", default_value_t = 0)]

@@ -1,0 +1,265 @@
+//! A run of the explorer, of a wedge or of a truck: what the page shows of it, and its files.
+
+use std::io;
+use std::ops::ControlFlow;
+
+use quantity::Kind;
+use report::view::View;
+use report::view::run::{Detail, Recording};
+use report::{csv, mat, summary};
+use serde::Serialize;
+use study::any_case::AnyCase;
+use study::case::Case;
+use study::result::RunResult;
+use study::run::{Run, RunCase};
+use study::summary::{RunSummary, Summary};
+use study::truck::contacts::ContactTable;
+use study::truck::run::TruckResult;
+use study::truck::summary::TruckSummary;
+use study::truck::{TruckCase, WEDGE_NAMES};
+
+use super::api::Refused;
+
+/// What came out of a case.
+#[derive(Debug)]
+pub enum Outcome {
+    /// A wedge.
+    Wedge(Box<(Case, RunResult)>),
+    /// A truck, with the corners of its wedges.
+    Truck(Box<(TruckCase, TruckResult, Option<ContactTable>)>),
+}
+
+/// The summary of either.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub enum AnySummary {
+    /// `wedgelab.summary/2`, without the list of events.
+    Wedge(Box<Summary>),
+    /// `wedgelab.three_piece_truck/1`.
+    Truck(Box<TruckSummary>),
+}
+
+/// An axis of the loop: a column of the run, and in words.
+#[derive(Debug, Serialize)]
+pub struct LoopAxis {
+    column: &'static str,
+    name: &'static str,
+}
+
+/// The loop that is shown over earlier ones.
+#[derive(Debug, Serialize)]
+pub struct Loop {
+    title: &'static str,
+    x: LoopAxis,
+    y: LoopAxis,
+    /// What the energy below is.
+    energy_of: &'static str,
+    /// Energy a cycle, J; none where there are no cycles.
+    energy: Option<f64>,
+    /// Why there is none; empty where there is one.
+    missing: String,
+}
+
+/// Runs a case while it is wanted.
+///
+/// # Errors
+/// It cannot begin, is no longer wanted, or its averages are no numbers.
+pub fn compute(case: AnyCase, wanted: impl Fn() -> bool) -> Result<Outcome, Refused> {
+    let mut replaced = false;
+    let mut goes_on = |_: f64| match wanted() {
+        true => ControlFlow::Continue(()),
+        false => {
+            replaced = true;
+            ControlFlow::Break("another run took its place".to_owned())
+        }
+    };
+    let outcome = match case {
+        AnyCase::Wedge(case) => {
+            let result = begun(Run::new(&*case))?.finish_while(&mut goes_on);
+            Outcome::Wedge(Box::new((*case, result)))
+        }
+        AnyCase::Truck(case) => {
+            let run = begun(Run::with_contacts(&case))?;
+            let (result, contacts) = run.finish_with_contacts(&mut goes_on);
+            Outcome::Truck(Box::new((*case, result, contacts)))
+        }
+        AnyCase::HalfTruck(_) => return Err(Refused::mistake("", NO_HALF_TRUCK.to_owned(), "")),
+    };
+    if replaced {
+        return Err(Refused::Replaced);
+    }
+    outcome.finite()?;
+    Ok(outcome)
+}
+
+/// Why half-trucks are refused.
+pub const NO_HALF_TRUCK: &str = "the explorer takes wedges and trucks, not the half-trucks of NUCARS's files";
+
+fn begun<C: RunCase>(run: Result<Run<C>, study::run::RunError>) -> Result<Run<C>, Refused> {
+    run.map_err(|error| Refused::mistake("", format!("the run cannot begin: {error}"), OUT_OF_PROPORTION))
+}
+
+const OUT_OF_PROPORTION: &str = "look for values that are out of proportion";
+
+impl Outcome {
+    /// Whether it is that of a case.
+    pub fn is_of(&self, case: &AnyCase) -> bool {
+        match (self, case) {
+            (Self::Wedge(own), AnyCase::Wedge(case)) => own.0 == **case,
+            (Self::Truck(own), AnyCase::Truck(case)) => own.0 == **case,
+            _ => false,
+        }
+    }
+
+    /// The name of its case.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Wedge(own) => &own.0.name,
+            Self::Truck(own) => &own.0.name,
+        }
+    }
+
+    /// Refuses results whose averages are not finite: no number can be shown for them. Rows always are.
+    pub fn finite(&self) -> Result<(), Refused> {
+        let found = match self {
+            Self::Wedge(own) => own.1.summary.not_finite(),
+            // A truck's run stops where a number is none.
+            Self::Truck(_) => None,
+        };
+        match found {
+            Some(what) => Err(Refused::mistake(
+                "",
+                format!("{what} is not a finite number"),
+                OUT_OF_PROPORTION,
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// What the page draws.
+    pub fn view(&self) -> View {
+        match self {
+            Self::Wedge(own) => {
+                let recording = Recording::of_wedge(own, Detail::Full);
+                View::new(own.1.summary.units, [recording], [])
+            }
+            Self::Truck(own) => {
+                let (case, result, contacts) = &**own;
+                let recording =
+                    Recording::of_three_piece_truck(case, result, contacts.as_ref(), Detail::Thinned);
+                View::new(result.summary.units(), [recording], [])
+            }
+        }
+    }
+
+    /// Its summary.
+    pub fn summary(&self) -> AnySummary {
+        match self {
+            Self::Wedge(own) => {
+                let mut summary = own.1.summary.clone();
+                summary.events.listed.clear();
+                AnySummary::Wedge(Box::new(summary))
+            }
+            Self::Truck(own) => AnySummary::Truck(Box::new(own.1.summary.clone())),
+        }
+    }
+
+    /// The loop of it.
+    pub fn shown_loop(&self) -> Loop {
+        match self {
+            Self::Wedge(own) => loop_of_wedge(&own.1),
+            Self::Truck(own) => loop_of_truck(&own.1),
+        }
+    }
+
+    /// One of its files, but the case. Returns the type of what was written.
+    pub fn write(&self, file: &str, out: &mut Vec<u8>) -> io::Result<&'static str> {
+        match (self, file) {
+            (Self::Wedge(own), csv::FILE_NAME) => csv::write(&own.1, out)?,
+            (Self::Wedge(own), mat::FILE_NAME) => mat::write(&own.0, &own.1, out)?,
+            (Self::Wedge(own), _) => summary::write(&own.1.summary, out)?,
+            (Self::Truck(own), csv::FILE_NAME) => {
+                let result = &own.1;
+                csv::write_columns(&result.columns, &result.values, result.summary.units(), out)?;
+            }
+            (Self::Truck(own), mat::FILE_NAME) => mat::write_truck(&own.1, out)?,
+            (Self::Truck(own), _) => summary::write_json(&own.1.summary, out)?,
+        }
+        Ok(match file {
+            csv::FILE_NAME => "text/csv",
+            mat::FILE_NAME => "application/octet-stream",
+            _ => "application/json",
+        })
+    }
+}
+
+fn joules(value: f64, units: quantity::System) -> f64 {
+    value / Kind::Energy.from_si(units)
+}
+
+fn loop_of_wedge(result: &RunResult) -> Loop {
+    let averages = &result.summary.averages;
+    let energy = averages.energy_per_cycle.get("side_frame");
+    Loop {
+        title: "Vertical wedge force over the bolster's travel",
+        x: LoopAxis {
+            column: "bolster_vertical",
+            name: "bolster, vertical",
+        },
+        y: LoopAxis {
+            column: "vertical_wedge_force",
+            name: "vertical force on the side frame",
+        },
+        energy_of: "Energy lost in friction at the side frame",
+        energy: energy.map(|energy| joules(energy.value, result.summary.units)),
+        missing: averages.missing.clone(),
+    }
+}
+
+/// The loop of warp where the truck warps, of roll where the bolster rolls, else of the vertical motion.
+fn loop_of_truck(result: &TruckResult) -> Loop {
+    let range = |name: &str| {
+        let values = result.column(name).unwrap_or_default().iter();
+        let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {
+            (least.min(*value), most.max(*value))
+        });
+        most - least
+    };
+    let (title, x, y) = if range("warp_angle") > 1e-3 {
+        (
+            "Warp moment over the warp angle",
+            ("warp_angle", "warp angle"),
+            ("warp_moment", "warp moment on the bolster"),
+        )
+    } else if range("bolster_roll") > 1e-3 {
+        (
+            "Roll moment over the bolster's roll",
+            ("bolster_roll", "bolster, roll"),
+            ("bolster_roll_moment", "roll moment on the bolster"),
+        )
+    } else {
+        (
+            "Load of the left nest over the bolster's travel",
+            ("bolster_z", "bolster, vertical"),
+            ("left_nest_vertical_force", "load of the left nest"),
+        )
+    };
+    let cycles = &result.summary.cycles;
+    let of_wedges = |name: &str| WEDGE_NAMES.iter().any(|wedge| name.starts_with(wedge));
+    let losses = cycles.losses.iter().filter(|(name, _)| of_wedges(name));
+    let sum: f64 = losses.map(|(_, loss)| loss.value).sum();
+    Loop {
+        title,
+        x: LoopAxis {
+            column: x.0,
+            name: x.1,
+        },
+        y: LoopAxis {
+            column: y.0,
+            name: y.1,
+        },
+        energy_of: "Energy lost at the four wedges",
+        energy: (cycles.count > 0).then(|| joules(sum, result.summary.units())),
+        missing: cycles.missing.clone(),
+    }
+}
