@@ -151,9 +151,12 @@ fn issue_029_tables_come_from_the_folder_of_the_case_only() {
     // A built-in case reads no file, whether it is chosen on the page or in the terminal.
     let mut preset = with("own.csv");
     preset["preset"] = json!("vdrun_toe_0_psi_0");
+    let mut truck = with("own.csv");
+    truck["preset"] = json!("truck_vertical_variable");
     let terminal = Server::start(&case, &["vdrun_toe_0_psi_0"]);
     for answer in [
         server.post("/api/run", &preset),
+        server.post("/api/run", &truck),
         terminal.post("/api/run", &with("own.csv")),
     ] {
         assert_eq!(answer.status, 422);

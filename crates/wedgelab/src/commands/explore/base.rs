@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use study::any_case::AnyCase;
 use study::case::{CaseError, Tables, builtin, text_of};
+use study::truck;
 
 use super::super::run;
 use super::limits;
@@ -54,11 +55,12 @@ impl Base {
     pub fn with(&self, overrides: &[String]) -> Result<AnyCase, CaseError> {
         match self {
             Self::BuiltIn(name) => {
-                if let Some(case) = AnyCase::built_in(name, overrides)? {
-                    return Ok(case);
-                }
-                // Its message says what there is.
-                let text = builtin::text(name)?;
+                let is_truck = truck::builtin::names().any(|own| own == name);
+                let text = if is_truck {
+                    truck::builtin::text(name)?
+                } else {
+                    builtin::text(name)?
+                };
                 AnyCase::parse(&format!("{name}.toml"), text, Tables::nowhere(), overrides)
             }
             Self::File { name, text, folder } => AnyCase::parse(name, text, Tables::below(folder), overrides),
