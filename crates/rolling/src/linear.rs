@@ -116,7 +116,7 @@ impl Element for LinearOnTrack {
     fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S> {
         let axle = motion.rotation.column(1);
         let seen = self.seen(motion.position.0, axle.0);
-        let of = |vector: [S; 3]| seen.axes.map(|axis| dot(axis, vector));
+        let of = |vector: [S; 3]| seen.axes.map(|axis| Vector(axis).dot::<S, S>(Vector(vector)));
         let (velocity, angular) = (of(motion.velocity.0), of(motion.angular_velocity.0));
         let (geometry, creep) = (&self.wheelset.geometry, &self.wheelset.creep);
         let speed = (velocity[0] * velocity[0] + self.slowest * self.slowest).sqrt();
@@ -128,7 +128,7 @@ impl Element for LinearOnTrack {
                 S::from(side * geometry.half_distance),
                 -(seen.shift * (side * geometry.conicity) + geometry.radius),
             ];
-            let carried = cross(angular, arm);
+            let Vector(carried) = Vector(angular).cross::<S, S>(Vector(arm));
             let slip = [velocity[0] + carried[0], velocity[1] + carried[1]];
             let mut tangential = [slip[0] * -creep.f11, slip[1] * -creep.f22];
             let mut about = S::zero();
@@ -142,7 +142,7 @@ impl Element for LinearOnTrack {
             let [x, y] = tangential.map(|part| part * inverse);
             let about = about * inverse;
             let own = [x, y, S::zero()];
-            let lever = cross(arm, own);
+            let Vector(lever) = Vector(arm).cross::<S, S>(Vector(own));
             let couple = [S::zero(), -(about * slope), about];
             for i in 0..3 {
                 force[i] += own[i];
@@ -179,18 +179,4 @@ impl Element for LinearOnTrack {
     fn energy(&self, motion: &RelativeMotion<f64>) -> f64 {
         self.stored(&self.seen(motion.position.0, motion.rotation.column(1).0))
     }
-}
-
-#[inline(always)]
-fn dot<S: Real>(a: [S; 3], b: [S; 3]) -> S {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-fn cross<S: Real>(a: [S; 3], b: [S; 3]) -> [S; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }

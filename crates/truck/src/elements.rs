@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
 
-use mechanics::elements::{RadialStop, ShearSpring, Solid, Stop, TableSpring};
+use mechanics::elements::{RadialStop, ShearSpring, Stop, TableSpring};
 use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::system::{AppliedLoad, Model};
@@ -215,20 +215,9 @@ impl Builder<'_> {
 
     /// Adds a spring that carries body `a` on the seat of body `b`.
     fn spring(&mut self, role: Role, name: String, [a, b]: [usize; 2], at: [f64; 3], spring: &Spring) {
-        let law = ShearSpring {
-            name,
-            preload: spring.preload,
-            stiffness: spring.stiffness,
-            shear_stiffness: spring.shear_stiffness,
-            damping: spring.damping,
-            solid: spring.solid.map(|[travel, stiffness]| Solid {
-                at: -travel,
-                stiffness,
-            }),
-        };
         self.added.suspension.push(Suspended {
             role,
-            law: Law::Spring(law),
+            law: Law::Spring(spring.law(name)),
             ends: [self.marker(a, at, 0.0), self.marker(b, at, 0.0)],
         });
     }

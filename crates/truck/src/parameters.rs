@@ -7,7 +7,7 @@
 //! truck must not creep), the clearances of pocket sides (0.25 in) and lands (0.21 in: 30 mrad of warp).
 
 use mechanics::curve::Curve;
-use mechanics::elements::TableSpring;
+use mechanics::elements::{ShearSpring, Solid, TableSpring};
 use mechanics::motion::Motion;
 use wedge::parameters::{
     Contact, ControlCoil as ThesisCoil, Damping, FaceFriction, NeighbourMotion, Start, Wear,
@@ -315,6 +315,23 @@ impl Bolster {
     }
 }
 
+impl Spring {
+    /// Returns the law of the spring, with its name in results.
+    pub(crate) fn law(&self, name: String) -> ShearSpring {
+        ShearSpring {
+            name,
+            preload: self.preload,
+            stiffness: self.stiffness,
+            shear_stiffness: self.shear_stiffness,
+            damping: self.damping,
+            solid: self.solid.map(|[travel, stiffness]| Solid {
+                at: -travel,
+                stiffness,
+            }),
+        }
+    }
+}
+
 impl SideBearings {
     /// Returns the load of both in the nominal layout, N.
     #[must_use]
@@ -327,6 +344,15 @@ impl SideBearings {
 }
 
 impl Adapter {
+    /// Returns the vertical stiffness of an adapter, N/m.
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        match self {
+            Self::Friction(adapter) => 2.0 * adapter.contact.stiffness,
+            Self::Pad(pad) => pad.stiffness,
+        }
+    }
+
     /// Returns the load of an adapter in the nominal layout, N.
     #[must_use]
     pub fn preload(&self) -> f64 {
@@ -346,6 +372,26 @@ impl Parameters {
         start
     }
 
+    /// Returns the mass of all wedges, kg.
+    #[must_use]
+    pub fn wedge_mass(&self) -> f64 {
+        self.wedges.iter().map(|wedge| wedge.mass).sum()
+    }
+
+    /// Returns the stiffness of the load coils of both nests, N/m.
+    #[must_use]
+    pub fn load_stiffness(&self) -> f64 {
+        let coils = self.load_coils.iter().flatten();
+        coils.map(|coil| coil.spring.stiffness).sum()
+    }
+
+    /// Returns what the load coils of both nests carry in the nominal layout, N.
+    #[must_use]
+    pub fn load_preload(&self) -> f64 {
+        let coils = self.load_coils.iter().flatten();
+        coils.map(|coil| coil.spring.preload).sum()
+    }
+
     /// Returns how much more the coils carry in the nominal layout than stands on them, N: zero for a truck that
     /// rests there. `None` if the bolster's motion is prescribed.
     #[must_use]
@@ -353,15 +399,10 @@ impl Parameters {
         if self.bolster.is_prescribed() {
             return None;
         }
-        let wedges: f64 = self.wedges.iter().map(|wedge| wedge.mass).sum();
+        let wedges = self.wedge_mass();
         let car = self.car_body.as_ref().map_or(0.0, |car| car.body.mass);
         let weight = (self.bolster.body.mass + wedges + car) * self.gravity;
-        let load: f64 = self
-            .load_coils
-            .iter()
-            .flatten()
-            .map(|coil| coil.spring.preload)
-            .sum();
+        let load = self.load_preload();
         let control: f64 = match self.damping {
             Damping::Constant => 0.0,
             Damping::Variable => self.wedges.iter().map(|wedge| wedge.control_coil.preload()).sum(),

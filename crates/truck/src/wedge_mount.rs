@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLine};
 use mechanics::contact::{ContactFace, ContactPoint};
-use mechanics::elements::{ShearSpring, Solid, Stop};
+use mechanics::elements::Stop;
 use mechanics::frame::Frame;
 use mechanics::link::Marker;
 use mechanics::surface::Plane;
@@ -122,17 +122,7 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> V
     let bottom = [x, y, z - wedge.height / 3.0];
     let coil_name = format!("{name}_control_coil");
     let law = match &wedge.control_coil {
-        ControlCoil::Shear(spring) => Some(Law::Spring(ShearSpring {
-            name: coil_name,
-            preload: spring.preload,
-            stiffness: spring.stiffness,
-            shear_stiffness: spring.shear_stiffness,
-            damping: spring.damping,
-            solid: spring.solid.map(|[travel, stiffness]| Solid {
-                at: -travel,
-                stiffness,
-            }),
-        })),
+        ControlCoil::Shear(spring) => Some(Law::Spring(spring.law(coil_name))),
         ControlCoil::Table(spring) => Some(Law::Table(spring.named(coil_name))),
         ControlCoil::Thesis(coil, _) => {
             thesis_coil(model, at, seat, wedge.origin_to_center(end), coil);

@@ -149,6 +149,19 @@ pub struct NativeWheelset {
     layout: Layout,
 }
 
+/// Returns the columns of numbers that were given, and how long they are: all alike.
+fn columns_of<'g>(given: &'g [Given<'_>; 7]) -> PyResult<(Vec<&'g [f64]>, usize)> {
+    let columns: Vec<&[f64]> = given
+        .iter()
+        .map(|column| column.as_slice())
+        .collect::<Result<_, _>>()?;
+    let count = columns[0].len();
+    if columns.iter().any(|column| column.len() != count) {
+        return Err(PyValueError::new_err("the arrays differ in length"));
+    }
+    Ok((columns, count))
+}
+
 fn law_of(py: Python<'_>, name: &str, cells: usize) -> PyResult<CreepLaw> {
     Ok(match name {
         "linear" => CreepLaw::Linear,
@@ -229,14 +242,7 @@ impl NativeWheelset {
         cells: usize,
     ) -> PyResult<(Array<'py>, Array<'py>, Vec<&'static str>)> {
         let law = law_of(py, creep, cells)?;
-        let columns: Vec<&[f64]> = given
-            .iter()
-            .map(|column| column.as_slice())
-            .collect::<Result<_, _>>()?;
-        let count = columns[0].len();
-        if columns.iter().any(|column| column.len() != count) {
-            return Err(PyValueError::new_err("the arrays differ in length"));
-        }
+        let (columns, count) = columns_of(&given)?;
         let side = if left { Side::Left } else { Side::Right };
         let made: Result<Vec<LoadedWheel>, LoadError> = guarded(py, || {
             Ok(py.detach(|| {
@@ -339,14 +345,7 @@ pub fn creep_forces<'py>(
     cells: usize,
 ) -> PyResult<[Array<'py>; 3]> {
     let law = law_of(py, law, cells)?;
-    let columns: Vec<&[f64]> = given
-        .iter()
-        .map(|column| column.as_slice())
-        .collect::<Result<_, _>>()?;
-    let count = columns[0].len();
-    if columns.iter().any(|column| column.len() != count) {
-        return Err(PyValueError::new_err("the arrays differ in length"));
-    }
+    let (columns, count) = columns_of(&given)?;
     let rows: Vec<[f64; 3]> = guarded(py, || {
         Ok(py.detach(|| {
             (0..count)

@@ -36,4 +36,5 @@ pub mod hertz;
 pub mod loaded;
 pub mod profile;
 pub mod track;
+mod vector;
 pub mod wheelset;

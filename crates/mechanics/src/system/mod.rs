@@ -4,6 +4,7 @@
 //! elements (bristle deflections), and quadratures (work of the prescribed motions, every dissipation). SI
 //! units.
 
+mod applied_load;
 mod assembler;
 mod chain;
 mod contact_states;
@@ -46,6 +47,8 @@ use crate::motion::Motion;
 use crate::surface::Plane;
 use crate::vector::Vector;
 
+pub use applied_load::AppliedLoad;
+use applied_load::MountedLoad;
 pub use contact_states::{CLOSING_GAP, ContactState, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
 pub use contacts::Contacts;
 pub use energy_term::{EnergyTerm, EnergyTermKind};
@@ -55,7 +58,7 @@ pub use inputs::InputError;
 pub use jacobian_vector_product::{Direction, JacobianVectorProduct, MotionChange};
 pub use loads::{CoilLoad, FaceLoad, Loads};
 pub(crate) use model::Parts;
-pub use model::{AppliedLoad, Model, ModelError, Mounted};
+pub use model::{Model, ModelError, Mounted};
 pub use observe::{BodyState, CoilState, ElementState, Energies, FaceState, Observation};
 pub use vibration::{Held, NoVibration, Vibration, Vibrations};
 
@@ -136,18 +139,6 @@ struct Linear {
 struct MovedBody {
     body: usize,
     motions: Box<[Motion; 6]>,
-}
-
-/// An applied load in a system.
-#[derive(Clone, Debug)]
-struct MountedLoad {
-    applied: AppliedLoad,
-    /// The number of its coordinate among the speeds.
-    speed: usize,
-    /// Its value with rate and second derivative.
-    jet: [f64; 3],
-    /// The row of the work by the body's states.
-    row: usize,
 }
 
 /// A body's reference frame.

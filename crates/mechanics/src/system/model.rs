@@ -9,8 +9,8 @@ use super::error_bounds::{error_bounds, presses};
 use super::jacobian::Gathered;
 use super::spectral_radius::mobility;
 use super::{
-    FrameState, FreeBody, Linear, MountedLoad, Move, MovedBody, System, is_bristle, scale_of, scales,
-    structure,
+    AppliedLoad, FrameState, FreeBody, Linear, MountedLoad, Move, MovedBody, System, is_bristle, scale_of,
+    scales, structure,
 };
 use crate::body::{Body, COORDINATES, Kinematics};
 use crate::coil::Coil;
@@ -44,18 +44,6 @@ pub struct Model {
     pub loads: Vec<AppliedLoad>,
     /// Choices that the laws of connections leave open.
     pub options: Options,
-}
-
-/// A load over time on a free coordinate of a body: a force along x, y or z of its reference frame at the
-/// body's origin, or a moment about the axis of an angle. Its work counts as that of the motions.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AppliedLoad {
-    /// The body's number.
-    pub body: usize,
-    /// The coordinate, 0 to 5: x, y, z, roll, pitch, yaw.
-    pub coordinate: usize,
-    /// N or N·m over time.
-    pub course: Motion,
 }
 
 impl Model {
@@ -339,7 +327,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
 
     let applied: Vec<MountedLoad> = loads
         .into_iter()
-        .map(|applied| mount(applied, &bodies, &mut free, &free_number, &mut parts))
+        .map(|applied| applied.mount(&bodies, &mut free, &free_number, &mut parts))
         .collect::<Result<_, _>>()?;
     let owned = parts.energy_terms.len();
     let assembler = connection::ConnectionAssembler::new(&bodies, &free_number, &slots, &mut parts);
@@ -483,42 +471,6 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         current_state: vec![f64::NAN; 2 * layout.speeds],
         current_face: (0, f64::NAN),
         points_updated: false,
-    })
-}
-
-/// Returns an applied load in its place.
-fn mount(
-    applied: AppliedLoad,
-    bodies: &[Body],
-    free: &mut [FreeBody],
-    free_number: &[Option<usize>],
-    parts: &mut Parts,
-) -> Result<MountedLoad, ModelError> {
-    let AppliedLoad { body, coordinate, .. } = applied;
-    let Some(own) = bodies.get(body) else {
-        let count = bodies.len();
-        return Err(ModelError::NoSuchBody { number: body, count });
-    };
-    let place = free_number[body].and_then(|number| {
-        let slot = free[number].free.iter().position(|k| *k == coordinate)?;
-        Some((number, slot))
-    });
-    let Some((number, slot)) = place else {
-        return Err(ModelError::HeldUnderLoad {
-            body: own.name.clone(),
-            coordinate: COORDINATES
-                .get(coordinate)
-                .copied()
-                .unwrap_or("a seventh coordinate"),
-        });
-    };
-    free[number].loaded = true;
-    parts.quadrature_bodies.push((0, number));
-    Ok(MountedLoad {
-        speed: free[number].offset + slot,
-        jet: applied.course.evaluate(0.0, 0.0),
-        row: parts.quadrature_bodies.len() - 1,
-        applied,
     })
 }
 

@@ -72,8 +72,7 @@ pub(super) fn doubts(summary: &TruckSummary) -> Markup {
 
 /// The energy (output units) that the friction of a wedge's face takes in a cycle.
 pub(super) fn loss(summary: &TruckSummary, wedge: &str, face: &str) -> Option<f64> {
-    let name = format!("{wedge}_{face}_friction_loss");
-    summary.cycles.losses.get(&name).map(|loss| loss.value)
+    summary.cycles.loss_at(wedge, face).map(|loss| loss.value)
 }
 
 /// The table of a run's wedges.

@@ -127,11 +127,21 @@ pub fn checks(rigs: &Rigs) -> Vec<Check> {
     found.checks
 }
 
-/// Masses, m·g in lbf, of what the nests carry, and of the side frames.
+/// Weights of what the nests carry, and of the side frames, lbf.
 fn weights(parameters: &Parameters) -> [f64; 2] {
-    let wedges: f64 = parameters.wedges.iter().map(|wedge| wedge.mass).sum();
+    masses(parameters).map(|mass| mass * parameters.gravity / POUND)
+}
+
+/// Masses of what the nests carry, and of the side frames, kg.
+fn masses(parameters: &Parameters) -> [f64; 2] {
     let frames: f64 = parameters.side_frames.iter().map(|frame| frame.body.mass).sum();
-    [parameters.bolster.body.mass + wedges, frames].map(|mass| mass * parameters.gravity / POUND)
+    [parameters.bolster.body.mass + parameters.wedge_mass(), frames]
+}
+
+/// Vertical stiffness (N/m) and load (N) of the four adapters.
+fn adapters(parameters: &Parameters) -> Option<[f64; 2]> {
+    let adapter = &parameters.wheelsets.as_ref()?.adapter;
+    Some([4.0 * adapter.stiffness(), 4.0 * adapter.preload()])
 }
 
 /// Statics and the bounce of a truck under its half car.
@@ -149,26 +159,13 @@ fn rest(found: &mut Found, rigs: &Rigs) {
             "At rest two nests carry the half car, its bolster and the wedges.",
         );
     }
-    if let Some((empty, result)) = rigs.get("rest, constant_empty") {
-        let coils: f64 = empty
-            .parameters
-            .load_coils
-            .iter()
-            .flatten()
-            .map(|coil| coil.spring.stiffness)
-            .sum();
-        let preload: f64 = empty
-            .parameters
-            .load_coils
-            .iter()
-            .flatten()
-            .map(|coil| coil.spring.preload)
-            .sum();
-        let [carried, frames] = weights(&empty.parameters);
-        // Four adapters of two points.
-        let (adapters, on_them) = (8.0 * 5e5, 8.0 * 15_691.0);
-        let rise =
-            (preload / POUND - carried) / (coils * INCH / POUND) + (on_them - carried - frames) / adapters;
+    if let Some((empty, result)) = rigs.get("rest, constant_empty")
+        && let Some([adapters, on_them]) = adapters(&empty.parameters)
+    {
+        let parameters = &empty.parameters;
+        let [carried, frames] = weights(parameters).map(|weight| weight * POUND);
+        let on_coils = (parameters.load_preload() - carried) / parameters.load_stiffness();
+        let rise = (on_coils + (on_them - carried - frames) / adapters) / INCH;
         found.add(
             "height of the empty car above the loaded one, constant damping",
             at(result, "bolster_z", 0.0).map(|z| z / INCH),
@@ -184,7 +181,7 @@ fn rest(found: &mut Found, rigs: &Rigs) {
     found.add(
         "bounce of a truck under its half car, without friction",
         bounce(&half_car),
-        exactly(two_masses(&half_car)),
+        two_masses(&half_car).map(exactly),
         ("Hz", 2e-3),
         "Two masses on coils and adapters; wedges go with the bolster.",
     );
@@ -205,21 +202,14 @@ fn bounce(parameters: &Parameters) -> Option<f64> {
 }
 
 /// The lower frequency (Hz) of two masses: the car on its coils, the side frames on their adapters.
-fn two_masses(parameters: &Parameters) -> f64 {
-    let wedges: f64 = parameters.wedges.iter().map(|wedge| wedge.mass).sum();
-    let upper = parameters.bolster.body.mass + wedges;
-    let lower: f64 = parameters.side_frames.iter().map(|frame| frame.body.mass).sum();
-    let coils: f64 = parameters
-        .load_coils
-        .iter()
-        .flatten()
-        .map(|coil| coil.spring.stiffness)
-        .sum();
-    let adapters = 8.0 * 5e5 * POUND / INCH;
+fn two_masses(parameters: &Parameters) -> Option<f64> {
+    let [upper, lower] = masses(parameters);
+    let coils = parameters.load_stiffness();
+    let [adapters, _] = adapters(parameters)?;
     // det(K - w² M) = 0
     let b = coils / upper + (coils + adapters) / lower;
     let c = coils * adapters / (upper * lower);
-    (0.5 * (b - (b * b - 4.0 * c).sqrt())).sqrt() / (2.0 * PI)
+    Some((0.5 * (b - (b * b - 4.0 * c).sqrt())).sqrt() / (2.0 * PI))
 }
 
 /// Preload and weight (N) of the leading left wedge's coil.
@@ -250,10 +240,9 @@ fn frictionless(found: &mut Found, rigs: &Rigs) {
             .zip([1.0, -1.0])
             .flat_map(|(coils, way)| coils.iter().map(move |coil| (coil, way)))
             .map(|(coil, way)| {
-                let [x, y] = coil.place;
-                let y = y + way * case.parameters.distances[0];
-                // A side frame turns about its own center: the seat moves by (-ψ y', ψ x').
-                let own = y - way * case.parameters.distances[0];
+                // A side frame turns about its own center: the seat moves by (-ψ own, ψ x).
+                let [x, own] = coil.place;
+                let y = own + way * case.parameters.distances[0];
                 coil.spring.shear_stiffness * (x * x + y * own)
             })
             .sum();
@@ -275,15 +264,10 @@ fn frictionless(found: &mut Found, rigs: &Rigs) {
             "(F_s - m g)/tan θ, F_s being the coil's static load; the contacts' give relaxes the coil a little.",
         );
     }
-    if let Some((case, result)) = rigs.get("frictionless vertical") {
-        let coils: f64 = case
-            .parameters
-            .load_coils
-            .iter()
-            .flatten()
-            .map(|coil| coil.spring.stiffness)
-            .sum();
-        let adapters = 8.0 * 5e5 * POUND / INCH;
+    if let Some((case, result)) = rigs.get("frictionless vertical")
+        && let Some([adapters, _]) = adapters(&case.parameters)
+    {
+        let coils = case.parameters.load_stiffness();
         let own = LoopCurve::of(case, result);
         found.add(
             "vertical stiffness of the truck, without friction",
@@ -453,27 +437,14 @@ fn massless(found: &mut Found, rigs: &Rigs) {
     }
 }
 
-/// The loss of the leading left wedge in a cycle, on both faces, J.
-fn loss_of_wedge(result: &TruckResult) -> Option<f64> {
-    let losses = result.summary.cycles.losses.iter();
-    let own = losses.filter(|(name, _)| {
-        let kind = name.strip_prefix("leading_left_");
-        let kinds = [
-            "column_friction_loss",
-            "slope_friction_loss",
-            "wedge_column_loss",
-            "wedge_slope_loss",
-        ];
-        kind.is_some_and(|kind| kinds.contains(&kind))
-    });
-    own.map(|(_, loss)| loss.value).reduce(|sum, loss| sum + loss)
-}
-
 /// The same rigs with massless wedges in the truck, and with the industry's empirical warp springs in place of what
 /// they leave out.
 fn massless_trucks(found: &mut Found, rigs: &Rigs) {
     for damping in ["constant", "variable"] {
-        let loss = |key: &str| rigs.get(key).and_then(|(_, result)| loss_of_wedge(result));
+        let loss = |key: &str| {
+            let (_, result) = rigs.get(key)?;
+            result.summary.cycles.loss_of_wedges(&WEDGE_NAMES[..1])
+        };
         found.add(
             format!("loss of a wedge in a cycle, {damping} damping, toe out 0.2°, against massless wedges in the truck"),
             loss(&format!("truck_vertical_{damping}_toe_out")),

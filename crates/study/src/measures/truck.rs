@@ -152,21 +152,10 @@ fn measures(case: &TruckCase, result: &TruckResult) -> Measures {
         (least.min(*value), most.max(*value))
     });
     let cycles = &result.summary.cycles;
-    let losses_of = |wanted: &dyn Fn(&str) -> bool| {
-        let found = cycles.losses.iter().filter(|(name, _)| wanted(name));
-        let sum: f64 = found.map(|(_, value)| value.value).sum();
-        if cycles.count > 0 { sum } else { f64::NAN }
-    };
-    let of_faces = |name: &str, wedge: &str| {
-        // Of a body's face, and of a wedge without mass.
-        ["column", "slope"].iter().any(|face| {
-            name == format!("{wedge}_{face}_friction_loss") || name == format!("{wedge}_wedge_{face}_loss")
-        })
-    };
-    let all = losses_of(&|name| WEDGE_NAMES.iter().any(|wedge| of_faces(name, wedge)));
+    let loss_of = |wedges: &[&str]| cycles.loss_of_wedges(wedges).unwrap_or(f64::NAN);
     let mut values = vec![
         cycles.work.as_ref().map_or(f64::NAN, |work| work.value),
-        all,
+        loss_of(&WEDGE_NAMES),
         largest(column("warp_angle")),
         largest(column("warp_moment")),
         least,
@@ -190,7 +179,7 @@ fn measures(case: &TruckCase, result: &TruckResult) -> Measures {
         values.push(largest(normal));
         let rows = &normal[rows.clone()];
         values.push(rows.iter().sum::<f64>() / rows.len() as f64);
-        values.push(losses_of(&|name| of_faces(name, wedge)));
+        values.push(loss_of(&[wedge]));
     }
     Measures(values)
 }

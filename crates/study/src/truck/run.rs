@@ -340,14 +340,7 @@ const SMALL_RISE: f64 = 0.05 * 0.0254;
 /// The warning about coils that do not carry what stands on them.
 fn surplus(case: &TruckCase, units: Units) -> Option<String> {
     let surplus = case.parameters.surplus()?;
-    let stiffness: f64 = case
-        .parameters
-        .load_coils
-        .iter()
-        .flatten()
-        .map(|coil| coil.spring.stiffness)
-        .sum();
-    let rise = surplus / stiffness;
+    let rise = surplus / case.parameters.load_stiffness();
     // A truck that starts at a height of its own, or settles first, is meant so.
     let meant =
         case.parameters.lift != 0.0 || case.parameters.start == Start::Equilibrium || case.settle > 0.0;

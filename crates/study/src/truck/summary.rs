@@ -68,6 +68,26 @@ pub struct Cycles {
     pub losses: BTreeMap<String, SummaryValue>,
 }
 
+impl Cycles {
+    /// Returns what friction takes at a wedge's face (`column` or `slope`) in a cycle, whether the wedge is a body or
+    /// has no mass.
+    #[must_use]
+    pub fn loss_at(&self, wedge: &str, face: &str) -> Option<&SummaryValue> {
+        let of_body = self.losses.get(&format!("{wedge}_{face}_friction_loss"));
+        of_body.or_else(|| self.losses.get(&format!("{wedge}_wedge_{face}_loss")))
+    }
+
+    /// Returns what friction takes at both faces of these wedges in a cycle, output units; `None` without whole cycles.
+    #[must_use]
+    pub fn loss_of_wedges(&self, wedges: &[&str]) -> Option<f64> {
+        let faces = wedges
+            .iter()
+            .flat_map(|wedge| ["column", "slope"].map(|face| (wedge, face)));
+        let losses = faces.filter_map(|(wedge, face)| self.loss_at(wedge, face));
+        (self.count > 0).then(|| losses.map(|loss| loss.value).sum())
+    }
+}
+
 /// The angles at which warp stiffness is told, mrad.
 pub const WARP_ANGLES: [f64; 6] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0];
 

@@ -164,16 +164,11 @@ fn truck_table(result: &TruckResult) -> Table {
         let column = format!("{name}_column_normal_{}", Kind::Force.suffix(summary.units));
         let extremes = summary.extremes.get(&column);
         let cell = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
-        let losses = ["column", "slope"].map(|face| {
-            let name = format!("{name}_{face}_friction_loss");
-            summary.cycles.losses.get(&name).map(|loss| loss.value)
-        });
-        let loss = losses[0].zip(losses[1]).map(|(column, slope)| column + slope);
         table.row([
             name.replace('_', " "),
             cell(extremes.map(|found| found.minimum)),
             cell(extremes.map(|found| found.maximum)),
-            cell(loss),
+            cell(summary.cycles.loss_of_wedges(&[name])),
         ]);
     }
     table

@@ -20,6 +20,7 @@ use crate::creep::polach::Reduction;
 use crate::creep::{
     Coefficients, CreepForces, Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins,
 };
+use crate::vector::{cross, dot};
 
 /// A creep law with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -272,18 +273,4 @@ fn arm<S: Real>(pose: &WheelPose<S>, patch: &ContactPatch<S>) -> [S; 3] {
 #[inline(always)]
 fn add<S: Real>(a: [S; 3], b: [S; 3]) -> [S; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-#[inline(always)]
-fn dot<S: Real>(a: [S; 3], b: [S; 3]) -> S {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-fn cross<S: Real>(a: [S; 3], b: [S; 3]) -> [S; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }

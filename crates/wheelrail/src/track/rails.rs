@@ -24,6 +24,7 @@ use numerics::scalar::{Dual, Number, Real};
 
 use super::center_line::CenterLine;
 use super::layout::Track;
+use crate::vector::{cross, dot};
 
 /// Distance of the points between which irregularities are interpolated, m.
 const SPACING: f64 = 0.125;
@@ -348,20 +349,6 @@ fn quintic(from: &[f64; 3], to: &[f64; 3], t: f64) -> [f64; 3] {
         p0 + t * (v0 + t * (c2 + t * (c3 + t * (c4 + t * c5)))),
         (v0 + t * (2.0 * c2 + t * (3.0 * c3 + t * (4.0 * c4 + t * 5.0 * c5)))) / h,
         (2.0 * c2 + t * (6.0 * c3 + t * (12.0 * c4 + t * 20.0 * c5))) / (h * h),
-    ]
-}
-
-#[inline(always)]
-fn dot<S: Real>(a: [S; 3], b: [S; 3]) -> S {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-fn cross<S: Real>(a: [S; 3], b: [S; 3]) -> [S; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
     ]
 }
 

@@ -254,7 +254,7 @@ impl Explorer {
             view: outcome.view(),
             summary: outcome.summary(),
             shown_loop: outcome.shown_loop(),
-            sections: self.case(wanted)?.fields(),
+            sections: outcome.fields(),
             seconds,
         })
     }

@@ -9,7 +9,7 @@ use report::view::run::{Detail, Recording};
 use report::{csv, mat, summary};
 use serde::Serialize;
 use study::any_case::AnyCase;
-use study::case::Case;
+use study::case::{Case, FieldSection};
 use study::result::RunResult;
 use study::run::{Run, RunCase};
 use study::summary::{RunSummary, Summary};
@@ -116,6 +116,14 @@ impl Outcome {
         match self {
             Self::Wedge(own) => &own.0.name,
             Self::Truck(own) => &own.0.name,
+        }
+    }
+
+    /// The fields of its case.
+    pub fn fields(&self) -> Vec<FieldSection> {
+        match self {
+            Self::Wedge(own) => own.0.document.fields(),
+            Self::Truck(own) => own.0.fields().to_vec(),
         }
     }
 
