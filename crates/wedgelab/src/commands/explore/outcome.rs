@@ -253,7 +253,9 @@ fn loop_of_truck(result: &TruckResult) -> Loop {
         )
     };
     let cycles = &result.summary.cycles;
-    let of_wedges = |name: &str| WEDGE_NAMES.iter().any(|wedge| name.starts_with(wedge));
+    // Lands are named after the wedges beside them.
+    let is_of = |name: &str, wedge: &str| name.starts_with(wedge) && !name.contains("_land_");
+    let of_wedges = |name: &str| WEDGE_NAMES.iter().any(|wedge| is_of(name, wedge));
     let losses = cycles.losses.iter().filter(|(name, _)| of_wedges(name));
     let sum: f64 = losses.map(|(_, loss)| loss.value).sum();
     Loop {
