@@ -182,18 +182,24 @@ impl EventDetector {
         let group = &self.groups[number];
         dense.evaluate_ranges(theta, &group.states, &mut self.x);
         let x = &self.x[..self.dimension];
-        let own = &mut self.variables[group.variables.clone()];
-        problem.event_variables(Some(number), dense.time(theta), x, own);
-        group.event_functions(problem, number, own, &self.discrete_states, &mut self.functions);
+        let variables = &mut self.variables[group.variables.clone()];
+        problem.event_variables(Some(number), dense.time(theta), x, variables);
+        group.event_functions(
+            problem,
+            number,
+            variables,
+            &self.discrete_states,
+            &mut self.functions,
+        );
     }
 
     /// Returns whether a discrete state of a group must change, by the event functions evaluated last.
     #[inline]
     fn must_change(&self, number: usize) -> bool {
-        let own = self.groups[number].discrete_states.clone();
-        self.functions[own.clone()]
+        let states = self.groups[number].discrete_states.clone();
+        self.functions[states.clone()]
             .iter()
-            .zip(&self.muted[own])
+            .zip(&self.muted[states])
             .any(|(function, muted)| *function <= 0.0 && !muted)
     }
 
@@ -227,23 +233,23 @@ impl EventDetector {
         resolution: f64,
     ) -> f64 {
         let group = &self.groups[number];
-        let (states, own, from) = (group.discrete_states.clone(), group.variables.clone(), group.from);
+        let (states, variables, from) = (group.discrete_states.clone(), group.variables.clone(), group.from);
         let count = states.len();
         self.search.clear();
         self.search.values_mut()[..count].copy_from_slice(&self.functions[states.clone()]);
         self.search.set_high(to);
         if from == 0.0 && self.start_known {
-            let start = &self.at_start[own.clone()];
-            self.variables[own.clone()].copy_from_slice(start);
+            let start = &self.at_start[variables.clone()];
+            self.variables[variables.clone()].copy_from_slice(start);
             group.event_functions(problem, number, start, &self.discrete_states, &mut self.functions);
         } else {
             self.evaluate(problem, dense, number, from);
         }
         if self.must_change(number) {
-            self.at_high[own.clone()].copy_from_slice(&self.variables[own]);
+            self.at_high[variables.clone()].copy_from_slice(&self.variables[variables]);
             return from;
         }
-        self.at_high[own.clone()].copy_from_slice(&self.at_target[own.clone()]);
+        self.at_high[variables.clone()].copy_from_slice(&self.at_target[variables.clone()]);
         self.search.values_mut()[..count].copy_from_slice(&self.functions[states.clone()]);
         self.search.set_low(from);
         loop {
@@ -256,7 +262,7 @@ impl EventDetector {
             self.search.values_mut()[..count].copy_from_slice(&self.functions[states.clone()]);
             if self.must_change(number) {
                 self.search.set_high(theta);
-                self.at_high[own.clone()].copy_from_slice(&self.variables[own.clone()]);
+                self.at_high[variables.clone()].copy_from_slice(&self.variables[variables.clone()]);
             } else {
                 self.search.set_low(theta);
             }
@@ -350,12 +356,12 @@ impl Group {
         discrete_states: &[u8],
         functions: &mut [f64],
     ) {
-        let own = self.discrete_states.clone();
+        let states = self.discrete_states.clone();
         problem.event_functions(
             number,
             variables,
-            &discrete_states[own.clone()],
-            &mut functions[own],
+            &discrete_states[states.clone()],
+            &mut functions[states],
         );
     }
 }

@@ -41,7 +41,10 @@ pub fn names() -> impl ExactSizeIterator<Item = &'static str> {
 
 /// The text of the file of this name.
 pub fn text(name: &str) -> Option<&'static str> {
-    FILES.iter().find(|(own, _)| *own == name).map(|(_, text)| *text)
+    FILES
+        .iter()
+        .find(|(file, _)| *file == name)
+        .map(|(_, text)| *text)
 }
 
 /// The file of this name, ready to be read.

@@ -58,7 +58,7 @@ pub fn locate(folder: &Path, name: &str) -> Result<PathBuf, NotFound> {
     names.sort();
     if let Some(found) = names
         .iter()
-        .find(|own| own.to_lowercase() == wanted.to_lowercase())
+        .find(|file| file.to_lowercase() == wanted.to_lowercase())
     {
         return Ok(slashes.with_file_name(found));
     }
@@ -66,13 +66,13 @@ pub fn locate(folder: &Path, name: &str) -> Result<PathBuf, NotFound> {
     let ending = |name: &str| name.rsplit_once('.').map(|(_, ending)| ending.to_lowercase());
     let mut alike: Vec<String> = names
         .iter()
-        .filter(|own| ending(own) == ending(&wanted))
+        .filter(|file| ending(file) == ending(&wanted))
         .cloned()
         .collect();
     let near = nearest(&wanted, alike.iter().map(String::as_str));
     let near = near.or_else(|| nearest(&wanted, names.iter().map(String::as_str)));
     let near = near.map(str::to_owned);
-    alike.retain(|own| Some(own) != near.as_ref());
+    alike.retain(|file| Some(file) != near.as_ref());
     Err(NotFound {
         name: name.to_owned(),
         nearest: near,

@@ -40,6 +40,7 @@
 
 pub mod builtin;
 pub mod check;
+pub mod file_sets;
 pub mod files;
 mod finding;
 mod lexer;
@@ -48,7 +49,6 @@ pub mod read;
 pub mod set;
 pub mod show;
 pub mod source;
-pub mod together;
 pub mod tree;
 pub mod truck;
 pub mod write;

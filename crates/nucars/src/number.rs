@@ -19,24 +19,24 @@ pub fn real(text: &str) -> Option<f64> {
     let value = if plain && !has_bare_exponent(bytes) {
         text.parse::<f64>().ok()?
     } else {
-        let mut own = String::with_capacity(text.len() + 1);
+        let mut standard = String::with_capacity(text.len() + 1);
         let mut exponent = false;
         for (at, byte) in bytes.iter().enumerate() {
             match byte {
                 b'd' | b'D' | b'e' | b'E' | b'q' | b'Q' if !exponent => {
                     exponent = true;
-                    own.push('e');
+                    standard.push('e');
                 }
                 b'+' | b'-' if at > 0 && !exponent => {
                     exponent = true;
-                    own.push('e');
-                    own.push(char::from(*byte));
+                    standard.push('e');
+                    standard.push(char::from(*byte));
                 }
-                byte if byte.is_ascii() => own.push(char::from(*byte)),
+                byte if byte.is_ascii() => standard.push(char::from(*byte)),
                 _ => return None,
             }
         }
-        own.parse::<f64>().ok()?
+        standard.parse::<f64>().ok()?
     };
     value.is_finite().then_some(value)
 }

@@ -249,11 +249,14 @@ pub fn set(
     };
     match parts.as_slice() {
         ["wedges", name] => {
-            let laws = system.characteristics.iter_mut().map(|own| &mut own.law);
+            let laws = system
+                .characteristics
+                .iter_mut()
+                .map(|characteristic| &mut characteristic.law);
             let targets = laws.filter(|law| is_wedge(law)).flat_map(quantities);
-            let (found, others): (Vec<_>, Vec<_>) = targets.partition(|(own, _)| own == name);
+            let (found, others): (Vec<_>, Vec<_>) = targets.partition(|(target, _)| target == name);
             if found.is_empty() {
-                let known: Vec<&str> = others.iter().map(|(own, _)| *own).collect();
+                let known: Vec<&str> = others.iter().map(|(target, _)| *target).collect();
                 return Err(wrong(choose(name, known, "the wedges of these files have")));
             }
             let mut targets = found.into_iter();
@@ -268,8 +271,11 @@ pub fn set(
                 let there = listed(known.iter().map(u32::to_string));
                 wrong(format!("there is no {section} {number}; there are: {there}"))
             })?;
-            let names: Vec<&str> = targets.iter().map(|(own, _)| *own).collect();
-            let mut found = targets.into_iter().filter(|(own, _)| own == name).peekable();
+            let names: Vec<&str> = targets.iter().map(|(target, _)| *target).collect();
+            let mut found = targets
+                .into_iter()
+                .filter(|(target, _)| target == name)
+                .peekable();
             if found.peek().is_none() {
                 let has = format!("{section} {number} has");
                 return Err(wrong(choose(name, names, &has)));
@@ -292,12 +298,24 @@ pub fn set(
 /// Returns the numbers of the records of a section.
 fn numbers(system: &SystemFile, input: Option<&InputFile>, section: &str) -> Vec<u32> {
     match section {
-        "body" => system.bodies.iter().map(|own| *own.id).collect(),
-        "connection" => system.connections.iter().map(|own| *own.id).collect(),
-        "characteristic" => system.characteristics.iter().map(|own| *own.id).collect(),
-        "function" => system.piecewise_linear.iter().map(|own| *own.id).collect(),
+        "body" => system.bodies.iter().map(|body| *body.id).collect(),
+        "connection" => system
+            .connections
+            .iter()
+            .map(|connection| *connection.id)
+            .collect(),
+        "characteristic" => system
+            .characteristics
+            .iter()
+            .map(|characteristic| *characteristic.id)
+            .collect(),
+        "function" => system
+            .piecewise_linear
+            .iter()
+            .map(|function| *function.id)
+            .collect(),
         _ => input.map_or(Vec::new(), |input| {
-            input.histories.iter().map(|own| *own.number).collect()
+            input.histories.iter().map(|history| *history.number).collect()
         }),
     }
 }
@@ -319,7 +337,7 @@ fn targets<'t>(
     };
     Some(match section {
         "body" => {
-            let body = system.bodies.iter_mut().find(|own| *own.id == number)?;
+            let body = system.bodies.iter_mut().find(|body| *body.id == number)?;
             let [roll, pitch, yaw] = &mut body.inertia;
             let mut all = point(&mut body.position);
             all.extend([
@@ -331,20 +349,32 @@ fn targets<'t>(
             all
         }
         "connection" => {
-            let connection = system.connections.iter_mut().find(|own| *own.id == number)?;
+            let connection = system
+                .connections
+                .iter_mut()
+                .find(|connection| *connection.id == number)?;
             point(&mut connection.position)
         }
         "characteristic" => {
-            let found = system.characteristics.iter_mut().find(|own| *own.id == number)?;
+            let found = system
+                .characteristics
+                .iter_mut()
+                .find(|characteristic| *characteristic.id == number)?;
             quantities(&mut found.law)
         }
         "function" => {
-            let function = system.piecewise_linear.iter_mut().find(|own| *own.id == number)?;
+            let function = system
+                .piecewise_linear
+                .iter_mut()
+                .find(|function| *function.id == number)?;
             let ordinates = function.ordinates.iter_mut();
             ordinates.map(|ordinate| ("factor", Factor(ordinate))).collect()
         }
         _ => {
-            let history = input?.histories.iter_mut().find(|own| *own.number == number)?;
+            let history = input?
+                .histories
+                .iter_mut()
+                .find(|history| *history.number == number)?;
             let mut all = Vec::new();
             for segment in &mut history.segments {
                 let [from, to] = &mut segment.base;
@@ -379,14 +409,14 @@ fn put(target: Target<'_>, path: &str, value: &str) -> Result<(), SetError> {
                 _ => return Err(wrong("\"out\" or \"in\"")),
             };
         }
-        Target::Factor(own) => {
+        Target::Factor(target) => {
             let factor: f64 = value.parse().map_err(|_| wrong("a number, such as 1.2"))?;
             if !factor.is_finite() {
                 return Err(wrong("a finite number"));
             }
-            own.value *= factor;
+            target.value *= factor;
         }
-        Target::Number(own, expected) => {
+        Target::Number(target, expected) => {
             let measured = expected.kinds.iter().find_map(|(kind, factor)| {
                 let si = match kind {
                     Kind::Dimensionless => value.parse().ok()?,
@@ -395,7 +425,7 @@ fn put(target: Target<'_>, path: &str, value: &str) -> Result<(), SetError> {
                 Some(si / factor)
             });
             let admissible = |number: &f64| number.is_finite() && *number >= expected.least;
-            own.value = measured.filter(admissible).ok_or_else(|| wrong(expected.text))?;
+            target.value = measured.filter(admissible).ok_or_else(|| wrong(expected.text))?;
         }
     }
     Ok(())
@@ -404,9 +434,9 @@ fn put(target: Target<'_>, path: &str, value: &str) -> Result<(), SetError> {
 /// Returns the advice on a name that is not there, among those that are.
 fn choose(name: &str, names: Vec<&str>, has: &str) -> String {
     let mut known: Vec<&str> = Vec::new();
-    for own in names {
-        if !known.contains(&own) {
-            known.push(own);
+    for name in names {
+        if !known.contains(&name) {
+            known.push(name);
         }
     }
     if known.is_empty() {

@@ -5,9 +5,9 @@
 use std::fs;
 
 use miette::{GraphicalReportHandler, GraphicalTheme};
+use nucars::file_sets::load;
 use nucars::read::read_system;
 use nucars::source::SourceText;
-use nucars::together::load;
 use nucars::{Finding, Severity};
 
 fn shown(finding: &Finding) -> String {

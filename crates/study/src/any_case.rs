@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use mechanics::output::Column;
 use nucars::Severity;
-use nucars::together::{Instead, LoadError, RunFiles, Texts, find};
+use nucars::file_sets::{Instead, LoadError, RunFiles, Texts, find};
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ::nucars::together::{Instead, RunFiles, Texts, find};
+use ::nucars::file_sets::{Instead, RunFiles, Texts, find};
 use ::nucars::truck::Yaw;
 use ::quantity::{System as Units, nearest};
 use pyo3::prelude::*;

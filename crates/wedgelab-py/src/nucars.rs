@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use ::nucars::file_sets::{Files, Instead, LoadError, find, kind, load};
 use ::nucars::read::{FileKind, read_data, read_input, read_run, read_system};
 use ::nucars::source::SourceText;
-use ::nucars::together::{Files, Instead, LoadError, find, kind, load};
 use ::nucars::{Findings, builtin, check, show, write};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -184,7 +184,7 @@ fn checked(paths: &[PathBuf], instead: &Instead) -> Result<Files, LoadError> {
             files.add(&find(path)?, Some(kind))?;
         }
     }
-    let teams = files.teams(instead)?;
-    files.check(&teams);
+    let sets = files.sets(instead)?;
+    files.check(&sets);
     Ok(files)
 }

@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
 use miette::{Diagnostic, MietteHandlerOpts, Report};
-use nucars::together::LoadError;
+use nucars::file_sets::LoadError;
 use report::comparison::ComparisonError;
 use report::files::FileError;
 use report::table::TableError;

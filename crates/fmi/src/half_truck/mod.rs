@@ -10,7 +10,7 @@ use std::path::Path;
 
 use mechanics::system::System;
 use nucars::Severity;
-use nucars::together::{RunFiles, Texts};
+use nucars::file_sets::{RunFiles, Texts};
 use serde::{Deserialize, Serialize};
 use study::half_truck::columns::Columns;
 use study::half_truck::files::{Settings, case_of_run};

@@ -6,7 +6,7 @@ use fmi::half_truck::{HalfTruck, RESOURCE};
 use fmi::instance::Instance;
 use fmi::source::Source;
 use fmi::{limits, resources};
-use nucars::together::{Instead, RunFiles, Text};
+use nucars::file_sets::{Instead, RunFiles, Text};
 use serde_json::{Value, json};
 use study::case::builtin;
 

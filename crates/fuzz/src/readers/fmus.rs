@@ -2,7 +2,7 @@
 
 use fmi::half_truck::HalfTruck;
 use nucars::builtin;
-use nucars::together::{Text, Texts};
+use nucars::file_sets::{Text, Texts};
 use study::half_truck::files::Settings;
 
 use super::{Outcome, Reader, refused_as_written};

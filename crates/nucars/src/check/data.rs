@@ -113,10 +113,10 @@ impl<'a> Known<'a> {
 
     /// The degrees of freedom of this line that are not there.
     fn missing<'b>(&self, line: &'b BodyDofs) -> Vec<&'b Spanned<Dof>> {
-        let own = self.bodies.get(&*line.body);
+        let coordinates = self.bodies.get(&*line.body);
         line.dofs
             .iter()
-            .filter(|dof| own.is_none_or(|own| !own.contains(&dof.value)))
+            .filter(|dof| coordinates.is_none_or(|coordinates| !coordinates.contains(&dof.value)))
             .collect()
     }
 
@@ -196,7 +196,7 @@ impl<'a> Known<'a> {
                 warned = true;
                 let element = self.connections.get(&component.connection);
                 let right =
-                    element.and_then(|element| element.dofs().iter().position(|own| own.value == direction));
+                    element.and_then(|element| element.dofs().iter().position(|dof| dof.value == direction));
                 let help = match right {
                     Some(index) => format!(
                         "the {} of this connection is .{}",

@@ -125,19 +125,19 @@ fn comments(
     findings: &mut Findings,
 ) {
     let text = source.slice(before);
-    let own = *segment.shape;
-    let moves = own != Shape::Null && *segment.amplitude != 0.0;
+    let shape = *segment.shape;
+    let moves = shape != Shape::Null && *segment.amplitude != 0.0;
     for line in text.lines().filter(|line| line.trim_start().starts_with('!')) {
         let line = line.to_lowercase();
         let words = |word: &str| {
             line.split(|letter: char| !letter.is_alphanumeric())
-                .any(|own| own == word)
+                .any(|part| part == word)
         };
         let said = if words("null") && moves {
             "null"
-        } else if words("sine") && matches!(own, Shape::Bend | Shape::Cusp) {
+        } else if words("sine") && matches!(shape, Shape::Bend | Shape::Cusp) {
             "sine"
-        } else if words("bend") && matches!(own, Shape::Sin | Shape::Ssin) {
+        } else if words("bend") && matches!(shape, Shape::Sin | Shape::Ssin) {
             "bend"
         } else {
             continue;
@@ -145,7 +145,7 @@ fn comments(
         let message = format!(
             "the comment before history {} says {said}, the shape is {} with amplitude {}",
             history.number,
-            own.name(),
+            shape.name(),
             segment.amplitude
         );
         let dress = |finding: Finding| {

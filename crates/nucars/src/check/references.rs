@@ -104,9 +104,10 @@ fn lacking(
     };
     let known: Vec<_> = ends.into_iter().filter(|end| end.value != 0).collect();
     let has = |end: &Spanned<u32>| {
-        dofs.get(&**end).is_none_or(|own| {
-            own.iter()
-                .any(|own| own.value == dof.value || also.contains(&own.kind))
+        dofs.get(&**end).is_none_or(|other| {
+            other
+                .iter()
+                .any(|other| other.value == dof.value || also.contains(&other.kind))
         })
     };
     let without: Vec<_> = known.iter().filter(|end| !has(end)).collect();

@@ -43,10 +43,10 @@ pub fn read_data(source: &Arc<SourceText>) -> Read<DataFile> {
     let other = sections::others(&unknown, KEYWORDS, source, FileKind::Data, &mut findings);
     let mut list = Vec::new();
     for section in &known {
-        let mut own = Findings::new(source);
-        let request = request(section, source, &mut own);
+        let mut of_request = Findings::new(source);
+        let request = request(section, source, &mut of_request);
         if section.off {
-            let (what, help) = match (own.list().first(), own.list().len()) {
+            let (what, help) = match (of_request.list().first(), of_request.list().len()) {
                 (None, _) => (String::new(), "take the `$` away to switch it on".to_owned()),
                 (Some(first), count) => (
                     format!("; it could not be read as it is ({count} mistakes)"),
@@ -63,7 +63,7 @@ pub fn read_data(source: &Arc<SourceText>) -> Read<DataFile> {
                 help,
             );
         } else {
-            findings.join(own);
+            findings.join(of_request);
         }
         list.push(DataSection {
             keyword: At(section.keyword.span),

@@ -52,7 +52,7 @@ pub fn forms(connections: &[Connection]) -> HashMap<u32, Form> {
         let form = Form::of(&connection.element);
         for characteristic in connection.element.characteristics() {
             let counts = uses.entry(**characteristic).or_default();
-            match counts.iter_mut().find(|(own, _)| *own == form) {
+            match counts.iter_mut().find(|(count, _)| *count == form) {
                 Some((_, count)) => *count += 1,
                 None => counts.push((form, 1)),
             }
@@ -63,7 +63,7 @@ pub fn forms(connections: &[Connection]) -> HashMap<u32, Form> {
         let first = counts.first().copied()?;
         let best = counts
             .into_iter()
-            .fold(first, |best, own| if own.1 > best.1 { own } else { best });
+            .fold(first, |best, count| if count.1 > best.1 { count } else { best });
         Some(best.0)
     };
     uses.into_iter()

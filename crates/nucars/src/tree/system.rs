@@ -274,25 +274,27 @@ impl Element {
     /// Its directions in the order of the file: component `.1` is the first.
     pub fn dofs(&self) -> &[Spanned<Dof>] {
         match self {
-            Element::Parallel(own) | Element::Gap(own) => std::slice::from_ref(&own.dof),
-            Element::ParallelGroup(own) | Element::CoilGroup(own) => &own.dofs,
-            Element::ViscousWedge(own) | Element::ViscousToeWedge(own) | Element::StickSlipWedge(own) => {
-                &own.dofs
-            }
-            Element::SurfaceFriction(own) | Element::StickSlipWedge3d(own) => &own.dofs,
+            Element::Parallel(element) | Element::Gap(element) => std::slice::from_ref(&element.dof),
+            Element::ParallelGroup(element) | Element::CoilGroup(element) => &element.dofs,
+            Element::ViscousWedge(element)
+            | Element::ViscousToeWedge(element)
+            | Element::StickSlipWedge(element) => &element.dofs,
+            Element::SurfaceFriction(element) | Element::StickSlipWedge3d(element) => &element.dofs,
         }
     }
 
     /// Its characteristics: one for each direction (types 1, 1.1, 1.2, 1.3), or one for all.
     pub fn characteristics(&self) -> &[Spanned<u32>] {
         match self {
-            Element::Parallel(own) | Element::Gap(own) => std::slice::from_ref(&own.characteristic),
-            Element::ParallelGroup(own) | Element::CoilGroup(own) => &own.characteristics,
-            Element::ViscousWedge(own) | Element::ViscousToeWedge(own) | Element::StickSlipWedge(own) => {
-                std::slice::from_ref(&own.characteristic)
+            Element::Parallel(element) | Element::Gap(element) => {
+                std::slice::from_ref(&element.characteristic)
             }
-            Element::SurfaceFriction(own) | Element::StickSlipWedge3d(own) => {
-                std::slice::from_ref(&own.characteristic)
+            Element::ParallelGroup(element) | Element::CoilGroup(element) => &element.characteristics,
+            Element::ViscousWedge(element)
+            | Element::ViscousToeWedge(element)
+            | Element::StickSlipWedge(element) => std::slice::from_ref(&element.characteristic),
+            Element::SurfaceFriction(element) | Element::StickSlipWedge3d(element) => {
+                std::slice::from_ref(&element.characteristic)
             }
         }
     }

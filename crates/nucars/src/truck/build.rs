@@ -102,8 +102,8 @@ impl Truck {
         }
         let places: HashMap<u32, usize> = numbers.iter().copied().zip(0..).collect();
         let mut connections = Vec::new();
-        for own in &system.connections {
-            let by = || format!("connection {}", own.id);
+        for connection in &system.connections {
+            let by = || format!("connection {}", connection.id);
             let body = |number: u32| {
                 places.get(&number).copied().ok_or_else(|| BuildError::Missing {
                     by: by(),
@@ -113,14 +113,18 @@ impl Truck {
             };
             connections.push(Connection {
                 account: String::new(),
-                name: own.name.trim().to_owned(),
-                a: body(*own.body_a)?,
-                b: body(*own.body_b)?,
-                point: point(&own.position),
-                law: Laws { system, by: by() }.law(&own.element)?,
+                name: connection.name.trim().to_owned(),
+                a: body(*connection.body_a)?,
+                b: body(*connection.body_b)?,
+                point: point(&connection.position),
+                law: Laws { system, by: by() }.law(&connection.element)?,
             });
         }
-        let mut ids: Vec<u32> = system.connections.iter().map(|own| *own.id).collect();
+        let mut ids: Vec<u32> = system
+            .connections
+            .iter()
+            .map(|connection| *connection.id)
+            .collect();
         let mut model = Model {
             bodies,
             connections,
@@ -143,13 +147,15 @@ impl Truck {
     /// The place in the model of the body with this number in the file.
     #[must_use]
     pub fn body(&self, number: u32) -> Option<usize> {
-        self.bodies.iter().position(|own| *own == number)
+        self.bodies.iter().position(|body| *body == number)
     }
 
     /// The place in the model of the connection with this number in the file.
     #[must_use]
     pub fn connection(&self, number: u32) -> Option<usize> {
-        self.connections.iter().position(|own| *own == number)
+        self.connections
+            .iter()
+            .position(|connection| *connection == number)
     }
 
     /// The places of the friction wedges in the model.

@@ -46,7 +46,7 @@ fn shape(segment: &Segment, choices: &Choices, scale: f64, length: f64) -> Motio
     let [c1, c2] = [*segment.coefficients[0], *segment.coefficients[1]];
     let amplitude = *segment.amplitude;
     let angular = |frequency: f64| 2.0 * std::f64::consts::PI * frequency / scale;
-    let own = match *segment.shape {
+    let shape = match *segment.shape {
         Shape::Null => None,
         Shape::Sin => Some(sine(amplitude, angular(c1))),
         Shape::Ssin if c1 == c2 => Some(sine(amplitude, angular(c1))),
@@ -64,7 +64,7 @@ fn shape(segment: &Segment, choices: &Choices, scale: f64, length: f64) -> Motio
         }),
     };
     let [from, to] = [*segment.base[0], *segment.base[1]];
-    let mut parts: Vec<Motion> = own.into_iter().collect();
+    let mut parts: Vec<Motion> = shape.into_iter().collect();
     if from != 0.0 {
         parts.push(Motion::Constant(from));
     }

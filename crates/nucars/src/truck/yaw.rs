@@ -51,7 +51,7 @@ fn drop_springs(model: &mut Model, inputs: &Range<usize>) -> Vec<usize> {
             continue;
         };
         let center = |body: usize| model.bodies[body].frame.origin[1];
-        let only = |coordinate: usize| springs.iter().all(|(own, _)| *own == coordinate);
+        let only = |coordinate: usize| springs.iter().all(|(direction, _)| *direction == coordinate);
         // Longitudinal, between an input body and a body that lies beside it.
         let driving = [connection.a, connection.b]
             .into_iter()
@@ -103,7 +103,7 @@ fn drive_bodies(model: &mut Model, inputs: Range<usize>) {
         if beside == 0.0 {
             continue;
         }
-        let own = frame.motions[0].clone();
-        frame.motions[0] = Motion::Sum(vec![own, yaw.scaled(-beside)]);
+        let driven = frame.motions[0].clone();
+        frame.motions[0] = Motion::Sum(vec![driven, yaw.scaled(-beside)]);
     }
 }

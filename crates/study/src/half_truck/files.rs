@@ -5,7 +5,7 @@ use std::path::Path;
 
 use input::limits;
 use nucars::Severity;
-use nucars::together::RunFiles;
+use nucars::file_sets::RunFiles;
 use nucars::tree::{DataFile, InputFile, RunFile, SystemFile};
 use nucars::truck::{BuildError, Choices, Truck, Wedges, Yaw};
 use quantity::System as Units;

@@ -6,8 +6,8 @@ use std::process::ExitCode;
 
 use clap::Args;
 use nucars::Severity;
+use nucars::file_sets::{Files, find};
 use nucars::read::FileKind;
-use nucars::together::{Files, find};
 
 use super::files::Instead;
 use super::load::tell;
@@ -50,8 +50,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             files.add(&find(path)?, Some(kind))?;
         }
     }
-    let teams = files.teams(&instead)?;
-    files.check(&teams);
+    let sets = files.sets(&instead)?;
+    files.check(&sets);
     report(&files, arguments.no_notes)
 }
 

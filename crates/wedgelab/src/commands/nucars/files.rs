@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use nucars::together;
+use nucars::file_sets;
 
 /// Files instead of those that runs name.
 #[derive(Debug, Default, Args)]
@@ -21,8 +21,8 @@ pub struct Instead {
 
 impl Instead {
     /// As the reader of files takes them.
-    pub fn files(&self) -> together::Instead {
-        together::Instead {
+    pub fn files(&self) -> file_sets::Instead {
+        file_sets::Instead {
             system: self.system.clone(),
             data: self.data.clone(),
             input: self.input.clone(),

@@ -9,8 +9,8 @@ use mechanics::body::COORDINATES;
 use mechanics::system::{Held, StaticFriction, System, Vibration};
 use nucars::Severity;
 use nucars::check;
+use nucars::file_sets::{find, kind, load};
 use nucars::read::{FileKind, read_system};
-use nucars::together::{find, kind, load};
 use nucars::truck::{Choices, Truck};
 
 use super::load::tell;

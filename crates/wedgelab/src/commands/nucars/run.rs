@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use nucars::Severity;
-use nucars::together::{self, RunFiles, find, kind, load};
+use nucars::file_sets::{self, RunFiles, find, kind, load};
 use nucars::truck::{Choices, Wedges, Yaw};
 use quantity::{Kind, Quantity, System as Units, nearest};
 use report::half_truck_files;
@@ -281,7 +281,7 @@ pub struct RunToMake {
 }
 
 /// Reads a run file with its files; tells their errors, and refuses them if they have some.
-pub fn read_run(file: &Path, instead: &together::Instead) -> Result<RunToMake, Failure> {
+pub fn read_run(file: &Path, instead: &file_sets::Instead) -> Result<RunToMake, Failure> {
     let path = find(file)?;
     let source = load(&path)?;
     let found = kind(&source)?;

@@ -6,9 +6,9 @@ use std::process::ExitCode;
 
 use clap::Args;
 use nucars::Severity;
+use nucars::file_sets::{find, kind, load};
 use nucars::read::{FileKind, read_system};
 use nucars::show;
-use nucars::together::{find, kind, load};
 
 use super::load::tell;
 use crate::failure::{Failure, INPUT, Message};

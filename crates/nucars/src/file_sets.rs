@@ -141,7 +141,7 @@ pub struct Entry<T> {
 
 /// Files that belong together, by their places in the lists.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Team {
+pub struct FileSet {
     /// The run file.
     pub run: Option<usize>,
     /// Its system file.
@@ -209,35 +209,35 @@ impl Files {
     ///
     /// # Errors
     /// A file that is given instead cannot be read.
-    pub fn teams(&mut self, instead: &Instead) -> Result<Vec<Team>, LoadError> {
-        let mut teams = Vec::new();
+    pub fn sets(&mut self, instead: &Instead) -> Result<Vec<FileSet>, LoadError> {
+        let mut sets = Vec::new();
         let only = |count: usize| (count == 1).then_some(0);
         let system = only(self.systems.len());
         let input = only(self.inputs.len());
         for data in 0..self.data.len() {
-            teams.push(Team {
+            sets.push(FileSet {
                 data: Some(data),
                 system,
-                ..Team::default()
+                ..FileSet::default()
             });
         }
         for system in 0..self.systems.len() {
-            teams.push(Team {
+            sets.push(FileSet {
                 system: Some(system),
                 input,
-                ..Team::default()
+                ..FileSet::default()
             });
         }
         for run in 0..self.runs.len() {
-            let team = Team {
+            let set = FileSet {
                 run: Some(run),
                 system: self.of_run(run, FileKind::System, instead)?,
                 data: self.of_run(run, FileKind::Data, instead)?,
                 input: self.of_run(run, FileKind::Input, instead)?,
             };
-            teams.push(team);
+            sets.push(set);
         }
-        Ok(teams)
+        Ok(sets)
     }
 
     /// The file of this kind that a run names, or an option instead.
@@ -261,7 +261,7 @@ impl Files {
     }
 
     /// Checks each file alone, and with those it belongs to.
-    pub fn check(&mut self, teams: &[Team]) {
+    pub fn check(&mut self, sets: &[FileSet]) {
         for Entry { read, .. } in &mut self.systems {
             read.add(check::system(read));
         }
@@ -274,17 +274,17 @@ impl Files {
         for Entry { read, .. } in &mut self.runs {
             read.add(check::run(read));
         }
-        for team in teams {
-            let input = team.input.map(|index| &self.inputs[index].read.tree);
-            if let (Some(index), Some(input)) = (team.system, input) {
+        for set in sets {
+            let input = set.input.map(|index| &self.inputs[index].read.tree);
+            if let (Some(index), Some(input)) = (set.system, input) {
                 let read = &mut self.systems[index].read;
                 read.add(check::system_with_input(read, input));
             }
-            if let (Some(index), Some(input)) = (team.run, input) {
+            if let (Some(index), Some(input)) = (set.run, input) {
                 let read = &mut self.runs[index].read;
                 read.add(check::run_with_input(read, input));
             }
-            if let (Some(data), Some(system)) = (team.data, team.system) {
+            if let (Some(data), Some(system)) = (set.data, set.system) {
                 let read = &mut self.data[data].read;
                 read.add(check::data_of_system(read, &self.systems[system].read.tree));
             }
@@ -320,7 +320,7 @@ impl Files {
 /// A run file with its files, all read and checked.
 pub struct RunFiles {
     files: Files,
-    team: Team,
+    set: FileSet,
 }
 
 impl RunFiles {
@@ -331,39 +331,39 @@ impl RunFiles {
     pub fn read(path: &Path, instead: &Instead) -> Result<Self, LoadError> {
         let mut files = Files::default();
         let run = files.add(path, Some(FileKind::Run))?;
-        let mut team = Team {
+        let mut set = FileSet {
             run: Some(run),
-            ..Team::default()
+            ..FileSet::default()
         };
-        team.system = files.of_run(run, FileKind::System, instead)?;
-        team.data = files.of_run(run, FileKind::Data, instead)?;
-        team.input = files.of_run(run, FileKind::Input, instead)?;
-        files.check(&[team]);
-        Ok(Self { files, team })
+        set.system = files.of_run(run, FileKind::System, instead)?;
+        set.data = files.of_run(run, FileKind::Data, instead)?;
+        set.input = files.of_run(run, FileKind::Input, instead)?;
+        files.check(&[set]);
+        Ok(Self { files, set })
     }
 
     /// The run file.
     #[must_use]
     pub fn run(&self) -> Option<&RunFile> {
-        Some(&self.files.runs[self.team.run?].read.tree)
+        Some(&self.files.runs[self.set.run?].read.tree)
     }
 
     /// Its system file.
     #[must_use]
     pub fn system(&self) -> Option<&SystemFile> {
-        Some(&self.files.systems[self.team.system?].read.tree)
+        Some(&self.files.systems[self.set.system?].read.tree)
     }
 
     /// Its data file.
     #[must_use]
     pub fn data(&self) -> Option<&DataFile> {
-        Some(&self.files.data[self.team.data?].read.tree)
+        Some(&self.files.data[self.set.data?].read.tree)
     }
 
     /// Its input file.
     #[must_use]
     pub fn input(&self) -> Option<&InputFile> {
-        Some(&self.files.inputs[self.team.input?].read.tree)
+        Some(&self.files.inputs[self.set.input?].read.tree)
     }
 
     /// What was found in each of them.
@@ -394,10 +394,10 @@ impl RunFiles {
             })
         }
         Texts {
-            run: text(&self.files.runs, self.team.run),
-            system: text(&self.files.systems, self.team.system),
-            data: text(&self.files.data, self.team.data),
-            input: text(&self.files.inputs, self.team.input),
+            run: text(&self.files.runs, self.set.run),
+            system: text(&self.files.systems, self.set.system),
+            data: text(&self.files.data, self.set.data),
+            input: text(&self.files.inputs, self.set.input),
         }
     }
 
@@ -420,14 +420,14 @@ impl RunFiles {
             Ok(Some(list.len() - 1))
         }
         let mut files = Files::default();
-        let team = Team {
+        let set = FileSet {
             run: add(&mut files.runs, texts.run.as_ref(), read_run)?,
             system: add(&mut files.systems, texts.system.as_ref(), read_system)?,
             data: add(&mut files.data, texts.data.as_ref(), read_data)?,
             input: add(&mut files.inputs, texts.input.as_ref(), read_input)?,
         };
-        files.check(&[team]);
-        Ok(Self { files, team })
+        files.check(&[set]);
+        Ok(Self { files, set })
     }
 }
 
