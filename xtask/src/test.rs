@@ -3,11 +3,13 @@
 mod deny;
 mod floors;
 mod fmu;
+mod links;
 mod octave;
 mod page;
 mod prose;
 mod python;
 mod race;
+mod readme;
 mod viewer;
 
 use std::process::ExitCode;
@@ -57,6 +59,7 @@ const CHECKS: &[Check] = &[
         floors::check,
     ),
     Check::new("prose", "no file points outside the repository", prose::check),
+    Check::new("links", "links between pages lead somewhere", links::check),
     // Before everything that compiles: what is compiled after it holds the viewer.
     Check::new(
         "viewer",
@@ -106,6 +109,11 @@ const CHECKS: &[Check] = &[
         "page",
         "the report's page passes an HTML validator (needs Node.js)",
         page::check,
+    ),
+    Check::new(
+        "readme",
+        "the README's commands run in its order, and again where results exist",
+        readme::check,
     ),
     Check::new(
         "deny",
