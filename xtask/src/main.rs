@@ -3,6 +3,7 @@
 //! One module a command. Exit codes: 0, 1 (a check failed), 2 (the call itself is wrong).
 
 mod bench;
+mod book;
 mod debian;
 mod fuzz;
 mod machine;
@@ -45,6 +46,11 @@ const COMMANDS: &[Command] = &[
         name: "race",
         about: "run other people's solvers and ours on the same equations, fetching what they need",
         run: race::run,
+    },
+    Command {
+        name: "book",
+        about: "build the documentation as a book",
+        run: book::run,
     },
     Command {
         name: "viewer",

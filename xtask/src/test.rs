@@ -105,6 +105,12 @@ const CHECKS: &[Check] = &[
         doc_tests,
     ),
     Check::new("doc", "the documentation builds without a warning", docs),
+    // Its own installation, of some minutes on a new machine.
+    Check::new(
+        "book",
+        "the documentation builds as a book (installs mdBook)",
+        book,
+    ),
     Check::new(
         "page",
         "the report's page passes an HTML validator (needs Node.js)",
@@ -178,6 +184,11 @@ fn docs(workspace: &Workspace) -> Outcome {
         let mut command = workspace.cargo(["doc", "--workspace", "--no-deps", targets]);
         shell::run(command.env("RUSTDOCFLAGS", "-D warnings"))?;
     }
+    Ok(None)
+}
+
+fn book(workspace: &Workspace) -> Outcome {
+    crate::book::build(workspace)?;
     Ok(None)
 }
 

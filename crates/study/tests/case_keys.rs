@@ -1,0 +1,25 @@
+//! reproduction: the page docs/case-keys.md holds the keys of this build.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+#[path = "case_keys/page.rs"]
+mod page;
+
+#[test]
+fn reproduction_the_reference_of_case_keys_is_that_of_this_build() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/case-keys.md");
+    let written = std::fs::read_to_string(path).unwrap();
+    let expected = page::page();
+    for (number, (written, expected)) in written.lines().zip(expected.lines()).enumerate() {
+        let hint = "run cargo run --release -p study --example case_keys";
+        assert_eq!(
+            written,
+            expected,
+            "line {} of docs/case-keys.md: {hint}",
+            number + 1
+        );
+    }
+    assert_eq!(written.lines().count(), expected.lines().count());
+    // Every key has a meaning, but for motions along coordinates, whose names say all.
+    let unexplained = expected.lines().filter(|line| line.ends_with("|  |"));
+    assert_eq!(unexplained.collect::<Vec<_>>(), Vec::<&str>::new());
+}

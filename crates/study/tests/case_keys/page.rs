@@ -1,0 +1,163 @@
+//! The reference of case keys: every key of every model, with its defaults and what it means.
+
+use std::fmt::Write;
+
+use study::any_case::AnyCase;
+use study::case::{Field, Input};
+
+/// Cases of a model that together have all keys: name, overrides.
+type Cases = &'static [(&'static str, &'static [&'static str])];
+
+/// What the sections of a model begin with, and its cases.
+const MODELS: [(&str, &str, Cases); 2] = [
+    (
+        "A wedge",
+        "The model of a case without `model`. Defaults are those of the thesis; where they depend on the damping, \
+         that of variable damping comes first.",
+        &[
+            ("vdrun_toe_0_psi_0", &[]),
+            ("cdrun_toe_0_psi_0", &[]),
+            ("cdrun_toe_0_psi_0", &["friction.law=bristle"]),
+        ],
+    ),
+    (
+        "A truck",
+        "`model = \"truck\"`. Where a default depends on the rig or on the damping, each value stands once.",
+        &[
+            ("truck_vertical_variable", &[]),
+            ("truck_vertical_constant", &[]),
+            ("truck_warp_axles_variable_rising", &[]),
+            ("truck_roll_variable", &[]),
+            ("truck_vertical_variable", &["load.kind=car_body"]),
+            ("truck_warp_axles_variable_rising", &["adapter.kind=pad"]),
+            ("truck_vertical_variable", &["wedge.kind=massless"]),
+        ],
+    ),
+];
+
+/// A key: its path, the values that it has in the cases, what it means, what may stand there.
+struct Key {
+    path: String,
+    values: Vec<String>,
+    help: String,
+    input: Input,
+}
+
+/// Returns the page.
+pub fn page() -> String {
+    let mut page = String::from(
+        "# Keys of cases\n\nAll keys of all models, as the program knows them; \
+         `cargo run --release -p study --example case_keys` writes this page. Values are text with units; US customary \
+         and SI units mix freely. A key is what `--set` takes; in a file the part before the last point is the name of \
+         a table. `wedgelab case NAME` prints a whole case with the same words.\n",
+    );
+    for (title, about, cases) in MODELS {
+        let _ = write!(
+            page,
+            "\n## {title}\n\n{about}\n\n| key | in built-in cases | meaning |\n|---|---|---|\n"
+        );
+        for key in keys(cases) {
+            let values: Vec<String> = key.values.iter().map(|value| cell(value)).collect();
+            let _ = writeln!(
+                page,
+                "| `{}` | {} | {} |",
+                key.path,
+                values.join(", "),
+                meaning(&key)
+            );
+        }
+    }
+    page
+}
+
+/// Returns the keys of all cases of a model, in the order in which they first appear.
+fn keys(cases: Cases) -> Vec<Key> {
+    let mut keys: Vec<Key> = Vec::new();
+    for (name, overrides) in cases {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        let case = AnyCase::built_in(name, &overrides).unwrap().unwrap();
+        let mut last = 0;
+        for field in case.fields().into_iter().flat_map(|section| section.fields) {
+            let value = shown(&field);
+            if let Some(place) = keys.iter().position(|key| key.path == field.path) {
+                last = place + 1;
+                let values = &mut keys[place].values;
+                if !values.contains(&value) && !["name", "title"].contains(&field.path.as_str()) {
+                    values.push(value);
+                }
+            } else {
+                let Field {
+                    path, help, input, ..
+                } = field;
+                let values = vec![value];
+                keys.insert(
+                    last,
+                    Key {
+                        path,
+                        values,
+                        help,
+                        input,
+                    },
+                );
+                last += 1;
+            }
+        }
+    }
+    keys
+}
+
+/// Returns a value on one line, cut where it is long.
+fn shown(field: &Field) -> String {
+    let text = field.text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match text.char_indices().nth(70) {
+        Some((end, _)) => format!("{} ...", &text[..end]),
+        None => text,
+    }
+}
+
+fn cell(value: &str) -> String {
+    if value.is_empty() {
+        return "nothing".to_owned();
+    }
+    format!("`{}`", value.replace('|', "\\|"))
+}
+
+fn meaning(key: &Key) -> String {
+    let help = key
+        .help
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ")
+        .replace('|', "\\|");
+    let choices = match &key.input {
+        Input::Choice { choices } => format!("one of {}", list(choices)),
+        Input::Several { choices, .. } => format!("some of {}", list(choices)),
+        _ if help.is_empty() => return implied(&key.path).to_owned(),
+        _ => return help,
+    };
+    if help.is_empty() {
+        choices
+    } else {
+        format!("{help}; {choices}")
+    }
+}
+
+/// Returns what a key means whose name says it to those who know the case.
+fn implied(path: &str) -> &'static str {
+    match path.rsplit('.').next().unwrap_or_default() {
+        "longitudinal" | "lateral" | "vertical" | "roll" | "pitch" | "yaw" => {
+            "motion: one held value, a shape, or a list to be added up"
+        }
+        "duration" if path == "simulation.duration" => "simulated time",
+        _ if path.split('.').count() > 2 => "of this motion",
+        _ => "",
+    }
+}
+
+fn list(names: &[&str]) -> String {
+    names
+        .iter()
+        .map(|name| format!("`{name}`"))
+        .collect::<Vec<_>>()
+        .join(", ")
+}
