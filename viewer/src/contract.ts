@@ -60,18 +60,24 @@ export interface Look {
   from: Triple;
   /** A point and the radius about it; everything if there is none. */
   at?: [Triple, number];
+  /** The length of the arrow of a force that few exceed; the scene's if there is none. */
+  arrow?: number;
 }
 
 export interface Body {
   id: string;
   /** The body in whose axes place and angles are; the fixed ones if there is none. */
   on?: string;
+  /** The column of its distance along the track, in whose axes there place and angles are. */
+  along?: string;
+  /** The column of a turn about its y axis that is never exaggerated. */
+  spin?: string;
   position: Triple;
   coordinates: (string | null)[];
   steady: (string | null)[];
 }
 
-export type Role = "wedge" | "column" | "pocket" | "seat" | "wheelset" | "body";
+export type Role = "wedge" | "column" | "pocket" | "seat" | "wheelset" | "wheel" | "body";
 
 export interface Solid {
   id: string;
@@ -81,6 +87,8 @@ export interface Solid {
   mount: { position: Triple; angles: Triple };
   vertices: Triple[];
   triangles: Triple[];
+  /** Instead of these, of a body of revolution about y: y and radius along its outline. */
+  revolved?: [number, number][];
 }
 
 export interface End {
@@ -113,6 +121,30 @@ export interface Contact {
   gap: string | null;
 }
 
+/** A contact patch of a wheel, seen while it presses. */
+export interface Patch {
+  id: string;
+  name: string;
+  body: string;
+  place: [string, string, string];
+  /** How far its plane rises to the field side. */
+  angle: string;
+  right: boolean;
+  normal_force: string;
+  creep: [string, string];
+  axes: [string, string];
+}
+
+export interface TrackData {
+  from: number;
+  step: number;
+  /** Places in `data`: x, y, z, heading, grade, roll, left_lateral, ... */
+  samples: Record<string, number>;
+  rails: [[number, number][], [number, number][]];
+  /** Spacing, half length, half width, height of their tops, thickness. */
+  ties: [number, number, number, number, number];
+}
+
 export interface SceneData {
   factor: number;
   limit: number;
@@ -122,6 +154,10 @@ export interface SceneData {
   solids: Solid[];
   coils: Coil[];
   contacts: Contact[];
+  patches?: Patch[];
+  track?: TrackData;
+  /** The body that the view goes along with, in the axes of the track where it is. */
+  follow?: string;
 }
 
 export interface Run {

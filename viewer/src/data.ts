@@ -92,6 +92,11 @@ export class RunData {
     return new Float32Array(this.times.length).fill(column?.value ?? NaN);
   }
 
+  /** A list of the document by its place. */
+  list(place: number | undefined): Float32Array | undefined {
+    return place === undefined ? undefined : this.data.list(place);
+  }
+
   quantity(name: string): string {
     return this.run.columns[name]?.quantity ?? "dimensionless";
   }

@@ -52,7 +52,7 @@ export function action(target: Keyed, key: string, shift: boolean): (() => void)
     case "Escape":
       return () => target.fill(false);
     default:
-      return /^[1-5]$/.test(key) ? () => target.look(Number(key) - 1) : undefined;
+      return /^[1-9]$/.test(key) ? () => target.look(Number(key) - 1) : undefined;
   }
 }
 

@@ -9,6 +9,7 @@ import { keyboard } from "./keyboard.js";
 import { RunPlot, type Shown } from "./plots/run-plot.js";
 import type { Range } from "./plots/curves.js";
 import { FRICTION, NORMAL, STATES } from "./scene/arrows.js";
+import { ELLIPSE } from "./scene/patch.js";
 import { LONGEST, SceneView, type Eye } from "./scene/view.js";
 import { Store } from "./store.js";
 import { digits, type Units } from "./units.js";
@@ -285,8 +286,9 @@ export class RunView {
     this.key.append(
       element("span", {}, this.bar, this.barText),
       colour("normal force", NORMAL, "wl-stroke"),
-      colour("friction", FRICTION, "wl-stroke"),
-      ...STATES.map(([name, style]) => colour(name, style, "wl-dot")),
+      ...(data.contacts.length > 0 || !data.patches
+        ? [colour("friction", FRICTION, "wl-stroke"), ...STATES.map(([name, style]) => colour(name, style, "wl-dot"))]
+        : [colour("creep force", FRICTION, "wl-stroke"), colour("contact patch", ELLIPSE, "wl-dot")]),
     );
     this.bar.style.background = "#1b1b1b";
     this.barText.title = `Arrows longer than ${LONGEST} times this bar are cut.`;
@@ -446,7 +448,7 @@ function help(): HTMLElement {
       row("Home End", "start, end"),
       row("− +", "slower, faster"),
       row("L", "loop"),
-      row("1 … 5", "named views"),
+      row("1, 2, …", "named views"),
       row("W A S D", "orbit; with Shift nearer and farther (W, S)"),
       row("E, Shift+E", "more, less exaggeration"),
       row("U", "inch-pound or SI"),

@@ -7,6 +7,8 @@ use study::run::RunCase;
 use study::summary::RunSummary;
 use study::truck::TruckCase;
 use study::truck::run::TruckResult;
+use study::wheelset::WheelsetCase;
+use study::wheelset::run::WheelsetResult;
 
 use crate::files::{FileError, Folder};
 use crate::{csv, half_truck_files, mat, summary};
@@ -61,6 +63,23 @@ impl RunFiles for TruckCase {
             files.add(mat::FILE_NAME, |out| mat::write_truck(result, out))?;
             files.add(CASE_FILE_NAME, |out| {
                 out.write_all(self.to_toml_embedded().as_bytes())
+            })?;
+            files.add(summary::FILE_NAME, |out| {
+                summary::write_json(&result.summary, out)
+            })
+        })
+    }
+}
+
+impl RunFiles for WheelsetCase {
+    type Summary = study::wheelset::summary::WheelsetSummary;
+    const FILES: &'static [&'static str] = &[csv::FILE_NAME, summary::FILE_NAME];
+
+    fn write(&self, folder: &Folder, result: &WheelsetResult) -> Result<(), FileError> {
+        let units = self.wheelset.units;
+        folder.write(|files| {
+            files.add(csv::FILE_NAME, |out| {
+                csv::write_columns(&result.columns, &result.values, units, out)
             })?;
             files.add(summary::FILE_NAME, |out| {
                 summary::write_json(&result.summary, out)

@@ -7,6 +7,8 @@
 //! | a sprung rail that follows its wheel | [`track::RailSupport`], [`track::rail_body`] |
 //! | springs of a carriage that runs along the track, its load and its drive | [`carriage::Carriage`] |
 //! | a wheelset as a body that spins about its axle, last of its angles | [`wheelset::WheelsetBody`] |
+//! | vibrations about steady rolling, in curves too | [`rig::Rig::vibrations`] |
+//! | where a wheel stands: on its rail, its flange's tip, beside the rail | [`wheel::WheelOnRail::seat`] |
 //! | all of it: one wheelset under a carriage on a track | [`rig::Rig`] |
 //!
 //! Elements are [`mechanics::element::Element`]s: marker A is on the wheelset, marker B on the ground or on a
@@ -17,7 +19,9 @@
 mod ahead;
 pub mod carriage;
 pub mod linear;
+mod linearize;
 pub mod rig;
+mod seat;
 pub mod track;
 pub mod wheel;
 pub mod wheelset;

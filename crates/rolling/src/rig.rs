@@ -268,15 +268,24 @@ impl Rig {
 
     /// Gives the patches of both wheels to `see`, with the side: none of linear wheels.
     pub fn patches(&self, seen: &Observation, mut see: impl FnMut(Side, PatchState)) {
-        let Some((wheels, half)) = &self.wheels else {
-            return;
-        };
-        for (index, wheel) in wheels.iter().enumerate() {
-            let rail = seen.bodies.get(RAILS[index]).unwrap_or(&seen.bodies[GROUND]);
-            let left = [*half, -half][index];
-            let motion = motion_of(&seen.bodies[WHEELSET], left, rail, self.axes);
+        for (wheel, motion) in self.motions(seen).into_iter().flatten() {
             wheel.patches(&motion, |patch| see(wheel.side, patch));
         }
+    }
+
+    /// A vector in the axes of the track.
+    pub(crate) fn in_track(&self, vector: Vector<f64>) -> Vector<f64> {
+        self.axes.apply_transposed::<f64, f64>(vector)
+    }
+
+    /// Both wheels with their motions on their rails; none of linear wheels.
+    pub(crate) fn motions(&self, seen: &Observation) -> Option<[(&WheelOnRail, RelativeMotion<f64>); 2]> {
+        let ([left, right], half) = self.wheels.as_ref()?;
+        let of = |index: usize, left: f64| {
+            let rail = seen.bodies.get(RAILS[index]).unwrap_or(&seen.bodies[GROUND]);
+            motion_of(&seen.bodies[WHEELSET], left, rail, self.axes)
+        };
+        Some([(left, of(0, *half)), (right, of(1, -half))])
     }
 }
 

@@ -120,9 +120,9 @@ fn pose_in<S: Real>(section: &Section<S>, side: Side, center: [S; 3], axle: [S; 
 }
 
 /// What an evaluation works with.
-struct Placed<S> {
+pub(crate) struct Placed<S> {
     section: Section<S>,
-    pose: WheelPose<S>,
+    pub(crate) pose: WheelPose<S>,
     motion: WheelMotion<S>,
     /// The pose with its change in time.
     moving: WheelPose<Dual<1>>,
@@ -137,7 +137,7 @@ impl WheelOnRail {
     }
 
     #[inline(always)]
-    fn placed<S: Real>(&self, motion: &RelativeMotion<S>) -> Placed<S> {
+    pub(crate) fn placed<S: Real>(&self, motion: &RelativeMotion<S>) -> Placed<S> {
         let (center, axle) = (motion.position, motion.rotation.column(1));
         let foot = self.lines.foot(self.line(), center.value().0);
         let section = foot.section(center.0);

@@ -25,3 +25,4 @@ pub mod stepping;
 pub mod summary;
 pub mod track;
 pub mod truck;
+pub mod wheelset;

@@ -45,7 +45,19 @@ pub fn warnings<C: RunCase>(run: &Run<C>) -> Vec<String> {
 /// says everything many times.
 #[must_use]
 pub fn warnings_by_kind<C: RunCase>(run: &Run<C>) -> Vec<String> {
-    let (units, findings) = (run.case.units(), findings(run));
+    by_kind(run, |_| true)
+}
+
+/// Returns the same of what runs along a track: that it leaves its place is none.
+#[must_use]
+pub fn warnings_of_rolling<C: RunCase>(run: &Run<C>) -> Vec<String> {
+    by_kind(run, |kind| !matches!(kind, FindingKind::Displacement))
+}
+
+fn by_kind<C: RunCase>(run: &Run<C>, counts: impl Fn(FindingKind) -> bool) -> Vec<String> {
+    let units = run.case.units();
+    let mut findings = findings(run);
+    findings.retain(|finding| counts(finding.kind));
     let kind = |finding: &Finding| std::mem::discriminant(&finding.kind);
     let mut warnings = Vec::new();
     for (number, finding) in findings.iter().enumerate() {

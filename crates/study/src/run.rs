@@ -58,6 +58,15 @@ pub enum RunError {
         /// The time, s.
         time: f64,
     },
+    /// A wheel has left its rail: the run ends there.
+    #[error("a wheel has derailed at {time} s")]
+    Derailed {
+        /// The time, s.
+        time: f64,
+    },
+    /// The wheelset does not stand on its rails.
+    #[error(transparent)]
+    Rig(#[from] rolling::rig::RigError),
     /// There is no equilibrium to start from.
     #[error("no static equilibrium was found to start from: {0}")]
     Equilibrium(#[from] NoEquilibrium),

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::finite::{find, is_finite};
 use crate::metrics::Extremes;
 use crate::result::ContactEvent;
+use crate::run::{Run, RunCase};
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "wedgelab.summary/2";
@@ -247,6 +248,21 @@ pub struct LedgerSummary {
 }
 
 impl LedgerSummary {
+    /// Returns the ledger at the time that a run has reached: losses and works by element, the stored energy, the
+    /// residual.
+    pub(crate) fn of_run<C: RunCase>(run: &mut Run<C>, units: Units) -> Self {
+        run.system.segment_like(run.integrator.problem());
+        let seen = run.system.observe(run.integrator.time(), run.integrator.x());
+        let measure = |value: f64| SummaryValue::new(value, Kind::Energy, units);
+        let mut entries = BTreeMap::new();
+        for (term, value) in run.system.energy_terms().iter().zip(&seen.quadratures) {
+            entries.insert(term.name(), measure(*value));
+        }
+        entries.insert("stored".to_owned(), measure(seen.energies.total()));
+        entries.insert("residual".to_owned(), measure(-seen.residual(run.start_energy)));
+        Self::new(entries, run.start_energy, &run.energy_balance, units)
+    }
+
     /// Returns the ledger with these entries, beside what a run's balance found; `start` is the energy stored at the
     /// start, J.
     pub(crate) fn new(

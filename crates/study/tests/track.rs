@@ -189,16 +189,86 @@ fn analytic_measured_tables_are_part_of_a_track() {
     let line = &cubic.track.center_line;
     let quarter = line.at(550.0 * FOOT).curvature[0] / line.at(900.0 * FOOT).curvature[0];
     assert!((quarter - 0.156_25).abs() < 1e-9, "{quarter}");
-    let Support::Sprung { vertical, lateral } = cubic.support else {
+    let Support::Sprung(rail) = cubic.support else {
         panic!("tracks are sprung if nothing is said");
     };
-    assert_eq!([vertical.stiffness, vertical.mass], [80e6, 345.0]);
-    assert!((lateral.damping - 140e3 / 3.0).abs() < 1e-9);
-    let stiff = format!("{CURVE}\n[support]\nkind = \"sprung\"\nvertical_stiffness = \"100 kN/mm\"\n");
-    let Support::Sprung { vertical, .. } = TrackFile::parse("stiff.toml", &stiff).unwrap().support else {
+    assert_eq!([rail.stiffness[1], rail.mass], [80e6, 345.0]);
+    assert!((rail.damping[0] - 140e3 / 3.0).abs() < 1e-9);
+    let stiff = format!(
+        "{CURVE}\n[support]\nkind = \"sprung\"\nvertical_stiffness = \"100 kN/mm\"\nmass = \"200 kg\"\n"
+    );
+    let Support::Sprung(rail) = TrackFile::parse("stiff.toml", &stiff).unwrap().support else {
         panic!("sprung");
     };
-    assert!((vertical.stiffness - 1e8).abs() < 1.0);
+    assert!((rail.stiffness[1] - 1e8).abs() < 1.0);
+    // It rests on its spring.
+    assert!((rail.preload - 200.0 * 9.806_65).abs() < 1e-9);
+}
+
+/// FRA's class 4 written by its coefficients, in units of several sources, gives the same rails; without units, with
+/// a negative density or with unknown units it is refused.
+#[test]
+fn input_spectra_of_users_state_their_units() {
+    let track = |spectrum: &str| {
+        format!(
+            "[[segments]]\ntangent = \"500 ft\"\n[[irregularities]]\n{spectrum}\ndirection = \"vertical\"\nseed = 3\n"
+        )
+    };
+    let read = |spectrum: &str| TrackFile::parse("own.toml", &track(spectrum));
+    let published = read("spectrum = \"fra_vertical\"\nclass = 4").unwrap();
+    // k A Ωc² / (Ωc² Ω² + Ω⁴): A in cm² rad/m, by rad/m; then by cycles/m in mm².
+    let (a, corner) = (0.25 * 0.5376, 0.8245_f64 * 0.8245);
+    let radians = format!(
+        "spectrum = \"rational\"\nnumerator = [{}]\ndenominator = [0, 0, {corner}, 0, 1]\nwavenumber = \"rad/m\"\n\
+         density = \"cm²/(rad/m)\"",
+        a * corner
+    );
+    let tau = std::f64::consts::TAU;
+    let cycles = format!(
+        "spectrum = \"rational\"\nnumerator = [{}]\ndenominator = [0, 0, {}, 0, {}]\nwavenumber = \"cycle/m\"\n\
+         density = \"mm^2/(cycle/m)\"",
+        100.0 * tau * a * corner,
+        corner * tau * tau,
+        tau.powi(4)
+    );
+    for own in [&radians, &cycles] {
+        let own = read(own).unwrap();
+        for distance in [20.0, 77.0, 140.0] {
+            let [[left, _], [expected, _]] = [&own, &published].map(|file| file.track.rails(distance));
+            let difference = left.vertical[0] - expected.vertical[0];
+            assert!(
+                difference.abs() < 1e-12 && expected.vertical[0].abs() > 1e-5,
+                "{difference}"
+            );
+        }
+    }
+    for (spectrum, parts) in [
+        (
+            radians.replace("wavenumber = \"rad/m\"\n", ""),
+            &["wavenumber` is missing", "another track"][..],
+        ),
+        (
+            radians.replace("density = \"cm²/(rad/m)\"", ""),
+            &["density` is missing", "cm^2/(rad/m)"],
+        ),
+        (
+            radians.replace("cm²/(rad/m)", "cm²"),
+            &["cannot be \"cm²\"", "the square of m, cm, mm or in"],
+        ),
+        (
+            radians.replace("numerator = [", "numerator = [-"),
+            &["the density is -", "by rising powers"],
+        ),
+        (
+            radians.replace("numerator = [", "numerator = [\"1 m\", "),
+            &["a list of 1 to 8 plain numbers"],
+        ),
+    ] {
+        let text = refused(&track(&spectrum));
+        for part in parts {
+            assert!(text.contains(part), "{part}\n{text}");
+        }
+    }
 }
 
 #[test]

@@ -21,10 +21,7 @@ export class Arrow {
   private readonly shaft: Mesh;
   private readonly head: Mesh;
 
-  constructor(
-    colour: string,
-    private readonly thickness: number,
-  ) {
+  constructor(colour: string) {
     const material = new MeshBasicMaterial({ color: colour, depthTest: false, transparent: true });
     this.shaft = new Mesh(shaft, material);
     this.head = new Mesh(head, material);
@@ -44,15 +41,15 @@ export class Arrow {
   }
 
   /** From `start` along a direction of length 1; `length` 0 hides it. */
-  show(start: Vector3, direction: Vector3, length: number): void {
+  show(start: Vector3, direction: Vector3, length: number, thickness: number): void {
     this.group.visible = length > 0;
     if (!this.group.visible) {
       return;
     }
     this.group.position.copy(start);
     this.group.quaternion.setFromUnitVectors(UP, direction);
-    const tip = Math.min(5 * this.thickness, 0.6 * length);
-    this.shaft.scale.set(this.thickness, this.thickness, Math.max(length - tip, 1e-6));
+    const tip = Math.min(5 * thickness, 0.6 * length);
+    this.shaft.scale.set(thickness, thickness, Math.max(length - tip, 1e-6));
     this.head.position.z = length;
     this.head.scale.set(0.45 * tip, 0.45 * tip, tip);
   }

@@ -19,13 +19,23 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Coil, Contact, SceneData } from "../contract.js";
 import type { Instant, RunData } from "../data.js";
 import { Arrow, Dot, FRICTION, NORMAL } from "./arrows.js";
+import { PatchMark } from "./patch.js";
 import { poser, type Poser } from "./pose.js";
 import { coilMesh, solidMesh, turn } from "./solids.js";
+import { Track } from "./track.js";
 
 interface Moved {
   id: string;
   group: Group;
   pose: Poser;
+  spin: ((at: Instant) => number) | undefined;
+}
+
+/** The track's axes where a body is. */
+interface Along {
+  id: string;
+  group: Group;
+  distance: (at: Instant) => number;
 }
 
 interface Mounted {
@@ -64,6 +74,9 @@ const FIELD = 26;
 /** Arrows longer than this many times the scale's force are cut. */
 export const LONGEST = 2.5;
 
+/** How far a track is seen, m. */
+const TRACK_SEEN = 150;
+
 /** Milliseconds of rest before a fine picture. */
 const REST = 250;
 
@@ -91,7 +104,7 @@ export class SceneView {
   readonly camera = new PerspectiveCamera(FIELD, 1, 0.01, 20);
   /** The force whose arrow has the length `arrow`. */
   readonly scaleForce: number;
-  readonly arrow: number;
+  arrow: number;
   factor: number;
   arrowFactor = 1;
   private readonly scene = new Scene();
@@ -100,12 +113,18 @@ export class SceneView {
   private readonly mounted: Mounted[] = [];
   private readonly touches: Touch[] = [];
   private readonly sprung: Sprung[] = [];
+  private readonly patches: PatchMark[] = [];
+  private readonly along: Along[] = [];
+  private readonly track: Track | undefined;
+  /** All that is in the fixed axes, moved so that what is followed stays. */
+  private readonly world = new Group();
   private readonly ball: Sphere;
   private stale = true;
   private readonly software: boolean;
   private density = 1;
   private fine = false;
   private lastDrawn = 0;
+  private shown: Instant | undefined;
 
   constructor(
     private readonly data: SceneData,
@@ -117,13 +136,24 @@ export class SceneView {
     this.canvas = this.renderer.domElement;
     this.scene.background = new Color(0xf7f9fb);
 
+    this.scene.add(this.world);
+    const { track } = data;
+    this.track = track && new Track(track, (name) => run.list(track.samples[name]));
     const bodies = new Map<string, Group>();
     for (const body of data.bodies) {
       const group = new Group();
       bodies.set(body.id, group);
-      this.moved.push({ id: body.id, group, pose: poser(body, run) });
+      this.moved.push({ id: body.id, group, pose: poser(body, run), spin: body.spin === undefined ? undefined : run.reader(body.spin) });
       // A body stands in the list after the one it is on.
-      (bodies.get(body.on ?? "") ?? this.scene).add(group);
+      let parent: Object3D = bodies.get(body.on ?? "") ?? this.world;
+      if (body.along !== undefined) {
+        const frame = new Group();
+        frame.matrixAutoUpdate = false;
+        this.along.push({ id: body.id, group: frame, distance: run.reader(body.along) });
+        parent.add(frame);
+        parent = frame;
+      }
+      parent.add(group);
     }
     const none = new Group();
     const solids = new Map<string, Group>();
@@ -142,16 +172,23 @@ export class SceneView {
     // The nominal position gives the view and the sizes.
     this.place({ time: 0, row: 0, share: 0 }, 1);
     this.ball = new Box3().setFromObject(this.scene).getBoundingSphere(new Sphere());
+    if (this.track) {
+      this.world.add(this.track.group);
+    }
     this.arrow = data.arrow;
     this.scaleForce = typicalForce(data, run);
+    for (const patch of data.patches ?? []) {
+      const mark = new PatchMark(patch, bodies.get(patch.body) ?? none, run);
+      this.scene.add(mark.normal.group, mark.creep.group, mark.ellipse);
+      this.patches.push(mark);
+    }
     for (const contact of data.contacts) {
-      const thickness = 0.0214 * this.arrow;
       const touch: Touch = {
         contact,
         body: bodies.get(contact.body) ?? none,
         on: solids.get(contact.on) ?? none,
-        normal: new Arrow(NORMAL, thickness),
-        friction: new Arrow(FRICTION, thickness),
+        normal: new Arrow(NORMAL),
+        friction: new Arrow(FRICTION),
         dot: new Dot(0.048 * this.arrow),
         readNormal: run.reader(contact.normal_force),
         readFriction: contact.friction.map((name) => run.reader(name)),
@@ -164,15 +201,18 @@ export class SceneView {
     this.camera.up.copy(Z);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.enableDamping = false;
-    this.controls.minDistance = 2 * this.arrow;
+    // The nearest look is not too near.
+    const nearest = data.looks.reduce((least, { at }) => Math.min(least, at?.[1] ?? least), this.arrow);
+    this.controls.minDistance = 2 * nearest;
     this.controls.maxDistance = 20 * this.ball.radius;
-    this.camera.near = 0.2 * this.arrow;
-    this.camera.far = 22 * this.ball.radius;
+    this.camera.near = 0.2 * nearest;
+    this.camera.far = Math.max(22 * this.ball.radius, this.track ? TRACK_SEEN : 0);
     this.controls.addEventListener("change", () => this.refresh());
   }
 
   dispose(): void {
     this.controls.dispose();
+    this.track?.dispose();
     this.scene.traverse((object) => {
       if (object instanceof Mesh || object instanceof LineSegments) {
         const drawn = object as Mesh;
@@ -206,6 +246,7 @@ export class SceneView {
     if (!look) {
       return;
     }
+    this.arrow = look.arrow ?? this.data.arrow;
     const [center, radius] = look.at ? [new Vector3(...look.at[0]), look.at[1]] : [this.ball.center, 0.93 * this.ball.radius];
     const half = (FIELD / 2) * (Math.PI / 180);
     const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
@@ -218,7 +259,7 @@ export class SceneView {
     this.camera.position.copy(from).multiplyScalar(radius / Math.sin(narrow)).add(center);
     this.controls.update();
     this.camera.updateMatrixWorld();
-    this.refresh();
+    this.placeAgain();
   }
 
   /** Where the eye is and what it looks at. */
@@ -255,10 +296,27 @@ export class SceneView {
 
   /** Puts everything where it is at an instant. */
   place(at: Instant, factor = this.factor): void {
-    for (const { group, pose } of this.moved) {
+    this.shown = at;
+    for (const { group, pose, spin } of this.moved) {
       const { position, angles } = pose(at, factor, this.data.limit);
       group.position.set(...position);
       group.setRotationFromEuler(turn(angles));
+      if (spin) {
+        group.rotateY(spin(at));
+      }
+    }
+    if (this.track) {
+      for (const { id, group, distance } of this.along) {
+        const place = distance(at);
+        group.matrix.copy(this.track.frame(place));
+        group.matrixWorldNeedsUpdate = true;
+        if (id === this.data.follow) {
+          this.world.matrixAutoUpdate = false;
+          this.world.matrix.copy(group.matrix).invert();
+          this.world.matrixWorldNeedsUpdate = true;
+          this.track.show(place, factor);
+        }
+      }
     }
     for (const { group, angles } of this.mounted) {
       group.setRotationFromEuler(turn([factor * angles[0], factor * angles[1], factor * angles[2]]));
@@ -272,6 +330,7 @@ export class SceneView {
       mesh.quaternion.setFromUnitVectors(Z, along.divideScalar(length));
       mesh.scale.set(1, 1, length);
     }
+    const thickness = 0.0214 * this.arrow;
     const scale = (this.arrow * this.arrowFactor) / this.scaleForce;
     const length = (force: number): number => Math.min(force * scale, LONGEST * this.arrow * this.arrowFactor);
     for (const touch of this.touches) {
@@ -281,13 +340,24 @@ export class SceneView {
       const pressed = state > 0 ? Math.max(0, touch.readNormal(at)) : 0;
       const size = length(pressed);
       // It pushes: its tip is at the corner.
-      touch.normal.show(corner.clone().addScaledVector(normal, -size), normal, size);
+      touch.normal.show(corner.clone().addScaledVector(normal, -size), normal, size, thickness);
       const friction = new Vector3(...(touch.readFriction.map((read) => read(at)) as [number, number, number]));
       const rubbed = pressed > 0 ? friction.length() : 0;
-      touch.friction.show(corner, friction.normalize(), length(rubbed));
+      touch.friction.show(corner, friction.normalize(), length(rubbed), thickness);
       touch.dot.show(corner.addScaledVector(normal, -0.048 * this.arrow), state);
     }
+    for (const patch of this.patches) {
+      patch.show(at, length, thickness);
+    }
     this.stale = true;
+  }
+
+  /** The same instant, after something else has changed. */
+  private placeAgain(): void {
+    if (this.shown) {
+      this.place(this.shown);
+    }
+    this.refresh();
   }
 
   /**
@@ -312,7 +382,8 @@ export class SceneView {
 
   /** The contacts whose normal force is seen. */
   get pressed(): string[] {
-    return this.touches.filter(({ normal }) => normal.visible).map(({ contact }) => contact.id);
+    const touches = this.touches.filter(({ normal }) => normal.visible).map(({ contact }) => contact.id);
+    return [...touches, ...this.patches.filter(({ visible }) => visible).map(({ patch }) => patch.id)];
   }
 
   /** The contacts' states, 0 open, 1 stick, 2 slip. */
@@ -348,7 +419,7 @@ export class SceneView {
 
 /** A force that few corners exceed, so that most arrows are readable. */
 function typicalForce(data: SceneData, run: RunData): number {
-  const forces = data.contacts
+  const forces = [...data.contacts, ...(data.patches ?? [])]
     .flatMap((contact) => [...run.values(contact.normal_force)])
     .filter((force) => force > 0)
     .sort((a, b) => a - b);

@@ -30,7 +30,7 @@ const COLUMNS_OF_RUNS: &str = "Ten seconds each. Mean forces while the bolster r
      steps, explicit ones among them, rejected attempts, wall time. It includes contact events and output times each 0.01 s, but no files.";
 
 /// The sections, in the order of the page.
-pub const SECTIONS: [Section; 11] = [
+pub const SECTIONS: [Section; 12] = [
     Section {
         heading: "One evaluation",
         about: "A wedge in the middle of a branch, pressed into both faces and sliding, yawed; and the half-truck, sliding: right-hand side, Jacobian matrix with the derivative by time, and \
@@ -78,6 +78,11 @@ pub const SECTIONS: [Section; 11] = [
         heading: "A body on a circle of track",
         about: "A wheelset carried once round a curve, in coordinates of several kinds: how far it came, steps, the largest error of the lateral force, the relative residual of the energy ledger.",
         program: &["circle"],
+    },
+    Section {
+        heading: "The contact of a wheel",
+        about: "A nominal AAR-1B wheel on a nominal 136RE rail, 0.1 mm of overlap, by its lateral place: search or table, normal and creep forces; the best of 40 batches each. Floors: with Polach 5 µs, by tables 1 µs, FASTSIM 21 × 21 20 µs.",
+        program: &["wheel_contact"],
     },
     Section {
         heading: "Many wedges in one system",

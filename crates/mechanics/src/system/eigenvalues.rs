@@ -6,6 +6,11 @@
 //! and spin angle, which only drift; they give eigenvalues of zero, and the others are those of the motion
 //! relative to the wheelset's steady course.
 //!
+//! About **steady turning** (a curve of constant radius) J turns with the motion: with the rotation R(θ) of level
+//! coordinates by the heading θ it is `J(θ) = R(θ) J(0) R(-θ)`. In axes that turn along, `ξ = R(-θ) δx`, the motion is
+//! `ξ˙ = (J(0) - θ˙ G) ξ` with the generator G of R, `(x, y) → (-y, x)` for each pair of level displacements and of
+//! their rates: a matrix that does not depend on time.
+//!
 //! The eigenvalues μ of `(σ I - J)⁻¹`, which the integrator's factors give, are `1/(σ - λ)`: those near σ,
 //! the slow ones, are found best.
 
@@ -21,6 +26,23 @@ impl System {
     /// # Errors
     /// They are not found: the Jacobian matrix is not finite, or `shift` is one of them.
     pub fn eigenvalues(&mut self, time: f64, x: &[f64], shift: f64) -> Result<Vec<[f64; 2]>, NoVibration> {
+        self.eigenvalues_turning(time, x, shift, 0.0, &[])
+    }
+
+    /// Returns the same in axes that turn about the vertical at a steady `rate` (rad/s), positive from x to y; `level`
+    /// has the numbers (among the positions) of the displacements along x and y of each free body. All else must be
+    /// the same at all headings.
+    ///
+    /// # Errors
+    /// As [`System::eigenvalues`].
+    pub fn eigenvalues_turning(
+        &mut self,
+        time: f64,
+        x: &[f64],
+        shift: f64,
+        rate: f64,
+        level: &[[usize; 2]],
+    ) -> Result<Vec<[f64; 2]>, NoVibration> {
         let n = self.layout.len() - self.layout.quadratures;
         let mut dx = vec![0.0; x.len()];
         let mut unused = vec![0.0; x.len()];
@@ -39,6 +61,18 @@ impl System {
         }
         if !inverse.iter().all(|value: &f64| value.is_finite()) {
             return Err(NoVibration);
+        }
+        // (σ I - J + θ˙ G)⁻¹ = (I + θ˙ M G)⁻¹ M with M = (σ I - J)⁻¹; G takes column x from y and column y from x.
+        if rate != 0.0 {
+            let mut turned = DMatrix::identity(n, n);
+            let rates = self.layout.speeds;
+            for [along, aside] in level.iter().flat_map(|[x, y]| [[*x, *y], [rates + x, rates + y]]) {
+                for i in 0..n {
+                    turned[(i, along)] += rate * inverse[(i, aside)];
+                    turned[(i, aside)] -= rate * inverse[(i, along)];
+                }
+            }
+            inverse = turned.lu().solve(&inverse).ok_or(NoVibration)?;
         }
         let schur = Schur::try_new(inverse, f64::EPSILON, 100_000).ok_or(NoVibration)?;
         let values = schur.complex_eigenvalues();

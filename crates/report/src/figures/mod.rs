@@ -14,6 +14,7 @@ pub mod run;
 pub mod study;
 pub mod thesis;
 pub mod truck;
+pub mod wheelset;
 
 use ::study::case::Case;
 use ::study::result::RunResult;

@@ -8,8 +8,9 @@ pub mod study;
 pub mod truck;
 pub mod truck_run;
 mod viewer;
+pub mod wheelset;
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
 
 pub use agreement::Comparison;
 
@@ -84,81 +85,68 @@ pub fn render(contents: &Contents<'_>) -> String {
         .map_or(String::new(), |(_, result)| result.summary.program.clone());
     let (open, folded): (Vec<&Section>, Vec<&Section>) =
         contents.sections.iter().partition(|section| !section.folded);
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Friction wedge: the runs of Steets (2007)" }
-                style { (PreEscaped(STYLE)) }
-                @if let Some((viewer, _)) = contents.interactive { style { (PreEscaped(viewer.style)) } }
-            }
-            body {
-                header {
-                    h1 { "Friction wedge: the runs of Steets (2007)" }
-                    p.lead {
-                        "One friction wedge of a three-piece truck between the column of the side frame and the slope of the \
-                         bolster: a rigid body with unilateral contact, stick-slip friction and its control coil. Computed by "
-                        (program) "."
-                    }
+    let lead = html! {
+        "One friction wedge of a three-piece truck between the column of the side frame and the slope of the bolster: a rigid \
+         body with unilateral contact, stick-slip friction and its control coil. Computed by "
+        (program) "."
+    };
+    let nav = html! {
+        nav aria-label="Contents" {
+            ul {
+                @if !contents.outcomes.is_empty() { li { a href="#runs" { "Runs" } } }
+                @if !contents.claims.claims.is_empty() {
+                    li { a href="#claims" { "The thesis's statements, one by one" } }
                 }
-                nav aria-label="Contents" {
-                    ul {
-                        @if !contents.outcomes.is_empty() { li { a href="#runs" { "Runs" } } }
-                        @if !contents.claims.claims.is_empty() {
-                            li { a href="#claims" { "The thesis's statements, one by one" } }
-                        }
-                        @if contents.comparison.is_some() { li { a href="#agreement" { "How far the models agree" } } }
-                        @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
-                        @if !folded.is_empty() { li { a href="#run-by-run" { "Run by run" } } }
-                        @if contents.truck { li { a href=(truck::FILE_NAME) { "The three-piece truck (a page of its own)" } } }
-                        li { a href="#assumptions" { "Assumptions" } }
-                        li { a href="#files" { "Files" } }
-                    }
-                }
-                main {
-                    (runs::table(contents.outcomes))
-                    (claims::tables(contents.claims))
-                    @if let Some(comparison) = &contents.comparison { (agreement::section(comparison)) }
-                    @for section in &open {
-                        section {
-                            h2 id=(anchor(&section.id)) { (section.title) }
-                            (body(section))
-                        }
-                    }
-                    @if !folded.is_empty() {
-                        section {
-                            h2 id="run-by-run" { "Run by run" }
-                            @if contents.interactive.is_some() {
-                                p { "Open a run to see it move in 3D, with its plots on the same clock." }
-                            }
-                            p {
-                                "Of the thesis's runs, what the thesis does not show: the energy ledger, the state of each contact, the \
-                                 forces at the corners, how much of the contact sticks, and the power that wears the faces."
-                            }
-                            @for sections in folded.chunk_by(|a, b| a.group == b.group) {
-                                @if !sections[0].group.is_empty() { h3 { (sections[0].group) } }
-                                @for section in sections {
-                                    details id=(anchor(&section.id)) data-run=[section.run.as_deref()] {
-                                        summary { (section.title) }
-                                        (body(section))
-                                    }
-                                }
-                            }
-                        }
-                    }
-                    (runs::assumptions(contents))
-                    (runs::files(contents))
-                }
-                @if let Some((viewer, data)) = contents.interactive {
-                    script type="application/json" id="wedgelab-view" { (PreEscaped(data)) }
-                    script { (PreEscaped(viewer.script)) }
-                }
+                @if contents.comparison.is_some() { li { a href="#agreement" { "How far the models agree" } } }
+                @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
+                @if !folded.is_empty() { li { a href="#run-by-run" { "Run by run" } } }
+                @if contents.truck { li { a href=(truck::FILE_NAME) { "The three-piece truck (a page of its own)" } } }
+                li { a href="#assumptions" { "Assumptions" } }
+                li { a href="#files" { "Files" } }
             }
         }
     };
-    page.into_string()
+    let main = html! {
+        (runs::table(contents.outcomes))
+        (claims::tables(contents.claims))
+        @if let Some(comparison) = &contents.comparison { (agreement::section(comparison)) }
+        @for section in &open {
+            section {
+                h2 id=(anchor(&section.id)) { (section.title) }
+                (body(section))
+            }
+        }
+        @if !folded.is_empty() {
+            section {
+                h2 id="run-by-run" { "Run by run" }
+                @if contents.interactive.is_some() {
+                    p { "Open a run to see it move in 3D, with its plots on the same clock." }
+                }
+                p {
+                    "Of the thesis's runs, what the thesis does not show: the energy ledger, the state of each contact, the \
+                     forces at the corners, how much of the contact sticks, and the power that wears the faces."
+                }
+                @for sections in folded.chunk_by(|a, b| a.group == b.group) {
+                    @if !sections[0].group.is_empty() { h3 { (sections[0].group) } }
+                    @for section in sections {
+                        details id=(anchor(&section.id)) data-run=[section.run.as_deref()] {
+                            summary { (section.title) }
+                            (body(section))
+                        }
+                    }
+                }
+            }
+        }
+        (runs::assumptions(contents))
+        (runs::files(contents))
+    };
+    document(
+        "Friction wedge: the runs of Steets (2007)",
+        &lead,
+        Some(&nav),
+        &main,
+        contents.interactive,
+    )
 }
 
 fn body(section: &Section) -> Markup {
@@ -191,8 +179,15 @@ fn shown_in(exhibit: &Exhibit, svg: &str, folder: Option<&str>) -> Markup {
     }
 }
 
-/// A page with its heading, what stands below it, and its interactive part if there is one.
-fn document(heading: &str, lead: &str, main: &Markup, interactive: Option<(Viewer, &str)>) -> String {
+/// A page with its heading, what stands below it, links to its parts (may be empty), and its interactive part if there is
+/// one.
+fn document(
+    heading: &str,
+    lead: &impl Render,
+    nav: Option<&Markup>,
+    main: &Markup,
+    interactive: Option<(Viewer, &str)>,
+) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -205,6 +200,7 @@ fn document(heading: &str, lead: &str, main: &Markup, interactive: Option<(Viewe
             }
             body {
                 header { h1 { (heading) } p.lead { (lead) } }
+                @if let Some(nav) = nav { (nav) }
                 main { (main) }
                 @if let Some((viewer, data)) = interactive {
                     script type="application/json" id="wedgelab-view" { (PreEscaped(data)) }

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 use study::design::{Accuracy, Levels, Sampling, Study};
 
-use super::{STYLE, anchor, inline};
+use super::{anchor, document, inline};
 use crate::drawing::Figure;
 use crate::figures::study::exhibits;
 use crate::figures::{Exhibit, digits};
@@ -36,38 +36,27 @@ pub fn render(study: &Study, digest: &Digest) -> String {
         &study.title
     };
     let exhibits = exhibits(study, digest);
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Study: " (heading) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                header {
-                    h1 { "Study: " (heading) }
-                    p.lead { (lead(study, digest)) }
-                }
-                main {
-                    (factors(study))
-                    (failures(digest))
-                    (ranges(study, digest))
-                    @if exhibits.is_empty() { p { "No figure can be drawn: no run has measures." } } @else { (contents(&exhibits)) }
-                    @for exhibit in &exhibits {
-                        @let id = anchor(&exhibit.name);
-                        figure id=(id) {
-                            (PreEscaped(inline(&Figure::named(&exhibit.figure.to_svg(), &id), &exhibit.figure.title)))
-                            figcaption { (exhibit.figure.caption) }
-                        }
-                    }
-                    (files(study))
-                }
+    let main = html! {
+        (factors(study))
+        (failures(digest))
+        (ranges(study, digest))
+        @if exhibits.is_empty() { p { "No figure can be drawn: no run has measures." } } @else { (contents(&exhibits)) }
+        @for exhibit in &exhibits {
+            @let id = anchor(&exhibit.name);
+            figure id=(id) {
+                (PreEscaped(inline(&Figure::named(&exhibit.figure.to_svg(), &id), &exhibit.figure.title)))
+                figcaption { (exhibit.figure.caption) }
             }
         }
+        (files(study))
     };
-    page.into_string()
+    document(
+        &format!("Study: {heading}"),
+        &lead(study, digest),
+        None,
+        &main,
+        None,
+    )
 }
 
 /// Links to the figures.

@@ -70,6 +70,7 @@ pub fn render(contents: &TruckContents<'_>) -> String {
     document(
         "The three-piece truck on its rigs",
         &lead,
+        None,
         &main,
         contents.interactive,
     )

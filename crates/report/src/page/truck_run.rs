@@ -51,7 +51,7 @@ pub fn render(run: &TruckRun, viewer: Option<Viewer>) -> Result<String, serde_js
         section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
     };
     let data = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
-    Ok(document(&capital(heading), &lead, &main, data))
+    Ok(document(&capital(heading), &lead, None, &main, data))
 }
 
 /// A figure without files of its own.

@@ -131,6 +131,8 @@ impl Carriage {
         let body = |part: &Part| SceneBody {
             id: part.id.clone(),
             on: None,
+            along: None,
+            spin: None,
             position: part.center,
             coordinates: part.coordinates.clone(),
             steady: part.steady.clone(),
@@ -142,8 +144,8 @@ impl Carriage {
             looks: self.looks(height),
             bodies: self.bolsters.iter().chain(&self.side_frames).map(body).collect(),
             solids: Vec::new(),
-            coils: Vec::new(),
             contacts,
+            ..Scene::default()
         };
         // Where bolster and springs end, below the wedges.
         let bottom = first.point[2] - 0.75 * height;

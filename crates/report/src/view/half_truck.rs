@@ -202,6 +202,8 @@ pub fn scene(truck: &Truck) -> Option<Scene> {
             name: format!("wedge {}", wedge.number),
             body: SceneBody {
                 on: Some(body_id(truck, wedge.bolster)),
+                along: None,
+                spin: None,
                 position: less(wedge.point, model.bodies[wedge.bolster].frame.origin),
                 coordinates: [column("shift"), None, column("rise"), None, None, None],
                 steady: [None, None, None],

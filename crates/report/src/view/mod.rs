@@ -4,7 +4,8 @@
 //! - [`chart`]: figures as curves instead of drawings.
 //! - [`run`]: a run's columns, and which belong in one plot.
 //! - [`scene`]: what a run looks like: bodies, solids, coils, contacts; [`truck`] and [`half_truck`]: that of a truck
-//!   and of a half-truck, by what both have in common.
+//!   and of a half-truck, by what both have in common; [`rolling`]: track, wheels and contact patches of all that rolls,
+//!   [`wheelset`]: one wheelset.
 //!
 //! All numbers are in SI units; how they are shown in either system stands with them.
 
@@ -12,9 +13,11 @@ mod carriage;
 pub mod chart;
 pub mod data;
 pub mod half_truck;
+pub mod rolling;
 pub mod run;
 pub mod scene;
 pub mod truck;
+pub mod wheelset;
 
 use std::collections::BTreeMap;
 

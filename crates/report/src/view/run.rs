@@ -1,6 +1,6 @@
 //! A run's columns for the plots and the scene.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use mechanics::output::Column;
 use serde::Serialize;
@@ -8,11 +8,13 @@ use study::half_truck::{HalfTruckCase, HalfTruckResult};
 use study::truck::TruckCase;
 use study::truck::contacts::ContactTable;
 use study::truck::run::TruckResult;
+use study::wheelset::WheelsetCase;
+use study::wheelset::run::WheelsetResult;
 use wedge::outputs::{CORNERS, FACES};
 
 use super::data::{Data, Precision};
 use super::scene::{self, Scene};
-use super::{half_truck, kind_name, truck};
+use super::{half_truck, kind_name, truck, wheelset};
 use crate::figures::Outcome;
 
 /// The most rows of a thinned run.
@@ -108,6 +110,15 @@ impl Recording {
         Self::new((&case.name, &case.title), &all, plots, scene, detail)
     }
 
+    /// Of a wheelset on a track.
+    #[must_use]
+    pub fn of_wheelset(case: &WheelsetCase, result: &WheelsetResult, detail: Detail) -> Self {
+        let table = table(&result.columns, &result.values);
+        let scene = wheelset::scene(case, result);
+        let (name, title) = (case.wheelset.name.as_str(), "A wheelset on a track");
+        Self::new((name, title), &table, wheelset::plots(), Some(scene), detail)
+    }
+
     /// Of a half-truck.
     #[must_use]
     pub fn of_truck(case: &HalfTruckCase, result: &HalfTruckResult, detail: Detail) -> Self {
@@ -123,7 +134,7 @@ impl Recording {
         (name, title): (&str, &str),
         table: &Table<'_>,
         plots: Vec<Plot>,
-        scene: Option<Scene>,
+        mut scene: Option<Scene>,
         detail: Detail,
     ) -> Self {
         let mut data = Data::default();
@@ -140,12 +151,24 @@ impl Recording {
         let mut columns = BTreeMap::new();
         let named = plots.iter().flat_map(|plot| &plot.curves).map(|(name, _)| name);
         let seen = scene.iter().flat_map(Scene::columns);
+        let exact: BTreeSet<&String> = scene.iter().flat_map(Scene::exact_columns).collect();
         for name in named.chain(seen) {
             if columns.contains_key(name) {
                 continue;
             }
+            let precision = if exact.contains(name) {
+                Precision::Exact
+            } else {
+                precision
+            };
             if let Some((own, values)) = find(name) {
                 columns.insert(name.clone(), column(own, &rows(values), precision, &mut data));
+            }
+        }
+        drop(exact);
+        for track in scene.iter_mut().filter_map(|scene| scene.track.as_mut()) {
+            for (name, values) in std::mem::take(&mut track.lists) {
+                track.samples.insert(name, data.keep(&values, Precision::Exact));
             }
         }
         let view = RunView {
@@ -167,6 +190,11 @@ impl Recording {
         view.time = places[view.time];
         for column in view.columns.values_mut() {
             column.data = column.data.map(|place| places[place]);
+        }
+        for track in view.scene.iter_mut().filter_map(|scene| scene.track.as_mut()) {
+            for place in track.samples.values_mut() {
+                *place = places[*place];
+            }
         }
         view
     }

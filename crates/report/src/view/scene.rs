@@ -7,6 +7,8 @@
 //! scale beyond it); its angles and those of a solid's mount are multiplied by f. Gaps of touching faces then
 //! grow by f, since a sum of small displacements is linear.
 
+use std::collections::BTreeMap;
+
 use mechanics::vector::Vector;
 use serde::Serialize;
 use study::result::RunResult;
@@ -18,7 +20,7 @@ use wedge::{BOLSTER, COLUMN, SIDE_FRAME, SLOPE, WEDGE, Wedge};
 pub(super) const FACTOR: f64 = 10.0;
 
 /// Bodies, solids, coils and contacts; m, rad; x longitudinal, y lateral, z up.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Scene {
     /// How much displacements are exaggerated at first.
     pub factor: f64,
@@ -36,6 +38,16 @@ pub struct Scene {
     pub coils: Vec<SceneCoil>,
     /// Corners of solids at surfaces of others.
     pub contacts: Vec<SceneContact>,
+    /// Contact patches of wheels.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub patches: Vec<ScenePatch>,
+    /// The track that bodies run along.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub track: Option<SceneTrack>,
+    /// The body that the view goes along with: all is drawn in the axes of the track where it is. None: in the
+    /// fixed axes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub follow: Option<String>,
 }
 
 /// A named view.
@@ -48,6 +60,9 @@ pub struct Look {
     /// What is looked at: a point and the radius (m) about it that is to be seen; none: everything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<([f64; 3], f64)>,
+    /// The length (m) of the arrow of a force that few exceed; none: the scene's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arrow: Option<f64>,
 }
 
 impl Look {
@@ -57,6 +72,7 @@ impl Look {
             name: name.to_owned(),
             from,
             at: None,
+            arrow: None,
         }
     }
 }
@@ -69,6 +85,13 @@ pub struct SceneBody {
     /// The body in whose axes place and angles are given; none: the fixed ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
+    /// The column of its distance along the track: place and angles are given in the track's axes there (along, to
+    /// the left, up).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub along: Option<String>,
+    /// The column of a turn about its own y axis that is never exaggerated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spin: Option<String>,
     /// Its origin in the nominal position.
     pub position: [f64; 3],
     /// The columns of its displacements x, y, z and its angles roll, pitch, yaw.
@@ -100,6 +123,8 @@ pub enum Role {
     Seat,
     /// A wheelset, which stands before what is looked at.
     Wheelset,
+    /// A wheel on its rail.
+    Wheel,
     /// Any other body.
     Body,
 }
@@ -121,6 +146,51 @@ pub struct Solid {
     pub vertices: Vec<[f64; 3]>,
     /// Its faces, anticlockwise seen from outside: places in `vertices`.
     pub triangles: Vec<[usize; 3]>,
+    /// Instead of these, of a body of revolution about y: y and radius along its outline, towards +y on the
+    /// outside.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub revolved: Vec<[f64; 2]>,
+}
+
+/// A contact patch of a wheel, of which there are as many as the wheel may have; it is seen while it presses.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ScenePatch {
+    /// Its name, as in columns.
+    pub id: String,
+    /// Its name for people.
+    pub name: String,
+    /// The wheelset's body, which does not spin.
+    pub body: String,
+    /// The columns of its place in the body's axes.
+    pub place: [String; 3],
+    /// The column of its contact angle: how far its plane rises to the field side.
+    pub angle: String,
+    /// Whether the field side is on the right (-y).
+    pub right: bool,
+    /// The column of the normal force.
+    pub normal_force: String,
+    /// The columns of the creep force on the wheel: forward, and in the plane of the patch to the left.
+    pub creep: [String; 2],
+    /// The columns of the semi-axes of its ellipse, forward and across.
+    pub axes: [String; 2],
+}
+
+/// A track: its center line, how its rails lie beside their nominal places, what a rail looks like.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SceneTrack {
+    /// Distance of the first sample.
+    pub from: f64,
+    /// Distance between samples.
+    pub step: f64,
+    /// The samples: places in `data`.
+    pub samples: BTreeMap<&'static str, usize>,
+    /// The sections of the left and the right rail, y and z in the axes of the track, anticlockwise seen from behind.
+    pub rails: [Vec<[f64; 2]>; 2],
+    /// Ties: spacing, half length, half width, height of their tops (negative), thickness.
+    pub ties: [f64; 5],
+    /// The samples by their names, until they are put to the data.
+    #[serde(skip)]
+    pub lists: BTreeMap<&'static str, Vec<f64>>,
 }
 
 /// An end of a coil.
@@ -197,16 +267,33 @@ impl Scene {
                 .chain(&contact.friction)
                 .chain(&contact.gap)
         });
-        bodies.chain(coils).chain(contacts)
+        let patches = self.patches.iter().flat_map(|patch| {
+            [&patch.angle, &patch.normal_force]
+                .into_iter()
+                .chain(&patch.place)
+                .chain(&patch.creep)
+                .chain(&patch.axes)
+        });
+        let exact = self.exact_columns();
+        bodies.chain(coils).chain(contacts).chain(patches).chain(exact)
+    }
+
+    /// Those that grow without bound, and are not rounded.
+    pub fn exact_columns(&self) -> impl Iterator<Item = &String> {
+        self.bodies
+            .iter()
+            .flat_map(|body| body.along.iter().chain(&body.spin))
     }
 
     /// Rounds sizes to a micrometre: they are for the eye, and shorter to write.
     pub(super) fn round(&mut self) {
+        let round = |part: &mut f64| *part = (*part * 1e6).round() / 1e6;
         for solid in &mut self.solids {
-            for part in solid.vertices.iter_mut().flatten() {
-                *part = (*part * 1e6).round() / 1e6;
-            }
+            solid.vertices.iter_mut().flatten().for_each(round);
+            solid.revolved.iter_mut().flatten().for_each(round);
         }
+        let rails = self.track.iter_mut().flat_map(|track| &mut track.rails);
+        rails.flatten().flatten().for_each(round);
     }
 }
 
@@ -249,6 +336,8 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
         SceneBody {
             id: "side_frame".to_owned(),
             on: None,
+            along: None,
+            spin: None,
             position: origin(SIDE_FRAME),
             coordinates: neighbour("side_frame"),
             steady: [None, None, None],
@@ -256,6 +345,8 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
         SceneBody {
             id: "bolster".to_owned(),
             on: None,
+            along: None,
+            spin: None,
             position: origin(BOLSTER),
             coordinates: neighbour("bolster"),
             steady: travels.clone(),
@@ -263,6 +354,8 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
         SceneBody {
             id: "wedge".to_owned(),
             on: None,
+            along: None,
+            spin: None,
             position: origin(WEDGE),
             coordinates: own([
                 "wedge_x",
@@ -393,6 +486,7 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
         solids: vec![column, pocket, seat, wedge_solid],
         coils: vec![coil],
         contacts,
+        ..Scene::default()
     })
 }
 
@@ -433,6 +527,7 @@ pub(super) fn extruded(
         mount: SolidPose::default(),
         vertices: side(-0.5 * width).chain(side(0.5 * width)).collect(),
         triangles,
+        revolved: Vec::new(),
     }
 }
 

@@ -80,6 +80,8 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
             body: SceneBody {
                 id: format!("{name}_wedge"),
                 on: None,
+                along: None,
+                spin: None,
                 position: at,
                 coordinates: columns_of(name),
                 steady: travel.clone(),
@@ -132,6 +134,8 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
         scene.bodies.push(SceneBody {
             id: id.to_owned(),
             on: None,
+            along: None,
+            spin: None,
             position: center(body),
             coordinates: columns_of(id),
             steady: still.clone(),

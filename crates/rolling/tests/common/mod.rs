@@ -1,5 +1,9 @@
 //! Wheelsets on tracks.
-#![allow(dead_code)]
+#![allow(dead_code, unused_imports, clippy::unwrap_used, clippy::expect_used)]
+
+pub mod bogie;
+pub mod impact;
+pub mod suspended;
 
 use std::sync::Arc;
 
@@ -149,4 +153,13 @@ pub fn linear(
         gravity: 0.0,
         heading: 0.0,
     }
+}
+
+/// Where a rising function is zero between two numbers, to 1e-7.
+pub fn bisection([mut low, mut high]: [f64; 2], rising: impl Fn(f64) -> f64) -> f64 {
+    while high - low > 1e-7 {
+        let middle = 0.5 * (low + high);
+        *(if rising(middle) < 0.0 { &mut low } else { &mut high }) = middle;
+    }
+    0.5 * (low + high)
 }

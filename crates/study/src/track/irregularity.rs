@@ -1,11 +1,10 @@
-//! Irregularities in track files: shapes and spectra.
+//! Irregularities in track files: on which rails, in which direction, and shapes.
 
 use quantity::{Kind, nearest};
 use wheelrail::track::shape::Shape;
-use wheelrail::track::spectrum::{Realization, Spectrum};
 use wheelrail::track::{Direction, Irregularity, Placed, Rails};
 
-use super::{length, optional, optional_length};
+use super::{length, optional, optional_length, spectrum};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{Names, Range, Section};
 
@@ -17,13 +16,6 @@ const RAILS: Names<Rails> = &[
 ];
 const DIRECTIONS: Names<Direction> = &[("lateral", Direction::Lateral), ("vertical", Direction::Vertical)];
 const SHAPES: [&str; 4] = ["joints", "sine", "dip", "jog"];
-const SPECTRA: [&str; 5] = [
-    "fra_vertical",
-    "fra_lateral",
-    "fra_cross_level",
-    "erri_vertical_low",
-    "erri_vertical_high",
-];
 /// Rail length in North America, m.
 const RAIL: f64 = 39.0 * 0.3048;
 
@@ -36,13 +28,13 @@ pub(super) fn irregularity(
     let (shape, spectrum) = (section.table.get("shape"), section.table.get("spectrum"));
     let irregularity = match (shape, spectrum) {
         (Some(_), None) => shaped(section, problems).map(Irregularity::Shape),
-        (None, Some(_)) => realized(section, end, problems).map(Irregularity::Spectrum),
+        (None, Some(_)) => spectrum::realized(section, end, problems).map(Irregularity::Spectrum),
         _ => {
             let message = format!("`{}` must have one of `shape`, `spectrum`, `table`", section.path);
             let help = format!(
                 "shapes are {}; spectra are {}; a table is a file of measured track",
                 SHAPES.join(", "),
-                SPECTRA.join(", ")
+                spectrum::SPECTRA.join(", ")
             );
             let problem = Problem::new(message).label("which one?").help(help);
             problems.push(match &section.place {
@@ -85,7 +77,7 @@ pub(super) fn named<'t>(
 }
 
 /// A whole number.
-fn whole(section: &Section<'_>, key: &str, default: u64, problems: &mut Problems) -> Option<u64> {
+pub(super) fn whole(section: &Section<'_>, key: &str, default: u64, problems: &mut Problems) -> Option<u64> {
     if section.table.get(key).is_none() {
         return Some(default);
     }
@@ -181,75 +173,4 @@ fn shaped(section: &Section<'_>, problems: &mut Problems) -> Option<Shape> {
             }
         }
     })
-}
-
-fn realized(section: &Section<'_>, end: Option<f64>, problems: &mut Problems) -> Option<Realization> {
-    let (text, node) = section.text("spectrum", problems)?;
-    if text.contains(['.', '/', '\\']) {
-        let problem = Problem::new(format!("`{}` is \"{text}\"", section.path_of("spectrum")));
-        problems.push(problem.at(&node.place).label("a file?").help(format!(
-            "spectra from files are not read, since their densities say no unit (m²/(rad/m) and m²/(1/m) differ by 2π); write one of \
-             {}, or give a realization as table = \"file.csv\"",
-            SPECTRA.join(", ")
-        )));
-        return None;
-    }
-    let spectrum = named(section, "spectrum", &SPECTRA, problems)?;
-    let keys = [
-        "spectrum",
-        "class",
-        "rails",
-        "direction",
-        "shortest",
-        "longest",
-        "terms",
-        "taper",
-        "seed",
-    ];
-    section.allow_in(&keys, &[], "a track", problems);
-    let class = whole(section, "class", 4, problems)?.min(255) as u8;
-    let spectrum = match spectrum {
-        "fra_vertical" => Spectrum::FraVertical(class),
-        "fra_lateral" => Spectrum::FraLateral(class),
-        "fra_cross_level" => Spectrum::FraCrossLevel(class),
-        "erri_vertical_low" => Spectrum::ErriVerticalLow,
-        _ => Spectrum::ErriVerticalHigh,
-    };
-    let shortest = optional_length(section, "shortest", 1.5, problems);
-    let longest = optional_length(section, "longest", 91.44, problems);
-    let taper = optional_length(section, "taper", 30.0, problems);
-    let terms = whole(section, "terms", 1000, problems);
-    let seed = whole(section, "seed", 1, problems);
-    let (shortest, longest, terms) = (shortest?, longest?, terms?);
-    // Waves at equal steps of the wavenumber repeat themselves.
-    let step = (1.0 / shortest - 1.0 / longest) / terms as f64;
-    if let Some(end) = end
-        && step > 0.0
-        && end * step > 1.0
-    {
-        let problem = Problem::new(format!(
-            "`{}` repeats itself after {:.0} ft, but the track is {:.0} ft long",
-            section.path,
-            1.0 / step / 0.3048,
-            end / 0.3048
-        ))
-        .help(format!(
-            "write terms = {:.0} or more",
-            (end * step * terms as f64).ceil()
-        ));
-        problems.push(match &section.place {
-            Some(place) => problem.at(place).label("shorter than the track"),
-            None => problem,
-        });
-        return None;
-    }
-    let made = Realization::new(spectrum, [shortest, longest], terms as usize, taper?, seed?);
-    made.map_err(|error| {
-        let problem = Problem::new(format!("`{}`: {error}", section.path));
-        problems.push(match &section.place {
-            Some(place) => problem.at(place).label("this spectrum"),
-            None => problem,
-        });
-    })
-    .ok()
 }

@@ -25,6 +25,7 @@
 
 mod irregularity;
 mod measured;
+mod spectrum;
 mod support;
 
 use std::path::Path;
@@ -38,7 +39,7 @@ use crate::case::tree::{self, Node, Table, Value};
 use crate::case::{CaseError, name, text_of};
 
 use irregularity::irregularity;
-pub use support::{Spring, Support};
+pub use support::Support;
 
 /// A track with its name.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,7 +110,7 @@ fn read(tree: &Table, source: &str, problems: &mut Problems) -> Option<TrackFile
         Some(_) => top
             .section("support", problems)
             .and_then(|section| support::support(&section, problems)),
-        None => Some(Support::USUAL),
+        None => Some(Support::usual()),
     };
     let folder = Path::new(source).parent().unwrap_or(Path::new(""));
     let measured = match (

@@ -1,54 +1,37 @@
-//! What the rails lie on: rigid, or sprung under each wheelset.
+//! What the rails lie on: rigid, or sprung under each wheel.
 
-use quantity::{Kind, Quantity};
+use quantity::{Kind, Quantity, STANDARD_GRAVITY};
+use rolling::track::RailSupport;
 
 use super::irregularity::named;
 use crate::case::problem::Problems;
 use crate::case::section::{Range, Section};
 
-/// A mass on a spring and a damper under each rail of a wheelset, in one direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spring {
-    /// Stiffness, N/m.
-    pub stiffness: f64,
-    /// Damping, N·s/m.
-    pub damping: f64,
-    /// Mass, kg.
-    pub mass: f64,
-}
-
 /// What the rails lie on.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Support {
     /// Rails do not give way.
     Rigid,
-    /// Springs under each rail.
-    Sprung {
-        /// Up and down.
-        vertical: Spring,
-        /// To the left and to the right.
-        lateral: Spring,
-    },
+    /// A mass on springs and dampers under each wheel, named `rail`.
+    Sprung(RailSupport),
 }
 
 impl Support {
-    /// The default: 80 MN/m, 140 kN·s/m, 345 kg a rail vertically, a third of it laterally. The values are
-    /// guesses.
-    pub const USUAL: Self = {
-        const VERTICAL: Spring = Spring {
-            stiffness: 80e6,
-            damping: 140e3,
-            mass: 345.0,
-        };
-        Self::Sprung {
-            vertical: VERTICAL,
-            lateral: Spring {
-                stiffness: VERTICAL.stiffness / 3.0,
-                damping: VERTICAL.damping / 3.0,
-                mass: VERTICAL.mass / 3.0,
-            },
+    /// Returns the default: 80 MN/m, 140 kN·s/m, 345 kg a rail vertically, a third of the first two sideways.
+    /// The values are guesses.
+    #[must_use]
+    pub fn usual() -> Self {
+        Self::Sprung(RailSupport::default_support("rail", STANDARD_GRAVITY))
+    }
+
+    /// Returns springs, dampers and mass under each wheel; none of rigid rails.
+    #[must_use]
+    pub fn rail(&self) -> Option<&RailSupport> {
+        match self {
+            Self::Rigid => None,
+            Self::Sprung(rail) => Some(rail),
         }
-    };
+    }
 }
 
 /// The section `[support]`.
@@ -60,57 +43,52 @@ pub(super) fn support(section: &Section<'_>, problems: &mut Problems) -> Option<
     }
     let keys = [
         "kind",
+        "mass",
         "vertical_stiffness",
         "vertical_damping",
-        "vertical_mass",
         "lateral_stiffness",
         "lateral_damping",
-        "lateral_mass",
     ];
     section.allow_in(&keys, &[], "a track", problems);
-    let Support::Sprung { vertical, lateral } = Support::USUAL else {
-        return None;
+    let usual = RailSupport::default_support("rail", STANDARD_GRAVITY);
+    let mut value = |key: &str, kind: Kind, range: Range, usual: f64| match section.table.get(key) {
+        Some(_) => section
+            .quantity(key, kind, range, problems)
+            .map(|own: Quantity| own.to_si()),
+        None => Some(usual),
     };
-    let mut spring = |usual: Spring, [stiffness, damping, mass]: [&str; 3]| {
-        let mut value = |key: &str, kind: Kind, range: Range, usual: f64| match section.table.get(key) {
-            Some(_) => section
-                .quantity(key, kind, range, problems)
-                .map(|own: Quantity| own.to_si()),
-            None => Some(usual),
-        };
-        let own = [
-            value(
-                stiffness,
-                Kind::Stiffness,
-                Range::Between(1e3, 1e12, "positive"),
-                usual.stiffness,
-            ),
-            value(
-                damping,
-                Kind::Damping,
-                Range::Between(0.0, 1e9, "zero or positive"),
-                usual.damping,
-            ),
-            value(
-                mass,
-                Kind::Mass,
-                Range::Between(1e-3, 1e6, "positive"),
-                usual.mass,
-            ),
-        ];
-        Some(Spring {
-            stiffness: own[0]?,
-            damping: own[1]?,
-            mass: own[2]?,
-        })
-    };
-    let vertical = spring(
-        vertical,
-        ["vertical_stiffness", "vertical_damping", "vertical_mass"],
+    let mass = value(
+        "mass",
+        Kind::Mass,
+        Range::Between(1e-3, 1e6, "positive"),
+        usual.mass,
     );
-    let lateral = spring(lateral, ["lateral_stiffness", "lateral_damping", "lateral_mass"]);
-    Some(Support::Sprung {
-        vertical: vertical?,
-        lateral: lateral?,
-    })
+    let mut both =
+        |[lateral, vertical]: [&str; 2], kind: Kind, low: f64, words: &'static str, usual: [f64; 2]| {
+            let mut of = |key, usual| value(key, kind, Range::Between(low, 1e12, words), usual);
+            let found = [of(lateral, usual[0]), of(vertical, usual[1])];
+            Some([found[0]?, found[1]?])
+        };
+    let stiffness = both(
+        ["lateral_stiffness", "vertical_stiffness"],
+        Kind::Stiffness,
+        1e3,
+        "positive",
+        usual.stiffness,
+    );
+    let damping = both(
+        ["lateral_damping", "vertical_damping"],
+        Kind::Damping,
+        0.0,
+        "zero or positive",
+        usual.damping,
+    );
+    let mass = mass?;
+    Some(Support::Sprung(RailSupport {
+        mass,
+        stiffness: stiffness?,
+        damping: damping?,
+        preload: mass * STANDARD_GRAVITY,
+        ..usual
+    }))
 }

@@ -312,7 +312,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         cycles: cycles(&run),
         warp_stiffness: warp_stiffnesses(column("warp_angle"), column("warp_moment"), units),
         extremes,
-        ledger: ledger(&mut run),
+        ledger: LedgerSummary::of_run(&mut run, units),
         method: run.case.simulation.method.to_string(),
         relative_tolerance: run.case.simulation.relative_tolerance,
         statistics: run.integrator.statistics().clone(),
@@ -388,18 +388,4 @@ fn cycles(run: &Run<TruckCase>) -> Cycles {
         }
     }
     cycles
-}
-
-fn ledger(run: &mut Run<TruckCase>) -> LedgerSummary {
-    let units = run.case.simulation.output_units;
-    run.system.segment_like(run.integrator.problem());
-    let seen = run.system.observe(run.integrator.time(), run.integrator.x());
-    let measure = |value: f64| SummaryValue::new(value, Kind::Energy, units);
-    let mut entries = BTreeMap::new();
-    for (term, value) in run.system.energy_terms().iter().zip(&seen.quadratures) {
-        entries.insert(term.name(), measure(*value));
-    }
-    entries.insert("stored".to_owned(), measure(seen.energies.total()));
-    entries.insert("residual".to_owned(), measure(-seen.residual(run.start_energy)));
-    LedgerSummary::new(entries, run.start_energy, &run.energy_balance, units)
 }

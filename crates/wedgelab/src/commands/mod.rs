@@ -16,3 +16,4 @@ pub mod track;
 pub mod warp;
 pub mod wheelrail;
 mod wheelrail_contact;
+mod wheelrail_run;

@@ -13,22 +13,23 @@ use wheelrail::profile::{Kind, Profile, ProfileError, nominal};
 use wheelrail::wheelset::{Layout, RigidPosition, RigidWheelset};
 
 use super::warp::draw;
-use super::wheelrail_contact;
+use super::{wheelrail_contact, wheelrail_run};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::table::Table;
 
 /// Profiles of wheels and rails: checks, rolling radius difference, contact angles, equivalent conicity,
-/// contact
+/// contact; a wheelset that runs
 ///
-/// WHEEL is aar_1b, cone_1:20 (any slope), or a file; RAIL is 136re, or a file: CSV with units in its header,
+/// WHEEL is aar_1b, cylinder, cone_1:20 (any slope), or a file; RAIL is 136re, or a file: CSV with units in its header,
 /// or Simpack's .prw and .prr. The nominal profiles are from memory, not from drawings.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
   wedgelab wheelrail check aar_1b 136re
   wedgelab wheelrail plot worn.csv rail.prr --gauge \"56.75 in\" --out worn
-  wedgelab wheelrail contact aar_1b 136re --lateral \"0.25 in\" --load \"33 kip\"")]
+  wedgelab wheelrail contact aar_1b 136re --lateral \"0.25 in\" --load \"33 kip\"
+  wedgelab wheelrail run aar_1b 136re my_track.toml --speed \"60 mph\"")]
 pub struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -52,6 +53,10 @@ enum Command {
     /// Gives the contact patches of a loaded wheelset in a given position: places, forces, creepages,
     /// ellipses
     Contact(Box<wheelrail_contact::Arguments>),
+    /// Runs one wheelset along a track: hunting, curving, irregularities; with a page that shows it in 3D
+    ///
+    /// Writes result.csv (place on the track, forces of both wheels, their contact patches), summary.json and index.html.
+    Run(Box<wheelrail_run::Arguments>),
 }
 
 /// A wheel and a rail, and where they are.
@@ -128,7 +133,7 @@ fn or_usual(given: Option<&Quantity>, simpack: bool, usual: [f64; 2]) -> f64 {
 
 const INCH: f64 = 0.0254;
 /// How far splines may lie from the points of a file, m.
-const DEVIATION: f64 = 2e-5;
+pub(super) const DEVIATION: f64 = 2e-5;
 /// Half width of a conical tread, m.
 const TREAD: f64 = 2.0 * INCH;
 const STEEL: Material = Material {
@@ -142,6 +147,7 @@ const POSITIONS: usize = 280;
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (pair, files) = match &arguments.command {
         Command::Contact(own) => return wheelrail_contact::execute(own),
+        Command::Run(own) => return wheelrail_run::execute(own),
         Command::Check(pair) => (pair, None),
         Command::Plot { pair, out, force } => (pair, Some((out, *force))),
     };
@@ -220,6 +226,11 @@ pub(super) fn wrong(error: &ProfileError) -> Failure {
 }
 
 impl Pair {
+    /// The names of wheel and rail.
+    pub(super) fn names(&self) -> [&str; 2] {
+        [&self.wheel, &self.rail]
+    }
+
     pub(super) fn layout(&self) -> Layout {
         let (depth, distance) = (Self::is_simpack(&self.rail), Self::is_simpack(&self.wheel));
         Layout {
@@ -250,13 +261,14 @@ impl Pair {
     pub(super) fn wheel(&self, deviation: f64) -> Result<Profile, Failure> {
         match self.wheel.as_str() {
             "aar_1b" => nominal::aar_1b().map_err(|error| wrong(&error)),
+            "cylinder" => nominal::cone(0.0, TREAD).map_err(|error| wrong(&error)),
             name => match name.strip_prefix("cone_") {
                 Some(text) => {
                     let slope = slope(text)
                         .map_err(|reason| Message::new(format!("`{name}`: {reason}"), "write cone_1:20"))?;
                     nominal::cone(slope, TREAD).map_err(|error| wrong(&error))
                 }
-                None => self.of_file(name, Kind::Wheel, "aar_1b, cone_1:20", deviation),
+                None => self.of_file(name, Kind::Wheel, "aar_1b, cylinder, cone_1:20", deviation),
             },
         }
     }

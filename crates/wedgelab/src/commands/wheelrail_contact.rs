@@ -87,7 +87,7 @@ pub struct Arguments {
 /// A creep law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 #[value(rename_all = "snake_case")]
-enum Creep {
+pub(super) enum Creep {
     /// Kalker's linear theory, without saturation
     Linear,
     /// Shen, Hedrick and Elkins
@@ -102,11 +102,11 @@ fn of(text: &str, kind: Kind) -> Result<Quantity, String> {
     Quantity::parse_as(text, kind).map_err(|error| format!("{error}; {}", error.help()))
 }
 
-fn of_length(text: &str) -> Result<Quantity, String> {
+pub(super) fn of_length(text: &str) -> Result<Quantity, String> {
     of(text, Kind::Length)
 }
 
-fn of_angle(text: &str) -> Result<Quantity, String> {
+pub(super) fn of_angle(text: &str) -> Result<Quantity, String> {
     of(text, Kind::Angle)
 }
 
@@ -114,7 +114,7 @@ fn of_force(text: &str) -> Result<Quantity, String> {
     of(text, Kind::Force)
 }
 
-fn of_speed(text: &str) -> Result<Quantity, String> {
+pub(super) fn of_speed(text: &str) -> Result<Quantity, String> {
     of(text, Kind::Speed)
 }
 

@@ -10,6 +10,7 @@ mod columns;
 pub mod layout;
 pub mod measured;
 pub mod rails;
+pub mod rational;
 pub mod samples;
 pub mod shape;
 pub mod spectrum;

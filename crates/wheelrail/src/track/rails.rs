@@ -253,6 +253,16 @@ impl RailLines {
         }
     }
 
+    /// Returns the irregularities (m) of the left and the right rail at a distance (m): to the left, and up.
+    #[must_use]
+    pub fn irregularities(&self, distance: f64) -> [[f64; 2]; 2] {
+        let [left_lateral, left_vertical, right_lateral, right_vertical, _] = self.interpolated(distance);
+        [
+            [left_lateral[0], left_vertical[0]],
+            [right_lateral[0], right_vertical[0]],
+        ]
+    }
+
     /// A distance near the foot of a point in plan, from the point alone.
     fn near(&self, point: [f64; 2]) -> f64 {
         let away = |place: [f64; 2]| libm::hypot(point[0] - place[0], point[1] - place[1]);

@@ -12,6 +12,8 @@
 //! quoted in open vehicle-track programs; those of alignment and cross level are remembered from the literature,
 //! unverified.
 //!
+//! Users' own densities are quotients of polynomials, [`Rational`].
+//!
 //! A realization is `Σ √(2 S_k ΔΩ) cos(Ω_k s + θ_k)` over equal steps of the wavenumber in a range of wavelengths,
 //! with phases from a seed; it begins with a taper `sin²`, so that a vehicle meets no jump. It repeats itself after
 //! 2π/ΔΩ: the number of terms must fit the length of the run.
@@ -21,6 +23,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use thiserror::Error;
+
+use super::rational::Rational;
 
 /// k of the FRA's spectra, and their Ωc, rad/m.
 const FRA: [f64; 2] = [0.25, 0.8245];
@@ -35,7 +39,7 @@ const SQUARE_CENTIMETER: f64 = 1e-4;
 const MOST_TERMS: usize = 100_000;
 
 /// A spectral density.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spectrum {
     /// Vertical profile of a class (1 to 6) of the FRA.
     FraVertical(u8),
@@ -47,6 +51,8 @@ pub enum Spectrum {
     ErriVerticalLow,
     /// The same, high level.
     ErriVerticalHigh,
+    /// One of users' own.
+    Rational(Rational),
 }
 
 /// A range of wavelengths cannot be realized.
@@ -69,6 +75,18 @@ pub enum SpectrumError {
         /// The longest, m.
         longest: f64,
     },
+    /// A density is none.
+    #[error(
+        "the density is {density} m²/(rad/m) at {wavenumber:.4} rad/m, a wavelength of {:.2} m; it must be zero or positive: \
+         look at the signs and the order of the coefficients, by rising powers of the wavenumber",
+        TAU / wavenumber
+    )]
+    Density {
+        /// The wavenumber, rad/m.
+        wavenumber: f64,
+        /// The density, m²/(rad/m).
+        density: f64,
+    },
     /// The number of terms is out of range.
     #[error("a realization of {terms} terms cannot be made: give 1 to {MOST_TERMS}")]
     Terms {
@@ -81,7 +99,7 @@ impl Spectrum {
     /// Returns the density at an angular wavenumber (rad/m), m²/(rad/m).
     ///
     /// # Errors
-    /// The class does not exist.
+    /// The class does not exist, or a density of users' own is negative or not finite there.
     pub fn density(self, wavenumber: f64) -> Result<f64, SpectrumError> {
         let square = wavenumber * wavenumber;
         let [k, corner] = FRA;
@@ -106,6 +124,13 @@ impl Spectrum {
             }
             Self::ErriVerticalLow => erri(4.032e-7),
             Self::ErriVerticalHigh => erri(1.08e-6),
+            Self::Rational(own) => {
+                let density = own.density(wavenumber);
+                if !(density >= 0.0 && density.is_finite()) {
+                    return Err(SpectrumError::Density { wavenumber, density });
+                }
+                density
+            }
         })
     }
 }

@@ -1,0 +1,122 @@
+//! Figures of a wheelset's run, over the distance: the track under it, where it is, forces of its wheels.
+
+use ::study::wheelset::WheelsetCase;
+use ::study::wheelset::run::WheelsetResult;
+use quantity::Kind;
+
+use super::{Exhibit, axis};
+use crate::csv::converted;
+use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::track_files::degree;
+
+const BLUE: (Colour, Line) = (Colour::Blue, Line::Solid);
+const RED: (Colour, Line) = (Colour::Vermillion, Line::Dashed);
+
+/// Curves of columns (with their labels) over the distance, in output units.
+fn curves(result: &WheelsetResult, columns: &[(&str, &str)], kind: Kind) -> Vec<Curve> {
+    let units = result.summary.units;
+    let distances = result.column("distance").unwrap_or_default();
+    let own = columns.iter().zip([BLUE, RED]);
+    own.map(|((name, label), (colour, line))| {
+        let values = result.column(name).unwrap_or_default();
+        let point = |(distance, value): (&f64, &f64)| {
+            (
+                converted(*distance, Kind::Length, units),
+                converted(*value, kind, units),
+            )
+        };
+        Curve {
+            label: (*label).to_owned(),
+            colour,
+            line,
+            points: distances.iter().zip(values).map(point).collect(),
+        }
+    })
+    .collect()
+}
+
+fn panel(result: &WheelsetResult, title: &str, label: &str, kind: Kind, columns: &[(&str, &str)]) -> Panel {
+    let units = result.summary.units;
+    Panel {
+        title: title.to_owned(),
+        x_label: axis("distance", Kind::Length, units),
+        y_label: axis(label, kind, units),
+        curves: curves(result, columns, kind),
+        ..Panel::default()
+    }
+}
+
+/// The figures.
+#[must_use]
+pub fn exhibits(case: &WheelsetCase, result: &WheelsetResult) -> Vec<Exhibit> {
+    let name = case.wheelset.name.as_str();
+    let exhibit = |what: &str, figure: Figure| Exhibit {
+        name: format!("{name}_{what}"),
+        thesis: String::new(),
+        figure,
+    };
+    let both = |title: &str, label: &str, kind: Kind, what: &str| {
+        let names = ["left", "right"].map(|side| format!("{side}_{what}"));
+        panel(
+            result,
+            title,
+            label,
+            kind,
+            &[(&names[0], "left"), (&names[1], "right")],
+        )
+    };
+    let units = result.summary.units;
+    let line = case.setup.lines.center_line();
+    let curvature = result.column("distance").unwrap_or_default().iter();
+    let curvature = curvature.map(|distance| {
+        let degree = degree(line.at(*distance).curvature[0]);
+        (converted(*distance, Kind::Length, units), degree)
+    });
+    let track = Panel {
+        title: "(a) curvature".to_owned(),
+        x_label: axis("distance", Kind::Length, units),
+        y_label: "degree of curve".to_owned(),
+        curves: vec![Curve {
+            label: String::new(),
+            colour: BLUE.0,
+            line: BLUE.1,
+            points: curvature.collect(),
+        }],
+        ..Panel::default()
+    };
+    let motion = Figure {
+        title: format!("{name}: where the wheelset is"),
+        caption: "Over the distance: curvature (to the left) and irregularities under the wheels (lateral to the left, vertical up); \
+                  lateral place of the wheelset's center (to the left), its yaw to the track (the angle of attack), its roll \
+                  (left side up)."
+            .to_owned(),
+        panels: vec![
+            track,
+            both("(b) alignment", "rail, lateral", Kind::Length, "rail_lateral"),
+            both("(c) profile", "rail, vertical", Kind::Length, "rail_vertical"),
+            panel(result, "(d) lateral", "to the left", Kind::Length, &[("lateral", "")]),
+            panel(result, "(e) yaw", "yaw", Kind::Angle, &[("yaw", "")]),
+            panel(result, "(f) roll", "roll", Kind::Angle, &[("roll", "")]),
+        ],
+        columns: 3,
+        ..Figure::default()
+    };
+    let forces = Figure {
+        title: format!("{name}: forces of the wheels"),
+        caption: "Over the distance: forces of the wheels on the rails, vertical ones square to the track, lateral ones positive where \
+                  they spread the gauge, their quotient; longitudinal forces on the wheels, forward; the wear number (energy that \
+                  creep takes by distance); contact patches a wheel."
+            .to_owned(),
+        panels: vec![
+            both("(a) vertical", "force", Kind::Force, "vertical_force"),
+            both("(b) lateral", "force", Kind::Force, "lateral_force"),
+            both("(c) lateral over vertical", "L/V", Kind::Dimensionless, "lateral_over_vertical"),
+            both("(d) longitudinal", "force", Kind::Force, "longitudinal_force"),
+            both("(e) wear number", "wear number", Kind::Force, "wear_number"),
+            both("(f) patches", "patches", Kind::Count, "patches"),
+        ],
+        columns: 3,
+        ..Figure::default()
+    };
+    vec![exhibit("motion", motion), exhibit("forces", forces)]
+}

@@ -1,0 +1,127 @@
+//! The page of one wheelset's run.
+
+use maud::{Markup, html};
+use quantity::Kind;
+use study::wheelset::WheelsetCase;
+use study::wheelset::run::WheelsetResult;
+use study::wheelset::summary::WheelsetSummary;
+
+use super::{Viewer, document, shown_in};
+use crate::figures::wheelset::exhibits;
+use crate::view::View;
+use crate::view::run::{Detail, Recording};
+
+/// The page as HTML; it needs nothing else to be shown.
+///
+/// # Errors
+/// What the writer of JSON says.
+pub fn render(
+    case: &WheelsetCase,
+    result: &WheelsetResult,
+    viewer: Option<Viewer>,
+) -> Result<String, serde_json::Error> {
+    let summary = &result.summary;
+    let exhibits = exhibits(case, result);
+    let data = viewer
+        .map(|viewer| {
+            let recording = Recording::of_wheelset(case, result, Detail::Thinned);
+            let view = View::new(summary.units, [recording], &exhibits).to_json();
+            view.map(|view| (viewer, view))
+        })
+        .transpose()?;
+    let lead = format!(
+        "The run {} of one wheelset under a carriage. Computed by {}.",
+        summary.name, summary.program
+    );
+    let main = html! {
+        (state(summary))
+        @if data.is_some() {
+            details id={ "run-" (super::anchor(&summary.name)) } data-run=(summary.name) open {
+                summary { "Moving" }
+            }
+        }
+        section { h2 { "In numbers" } (numbers(summary)) }
+        section {
+            h2 { "Figures" }
+            @for exhibit in &exhibits { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
+        }
+        section {
+            h2 { "Given" }
+            table {
+                tbody { @for (name, value) in &summary.given { tr { th scope="row" { (name) } td { (value) } } } }
+            }
+        }
+        section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
+    };
+    let data = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
+    let heading = format!("A wheelset on the track {}", case.wheelset.track.name);
+    Ok(document(&heading, &lead, None, &main, data))
+}
+
+/// Where it derailed, and what makes its numbers doubtful.
+fn state(summary: &WheelsetSummary) -> Markup {
+    html! {
+        @if let Some(derailment) = &summary.derailment { p.warning { "Derailed: " (derailment.words()) "." } }
+        @if let Some(stopped) = &summary.stopped {
+            p.warning { (summary.name) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
+        }
+        @for warning in &summary.warnings { p.warning { (warning) } }
+        @if summary.failed.is_some() { p.warning { (summary.name) (super::runs::FAILED) } }
+    }
+}
+
+/// Extremes of the wheels, and how the wheelset hunts.
+fn numbers(summary: &WheelsetSummary) -> Markup {
+    let force = Kind::Force.label(summary.units);
+    let suffix = |kind: Kind| match kind.suffix(summary.units) {
+        "" => String::new(),
+        suffix => format!("_{suffix}"),
+    };
+    let of =
+        |side: &str, what: &str, kind: Kind| summary.extremes.get(&format!("{side}_{what}{}", suffix(kind)));
+    html! {
+        div.wide {
+            table {
+                thead {
+                    tr {
+                        th scope="col" { "wheel" }
+                        @for title in ["vertical, least", "vertical, largest", "lateral, largest"] {
+                            th.number scope="col" { (title) br; span.unit { (force) } }
+                        }
+                        th.number scope="col" { "L/V, largest" }
+                        th.number scope="col" { "wear number, largest" br; span.unit { (force) } }
+                    }
+                }
+                tbody {
+                    @for side in ["left", "right"] {
+                        @let vertical = of(side, "vertical_force", Kind::Force);
+                        @let lateral = of(side, "lateral_force", Kind::Force);
+                        @let ratio = of(side, "lateral_over_vertical", Kind::Dimensionless);
+                        @let wear = of(side, "wear_number", Kind::Force);
+                        tr {
+                            th scope="row" { (side) }
+                            td.number { @if let Some(found) = vertical { (format!("{:.0}", found.minimum)) } }
+                            td.number { @if let Some(found) = vertical { (format!("{:.0}", found.maximum)) } }
+                            td.number { @if let Some(found) = lateral { (format!("{:.0}", found.maximum)) } }
+                            td.number { @if let Some(found) = ratio { (format!("{:.3}", found.maximum)) } }
+                            td.number { @if let Some(found) = wear { (format!("{:.1}", found.maximum)) } }
+                        }
+                    }
+                }
+            }
+        }
+        @if let Some(hunting) = &summary.hunting {
+            p {
+                "About steady rolling at this speed on straight perfect track the least damped lateral vibration has "
+                (format!("{:.2}", hunting.frequency_hz)) " Hz and a damping ratio of "
+                (format!("{:.3}", hunting.damping_ratio))
+                @if hunting.damping_ratio < 0.0 { ": the wheelset hunts." } @else { ": it dies out." }
+            }
+        }
+        p {
+            "Energy ledger: its largest residual at any output time is "
+            (format!("{:.1e}", summary.ledger.largest_relative_residual))
+            " of the largest of work, losses and change of stored energy. " (summary.statistics.steps) " steps."
+        }
+    }
+}

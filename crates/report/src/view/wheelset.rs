@@ -1,0 +1,109 @@
+//! What a wheelset's run looks like, and what its plots show.
+
+use study::wheelset::WheelsetCase;
+use study::wheelset::run::WheelsetResult;
+use wheelrail::wheelset::RigidWheelset;
+
+use super::rolling;
+use super::run::Plot;
+use super::scene::{Look, Scene};
+
+/// How much of the track is drawn behind the start and beyond the end, m.
+const BEYOND: [f64; 2] = [30.0, 60.0];
+/// Length of the arrow of a force that few exceed, m.
+const ARROW: f64 = 0.35;
+/// Name of the wheelset's body.
+const ID: &str = "wheelset";
+
+/// The scene.
+#[must_use]
+pub fn scene(case: &WheelsetCase, result: &WheelsetResult) -> Scene {
+    let own = &case.wheelset;
+    let column = |name: &str| name.to_owned();
+    let distances = result.column("distance").unwrap_or_default();
+    let first = distances.iter().copied().fold(f64::INFINITY, f64::min);
+    let last = distances.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let [behind, beyond] = BEYOND;
+    let radius = own.radius;
+    let half = 0.5 * own.layout.tape_distance;
+    let near = |name: &str, from: [f64; 3], at: [f64; 3], reach: f64| Look {
+        at: Some((at, reach)),
+        arrow: (reach < ARROW).then_some(0.4 * reach),
+        ..Look::all(name, from)
+    };
+    let rails = RigidWheelset::new(
+        [&own.wheel; 2],
+        [radius; 2],
+        [&own.rail; 2],
+        own.layout,
+        own.material,
+    );
+    let track = rails.ok().filter(|_| first.is_finite()).map(|rails| {
+        let range = [first - behind, last + beyond];
+        rolling::track(&case.setup.lines, &own.rail, rails.rail_origins(), range)
+    });
+    let mut scene = Scene {
+        factor: 1.0,
+        limit: 0.1,
+        arrow: ARROW,
+        looks: vec![
+            near("Oblique", [-1.0, 0.75, 0.45], [0.0, 0.0, 0.35], 1.15),
+            near("Left side", [0.0, 1.0, 0.0], [0.0, 0.0, 0.3], 0.75),
+            near("Along the track", [-1.0, 0.0, 0.12], [0.0, 0.0, 0.3], 1.0),
+            near("Top", [0.0, 0.0, 1.0], [0.0; 3], 1.1),
+            near("Left contact", [-1.0, 0.0, 0.12], [0.0, half, 0.0], 0.09),
+            near("Right contact", [-1.0, 0.0, 0.12], [0.0, -half, 0.0], 0.09),
+        ],
+        bodies: rolling::wheelset_bodies(ID, radius, &column).to_vec(),
+        solids: rolling::wheelset_solids(ID, "wheelset", &own.wheel, radius, own.layout.tape_distance),
+        patches: rolling::patches(ID, &column),
+        track,
+        follow: Some(ID.to_owned()),
+        ..Scene::default()
+    };
+    scene.round();
+    scene
+}
+
+/// What its plots may show.
+#[must_use]
+pub fn plots() -> Vec<Plot> {
+    let both = |title: &str, what: &str| {
+        let names = ["left", "right"].map(|side| format!("{side}_{what}"));
+        Plot::new(title, names.iter().map(String::as_str).zip(["left", "right"]))
+    };
+    let one = |title: &str, name: &str, label: &str| Plot::new(title, [(name, label)]);
+    vec![
+        one("Lateral place", "lateral", "to the left"),
+        both(
+            "Lateral forces on the rails, positive where they spread the gauge",
+            "lateral_force",
+        ),
+        both("Vertical forces on the rails", "vertical_force"),
+        one("Yaw", "yaw", "angle of attack"),
+        both("Lateral over vertical force", "lateral_over_vertical"),
+        both("Longitudinal forces on the wheels", "longitudinal_force"),
+        both("Wear number: energy lost by distance", "wear_number"),
+        both("Contact patches", "patches"),
+        Plot::new(
+            "Rails under the wheels, lateral",
+            [("left_rail_lateral", "left"), ("right_rail_lateral", "right")],
+        ),
+        Plot::new(
+            "Rails under the wheels, vertical",
+            [("left_rail_vertical", "left"), ("right_rail_vertical", "right")],
+        ),
+        one("Roll", "roll", "left side up"),
+        one("Height", "vertical", "above the nominal radius"),
+        one("Speed", "speed", "along the track"),
+        one("Distance", "distance", "along the track"),
+        Plot::new(
+            "Energy ledger",
+            [
+                ("work", "work of drive, load and contacts"),
+                ("losses", "lost in creep and damping"),
+                ("stored_energy_change", "stored since the start"),
+            ],
+        ),
+    ]
+}

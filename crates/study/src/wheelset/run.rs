@@ -1,0 +1,188 @@
+//! Running a wheelset.
+//!
+//! At each output time it is looked at where the wheels stand. A wheel on the tip of its flange, on the edge of its
+//! rim or off its rail has derailed: the run ends there, and this is its result.
+
+use std::collections::BTreeMap;
+
+use integrate::{Integrator, Options};
+use mechanics::energy_balance::Entries;
+use mechanics::output::Column;
+use mechanics::plausibility::Finding;
+use mechanics::system::System;
+use quantity::{Kind, System as Units};
+use rolling::rig::Rig;
+use wheelrail::loaded::Seat;
+
+use super::WheelsetCase;
+use super::columns::{Reader, SIDES, columns};
+use super::summary::{Derailment, Hunting, SCHEMA, WheelsetSummary};
+use crate::energy;
+use crate::metrics::Extremes;
+use crate::plausibility;
+use crate::result::RunResult;
+use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, append};
+use crate::summary::{LedgerSummary, Stopped, SummaryValue};
+
+/// What came out of a run.
+pub type WheelsetResult = RunResult<WheelsetSummary>;
+
+/// What to do about a ledger that does not close.
+const LOWER_THE_TOLERANCE: &str = "lower the relative tolerance";
+
+/// A derailed wheel: its number, where it stands, time (s), distance (m).
+#[derive(Clone, Copy, Debug)]
+struct Derailed {
+    wheel: usize,
+    seat: Seat,
+    time: f64,
+    distance: f64,
+}
+
+/// Records a wheelset's run: its table, and where it derails.
+pub struct WheelsetRecorder {
+    reader: Reader,
+    columns: Vec<Column>,
+    values: Vec<Vec<f64>>,
+    row: Vec<f64>,
+    derailed: Option<Derailed>,
+}
+
+impl RunCase for WheelsetCase {
+    type Recorder = WheelsetRecorder;
+    type Output = WheelsetResult;
+
+    const WHERE_TO_LOOK: &'static str = "look at speed, load and springs";
+    const WHAT_TO_TRY: &'static str = "try a lower relative tolerance, sprung rails, or softer springs";
+
+    fn name(&self) -> &str {
+        &self.wheelset.name
+    }
+
+    fn duration_and_interval(&self) -> [f64; 2] {
+        [self.duration, self.wheelset.interval]
+    }
+
+    fn units(&self) -> Units {
+        self.wheelset.units
+    }
+
+    fn options(&self) -> Options {
+        Options {
+            relative_tolerance: self.wheelset.relative_tolerance,
+            ..Options::default()
+        }
+    }
+
+    fn begin(&self) -> Result<Beginning<WheelsetRecorder>, RunError> {
+        let rig = Rig::new(&self.setup, self.wheelset.start)?;
+        let columns = columns();
+        Ok(Beginning {
+            system: rig.system.clone(),
+            x: rig.start.clone(),
+            recorder: WheelsetRecorder {
+                values: vec![Vec::new(); columns.len()],
+                row: Vec::with_capacity(columns.len()),
+                reader: Reader::new(rig, self.setup.clone(), self.wheelset.radius),
+                columns,
+                derailed: None,
+            },
+        })
+    }
+
+    fn output(run: Run<Self>, stopped: Option<Stopped>) -> WheelsetResult {
+        output(run, stopped)
+    }
+}
+
+impl Recorder for WheelsetRecorder {
+    type Counts = ();
+
+    fn counts(&self) {}
+
+    fn restore(&mut self, (): (), _time: f64) -> Result<(), RunError> {
+        Ok(())
+    }
+
+    fn step(&mut self, _integrator: &Integrator<System>, _system: &mut System, _x: &mut [f64]) {}
+
+    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
+        let seen = system.observe(row.time, row.x);
+        let entries = system.ledger_entries(&seen, row.start_energy);
+        self.row.clear();
+        self.reader.read(&seen, &entries, &mut self.row);
+        append(&mut self.values, &self.columns, &self.row, row.time)?;
+        let seats = self.reader.rig().seats(&seen);
+        if let Some(wheel) = seats.iter().position(|seat| *seat != Seat::OnRail) {
+            self.derailed = Some(Derailed {
+                wheel,
+                seat: seats[wheel],
+                time: row.time,
+                distance: self.row[1],
+            });
+            return Err(RunError::Derailed { time: row.time });
+        }
+        Ok(entries)
+    }
+
+    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
+        plausibility::in_truck(system, finding, [&[], &[]], units)
+    }
+
+    fn contacts(&self, _contact_states: &[u8]) -> BTreeMap<String, String> {
+        BTreeMap::new()
+    }
+}
+
+fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResult {
+    let units = run.case.wheelset.units;
+    let columns = std::mem::take(&mut run.recorder.columns);
+    let values = std::mem::take(&mut run.recorder.values);
+    let derailment = run.recorder.derailed.map(|found| Derailment {
+        wheel: SIDES[found.wheel].to_owned(),
+        seat: found.seat.word().to_owned(),
+        time: found.time,
+        distance: SummaryValue::new(found.distance, Kind::Length, units),
+    });
+    // A derailment is a result, no failure of the run.
+    let stopped = stopped.filter(|_| derailment.is_none());
+    let balance = run.energy_balance;
+    let mut warnings: Vec<String> = energy::warning(&balance, LOWER_THE_TOLERANCE)
+        .into_iter()
+        .collect();
+    warnings.extend(plausibility::warnings_of_rolling(&run));
+    let time = values.first().map_or(&[][..], Vec::as_slice);
+    let mut extremes = BTreeMap::new();
+    let shown = columns.iter().zip(&values).skip(1);
+    for (column, values) in shown.filter(|(column, _)| !column.name.contains("_patch_")) {
+        if let Some(mut found) = Extremes::of(time, values) {
+            found.minimum *= column.kind.from_si(units);
+            found.maximum *= column.kind.from_si(units);
+            extremes.insert(column.full_name(units), found);
+        }
+    }
+    let summary = WheelsetSummary {
+        schema: SCHEMA.to_owned(),
+        program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
+        name: run.case.wheelset.name.clone(),
+        units,
+        given: run.case.wheelset.given.clone(),
+        complete: stopped.is_none() && derailment.is_none() && run.is_finished(),
+        derailment,
+        stopped,
+        failed: energy::failure(&balance, LOWER_THE_TOLERANCE),
+        warnings,
+        rows: time.len(),
+        hunting: run.case.hunting().map(Hunting::of),
+        extremes,
+        ledger: LedgerSummary::of_run(&mut run, units),
+        relative_tolerance: run.case.wheelset.relative_tolerance,
+        statistics: run.integrator.statistics().clone(),
+        assumptions: run.case.assumptions(),
+    };
+    WheelsetResult {
+        columns,
+        values,
+        summary,
+    }
+}

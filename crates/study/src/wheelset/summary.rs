@@ -1,0 +1,107 @@
+//! The summary of a wheelset's run.
+
+use std::collections::BTreeMap;
+
+use integrate::Statistics;
+use quantity::System as Units;
+use serde::{Deserialize, Serialize};
+
+use crate::metrics::Extremes;
+use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
+
+/// The schema's name and version.
+pub const SCHEMA: &str = "wedgelab.wheelset/1";
+
+/// What a run says in numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WheelsetSummary {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Version of the program that wrote it.
+    pub program: String,
+    /// Name of the run.
+    pub name: String,
+    /// Units of the numbers.
+    pub units: Units,
+    /// What was given, by its name, in words.
+    pub given: BTreeMap<String, String>,
+    /// Whether the run came to its end.
+    pub complete: bool,
+    /// Where a wheel derailed, if one did: the run ends there.
+    pub derailment: Option<Derailment>,
+    /// Why and when it stopped, if it could not go on.
+    pub stopped: Option<Stopped>,
+    /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
+    pub failed: Option<String>,
+    /// What makes the numbers doubtful; empty for a sound run.
+    pub warnings: Vec<String>,
+    /// Number of rows.
+    pub rows: usize,
+    /// The least damped vibration about steady rolling at this speed on straight perfect track.
+    pub hunting: Option<Hunting>,
+    /// Least and greatest values of all columns but those of patches, by their names with units.
+    pub extremes: BTreeMap<String, Extremes>,
+    /// The energy ledger at the end.
+    pub ledger: LedgerSummary,
+    /// Relative tolerance of the integrator.
+    pub relative_tolerance: f64,
+    /// What the integrator did.
+    pub statistics: Statistics,
+    /// What the numbers rest on.
+    pub assumptions: Vec<String>,
+}
+
+run_summary!(WheelsetSummary, ledger.largest_relative_residual);
+
+/// A derailed wheel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Derailment {
+    /// The wheel: `left` or `right`.
+    pub wheel: String,
+    /// Where it stands: `flange_tip`, `rim_edge` or `off_rail`.
+    pub seat: String,
+    /// The output time, s.
+    pub time: f64,
+    /// Distance along the track.
+    pub distance: SummaryValue,
+}
+
+impl Derailment {
+    /// Returns it in words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let what = match self.seat.as_str() {
+            "flange_tip" => "has climbed its rail and stands on the tip of its flange",
+            "rim_edge" => "stands on the outer edge of its rim and is about to fall between the rails",
+            _ => "is off its rail",
+        };
+        let SummaryValue { value, unit } = &self.distance;
+        format!(
+            "the {} wheel {what} at {value:.2} {unit} along the track, {:.4} s after the start",
+            self.wheel, self.time
+        )
+    }
+}
+
+/// A vibration.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hunting {
+    /// Growth of its amplitude, 1/s: negative if it dies out.
+    pub growth_per_s: f64,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Damping ratio: negative if it grows.
+    pub damping_ratio: f64,
+}
+
+impl Hunting {
+    /// Returns the vibration of an eigenvalue (1/s, rad/s).
+    #[must_use]
+    pub fn of([growth, frequency]: [f64; 2]) -> Self {
+        Self {
+            growth_per_s: growth,
+            frequency_hz: frequency / (2.0 * std::f64::consts::PI),
+            damping_ratio: -growth / libm::hypot(growth, frequency),
+        }
+    }
+}
