@@ -1,6 +1,7 @@
 //! Files and figures of results.
 //!
 //! - [`claims`]: what the thesis says of its runs, with verdicts.
+//! - [`sensitivity`]: how far these verdicts hang on what the thesis leaves open.
 //! - [`agreement`]: how far the stand-alone wedge and the comparison program's wedges agree.
 //! - [`beyond`]: figures of the cases beyond the thesis, one a group.
 //! - [`csv`]: the table `result.csv`.
@@ -41,6 +42,7 @@ pub mod parquet;
 pub mod plot;
 pub mod run_files;
 pub mod sections;
+pub mod sensitivity;
 pub mod study_digest;
 pub mod study_folder;
 pub mod study_work;

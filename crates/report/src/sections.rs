@@ -7,6 +7,7 @@ use crate::agreement::TruckOutcome;
 use crate::beyond;
 use crate::figures::{self, Exhibit, Outcome};
 use crate::page::{Drawn, Section};
+use crate::sensitivity::Sensitivity;
 
 /// Figures that belong together, not yet drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,6 +137,21 @@ pub fn comparison(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Option<Plan>
         intro: "The thesis's comparison: its stand-alone wedge against the comparison program's wedges, here our reading of them in \
                 the half-truck."
             .to_owned(),
+        exhibits,
+        folded: false,
+        run: None,
+        group: String::new(),
+    })
+}
+
+/// The section of the statements over the contact stiffness.
+#[must_use]
+pub fn sensitivity(found: &Sensitivity) -> Option<Plan> {
+    let exhibits = figures::sensitivity::exhibits(found);
+    (!exhibits.is_empty()).then(|| Plan {
+        id: "open-stiffness".to_owned(),
+        title: "Statements over the contact stiffness".to_owned(),
+        intro: String::new(),
         exhibits,
         folded: false,
         run: None,

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, OnceLock};
 
 use quantity::System as Units;
-use report::claims::{Claims, Evidence, Group, Row, RunId, SCHEMA, Toe, Verdict, claims, evaluate};
+use report::claims::{Claims, Evidence, Group, REQUIRED, Row, RunId, SCHEMA, Toe, Verdict, claims, evaluate};
 use study::case::{Case, builtin};
 use study::result::RunResult;
 use study::run::Run;
@@ -155,21 +155,7 @@ fn verdicts_come_with_their_reasons() {
 /// What the thesis says of its figures and what has been found required.
 #[test]
 fn what_must_hold_holds() {
-    for id in [
-        "6.1-toe-order-up",
-        "6.1-toe-order-down",
-        "5.1-toe-order-down",
-        "5.1-lift-off-after-3-s",
-        "5.1-no-dissipation-in-lift-off",
-        "7.1-no-dissipation-in-lift-off",
-        "5.1-rings-about-zero-any-toe",
-        "5.1-stick-gives-largest-force",
-        "6.1-never-lifts-off",
-        "6.1-no-dissipation-only-sticking",
-        "5.1-small-yaw-moment",
-        "6.1-yaw-moment-negligible",
-        "7.1-no-lateral-force",
-    ] {
+    for id in REQUIRED {
         let row = row(rows(), id);
         assert_eq!(row.verdict, Verdict::Holds, "{row:#?}");
     }
@@ -416,4 +402,13 @@ fn verdicts_do_not_depend_on_units() {
     assert_eq!(value.unit, "N");
     let pounds = row(rows(), "6.1-toe-order-up").values[0].measure.value;
     assert!((value.value / pounds - 4.448_221_615_260_5).abs() < 1e-9);
+}
+
+/// The point of the sensitivity at which all is as decided gives the report's verdicts.
+#[test]
+fn reproduction_the_point_as_decided_has_the_verdicts_of_the_report() {
+    let point = report::sensitivity::compute(&[], &[]);
+    assert!(point.unsound.is_empty(), "{:?}", point.unsound);
+    let own: Vec<Verdict> = rows().iter().map(|row| row.verdict).collect();
+    assert_eq!(point.verdicts, own);
 }

@@ -443,6 +443,7 @@ fn the_page_tells_how_far_they_agree() {
         interactive: None,
         outcomes,
         claims: &claims,
+        sensitivity: None,
         sections: &[],
         comparison: Some(comparison),
         truck: false,

@@ -299,6 +299,7 @@ fn the_page_takes_viewer_and_data_or_does_without() {
             outcomes: &outcomes,
             beyond: &[],
             claims: &Claims::of(Vec::new()),
+            sensitivity: None,
             comparison: None,
             truck: false,
             sections: &[],

@@ -2,6 +2,8 @@
 
 use std::io::{self, IsTerminal};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -63,6 +65,112 @@ impl Progress {
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
+        }
+    }
+}
+
+/// Lines on others than terminals are not closer than this.
+const PAUSE: Duration = Duration::from_secs(10);
+
+/// Progress of many things of one kind, with the time left: a bar on a terminal, a line now and then elsewhere.
+#[derive(Debug)]
+pub struct Steady {
+    what: &'static str,
+    bar: Option<ProgressBar>,
+    quiet: bool,
+    all: u64,
+    before: u64,
+    start: Instant,
+    told: Mutex<(u64, Instant)>,
+}
+
+impl Steady {
+    /// The progress of `all` things (`runs`), of which some were there before.
+    pub fn new(what: &'static str, all: u64, before: u64, quiet: bool) -> Self {
+        let bar = (!quiet && io::stderr().is_terminal()).then(|| {
+            let bar = ProgressBar::new(all);
+            let template =
+                format!("{{bar:40}} {{human_pos}} of {{human_len}} {what}, {{per_sec}}, {{eta}} left");
+            if let Ok(style) = ProgressStyle::with_template(&template) {
+                bar.set_style(style);
+            }
+            bar.set_position(before);
+            bar.reset_eta();
+            bar
+        });
+        if before > 0 && before < all && !quiet {
+            say(&format!("going on: {before} of {all} {what} are there"));
+        }
+        let start = Instant::now();
+        Self {
+            what,
+            bar,
+            quiet,
+            all,
+            before,
+            start,
+            told: Mutex::new((0, start)),
+        }
+    }
+
+    /// One more is done.
+    pub fn done(&self) {
+        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        told.0 += 1;
+        if let Some(bar) = &self.bar {
+            bar.set_position(self.before + told.0);
+        } else if !self.quiet && told.1.elapsed() >= PAUSE {
+            told.1 = Instant::now();
+            let what = self.what;
+            let rate = told.0 as f64 / self.start.elapsed().as_secs_f64();
+            let done = self.before + told.0;
+            let left = (self.all - done) as f64 / rate;
+            let rate = if rate < 10.0 {
+                format!("{rate:.1}")
+            } else {
+                format!("{rate:.0}")
+            };
+            say(&format!(
+                "{done} of {} {what}, {rate} {what}/s, {} left",
+                self.all,
+                shown(left)
+            ));
+        }
+    }
+
+    /// All are done; gives the number of those done since the beginning.
+    pub fn finish(self) -> u64 {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+        self.told.into_inner().unwrap_or_else(PoisonError::into_inner).0
+    }
+}
+
+/// A time for people.
+fn shown(seconds: f64) -> String {
+    match seconds {
+        s if s < 90.0 => format!("{s:.0} s"),
+        s if s < 5400.0 => format!("{:.0} min", s / 60.0),
+        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
+        s => format!("{:.1} days", s / 86_400.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shown;
+
+    #[test]
+    fn limits_times_left_are_in_units_for_people() {
+        for (seconds, text) in [
+            (0.4, "0 s"),
+            (89.0, "89 s"),
+            (91.0, "2 min"),
+            (7200.0, "2.0 h"),
+            (259_200.0, "3.0 days"),
+        ] {
+            assert_eq!(shown(seconds), text);
         }
     }
 }

@@ -45,6 +45,7 @@ pub use evidence::{Evidence, Finding, RunId, Toe, Value, Verdict};
 use std::io::{self, Write};
 
 use serde::Serialize;
+use study::half_truck::catalog::{Entry, ToeCase, YawCase};
 use study::summary::SummaryValue;
 
 /// Version of the structure of [`Row`], for files.
@@ -189,6 +190,24 @@ pub fn write(claims: &Claims, out: &mut dyn Write) -> io::Result<()> {
     out.write_all(b"\n")
 }
 
+/// The statements that a wedge like the thesis's must show: orders by toe that the text states and that statics
+/// explain, lift-off and its silence, stick at the reversal, no lateral force.
+pub const REQUIRED: [&str; 13] = [
+    "6.1-toe-order-up",
+    "6.1-toe-order-down",
+    "5.1-toe-order-down",
+    "5.1-lift-off-after-3-s",
+    "5.1-no-dissipation-in-lift-off",
+    "7.1-no-dissipation-in-lift-off",
+    "5.1-rings-about-zero-any-toe",
+    "5.1-stick-gives-largest-force",
+    "6.1-never-lifts-off",
+    "6.1-no-dissipation-only-sticking",
+    "5.1-small-yaw-moment",
+    "6.1-yaw-moment-negligible",
+    "7.1-no-lateral-force",
+];
+
 /// All claims, in the order of the thesis.
 pub fn claims() -> impl Iterator<Item = &'static Claim> {
     [
@@ -240,6 +259,18 @@ pub fn evaluate(evidence: &Evidence<'_>) -> Vec<Row> {
             }
         })
         .collect()
+}
+
+/// Whether claims are decided from this run of the half-truck: toe out, without yaw or yawed as intended.
+#[must_use]
+pub fn needs_truck(entry: &Entry) -> bool {
+    entry.toe == ToeCase::Out && entry.yaw != YawCase::Printed
+}
+
+/// The verdicts on all claims, in the order of the thesis: what [`evaluate`] finds, without its words.
+#[must_use]
+pub fn verdicts(evidence: &Evidence<'_>) -> Vec<Verdict> {
+    claims().map(|claim| (claim.evaluate)(evidence).verdict).collect()
 }
 
 /// Code without the line breaks of its layout.

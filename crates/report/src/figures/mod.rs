@@ -5,12 +5,14 @@
 //! - [`model`]: the bolster's motion, the friction law, the coil.
 //! - [`run`]: what the thesis lacks, run by run.
 //! - [`truck`]: a run of a three-piece truck.
+//! - [`sensitivity`]: statements that hold over the contact stiffness.
 //! - [`study`]: main effects and contours of studies; [`jam`]: their jam map.
 
 pub mod comparison;
 pub mod jam;
 pub mod model;
 pub mod run;
+pub mod sensitivity;
 pub mod study;
 pub mod thesis;
 pub mod truck;

@@ -2,18 +2,35 @@
 
 use maud::{Markup, html};
 
+use super::sensitivity::extent;
 use crate::claims::{Claims, Group, Row, Shown, Verdict};
+use crate::sensitivity::Sensitivity;
 
 /// The tables, one a group; nothing without claims.
-pub(super) fn tables(claims: &Claims) -> Markup {
+pub(super) fn tables(claims: &Claims, sensitivity: Option<&Sensitivity>) -> Markup {
     if claims.claims.is_empty() {
         return html! {};
     }
     html! {
         section {
             h2 id="claims" { "The thesis's statements, one by one" }
+            @if let Some(found) = sensitivity {
+                @let [always, mostly, seldom, never, open] = found.extents;
+                p {
+                    "What chapters 5 to 7 say of the stand-alone runs, in our words. Over " (found.points) " points of "
+                    a href="#open" { "what the thesis leaves open" } ", " strong { (always) } " statements hold always, "
+                    strong { (mostly) } " mostly, " strong { (seldom) } " seldom, " strong { (never) } " never, and "
+                    strong { (open) } " cannot be decided from runs. These are the verdicts. What the runs of this report \
+                    show, with one choice of all that is open, stands beside them:"
+                }
+            } @else {
+                p {
+                    "What chapters 5 to 7 say of the stand-alone runs, in our words, with one choice of all that the thesis leaves open; "
+                    code { "wedgelab reproduce --sensitivity 200" } " says how far the verdicts hang on it."
+                }
+            }
             p {
-                "What chapters 5 to 7 say of the stand-alone runs, in our words, and what these runs show: "
+                "These runs show that "
                 strong { (claims.hold) } " statements hold, " strong { (claims.do_not) } " do not, and "
                 strong { (claims.undecided) } " cannot be decided from these runs. Each has a predicate, evaluated from the \
                 runs' tables when this page was made; below it stands the code that was evaluated. A statement that does not \
@@ -26,13 +43,13 @@ pub(super) fn tables(claims: &Claims) -> Markup {
             }
             @for group in Group::ALL {
                 @let rows: Vec<&Row> = claims.claims.iter().filter(|row| row.group == group).collect();
-                @if !rows.is_empty() { (table(group, &rows)) }
+                @if !rows.is_empty() { (table(group, &rows, sensitivity)) }
             }
         }
     }
 }
 
-fn table(group: Group, rows: &[&Row]) -> Markup {
+fn table(group: Group, rows: &[&Row], sensitivity: Option<&Sensitivity>) -> Markup {
     html! {
         h3 { (group.title()) }
         div.wide {
@@ -42,8 +59,9 @@ fn table(group: Group, rows: &[&Row]) -> Markup {
                         th scope="col" { "where" }
                         th scope="col" { "statement" }
                         th scope="col" { "predicate" }
-                        th scope="col" { "found" }
-                        th scope="col" { "verdict" }
+                        @if sensitivity.is_some() { th scope="col" { "over what is open" } }
+                        th scope="col" { "found, as decided" }
+                        th scope="col" { "verdict, as decided" }
                     }
                 }
                 tbody {
@@ -54,6 +72,9 @@ fn table(group: Group, rows: &[&Row]) -> Markup {
                             td {
                                 (row.predicate)
                                 @if !row.code.is_empty() { br; code { (row.code) } }
+                            }
+                            @if let Some(found) = sensitivity {
+                                td { @if let Some(statement) = found.statement(row.id) { (extent(statement)) } }
                             }
                             td {
                                 @for (number, value) in row.values.iter().enumerate() {

@@ -4,6 +4,7 @@ mod agreement;
 mod claims;
 pub mod explorer;
 mod runs;
+mod sensitivity;
 pub mod study;
 pub mod truck;
 pub mod truck_run;
@@ -17,6 +18,7 @@ pub use agreement::Comparison;
 use crate::claims::Claims;
 use crate::drawing::Figure;
 use crate::figures::{Exhibit, Outcome};
+use crate::sensitivity::Sensitivity;
 pub use viewer::{MISSING, Viewer};
 
 /// The page's file name.
@@ -63,6 +65,8 @@ pub struct Contents<'c> {
     pub beyond: &'c [Outcome],
     /// The thesis's statements and what was found.
     pub claims: &'c Claims,
+    /// Where they hold over what the thesis leaves open, if points of that were run.
+    pub sensitivity: Option<&'c Sensitivity>,
     /// The figures.
     pub sections: &'c [Section],
     /// The page's interactive part with its data, JSON of [`crate::view::View`]; without it the page is
@@ -97,6 +101,7 @@ pub fn render(contents: &Contents<'_>) -> String {
                 @if !contents.claims.claims.is_empty() {
                     li { a href="#claims" { "The thesis's statements, one by one" } }
                 }
+                @if contents.sensitivity.is_some() { li { a href="#open" { "What the thesis leaves open" } } }
                 @if contents.comparison.is_some() { li { a href="#agreement" { "How far the models agree" } } }
                 @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
                 @if !folded.is_empty() { li { a href="#run-by-run" { "Run by run" } } }
@@ -108,7 +113,8 @@ pub fn render(contents: &Contents<'_>) -> String {
     };
     let main = html! {
         (runs::table(contents.outcomes))
-        (claims::tables(contents.claims))
+        (claims::tables(contents.claims, contents.sensitivity))
+        @if let Some(found) = contents.sensitivity { (sensitivity::section(found)) }
         @if let Some(comparison) = &contents.comparison { (agreement::section(comparison)) }
         @for section in &open {
             section {

@@ -1,6 +1,7 @@
 //! `wedgelab reproduce`: all built-in cases, told in a report.
 
 mod interrupted;
+mod sensitivity;
 mod three_piece;
 mod trucks;
 
@@ -17,6 +18,7 @@ use report::claims::{self, Claims, Evidence};
 use report::figures::{Exhibit, Outcome};
 use report::files::{FileError, Folder};
 use report::page::{self, Contents, Viewer};
+use report::sensitivity::Sensitivity;
 use report::view::View;
 use report::view::run::{Detail, Recording};
 use report::{beyond, run_files, sections};
@@ -43,12 +45,16 @@ const USUAL: &str = "reproduction";
 /// result.mat, case.toml and summary.json; prints a table of the runs. Without --only the half-truck of the
 /// comparison program's files is run too (28 runs: result.csv and summary.json), and the report compares; and the three-piece
 /// truck with four wedges that have mass on its 16 loaded rigs, told in truck.html (numbers in truck.json): loops, warp,
-/// wedges, closed forms, what contact and bristle stiffness move.
+/// wedges, closed forms, what contact and bristle stiffness move. With --sensitivity N the twelve runs are made at N points of
+/// the space of what the thesis leaves open (contact stiffness and damping, line of action of the coil, start, inertia, place of B),
+/// and the report says of each statement in which part of that space it holds and what decides (sensitivity.json). Points are
+/// kept in the folder sensitivity; a larger N takes those that are there, and so does the same command after an interruption.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
   wedgelab reproduce
   wedgelab reproduce --out today --jobs 1
+  wedgelab reproduce --sensitivity 200
   wedgelab reproduce --only 'vdrun*' cdrun_toe_0_psi_0 --force")]
 pub struct Arguments {
     /// Folder to write into
@@ -57,6 +63,9 @@ pub struct Arguments {
     /// Run only these: names, beginnings that only one name has, or patterns such as 'vdrun*'
     #[arg(long, value_name = "NAME", num_args = 1..)]
     only: Vec<String>,
+    /// Decide the thesis's statements at N points of the space of what the thesis leaves open, too
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    sensitivity: Option<u32>,
     /// Overwrite existing results
     #[arg(long)]
     force: bool,
@@ -91,6 +100,14 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     } else {
         (Vec::new(), Vec::new())
     };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(arguments.jobs.map_or(0, usize::from))
+        .build()
+        .map_err(|error| Failure::Failed(Message::new(error.to_string(), "try --jobs 1").into()))?;
+    let explored = arguments
+        .sensitivity
+        .map(|points| sensitivity::explore(arguments, u64::from(points), &pool))
+        .transpose()?;
 
     let progress = Progress::new(cases.len() + half_trucks.len() + rigs.len(), arguments.quiet);
     let names = three_piece::names(&rigs);
@@ -102,10 +119,6 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             planned.runs.display()
         ),
     );
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(arguments.jobs.map_or(0, usize::from))
-        .build()
-        .map_err(|error| Failure::Failed(Message::new(error.to_string(), "try --jobs 1").into()))?;
     let (kept, (half_trucks, rigs)): (Vec<Result<Option<ReproducedRun>, Failure>>, _) = pool.install(|| {
         let work = cases.into_par_iter().zip(&places.runs).with_max_len(1);
         let work = work.map(|(case, folder)| keep(case, folder, &progress));
@@ -147,7 +160,16 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     } else {
         Some(pool.install(|| three_piece::tell(rigs, &places.figures))?)
     };
-    let figures = pool.install(|| tell(&outcomes, &half_trucks, recordings, &places, told.as_ref()))?;
+    let figures = pool.install(|| {
+        tell(
+            &outcomes,
+            &half_trucks,
+            recordings,
+            &places,
+            told.as_ref(),
+            explored.as_ref(),
+        )
+    })?;
 
     let mut out = io::stdout().lock();
     let summaries = outcomes.iter().map(|(_, result)| &result.summary);
@@ -171,6 +193,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             report::three_piece::FILE_NAME,
             told.findings.checks.len()
         )?;
+    }
+    if let Some(explored) = &explored {
+        writeln!(out, "{}", sensitivity::in_short(explored))?;
     }
     if Viewer::embedded().is_none() {
         writeln!(out, "{}", page::MISSING)?;
@@ -259,6 +284,7 @@ fn tell(
     recordings: Vec<Recording>,
     places: &Places,
     told: Option<&three_piece::Told>,
+    explored: Option<&Sensitivity>,
 ) -> Result<usize, Failure> {
     let units = outcomes.first().map(|(_, result)| result.summary.units);
     // The thesis's runs come first in the list of cases.
@@ -266,7 +292,8 @@ fn tell(
     let (outcomes, others) = outcomes.split_at(first_beyond);
     let mut plans = sections::thesis(outcomes);
     let run_by_run = plans.partition_point(|plan| !plan.folded);
-    let more = sections::comparison(outcomes, half_trucks).into_iter();
+    let more = explored.and_then(sections::sensitivity).into_iter();
+    let more = more.chain(sections::comparison(outcomes, half_trucks));
     plans.splice(run_by_run..run_by_run, more.chain(sections::beyond(others)));
     if Viewer::embedded().is_some() {
         plans.extend(sections::moving(others, half_trucks));
@@ -298,6 +325,7 @@ fn tell(
         outcomes,
         beyond: others,
         claims: &verdicts,
+        sensitivity: explored,
         sections: &sections,
         interactive: interactive
             .as_ref()
@@ -313,6 +341,9 @@ fn tell(
         files.add(page::FILE_NAME, |out| out.write_all(page.as_bytes()))?;
         if let Some(told) = told {
             three_piece::add(files, told)?;
+        }
+        if let Some(explored) = explored {
+            files.add(report::sensitivity::FILE_NAME, |out| explored.write(out))?;
         }
         files.add(claims::FILE_NAME, |out| claims::write(&verdicts, out))
     })?;
@@ -342,6 +373,7 @@ fn check(out: &Path, cases: &[Case], force: bool) -> Result<Places, Failure> {
         claims::FILE_NAME,
         page::truck::FILE_NAME,
         report::three_piece::FILE_NAME,
+        report::sensitivity::FILE_NAME,
     ];
     let folders = [(out.to_owned(), sheets.as_slice()), (figures, present.as_slice())];
     let runs = cases

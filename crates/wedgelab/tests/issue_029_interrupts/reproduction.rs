@@ -1,10 +1,11 @@
 //! `reproduce`.
 
+use std::fs;
 use std::path::Path;
 
 use tempfile::tempdir;
 
-use crate::common::{SIGNALS, contains, hidden, names, start, start_by_shell, whole_run};
+use crate::common::{SIGNALS, contains, done, hidden, names, start, start_by_shell, whole_run};
 
 /// The runs that are there are whole, and nothing else is; returns their names.
 fn whole_runs(folder: &Path) -> Vec<String> {
@@ -81,4 +82,52 @@ fn issue_029_an_interrupted_reproduction_tells_the_missing_half_trucks() {
     let told = format!("{} of {} runs are whole", kept.len(), kept.len() + missing.len());
     contains(&ended.err, &[&told, "wedgelab reproduce --force"]);
     assert!(missing.iter().all(|name| !kept.iter().any(|kept| kept == name)));
+}
+
+/// Points of the space of what the thesis leaves open are kept; the same command goes on from there, and what comes out depends
+/// neither on that nor on the number of jobs.
+#[test]
+fn limits_an_interrupted_sensitivity_goes_on_with_the_same_bytes() {
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    let of = |jobs: &'static str, out: &'static str| {
+        let only = ["--only", "cdrun_toe_0_psi_0", "--jobs", jobs, "--out", out];
+        [&["reproduce", "--sensitivity", "1"], only.as_slice()].concat()
+    };
+    let points =
+        |out: &str| fs::read_to_string(path.join(out).join("sensitivity/points.jsonl")).unwrap_or_default();
+    let mut running = start(path, &of("1", "one"));
+    running.wait_until(|| points("one").lines().count() > 2);
+    running.send("INT");
+    let ended = running.ended();
+    assert_eq!(ended.code, Some(130), "{}", ended.err);
+    let before = points("one");
+    let kept = before.lines().count();
+    let told = format!("interrupted: {kept} of 18 points are kept in one/sensitivity");
+    contains(&ended.err, &[&told, "the same command goes on from there"]);
+    assert_eq!(names(&path.join("one")), ["sensitivity"]);
+    let ended = done(path, &of("1", "one"));
+    contains(&ended.err, &[&format!("going on: {kept} of 18 points are there")]);
+    contains(
+        &ended.out,
+        &["Over 1 points of what the thesis leaves open", "sensitivity.json"],
+    );
+    let whole = points("one");
+    assert!(whole.starts_with(&before) && whole.lines().count() == 18);
+
+    // Another number of jobs, in another order, with a line that was cut off.
+    let lines: Vec<&str> = whole.lines().rev().collect();
+    let cut = lines[..17].join("\n");
+    fs::create_dir_all(path.join("two/sensitivity")).unwrap();
+    fs::copy(
+        path.join("one/sensitivity/space.json"),
+        path.join("two/sensitivity/space.json"),
+    )
+    .unwrap();
+    fs::write(path.join("two/sensitivity/points.jsonl"), &cut[..cut.len() - 20]).unwrap();
+    done(path, &of("2", "two"));
+    for file in ["sensitivity.json", "index.html"] {
+        let read = |out: &str| fs::read(path.join(out).join(file)).unwrap();
+        assert!(read("one") == read("two"), "{file}");
+    }
 }

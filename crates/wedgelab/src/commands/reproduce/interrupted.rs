@@ -14,6 +14,7 @@ pub struct Planned {
     pub runs: PathBuf,
     out: PathBuf,
     only: Vec<String>,
+    sensitivity: Option<u32>,
     force: bool,
     wedges: Vec<String>,
     trucks: Vec<String>,
@@ -26,6 +27,7 @@ impl Planned {
             runs: arguments.out.join("runs"),
             out: arguments.out.clone(),
             only: arguments.only.clone(),
+            sensitivity: arguments.sensitivity,
             force: arguments.force,
             wedges: cases.iter().map(|case| case.name.clone()).collect(),
             trucks: trucks
@@ -81,9 +83,12 @@ impl Planned {
             [] => String::new(),
             names => format!(" --only '{}'", names.join("' '")),
         };
+        let sensitivity = self
+            .sensitivity
+            .map_or(String::new(), |points| format!(" --sensitivity {points}"));
         advice += &format!(
             "The report of all of them is written by this, which computes them anew:\n  \
-             wedgelab reproduce{} --force{only}",
+             wedgelab reproduce{}{sensitivity} --force{only}",
             self.place()
         );
         say(&advice);

@@ -21,7 +21,8 @@ use crate::interrupt;
 use crate::progress::Progress;
 
 /// The length of the runs, s: that of the thesis's.
-const DURATION: f64 = 10.0;
+pub const DURATION: f64 = 10.0;
+
 /// A run to be made, and where it is written.
 pub struct Planned {
     entry: Entry,

@@ -1,0 +1,236 @@
+//! The thesis's statements over what the thesis leaves open.
+
+use maud::{Markup, html};
+
+use crate::claims::{Group, REQUIRED};
+use crate::figures::capital;
+use crate::sensitivity::{AXES, Extent, Sensitivity, Side, Split, Statement, Tally};
+
+/// A share in per cent; what is not all is never shown as all.
+fn percent(share: f64) -> String {
+    let rounded = (100.0 * share).round();
+    let least = if share > 0.0 { 1.0 } else { 0.0 };
+    let most = if share < 1.0 { 99.0 } else { 100.0 };
+    format!("{} %", rounded.clamp(least, most))
+}
+
+/// Where a statement holds, in a few words.
+pub(super) fn extent(statement: &Statement) -> Markup {
+    words(statement.extent, statement.tally, statement.decides.as_ref())
+}
+
+fn words(extent: Extent, tally: Tally, split: Option<&Split>) -> Markup {
+    let is_between = matches!(extent, Extent::Mostly | Extent::Seldom);
+    html! {
+        @if extent != Extent::CannotBeDecided {
+            strong { (capital(extent.words())) }
+            @if is_between { " (" (percent(tally.share())) ")" }
+            @if let Some(split) = split { "; " (decides(split)) }
+            @else if is_between { "; no single parameter decides" }
+        }
+    }
+}
+
+/// What decides: `contact stiffness decides: above 7.9e5 lbf/in 98 %, below 7.9e5 lbf/in 20 %`.
+fn decides(split: &Split) -> String {
+    let side = |side: &Side| format!("{} {}", side.name, percent(side.share));
+    let [one, other] = &split.sides;
+    format!("{} decides: {}, {}", split.parameter, side(one), side(other))
+}
+
+/// The section; the verdicts stand with the statements.
+pub(super) fn section(found: &Sensitivity) -> Markup {
+    html! {
+        section {
+            h2 id="open" { "What the thesis leaves open" }
+            p {
+                "The thesis does not say how stiff the contacts are, where the coil's force acts, and more. The twelve runs were made at "
+                (found.points) " points of the space of these parameters (Sobol' sequence), and every statement was decided at each. "
+                em { "Always" } " and " em { "never" } ": at all and at none of the points that decide it; " em { "mostly" }
+                " and " em { "seldom" } ": at half or more, and at fewer. Of " (found.points) " points without an exception, a share of "
+                (format!("{:.1} %", 300.0 / found.points as f64)) " with one would be missed once in twenty times. The half-truck \
+                has nothing of what is open."
+            }
+            p {
+                "A parameter " em { "decides" } " if one cut of it (a range at a quarter, half or three quarters; a choice against the \
+                others) tells best where the statement holds, and better than chance would: the cut whose \u{3c6}\u{b2} is largest, the \
+                square of the correlation of two yes-or-no quantities, if the number of points times \u{3c6}\u{b2} is above 12."
+            }
+            (parameters(found))
+            (groups(found))
+            (axes(found))
+            (frictions(found))
+            (stiffness(found))
+            @if !found.unsound.is_empty() {
+                p.warning {
+                    (found.unsound.values().map(Vec::len).sum::<usize>()) " runs at " (found.unsound.len())
+                    " points failed or stopped; statements that need them are not decided there."
+                }
+            }
+        }
+    }
+}
+
+fn parameters(found: &Sensitivity) -> Markup {
+    html! {
+        div.wide {
+            table {
+                thead {
+                    tr {
+                        th scope="col" { "open" }
+                        th scope="col" { "values" }
+                        th scope="col" { "as decided" }
+                        th.number scope="col" { "decides, statements" }
+                        th scope="col" { "why it is open" }
+                    }
+                }
+                tbody {
+                    @for parameter in &found.parameters {
+                        tr {
+                            th scope="row" { (parameter.name) }
+                            td { (parameter.range) br; code { (parameter.key) } }
+                            td { (parameter.decided) }
+                            td.number { (parameter.statements) }
+                            td { (parameter.reason) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn groups(found: &Sensitivity) -> Markup {
+    let counts = |own: &dyn Fn(&Statement) -> bool| {
+        Extent::ALL.map(|extent| {
+            let statements = found.statements.iter();
+            statements.filter(|one| own(one) && one.extent == extent).count()
+        })
+    };
+    html! {
+        h3 { "How many statements hold where" }
+        div.wide {
+            table {
+                thead {
+                    tr {
+                        th scope="col" { "statements" }
+                        @for extent in Extent::ALL { th.number scope="col" { (extent.words()) } }
+                    }
+                }
+                tbody {
+                    @for group in Group::ALL {
+                        tr {
+                            th scope="row" { (group.title()) }
+                            @for count in counts(&|one| one.group == group) { td.number { (count) } }
+                        }
+                    }
+                    tr {
+                        th scope="row" { "all" }
+                        @for count in counts(&|_| true) { td.number { (count) } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The axes of the thesis's figures.
+fn axes(found: &Sensitivity) -> Markup {
+    html! {
+        h3 { "The axes of the thesis's figures" }
+        p { "The thesis's curves stay within the axes of its figures, which begin at 0.1 to 0.5 s. So do these runs, after 0.5 s:" }
+        div.wide {
+            table {
+                tbody {
+                    @for axis in &found.axes {
+                        tr {
+                            th scope="row" { (axis.axis) }
+                            td { (words(axis.extent, axis.tally, axis.decides.as_ref())) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Other laws and speeds of friction, apart from the space.
+fn frictions(found: &Sensitivity) -> Markup {
+    let rows = found.frictions();
+    html! {
+        @if !rows.is_empty() {
+            h3 { "Other friction" }
+            p {
+                "The same points once more with another reference speed, and with bristles in place of tanh: how many statements hold at a \
+                point, on average, and how many hold at half of the points with one friction and not with the other."
+            }
+            div.wide {
+                table {
+                    thead {
+                        tr {
+                            th scope="col" { "friction" }
+                            th.number scope="col" { "points" }
+                            th.number scope="col" { "hold, mean" }
+                            th.number scope="col" { "as decided (0.001 in/s)" }
+                            th.number scope="col" { "only with it" }
+                            th.number scope="col" { "only without it" }
+                        }
+                    }
+                    tbody {
+                        @for row in rows {
+                            tr {
+                                th scope="row" { (row.friction) }
+                                td.number { (row.points) }
+                                td.number { (format!("{:.1}", row.mean[0])) }
+                                td.number { (format!("{:.1}", row.mean[1])) }
+                                td.number { (row.only_with) }
+                                td.number { (row.only_without) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn stiffness(found: &Sensitivity) -> Markup {
+    let stiffness = &found.stiffness;
+    html! {
+        @if !stiffness.parts.is_empty() {
+            h3 { "The contact stiffness, by rule" }
+            p {
+                "Required are " (REQUIRED.len()) " statements (orders by toe without yaw, lift-off and its silence, stick at the reversal, no \
+                lateral force) and the " (AXES.len()) " axes: " (stiffness.of_required) " in all. The stiffness is the middle of that fifth of \
+                the range in which most of them hold over all else that is open, and of fifths that do not differ in that, most of all \
+                statements. Means differ if they do by more \
+                than two standard errors; without such a difference the middle fifth stays, whose middle is the stiffness of the comparison \
+                program's wedge."
+            }
+            div.wide {
+                table {
+                    thead {
+                        tr {
+                            th scope="col" { "stiffness of a corner" br; span.unit { "lbf/in" } }
+                            th.number scope="col" { "points" }
+                            th.number scope="col" { "required that hold" }
+                            th.number scope="col" { "all that hold" }
+                            th scope="col" { "" }
+                        }
+                    }
+                    tbody {
+                        @for (number, part) in stiffness.parts.iter().enumerate() {
+                            tr {
+                                th scope="row" { (format!("{:.1e}", part.stiffness[0])) " to " (format!("{:.1e}", part.stiffness[1])) }
+                                td.number { (part.points) }
+                                td.number { (format!("{:.2} \u{b1} {:.2}", part.required.mean, part.required.error)) }
+                                td.number { (format!("{:.1} \u{b1} {:.1}", part.holds.mean, part.holds.error)) }
+                                td { @if stiffness.chosen == Some(number) { "chosen" } }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
