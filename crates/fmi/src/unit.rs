@@ -64,6 +64,7 @@ impl Unit {
             Kind::RotationalDamping => "N.m.s/rad",
             Kind::Mass => "kg",
             Kind::Inertia => "kg.m2",
+            Kind::Pressure => "Pa",
             Kind::Dimensionless | Kind::Count => return None,
         })
     }

@@ -61,6 +61,8 @@ pub enum Kind {
     Mass,
     /// A moment of inertia.
     Inertia,
+    /// A pressure.
+    Pressure,
     /// A pure number.
     Dimensionless,
     /// A counted number, or the number of a mode.
@@ -80,7 +82,7 @@ struct Facts {
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Kind; 18] = [
+    pub const ALL: [Kind; 19] = [
         Kind::Time,
         Kind::Length,
         Kind::Angle,
@@ -97,6 +99,7 @@ impl Kind {
         Kind::RotationalDamping,
         Kind::Mass,
         Kind::Inertia,
+        Kind::Pressure,
         Kind::Dimensionless,
         Kind::Count,
     ];
@@ -105,7 +108,6 @@ impl Kind {
     pub(crate) fn describe(dimension: Dimension) -> String {
         match dimension {
             d if d == Kind::Moment.dimension() => "a moment or an energy".into(),
-            d if d == Dimension::new(1, -1, -2, 0) => "a pressure".into(),
             d if d == Dimension::new(0, 0, -1, 0) => "a rate without an angle".into(),
             d => match Kind::ALL.into_iter().find(|kind| kind.dimension() == d) {
                 Some(kind) => kind.name().into(),
@@ -284,6 +286,11 @@ impl Kind {
                 let factor = 1.0 / (POUND * INCH * INCH);
                 let unit = ["lb in^2", "kg m^2"];
                 facts([1, 2, 0, 0], "a moment of inertia", unit, suffix, label, factor)
+            }
+            Kind::Pressure => {
+                let names = ["psi", "Pa"];
+                let factor = INCH * INCH / POUND_FORCE;
+                facts([1, -1, -2, 0], "a pressure", names, names, names, factor)
             }
             Kind::Dimensionless => facts([0; 4], "a pure number", [""; 2], [""; 2], [""; 2], 1.0),
             Kind::Count => facts([0; 4], "a count", [""; 2], [""; 2], [""; 2], 1.0),

@@ -1,7 +1,7 @@
 //! What friction does in each cycle of the bolster: how much of the contact sticks, and the power that wears
 //! the faces.
 
-use wedge::outputs::{CORNERS, FACES};
+use wedge::outputs::FACES;
 
 use crate::metrics::Cycle;
 use crate::result::RunResult;
@@ -18,8 +18,8 @@ pub struct CycleShare {
     pub start: f64,
     /// End, s.
     pub end: f64,
-    /// Share of stick in all contact, face by face: of the output times at which corners touch, counted
-    /// corner by corner, the part at which they stick; `None` where no corner of the face touches.
+    /// Share of stick in all contact, face by face: of the output times at which points touch, counted
+    /// point by point, the part at which they stick; `None` where no point of the face touches.
     pub stick: [Option<f64>; FACES.len()],
     /// Mean power lost in friction, face by face, W: what wears the face.
     pub wear_power: [f64; FACES.len()],
@@ -34,11 +34,9 @@ pub fn shares(result: &RunResult, cycle: &Cycle) -> Vec<CycleShare> {
 
 fn collect(result: &RunResult, cycle: &Cycle) -> Option<Vec<CycleShare>> {
     let times = result.column("time")?;
-    let mut states = Vec::new();
-    for face in FACES {
-        for corner in CORNERS {
-            states.push(result.column(&format!("{face}_{corner}_state"))?);
-        }
+    let states = FACES.map(|face| states(result, face));
+    if states.iter().any(Vec::is_empty) {
+        return None;
     }
     let losses = [result.column(LOSSES[0])?, result.column(LOSSES[1])?];
     let period = cycle.period();
@@ -50,7 +48,7 @@ fn collect(result: &RunResult, cycle: &Cycle) -> Option<Vec<CycleShare>> {
         let rows = times.partition_point(|time| *time < start)..times.partition_point(|time| *time < end);
         let share = |face: usize| {
             let (mut touch, mut stick) = (0_u64, 0_u64);
-            for state in &states[face * CORNERS.len()..][..CORNERS.len()] {
+            for state in &states[face] {
                 for value in &state[rows.clone()] {
                     touch += u64::from(*value != 0.0);
                     stick += u64::from(*value == STICK);
@@ -69,6 +67,21 @@ fn collect(result: &RunResult, cycle: &Cycle) -> Option<Vec<CycleShare>> {
         });
     }
     Some(shares)
+}
+
+/// The contact states of the points of a face: of the grid, if there is one, else of the corners.
+fn states<'r>(result: &'r RunResult, face: &str) -> Vec<&'r [f64]> {
+    let of = |points: &str| {
+        let beginning = format!("{face}_{points}");
+        let columns = result.columns.iter().zip(&result.values);
+        let own = columns
+            .filter(|(column, _)| column.name.starts_with(&beginning) && column.name.ends_with("_state"));
+        own.map(|(_, values)| values.as_slice()).collect::<Vec<_>>()
+    };
+    match of("point_") {
+        points if points.is_empty() => of(""),
+        points => points,
+    }
 }
 
 /// The value at `time`, straight between rows, and that of the nearest end outside.

@@ -5,7 +5,7 @@
 use mechanics::plausibility::{Finding, FindingKind, Location};
 use mechanics::system::System;
 use quantity::System as Units;
-use wedge::outputs::{CORNERS, FACES};
+use wedge::outputs::{CORNERS, FACES, PointNames};
 
 use crate::run::{Recorder, Run, RunCase};
 
@@ -129,7 +129,7 @@ pub(crate) fn in_truck(system: &System, finding: &Finding, numbers: [&[u32]; 2],
 }
 
 /// Returns a finding in a wedge with the names and keys of its case.
-pub(crate) fn in_wedge(system: &System, finding: &Finding, units: Units) -> String {
+pub(crate) fn in_wedge(system: &System, points: &PointNames, finding: &Finding, units: Units) -> String {
     let face_name = |face: usize| FACES.get(face).copied().unwrap_or("face");
     let place = match finding.location {
         Location::Face { face, point: None } => format!("the {}", face_name(face)),
@@ -137,8 +137,13 @@ pub(crate) fn in_wedge(system: &System, finding: &Finding, units: Units) -> Stri
             face,
             point: Some(point),
         } => {
-            let corner = CORNERS.get(point).copied().unwrap_or("nth").replace('_', " ");
-            format!("the {corner} corner of the {}", face_name(face))
+            let name = points
+                .of(face)
+                .get(point)
+                .map_or("", String::as_str)
+                .replace('_', " ");
+            let kind = if point < CORNERS.len() { " corner" } else { "" };
+            format!("the {name}{kind} of the {}", face_name(face))
         }
         Location::Coil(_) => "the control coil".to_owned(),
         other => other.describe(system),

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use mechanics::friction::FrictionLaw;
+use wedge::face::FaceProperties;
 use wedge::parameters::{Contact, Damping, FaceFriction, NeighbourMotion, STANDARD_GRAVITY, Start, Wear};
 
 use crate::parameters::{
@@ -189,6 +190,8 @@ impl Parameters {
             contact: contact(2.5e5, 25.0),
             column_friction: bristle(0.4, 1e6, 1e3),
             slope_friction: bristle(0.4, 1e6, 1e3),
+            column_face: FaceProperties::default(),
+            slope_face: FaceProperties::default(),
             wear: Wear::default(),
             control_coil: ControlCoil::Shear(control),
             pocket_sides: clearance([0.25, 1e6, 100.0]),

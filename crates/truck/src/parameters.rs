@@ -9,6 +9,7 @@
 use mechanics::curve::Curve;
 use mechanics::elements::{ShearSpring, Solid, TableSpring};
 use mechanics::motion::Motion;
+use wedge::face::FaceProperties;
 use wedge::parameters::{
     Contact, ControlCoil as ThesisCoil, Damping, FaceFriction, NeighbourMotion, Start, Wear,
 };
@@ -182,6 +183,10 @@ pub struct Wedge {
     pub column_friction: FaceFriction,
     /// Friction on the slope.
     pub slope_friction: FaceFriction,
+    /// The vertical face.
+    pub column_face: FaceProperties,
+    /// The slope face.
+    pub slope_face: FaceProperties,
     /// Wear of the column with the wedge's vertical face, and of the pocket's slope with the wedge's slope.
     pub wear: Wear,
     /// Its control coil.
@@ -412,6 +417,13 @@ impl Parameters {
 }
 
 impl Wedge {
+    /// Returns the areas of the vertical face and of the slope face, m².
+    #[must_use]
+    pub fn face_areas(&self) -> [f64; 2] {
+        let column = self.height * self.width;
+        [column, column / libm::cos(self.angle)]
+    }
+
     /// Returns where the center of gravity is from the body's origin, in the axes of the truck, m; `end` is that
     /// of the mount. Coordinates are those of the origin: the center of gravity, or the end of the thesis's coil,
     /// which the wedge of Steets (2007) turns about where y is locked.

@@ -12,6 +12,7 @@ use mechanics::link::Marker;
 use mechanics::surface::Plane;
 use mechanics::system::Model;
 use mechanics::vector::Vector;
+use wedge::face::{FaceProperties, Rectangle};
 use wedge::parameters::{Contact, ControlCoil as ThesisCoil, Damping, FaceFriction};
 
 use crate::elements::{Law, Role, Suspended, join};
@@ -93,7 +94,7 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> V
             column,
             pitch(wedge.toe),
             wedge.wear.column + column_gap,
-            &wedge.column_friction,
+            (&wedge.column_friction, &wedge.column_face),
         ),
         (
             at.bolster,
@@ -101,12 +102,13 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> V
             column - end * (0.5 * length),
             pitch(PI - wedge.angle),
             wedge.wear.slope + slope_gap,
-            &wedge.slope_friction,
+            (&wedge.slope_friction, &wedge.slope_face),
         ),
     ];
-    for (on, face, x, pitch, gap, friction) in faces {
+    for (on, face, x, pitch, gap, (friction, properties)) in faces {
         let lower = if face == "column" { -1.0 } else { 2.0 };
-        let points = corners(wedge, end, lower * length / 3.0, -length / 3.0);
+        let edges = [lower * length / 3.0, -length / 3.0];
+        let points = contact_points(wedge, properties, end, edges);
         // The normal is the marker's x axis.
         let (sine, cosine) = libm::sincos(pitch);
         let surface = [x - gap * cosine, y, middle + gap * sine];
@@ -182,23 +184,27 @@ fn thesis_coil(model: &mut Model, at: &WedgeMount<'_>, seat: usize, to_center: [
     model.coils.push((at.body, seat, marker, law));
 }
 
-/// The four corners of a wedge's face: lower right, lower left, upper right, upper left, with the lower and the
-/// upper edge's x from the center of gravity in the wedge's own axes.
-fn corners(wedge: &Wedge, end: f64, lower: f64, upper: f64) -> Vec<ContactPoint> {
-    let (bottom, top) = (-wedge.height / 3.0, 2.0 * wedge.height / 3.0);
-    let half = 0.5 * wedge.width;
-    [
-        [lower, -half, bottom],
-        [lower, half, bottom],
-        [upper, -half, top],
-        [upper, half, top],
-    ]
-    .map(|[x, y, z]| {
+/// The points of a wedge's face, with the lower and the upper edge's x from the center of gravity in the wedge's own
+/// axes.
+fn contact_points(
+    wedge: &Wedge,
+    face: &FaceProperties,
+    end: f64,
+    [lower, upper]: [f64; 2],
+) -> Vec<ContactPoint> {
+    let rectangle = Rectangle {
+        lower: [lower, -wedge.height / 3.0],
+        upper: [upper, 2.0 * wedge.height / 3.0],
+        width: wedge.width,
+    };
+    let to_center = wedge.origin_to_center(end);
+    let mut points = face.points(&rectangle, &wedge.contact);
+    for point in &mut points {
+        let Vector([x, y, z]) = point.position;
         let own = [-end * x, -end * y, z];
-        let from_origin = std::array::from_fn(|k| own[k] + wedge.origin_to_center(end)[k]);
-        point(from_origin, &wedge.contact, 0.25)
-    })
-    .to_vec()
+        point.position = Vector(std::array::from_fn(|k| own[k] + to_center[k]));
+    }
+    points
 }
 
 pub(crate) fn point(place: [f64; 3], contact: &Contact, share: f64) -> ContactPoint {

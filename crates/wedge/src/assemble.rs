@@ -130,7 +130,7 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
     let Parameters { wedge, coil, .. } = parameters;
     let (bottom, face_x, length) = (
         parameters.bottom_length(),
-        parameters.column_face(),
+        parameters.column_face_position(),
         coil.nominal_length,
     );
     let middle = length + 0.5 * wedge.height;
@@ -150,22 +150,6 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
         linearized: false,
     };
 
-    let half = 0.5 * wedge.width;
-    let corners = |lower_x: f64, upper_x: f64| {
-        [
-            [lower_x, -half, 0.0],
-            [lower_x, half, 0.0],
-            [upper_x, -half, wedge.height],
-            [upper_x, half, wedge.height],
-        ]
-        .map(|position| ContactPoint {
-            position: Vector(position),
-            stiffness: parameters.contact.stiffness,
-            damping: parameters.contact.damping,
-            share: 0.25,
-        })
-        .to_vec()
-    };
     let face = |name: &str, points: Vec<ContactPoint>, friction: &FaceFriction| ContactFace {
         name: name.to_owned(),
         points,
@@ -173,12 +157,11 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
         coefficient: friction.coefficient,
         law: friction.law,
     };
-    let column = face("column", corners(face_x, face_x), &parameters.column_friction);
-    let slope = face(
-        "slope",
-        corners(face_x + bottom, face_x),
-        &parameters.slope_friction,
-    );
+    let [vertical, inclined] = parameters.rectangles();
+    let column = parameters.column_face.points(&vertical, &parameters.contact);
+    let column = face("column", column, &parameters.column_friction);
+    let slope = parameters.slope_face.points(&inclined, &parameters.contact);
+    let slope = face("slope", slope, &parameters.slope_friction);
     let worn_column = along(parameters.wear.column, parameters.toe);
     let worn_slope = along(parameters.wear.slope, PI - wedge.angle);
     let column_marker = Marker::new(

@@ -1,8 +1,9 @@
 //! The stand-alone friction wedge between side frame and bolster.
 //!
-//! One wedge body, two contact faces of four corners each, a control coil, two prescribed neighbors: put
+//! One wedge body, two contact faces of four corners each or finer grids of points, a control coil, two prescribed neighbors: put
 //! together from [`mechanics`] by [`Wedge::new`]. [`outputs`] defines the results.
 
+pub mod face;
 pub mod inputs;
 pub mod outputs;
 pub mod parameters;

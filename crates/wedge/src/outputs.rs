@@ -6,6 +6,8 @@
 //! (eq. 5-3). Moments act on the wedge, about its center of gravity. Friction powers are Σ F_t·v (eqs. 5-4,
 //! 5-5), never positive with tanh.
 
+use std::ops::Range;
+
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
@@ -13,6 +15,7 @@ use mechanics::vector::Vector;
 use quantity::Kind;
 
 use crate::assemble::{BOLSTER, COLUMN, SIDE_FRAME, SLOPE, WEDGE};
+use crate::face::{FaceProperties, Grid, Rectangle};
 use crate::parameters::{Damping, Parameters};
 use crate::resultants::Resultants;
 
@@ -20,6 +23,46 @@ use crate::resultants::Resultants;
 pub const CORNERS: [&str; 4] = ["lower_right", "lower_left", "upper_right", "upper_left"];
 /// The names of the faces in results.
 pub const FACES: [&str; 2] = ["column", "slope"];
+
+/// The contact points of both faces in their order, by name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PointNames {
+    names: [Vec<String>; 2],
+}
+
+impl PointNames {
+    /// Returns those of a wedge.
+    #[must_use]
+    pub fn new(parameters: &Parameters) -> Self {
+        Self {
+            names: [&parameters.column_face, &parameters.slope_face].map(|face| face.grid.names()),
+        }
+    }
+
+    /// Returns the points of a face among all.
+    #[must_use]
+    pub fn range(&self, face: usize) -> Range<usize> {
+        let [column, slope] = [0, 1].map(|face| self.names[face].len());
+        match face {
+            COLUMN => 0..column,
+            _ => column..column + slope,
+        }
+    }
+
+    /// Returns the names of the points of a face.
+    #[must_use]
+    pub fn of(&self, face: usize) -> &[String] {
+        &self.names[face]
+    }
+
+    /// Returns the face of a point, and its name there.
+    #[must_use]
+    pub fn face_and_name(&self, point: usize) -> (usize, &str) {
+        let face = usize::from(point >= self.names[COLUMN].len());
+        let own = point - self.range(face).start;
+        (face, self.names[face].get(own).map_or("", String::as_str))
+    }
+}
 
 /// Inputs of all columns at one instant.
 struct Instant<'s> {
@@ -121,9 +164,15 @@ impl Outputs {
         };
         table.fixed_columns();
         table.motion_columns();
-        table.corner_columns();
+        table.corner_columns(&PointNames::new(parameters));
         table.neighbour_columns();
         table.energy_columns();
+        let faces = [&parameters.column_face, &parameters.slope_face];
+        for (face, (own, rectangle)) in faces.into_iter().zip(parameters.rectangles()).enumerate() {
+            if own.grid != Grid::default() {
+                table.grid_columns(face, &PointNames::new(parameters), own, &rectangle);
+            }
+        }
         table
     }
 
@@ -339,8 +388,9 @@ impl Outputs {
         }
     }
 
-    fn corner_columns(&mut self) {
+    fn corner_columns(&mut self, points: &PointNames) {
         for (face, face_name) in FACES.into_iter().enumerate() {
+            let first = points.range(face).start;
             for (point, corner_name) in CORNERS.into_iter().enumerate() {
                 let corner = format!("{face_name}_{corner_name}");
                 let place = ("fixed", "the corner");
@@ -382,9 +432,33 @@ impl Outputs {
                 );
                 let text = "contact state: 0 open, 1 stick, 2 slip";
                 self.add(format!("{corner}_state"), Kind::Count, ("", ""), text, move |s| {
-                    f64::from(s.contact_states[face * CORNERS.len() + point])
+                    f64::from(s.contact_states[first + point])
                 });
             }
+        }
+    }
+
+    /// Pressure and contact state of each point of a grid, row by row from the lowest one, each from right to
+    /// left.
+    fn grid_columns(&mut self, face: usize, names: &PointNames, own: &FaceProperties, rectangle: &Rectangle) {
+        let first = names.range(face).start;
+        let (points, areas) = (own.grid.points(), own.areas(rectangle));
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        order.sort_by_key(|point| (points[*point].row, points[*point].column));
+        for point in order {
+            let name = format!("{}_{}", FACES[face], points[point].number());
+            let area = areas[point];
+            self.add(
+                format!("{name}_pressure"),
+                Kind::Pressure,
+                ("fixed", "the point"),
+                "normal force over the part of the face that the point stands for",
+                move |s| s.observation.faces[face].points[point].normal / area,
+            );
+            let text = "contact state: 0 open, 1 stick, 2 slip";
+            self.add(format!("{name}_state"), Kind::Count, ("", ""), text, move |s| {
+                f64::from(s.contact_states[first + point])
+            });
         }
     }
 

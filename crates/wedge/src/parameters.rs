@@ -10,6 +10,8 @@ use mechanics::motion::Motion;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::face::{FaceProperties, LARGEST_GRID, Rectangle};
+
 /// Standard gravity, m/s².
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
@@ -150,6 +152,12 @@ pub struct Parameters {
     pub column_friction: FaceFriction,
     /// Friction at the slope.
     pub slope_friction: FaceFriction,
+    /// The wedge's vertical face at the column.
+    #[serde(default)]
+    pub column_face: FaceProperties,
+    /// The wedge's slope face at the slope of the pocket.
+    #[serde(default)]
+    pub slope_face: FaceProperties,
     /// Toe angle of the column, rad; positive is toe out.
     pub toe: f64,
     /// Motion of the side frame.
@@ -219,6 +227,8 @@ impl Parameters {
         not_negative("contact.damping", self.contact.damping)?;
         friction("friction.column", &self.column_friction)?;
         friction("friction.slope", &self.slope_friction)?;
+        grid("column_face.grid", &self.column_face)?;
+        grid("slope_face.grid", &self.slope_face)?;
         check(
             "side_frame.toe",
             self.toe,
@@ -237,8 +247,20 @@ impl Parameters {
     /// Returns the longitudinal position of the vertical face in the wedge frame, m: `p1 - h1/3`, so that the
     /// center of gravity is the prism's centroid.
     #[must_use]
-    pub fn column_face(&self) -> f64 {
+    pub fn column_face_position(&self) -> f64 {
         self.wedge.center_of_gravity[0] - self.bottom_length() / 3.0
+    }
+
+    /// Returns the vertical face and the slope face in the wedge frame.
+    #[must_use]
+    pub fn rectangles(&self) -> [Rectangle; 2] {
+        let (column, height) = (self.column_face_position(), self.wedge.height);
+        let slope = column + self.bottom_length();
+        [column, slope].map(|lower| Rectangle {
+            lower: [lower, 0.0],
+            upper: [column, height],
+            width: self.wedge.width,
+        })
     }
 
     /// Returns how far a wedge with worn faces stands above an unworn one when both touch column and slope,
@@ -253,6 +275,19 @@ impl Parameters {
         let (angle, toe) = (self.wedge.angle, self.toe);
         (self.wear.column * libm::cos(angle) + self.wear.slope * libm::cos(toe)) / libm::sin(angle + toe)
     }
+}
+
+fn grid(path: &'static str, face: &FaceProperties) -> Result<(), ParameterError> {
+    for points in [face.grid.up, face.grid.across] {
+        let holds = (2..=LARGEST_GRID).contains(&points);
+        check(
+            path,
+            points as f64,
+            holds,
+            "from 2 to 100 points in each direction",
+        )?;
+    }
+    Ok(())
 }
 
 fn friction(path: &'static str, face: &FaceFriction) -> Result<(), ParameterError> {

@@ -4,6 +4,7 @@ use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::Motion;
 
+use crate::face::FaceProperties;
 use crate::parameters::{
     Contact, ControlCoil, Damping, FaceFriction, NeighbourMotion, Parameters, STANDARD_GRAVITY, Start, Wear,
     WedgeBody,
@@ -64,6 +65,8 @@ pub fn parameters(damping: Damping, toe: f64, yaw: f64) -> Parameters {
         },
         column_friction: friction,
         slope_friction: friction,
+        column_face: FaceProperties::default(),
+        slope_face: FaceProperties::default(),
         toe,
         side_frame: NeighbourMotion::fixed(),
         bolster,

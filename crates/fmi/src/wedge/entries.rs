@@ -7,7 +7,7 @@ use study::case::Case;
 use study::stepping::{CoilInput, Equations, Neighbours};
 use wedge::WEDGE;
 use wedge::inputs::NeighbourState;
-use wedge::outputs::{CORNERS, FACES};
+use wedge::outputs::{CORNERS, FACES, PointNames};
 use wedge::parameters::Start as StartOfRun;
 
 use super::parameters;
@@ -82,7 +82,8 @@ pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
     let start = Neighbours::of(&case.parameters, 0.0);
     let equations = Equations::new(&case.parameters, &start, CoilInput::Internal)?;
     let system = equations.system();
-    let states = states(system);
+    let points = PointNames::new(&case.parameters);
+    let states = states(system, &points);
     Ok(Entries {
         parameters: parameters::entries(&case.parameters),
         options: options(case),
@@ -111,36 +112,36 @@ pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
             })
             .chain([relative_residual()])
             .collect(),
-        modes: corners("_state", |corner| {
+        modes: of_points(&points, "_state", |point| {
             Entry::integer(
                 "",
                 None,
                 [0, 2],
-                format!("contact state of the {corner} corner: 0 open, 1 stick, 2 slip"),
+                format!("contact state of the {point}: 0 open, 1 stick, 2 slip"),
             )
         }),
-        indicators: corners("_event_indicator", |corner| {
+        indicators: of_points(&points, "_event_indicator", |point| {
             Entry::real(
                 "",
                 None,
                 None,
-                format!("event indicator: positive while the contact state of the {corner} corner lasts"),
+                format!("event indicator: positive while the contact state of the {point} lasts"),
             )
         }),
     })
 }
 
-fn corners(ending: &str, entry: impl Fn(&str) -> Entry) -> Vec<Entry> {
-    let names = FACES
-        .iter()
-        .flat_map(|face| CORNERS.iter().map(move |corner| (face, corner)));
-    names
-        .map(|(face, corner)| {
-            let mut entry = entry(&format!("{face}'s {}", corner.replace('_', " ")));
-            entry.name = format!("{face}_{corner}{ending}");
-            entry
-        })
-        .collect()
+fn of_points(points: &PointNames, ending: &str, entry: impl Fn(&str) -> Entry) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    for (number, face) in FACES.into_iter().enumerate() {
+        for (i, point) in points.of(number).iter().enumerate() {
+            let kind = if i < CORNERS.len() { " corner" } else { "" };
+            let mut entry = entry(&format!("{face}'s {}{kind}", point.replace('_', " ")));
+            entry.name = format!("{face}_{point}{ending}");
+            entries.push(entry);
+        }
+    }
+    entries
 }
 
 /// Options of a wedge.
@@ -294,7 +295,7 @@ fn outputs() -> Vec<Entry> {
 }
 
 /// Names, units and nominal values of the states.
-fn states(system: &System) -> Vec<Entry> {
+fn states(system: &System, points: &PointNames) -> Vec<Entry> {
     let layout = system.layout();
     let mut states = Vec::with_capacity(layout.len());
     let free: Vec<usize> = (0..6)
@@ -323,11 +324,11 @@ fn states(system: &System) -> Vec<Entry> {
             add(name, Kind::AngularSpeed, scales::ANGULAR_VELOCITY, text);
         }
     }
-    for (face, mounted) in FACES.iter().zip(system.faces()) {
+    for (number, (face, mounted)) in FACES.iter().zip(system.faces()).enumerate() {
         for internal in 0..mounted.internal_count {
-            let corner = CORNERS[(internal / 2) % CORNERS.len()];
+            let point = &points.of(number)[internal / 2];
             add(
-                format!("{face}_{corner}_bristle_{}", internal % 2 + 1),
+                format!("{face}_{point}_bristle_{}", internal % 2 + 1),
                 Kind::Length,
                 scales::DEFLECTION,
                 format!(

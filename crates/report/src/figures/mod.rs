@@ -3,7 +3,7 @@
 //! - [`thesis`]: those of the thesis's stand-alone runs, three toe cases in each.
 //! - [`comparison`]: the stand-alone wedge against types 6.8 and 6.9 of the comparison program.
 //! - [`model`]: the bolster's motion, the friction law, the coil.
-//! - [`run`]: what the thesis lacks, run by run.
+//! - [`run`]: what the thesis lacks, run by run; `pressure`: over faces with grids of points.
 //! - [`truck`]: a run of a three-piece truck.
 //! - [`sensitivity`]: statements that hold over the contact stiffness.
 //! - [`study`]: main effects and contours of studies; [`jam`]: their jam map.
@@ -11,6 +11,7 @@
 pub mod comparison;
 pub mod jam;
 pub mod model;
+mod pressure;
 pub mod run;
 pub mod sensitivity;
 pub mod study;

@@ -12,13 +12,15 @@ use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
 
 /// The figures of one run.
 #[must_use]
-pub fn exhibits((case, result): &Outcome) -> Vec<Exhibit> {
+pub fn exhibits(outcome: &Outcome) -> Vec<Exhibit> {
+    let (case, result) = outcome;
     let name = case.name.as_str();
     let mut exhibits = vec![
         ledger(name, result),
         contact_states(name, result),
         corner_forces(name, result),
     ];
+    exhibits.extend(super::pressure::exhibit(outcome));
     if let Some(cycle) = Cycle::of(&case.parameters) {
         let shares = shares(result, &cycle);
         if !shares.is_empty() {

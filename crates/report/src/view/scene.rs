@@ -369,7 +369,7 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
         },
     ];
 
-    let face_x = parameters.column_face();
+    let face_x = parameters.column_face_position();
     let wedge_solid = Solid {
         mount: SolidPose::default(),
         ..extruded(

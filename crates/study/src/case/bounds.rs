@@ -28,6 +28,8 @@ pub fn largest(kind: Kind) -> f64 {
         Kind::Damping | Kind::RotationalDamping => 1e12,
         Kind::Mass => 1e9,
         Kind::Inertia => 1e12,
+        // A million megapascals.
+        Kind::Pressure => 1e12,
         Kind::Dimensionless | Kind::Count => f64::MAX,
     }
 }

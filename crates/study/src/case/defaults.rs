@@ -35,6 +35,10 @@ slope = 0.4
 reference_speed = "0.001 in/s"
 bristle_stiffness = "1e6 lbf/in"
 bristle_damping = "1e3 lbf s/in"
+[column_face]
+grid = [2, 2]
+[slope_face]
+grid = [2, 2]
 [side_frame]
 toe = "0 deg"
 longitudinal = "0 in"

@@ -3,6 +3,7 @@
 //! Quantities keep the text they were written with. A document need not be valid; reading one,
 //! and making a [`Case`](super::Case) of one, checks it.
 
+use super::face::FaceSection;
 use super::motion::{Motion, Profile};
 use super::section::{Names, name_of};
 use super::table::QuantityTable;
@@ -24,6 +25,8 @@ pub struct CaseDocument {
     pub contact: ContactSection,
     /// `[friction]`
     pub friction: FrictionSection,
+    /// `[column_face]` and `[slope_face]`
+    pub faces: [FaceSection; 2],
     /// `toe` of `[side_frame]`
     pub toe: Toe,
     /// The motions of `[side_frame]`
@@ -38,11 +41,13 @@ pub struct CaseDocument {
 
 impl CaseDocument {
     /// The sections of a case file.
-    pub(crate) const SECTIONS: [&str; 8] = [
+    pub(crate) const SECTIONS: [&str; 10] = [
         "wedge",
         "control_coil",
         "contact",
         "friction",
+        "column_face",
+        "slope_face",
         "side_frame",
         "bolster",
         "environment",

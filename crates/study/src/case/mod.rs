@@ -11,6 +11,7 @@ pub mod bounds;
 pub mod builtin;
 pub(crate) mod defaults;
 pub(crate) mod document;
+pub(crate) mod face;
 pub(crate) mod field;
 pub(crate) mod motion;
 pub(crate) mod name;
@@ -31,6 +32,7 @@ pub use document::{
     FrictionLaw, FrictionSection, NeighbourSection, SimulationSection, Start, Toe, ToeDirection,
     WedgeSection,
 };
+pub use face::FaceSection;
 pub use field::{Field, FieldSection, Input, Measured};
 pub use motion::{Motion, Profile};
 pub use problem::{CaseError, Problem};

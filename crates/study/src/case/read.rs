@@ -2,6 +2,7 @@
 
 use super::bounds;
 use super::document::*;
+use super::face::{self, FaceSection};
 use super::motion;
 use super::problem::{Problem, Problems, TomlLocation};
 use super::section::{self, Range, Section, inner_place, unit_problem};
@@ -54,6 +55,8 @@ const KEYS: &[(&str, &[&str])] = &[
             "bristle_damping",
         ],
     ),
+    (face::SECTIONS[0], FaceSection::KEYS),
+    (face::SECTIONS[1], FaceSection::KEYS),
     (
         "side_frame",
         &[
@@ -134,6 +137,7 @@ pub(super) fn document(
     let mut section = |key: &str| top.section(key, problems);
     let (wedge, coil, contact) = (section("wedge"), section("control_coil"), section("contact"));
     let (friction, side_frame) = (section("friction"), section("side_frame"));
+    let faces = face::SECTIONS.map(&mut section);
     let (bolster, environment) = (section("bolster"), section("environment"));
     let simulation = section("simulation");
 
@@ -148,6 +152,7 @@ pub(super) fn document(
         })
     });
     let friction = friction.and_then(|s| read_friction(&s, problems));
+    let [column_face, slope_face] = faces.map(|s| FaceSection::default().read_over(&s?, problems));
     let toe = side_frame.as_ref().and_then(|s| read_toe(s, problems));
     let side_frame = side_frame.and_then(|s| read_neighbour(&s, tables, problems));
     let bolster = bolster.and_then(|s| read_neighbour(&s, tables, problems));
@@ -171,6 +176,7 @@ pub(super) fn document(
         control_coil: control_coil?,
         contact: contact?,
         friction: friction?,
+        faces: [column_face?, slope_face?],
         toe: toe?,
         side_frame: side_frame?,
         bolster: bolster?,

@@ -47,6 +47,8 @@ pub(super) fn parameters(document: &typed::CaseDocument) -> Result<Parameters, U
             document.friction.slope_law,
             document.friction.slope,
         ),
+        column_face: document.faces[0].resolve(),
+        slope_face: document.faces[1].resolve(),
         toe: document.toe.to_si(),
         side_frame: neighbour("side_frame", &document.side_frame)?,
         bolster: neighbour("bolster", &document.bolster)?,

@@ -4,6 +4,7 @@ use super::document::{
     ActsAt, CaseDocument, CoilForce, Coordinate, Damping, FrictionLaw, METHODS, NeighbourSection, PROFILES,
     SYSTEMS, Start, Toe, ToeDirection,
 };
+use super::face;
 use super::field::{Field, FieldSection, Input, Measured, Reach, Written, quoted};
 use super::motion::Motion;
 use super::table::QuantityTable;
@@ -33,6 +34,12 @@ impl CaseDocument {
         self.write_wedge(&mut page);
         self.write_coil(&mut page);
         self.write_contact_and_friction(&mut page);
+        for ((name, about), face) in face::SECTIONS.into_iter().zip(face::ABOUT).zip(&self.faces) {
+            page.section(name, about);
+            for line in face.lines() {
+                page.line(line.key, line.value, line.comment);
+            }
+        }
         self.write_neighbours(&mut page);
         self.write_simulation(&mut page);
         page

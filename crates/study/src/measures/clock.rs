@@ -2,28 +2,30 @@
 
 use integrate::Event;
 use mechanics::system::ContactState;
-use wedge::outputs::{CORNERS, FACES};
 
 /// Times counted along a run.
 #[derive(Clone, Debug)]
 pub(super) struct ContactClock {
     contact_states: Vec<u8>,
+    /// How many points the column has: they come first.
+    of_column: usize,
     time: f64,
     /// Shares count from here to there, s.
     window: (f64, f64),
-    /// Time without a touching corner, by face, over the whole run, s.
+    /// Time without a touching point, by face, over the whole run, s.
     pub lift_off: [f64; 2],
-    /// Time of touching corners in the window, by face, s.
+    /// Time of touching points, added up, in the window, by face, s.
     pub touching: [f64; 2],
     /// The part of it in which they stick, s.
     pub sticking: [f64; 2],
 }
 
 impl ContactClock {
-    /// Returns a clock at time zero.
-    pub fn new(window: (f64, f64)) -> Self {
+    /// Returns a clock at time zero for a column with so many points.
+    pub fn new(window: (f64, f64), of_column: usize) -> Self {
         Self {
             contact_states: Vec::new(),
+            of_column,
             time: 0.0,
             window,
             lift_off: [0.0; 2],
@@ -55,16 +57,14 @@ impl ContactClock {
         }
         self.time = to;
         let counted = (to.min(self.window.1) - from.max(self.window.0)).max(0.0);
-        for (face, corners) in self
+        let (column, slope) = self
             .contact_states
-            .chunks(CORNERS.len())
-            .enumerate()
-            .take(FACES.len())
-        {
-            let (mut touching, mut sticking) = (0_u8, 0_u8);
-            for contact_state in corners {
-                touching += u8::from(*contact_state != ContactState::Open as u8);
-                sticking += u8::from(*contact_state == ContactState::Stick as u8);
+            .split_at(self.of_column.min(self.contact_states.len()));
+        for (face, points) in [column, slope].into_iter().enumerate() {
+            let (mut touching, mut sticking) = (0_u32, 0_u32);
+            for contact_state in points {
+                touching += u32::from(*contact_state != ContactState::Open as u8);
+                sticking += u32::from(*contact_state == ContactState::Stick as u8);
             }
             if touching == 0 {
                 self.lift_off[face] += to - from;
@@ -88,7 +88,7 @@ mod tests {
             to,
         };
         // All open; corner 0 of the column touches and sticks from 1 s, slips from 3 s, leaves at 4 s.
-        let mut clock = ContactClock::new((2.0, 10.0));
+        let mut clock = ContactClock::new((2.0, 10.0), 4);
         clock.start(&[0; 8]);
         clock.step(&[event(1.0, 0, 1)], 2.5);
         clock.step(&[event(3.0, 0, 2), event(4.0, 0, 0)], 10.0);

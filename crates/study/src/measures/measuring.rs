@@ -8,7 +8,7 @@ use mechanics::plausibility::Finding;
 use mechanics::quasi_static::Direction;
 use mechanics::system::{Loads, System};
 use quantity::System as Units;
-use wedge::outputs::{FACES, Ledger};
+use wedge::outputs::{FACES, Ledger, PointNames};
 use wedge::parameters::Parameters;
 use wedge::resultants::Resultants;
 use wedge::{BOLSTER, Wedge};
@@ -128,6 +128,7 @@ struct Measuring {
     cycle: Option<Cycle>,
     /// The averaging window and its number of cycles.
     window: Option<(f64, f64, u32)>,
+    points: PointNames,
     clock: ContactClock,
     /// Friction losses at the ends of the window, by face, J.
     probes: Vec<[f64; 2]>,
@@ -147,8 +148,10 @@ impl Measuring {
         let cycle = Cycle::of(&parameters);
         let window = cycle.and_then(|cycle| cycle.window(duration));
         let averaged = window.map_or((0.0, duration), |(start, end, _)| (start, end));
+        let points = PointNames::new(&parameters);
         Self {
-            clock: ContactClock::new(averaged),
+            clock: ContactClock::new(averaged, points.range(0).end),
+            points,
             cycle,
             window,
             probes: Vec::with_capacity(2),
@@ -202,11 +205,11 @@ impl Recorder for Measuring {
     }
 
     fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
-        plausibility::in_wedge(system, finding, units)
+        plausibility::in_wedge(system, &self.points, finding, units)
     }
 
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
-        contact_states_in_words(contact_states)
+        contact_states_in_words(&self.points, contact_states)
     }
 }
 

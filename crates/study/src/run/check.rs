@@ -1,15 +1,16 @@
 //! Whether saved counts can be those of a wedge's run.
 
 use mechanics::system::ContactState;
-use wedge::outputs::{CORNERS, FACES};
+use wedge::outputs::{FACES, PointNames};
 
 use super::state::check_count;
 use super::{Counts, EVENT_CAP, RunError, check_finite, check_length, check_size, damaged};
 use crate::result::ContactEvent;
 
 impl Counts {
-    /// Checks them for a wedge with so many contact points, and so many probes passed.
-    pub(super) fn check(&self, points: usize, probes: usize) -> Result<(), RunError> {
+    /// Checks them for a wedge with these contact points, and so many probes passed.
+    pub(super) fn check(&self, names: &PointNames, probes: usize) -> Result<(), RunError> {
+        let points = names.range(1).end;
         check_length("counts.crept", self.crept.len(), points)?;
         check_length("counts.creep_speeds", self.creep_speeds.len(), points)?;
         check_length("counts.events", self.events.len(), FACES.len())?;
@@ -31,18 +32,22 @@ impl Counts {
             let found = format!("a list of {}", self.listed.len());
             return damaged("counts.listed", found, format!("a list of at most {EVENT_CAP}"));
         }
-        self.listed.iter().try_for_each(check_event)
+        self.listed.iter().try_for_each(|event| check_event(event, names))
     }
 }
 
-fn check_event(event: &ContactEvent) -> Result<(), RunError> {
+fn check_event(event: &ContactEvent, names: &PointNames) -> Result<(), RunError> {
     check_finite("counts.listed.time", event.time)?;
     let contact_states =
         [ContactState::Open, ContactState::Stick, ContactState::Slip].map(ContactState::name);
     let (face, corner, from, to) = (&*event.face, &*event.corner, &*event.from, &*event.to);
+    let points: Vec<&str> = (0..FACES.len())
+        .flat_map(|face| names.of(face))
+        .map(String::as_str)
+        .collect();
     for (member, found, known) in [
         ("counts.listed.face", face, &FACES[..]),
-        ("counts.listed.corner", corner, &CORNERS[..]),
+        ("counts.listed.corner", corner, &points[..]),
         ("counts.listed.from", from, &contact_states[..]),
         ("counts.listed.to", to, &contact_states[..]),
     ] {

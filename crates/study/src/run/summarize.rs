@@ -6,7 +6,7 @@ use integrate::Family;
 use mechanics::friction::FrictionLaw;
 use mechanics::system::scales;
 use quantity::Kind;
-use wedge::outputs::{CORNERS, FACES, Outputs};
+use wedge::outputs::{FACES, Outputs};
 
 use super::{EVENT_CAP, Run};
 use crate::assumptions;
@@ -217,8 +217,9 @@ fn friction(run: &Run<Case>) -> BTreeMap<String, FrictionSummary> {
     FACES
         .iter()
         .zip(faces)
-        .zip(run.recorder.counts.crept.chunks(CORNERS.len()))
-        .map(|((name, face), crept)| {
+        .enumerate()
+        .map(|(number, (name, face))| {
+            let crept = &run.recorder.counts.crept[run.recorder.points.range(number)];
             let law = match face.law {
                 FrictionLaw::Tanh { .. } => "tanh",
                 FrictionLaw::Bristle { .. } => "bristle",

@@ -11,7 +11,7 @@ use mechanics::system::{ContactState, EnergyTermKind, System};
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 use wedge::Wedge;
-use wedge::outputs::{CORNERS, FACES, Outputs};
+use wedge::outputs::{FACES, Outputs, PointNames};
 
 use super::{Beginning, Recorder, Row, Run, RunCase, RunError, append, summarize};
 use crate::case::Case;
@@ -45,6 +45,7 @@ pub struct Counts {
 pub struct WedgeRecorder {
     pub(super) wedge: Wedge,
     pub(super) outputs: Outputs,
+    pub(super) points: PointNames,
     pub(super) values: Vec<Vec<f64>>,
     pub(super) counts: Counts,
     /// The ends of the averaging window, s; none without one.
@@ -85,6 +86,7 @@ impl RunCase for Case {
             system: wedge.system.clone(),
             x: wedge.initial_state.clone(),
             recorder: WedgeRecorder {
+                points: PointNames::new(&wedge.parameters),
                 values: vec![Vec::new(); outputs.columns().len()],
                 counts: Counts {
                     crept: vec![0.0; points],
@@ -134,7 +136,7 @@ impl Recorder for WedgeRecorder {
 
     fn restore(&mut self, counts: Counts, time: f64) -> Result<(), RunError> {
         let probes = self.probe_times.iter().filter(|probe| **probe <= time).count();
-        counts.check(self.speeds.len(), probes)?;
+        counts.check(&self.points, probes)?;
         self.counts = counts;
         Ok(())
     }
@@ -156,18 +158,18 @@ impl Recorder for WedgeRecorder {
     }
 
     fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
-        plausibility::in_wedge(system, finding, units)
+        plausibility::in_wedge(system, &self.points, finding, units)
     }
 
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
-        contact_states_in_words(contact_states)
+        contact_states_in_words(&self.points, contact_states)
     }
 }
 
 impl WedgeRecorder {
     fn count_events(&mut self, integrator: &Integrator<System>) {
         for event in integrator.events() {
-            let (face, corner) = face_and_corner(event.index);
+            let (face, corner) = self.points.face_and_name(event.index);
             let kind = match (
                 ContactState::from_number(event.from),
                 ContactState::from_number(event.to),
@@ -177,12 +179,12 @@ impl WedgeRecorder {
                 (_, ContactState::Stick) => 2,
                 (_, ContactState::Slip) => 3,
             };
-            self.counts.events[event.index / CORNERS.len()][kind] += 1;
+            self.counts.events[face][kind] += 1;
             self.counts.event_total += 1;
             if self.counts.listed.len() < EVENT_CAP {
                 self.counts.listed.push(ContactEvent {
                     time: event.time,
-                    face: face.to_owned(),
+                    face: FACES[face].to_owned(),
                     corner: corner.to_owned(),
                     from: ContactState::from_number(event.from).name().to_owned(),
                     to: ContactState::from_number(event.to).name().to_owned(),
@@ -244,21 +246,19 @@ pub(crate) fn friction_losses(system: &System, x: &[f64]) -> [f64; 2] {
     losses
 }
 
-/// Returns the contact states by face and corner.
-pub(crate) fn contact_states_in_words(contact_states: &[u8]) -> BTreeMap<String, String> {
-    let points = contact_states.iter().enumerate();
-    points
+/// Returns the contact states by face and point.
+pub(crate) fn contact_states_in_words(
+    points: &PointNames,
+    contact_states: &[u8],
+) -> BTreeMap<String, String> {
+    let states = contact_states.iter().enumerate();
+    states
         .map(|(point, state)| {
-            let (face, corner) = face_and_corner(point);
-            let name = ContactState::from_number(*state).name();
-            (format!("{face}_{corner}"), name.to_owned())
+            let (face, name) = points.face_and_name(point);
+            let state = ContactState::from_number(*state).name();
+            (format!("{}_{name}", FACES[face]), state.to_owned())
         })
         .collect()
-}
-
-/// Returns face and corner of a contact point.
-fn face_and_corner(point: usize) -> (&'static str, &'static str) {
-    (FACES[point / CORNERS.len()], CORNERS[point % CORNERS.len()])
 }
 
 /// Steps a cycle, at least, of a method that damps the vibrations.

@@ -1,21 +1,24 @@
-//! What happens at each corner of the wedges of a run: taken along only where it is asked for, since a table of
+//! What happens at each corner, or each point of a grid, of the wedges of a run: taken along only where it is asked for, since a table of
 //! all corners has twice as many columns as the result.
 
 use std::ops::ControlFlow;
 
+use mechanics::contact::ContactPoint;
 use mechanics::output::Column;
 use mechanics::system::{Observation, System};
 use quantity::Kind;
-use truck::{WEDGE_NAMES, WEDGES};
+use truck::{WEDGE_NAMES, WEDGES, Wedge};
+use wedge::face::Grid;
+use wedge::outputs::CORNERS;
 
 use super::TruckCase;
 use super::run::TruckResult;
 use crate::run::{Run, RunError};
 
-/// A corner of a wedge at a face.
+/// A corner of a wedge at a face, or another point of its grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Corner {
-    /// Its name, as in columns: `leading_left_column_lower_right`. Left and right are those of the truck.
+    /// Its name, as in columns: `leading_left_column_lower_right`, `leading_left_slope_point_3_2`. Left and right are those of the truck.
     pub name: String,
     /// The number of the face among those of the system.
     pub face: usize,
@@ -23,22 +26,24 @@ pub struct Corner {
     pub point: usize,
     /// The place of the point among all contact points.
     place: usize,
+    /// Its share of the face, if the face has more points than its corners.
+    weight: Option<f64>,
 }
 
 /// The corners of a run, row by row as the result has them; SI.
 #[derive(Clone, Debug)]
 pub struct ContactTable {
-    /// The columns: of each corner `gap`, `normal_force`, `friction_force_x` to `_z` and `state`.
+    /// The columns: of each corner `gap`, `normal_force`, `friction_force_x` to `_z` and `state`, of
+    /// points of a grid `pressure` too.
     pub columns: Vec<Column>,
     /// Their values, one vector a column.
     pub values: Vec<Vec<f64>>,
     corners: Vec<Corner>,
+    /// The part of the face that each point of a grid stands for, m².
+    areas: Vec<Option<f64>>,
 }
 
-/// Columns of a corner.
-const OF_CORNER: usize = 6;
-
-/// Returns the corners of all wedges of a truck's system that have faces.
+/// Returns the corners and other points of all wedges of a truck's system that have faces.
 #[must_use]
 pub fn corners(system: &System) -> Vec<Corner> {
     let mut all = Vec::new();
@@ -46,32 +51,76 @@ pub fn corners(system: &System) -> Vec<Corner> {
     for (number, mounted) in system.faces().iter().enumerate() {
         let points = &mounted.element.points;
         if (WEDGES..WEDGES + WEDGE_NAMES.len()).contains(&mounted.body) {
-            let count = points.len() as f64;
-            let mean = |k: usize| points.iter().map(|point| point.position.0[k]).sum::<f64>() / count;
-            let middle = [mean(1), mean(2)];
-            for (i, point) in points.iter().enumerate() {
-                let [_, y, z] = point.position.0;
-                let height = if z < middle[1] { "lower" } else { "upper" };
-                let side = if y > middle[0] { "left" } else { "right" };
-                all.push(Corner {
-                    name: format!("{}_{height}_{side}", mounted.element.name),
-                    face: number,
-                    point: i,
-                    place: place + i,
-                });
-            }
+            let name = &mounted.element.name;
+            let own = point_names(points).into_iter().enumerate();
+            all.extend(own.map(|(i, (point, weight))| Corner {
+                name: format!("{name}_{point}"),
+                face: number,
+                point: i,
+                place: place + i,
+                weight,
+            }));
         }
         place += points.len();
     }
     all
 }
 
+/// Returns the names of the points of a wedge's face, left and right as in the truck, and what share of the face the
+/// points of a grid have.
+fn point_names(points: &[ContactPoint]) -> Vec<(String, Option<f64>)> {
+    let count = points.len() as f64;
+    let mean = |k: usize| points.iter().map(|point| point.position.0[k]).sum::<f64>() / count;
+    let middle = [mean(1), mean(2)];
+    let mut lateral: Vec<f64> = points.iter().map(|point| point.position.0[1]).collect();
+    let turned = lateral[0] > lateral[1];
+    lateral.sort_by(f64::total_cmp);
+    lateral.dedup();
+    let across = lateral.len();
+    let grid = Grid {
+        up: points.len() / across,
+        across,
+    };
+    let places = grid.points();
+    let name = |i: usize, point: &ContactPoint| {
+        let [_, y, z] = point.position.0;
+        if i < CORNERS.len() {
+            let height = if z < middle[1] { "lower" } else { "upper" };
+            let side = if y > middle[0] { "left" } else { "right" };
+            return format!("{height}_{side}");
+        }
+        let mut place = places[i];
+        if turned {
+            place.column = across - 1 - place.column;
+        }
+        place.number()
+    };
+    let weight = |i: usize| (grid != Grid::default()).then(|| places[i].weight);
+    points
+        .iter()
+        .enumerate()
+        .map(|(i, point)| (name(i, point), weight(i)))
+        .collect()
+}
+
 impl ContactTable {
     /// Returns an empty table.
-    fn new(system: &System) -> Self {
+    fn new(system: &System, wedges: &[Wedge; 4]) -> Self {
         let corners = corners(system);
+        let area = |corner: &Corner| {
+            let mounted = &system.faces()[corner.face];
+            let wedge = wedges.get(mounted.body.checked_sub(WEDGES)?)?;
+            let [column, slope] = wedge.face_areas();
+            let face = if mounted.element.name.ends_with("column") {
+                column
+            } else {
+                slope
+            };
+            Some(face * corner.weight?)
+        };
+        let areas: Vec<Option<f64>> = corners.iter().map(area).collect();
         let mut columns = Vec::new();
-        for corner in &corners {
+        for (corner, area) in corners.iter().zip(&areas) {
             let mut add = |what: &str, kind: Kind, text: &str| {
                 columns.push(Column {
                     name: format!("{}_{what}", corner.name),
@@ -96,24 +145,32 @@ impl ContactTable {
                 );
             }
             add("state", Kind::Count, "0 open, 1 stick, 2 slip");
+            if area.is_some() {
+                let text = "normal force over the part of the face that the point stands for";
+                add("pressure", Kind::Pressure, text);
+            }
         }
         Self {
             values: vec![Vec::new(); columns.len()],
             columns,
             corners,
+            areas,
         }
     }
 
     /// Appends a row.
     pub(super) fn take(&mut self, observation: &Observation, contact_states: &[u8]) {
-        let columns = self.values.chunks_exact_mut(OF_CORNER);
-        for (corner, columns) in self.corners.iter().zip(columns) {
+        let mut columns = self.values.iter_mut();
+        for (corner, area) in self.corners.iter().zip(&self.areas) {
             let face = &observation.faces[corner.face];
             let point = &face.points[corner.point];
             let [x, y, z] = face.friction_forces[corner.point].0;
             let state = f64::from(contact_states[corner.place]);
-            let row: [f64; OF_CORNER] = [point.gap, point.normal, x, y, z, state];
-            for (column, value) in columns.iter_mut().zip(row) {
+            let pressure = area.map(|area| point.normal / area);
+            let row = [point.gap, point.normal, x, y, z, state]
+                .into_iter()
+                .chain(pressure);
+            for (value, column) in row.zip(columns.by_ref()) {
                 column.push(value);
             }
         }
@@ -134,7 +191,7 @@ impl Run<TruckCase> {
     /// As [`Run::new`].
     pub fn with_contacts(case: &TruckCase) -> Result<Self, RunError> {
         let mut run = Self::new(case)?;
-        let mut table = ContactTable::new(&run.system);
+        let mut table = ContactTable::new(&run.system, &case.parameters.wedges);
         let observation = run.system.observe(run.integrator.time(), run.integrator.x());
         table.take(&observation, run.integrator.discrete_states());
         run.recorder.contacts = Some(table);

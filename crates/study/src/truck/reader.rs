@@ -8,6 +8,7 @@ use quantity::{Kind, Quantity, STANDARD_GRAVITY, System};
 use wedge::parameters::NeighbourMotion;
 
 use crate::case::document::{Coordinate, NeighbourSection};
+use crate::case::face::FaceSection;
 use crate::case::field::{FieldSection, Reach, Written};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{self, Names, Range, Section};
@@ -445,6 +446,26 @@ impl<'r> Reader<'r> {
         };
         self.line(key, given, write(&value), comment);
         value
+    }
+
+    /// The keys of a face of a wedge.
+    pub fn face(&mut self, face: &mut FaceSection) {
+        let given = |key: &str| {
+            self.table_at(&self.section)
+                .is_some_and(|table| table.get(key).is_some())
+        };
+        let given: Vec<bool> = FaceSection::KEYS.iter().map(|key| given(key)).collect();
+        for key in FaceSection::KEYS {
+            self.node(key);
+        }
+        if let Some(section) = self.given()
+            && let Some(read) = face.read_over(&section, self.problems)
+        {
+            *face = read;
+        }
+        for (line, given) in face.lines().into_iter().zip(given) {
+            self.line(line.key, given, line.value, line.comment);
+        }
     }
 
     /// A line at the top of the file.

@@ -9,6 +9,7 @@ use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 use super::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
 use super::sections::{contact, spring_stiffnesses};
 use crate::case::document::{FrictionLaw as Law, Toe, ToeDirection};
+use crate::case::face::{self, FaceSection};
 use crate::case::field::{Reach, Written};
 use crate::case::problem::Problem;
 use crate::case::read::{ANGLE, COEFFICIENT, read_toe};
@@ -26,6 +27,7 @@ pub(super) struct Draft {
     spring: Spring,
     thesis: ThesisCoil,
     to_center: [f64; 3],
+    faces: [FaceSection; 2],
 }
 
 /// Kinds of control coils.
@@ -98,6 +100,7 @@ impl Draft {
             spring,
             thesis,
             to_center,
+            faces: [FaceSection::default(), FaceSection::default()],
         }
     }
 
@@ -114,6 +117,8 @@ impl Draft {
         let mut wedge = self.wedge;
         wedge.column_friction.law = law(self.laws[0]);
         wedge.slope_friction.law = law(self.laws[1]);
+        let [column, slope] = &self.faces;
+        (wedge.column_face, wedge.slope_face) = (column.resolve(), slope.resolve());
         wedge.control_coil = match self.kind {
             CoilKind::Shear => ControlCoil::Shear(self.spring),
             CoilKind::Thesis => ControlCoil::Thesis(self.thesis, self.to_center),
@@ -301,7 +306,7 @@ pub(super) fn all(r: &mut Reader<'_>, parameters: &Parameters, friction: f64) ->
     r.section(
         "wedge",
         "All four wedges: right triangular prisms. [wedge.leading_left], leading_right, trailing_left, trailing_right\n\
-         # set one: with these keys and toe, and tables friction, contact, control_coil.",
+         # set one: with these keys and toe, and tables friction, contact, control_coil, column_face, slope_face.",
     );
     draft.body(r);
     let about = match parameters.damping {
@@ -326,6 +331,10 @@ pub(super) fn all(r: &mut Reader<'_>, parameters: &Parameters, friction: f64) ->
         "Friction of the wedges at columns (side frames) and slopes (bolster).",
     );
     draft.friction(r);
+    for (number, (name, about)) in face::SECTIONS.into_iter().zip(face::ABOUT).enumerate() {
+        r.section(name, about);
+        r.face(&mut draft.faces[number]);
+    }
     draft
 }
 
@@ -339,7 +348,8 @@ pub(super) fn single(r: &mut Reader<'_>, parameters: &mut Parameters, base: &Dra
     for (name, wedge) in WEDGE_NAMES.into_iter().zip(&mut parameters.wedges) {
         let mut draft = base.clone();
         let path = format!("wedge.{name}");
-        let parts = ["friction", "contact", "control_coil"];
+        let [column_face, slope_face] = face::SECTIONS;
+        let parts = ["friction", "contact", "control_coil", column_face, slope_face];
         if r.overlay(&path, "One wedge: what is not given is as for all four.") {
             draft.body(r);
             draft.toe(r);
@@ -350,6 +360,8 @@ pub(super) fn single(r: &mut Reader<'_>, parameters: &mut Parameters, base: &Dra
                 match part {
                     "friction" => draft.friction(r),
                     "contact" => contact(r, &mut draft.wedge.contact, "per corner"),
+                    own if own == column_face => r.face(&mut draft.faces[0]),
+                    own if own == slope_face => r.face(&mut draft.faces[1]),
                     _ => draft.coil(r, &path),
                 }
             }

@@ -17,6 +17,7 @@ from .sections import (
     ContactSection,
     ControlCoilSection,
     EnvironmentSection,
+    FaceSection,
     FrictionSection,
     Section,
     SideFrameSection,
@@ -33,6 +34,8 @@ _SECTIONS: dict[str, type[Section]] = {
     "control_coil": ControlCoilSection,
     "contact": ContactSection,
     "friction": FrictionSection,
+    "column_face": FaceSection,
+    "slope_face": FaceSection,
     "side_frame": SideFrameSection,
     "bolster": BolsterSection,
     "environment": EnvironmentSection,
@@ -99,6 +102,8 @@ class Case:
         control_coil: ControlCoilSection | Mapping[str, Any] | None = None,
         contact: ContactSection | Mapping[str, Any] | None = None,
         friction: FrictionSection | Mapping[str, Any] | None = None,
+        column_face: FaceSection | Mapping[str, Any] | None = None,
+        slope_face: FaceSection | Mapping[str, Any] | None = None,
         side_frame: SideFrameSection | Mapping[str, Any] | None = None,
         bolster: BolsterSection | Mapping[str, Any] | None = None,
         environment: EnvironmentSection | Mapping[str, Any] | None = None,
@@ -109,6 +114,8 @@ class Case:
             "control_coil": control_coil,
             "contact": contact,
             "friction": friction,
+            "column_face": column_face,
+            "slope_face": slope_face,
             "side_frame": side_frame,
             "bolster": bolster,
             "environment": environment,
@@ -199,6 +206,16 @@ class Case:
     def friction(self) -> FrictionSection:
         """``[friction]``, complete."""
         return self._section("friction")  # type: ignore[no-any-return]
+
+    @property
+    def column_face(self) -> FaceSection:
+        """``[column_face]``, complete."""
+        return self._section("column_face")  # type: ignore[no-any-return]
+
+    @property
+    def slope_face(self) -> FaceSection:
+        """``[slope_face]``, complete."""
+        return self._section("slope_face")  # type: ignore[no-any-return]
 
     @property
     def side_frame(self) -> SideFrameSection:

@@ -22,6 +22,7 @@ __all__ = [
     "ContactSection",
     "ControlCoilSection",
     "EnvironmentSection",
+    "FaceSection",
     "FrictionSection",
     "MotionLike",
     "QuantityLike",
@@ -276,6 +277,16 @@ class FrictionSection(Section):
     """Tangential viscous damping of the bristle law, per face."""
 
     _words = frozenset({"law", "column", "slope"})
+
+
+@dataclass(frozen=True)
+class FaceSection(Section):
+    """``[column_face]`` or ``[slope_face]``"""
+
+    grid: Sequence[int] | None = None
+    """Points up the face and across it, edges included; (2, 2): the corners."""
+
+    _words = frozenset({"grid"})
 
 
 @dataclass(frozen=True)

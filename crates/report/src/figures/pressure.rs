@@ -1,0 +1,116 @@
+//! The pressure over the faces of a wedge whose contact points are a grid.
+
+use quantity::Kind;
+use study::result::RunResult;
+use wedge::face::{FaceProperties, Rectangle};
+use wedge::outputs::FACES;
+
+use super::study::contour_curves;
+use super::{Exhibit, Outcome, capital, digits};
+use crate::contour::{Grid, round_levels};
+use crate::csv::converted;
+use crate::drawing::{Colour, Figure, Line, Panel};
+
+/// Lines of equal pressure in a map.
+const LEVELS: usize = 6;
+
+/// The map of each face with a grid; `None` if there is none.
+pub(super) fn exhibit((case, result): &Outcome) -> Option<Exhibit> {
+    let parameters = &case.parameters;
+    let own = [&parameters.column_face, &parameters.slope_face];
+    let faces = own.into_iter().zip(parameters.rectangles()).zip(FACES);
+    let maps: Vec<[Panel; 2]> = faces
+        .filter_map(|((face, rectangle), name)| map(result, face, &rectangle, name))
+        .collect();
+    if maps.is_empty() {
+        return None;
+    }
+    Some(Exhibit {
+        name: format!("{}_pressure", case.name),
+        thesis: String::new(),
+        figure: Figure {
+            title: format!("{}: pressure over the faces", case.name),
+            caption: "Lines of equal pressure over the faces of the wedge, seen from the counterface: on the left at the time of the \
+                      greatest pressure after the first tenth of the run, on the right on average over the same time. The pressure of a \
+                      point of the grid is its normal force over the part of the face that it stands for; lines are straight between \
+                      points. Left (+y) is the wedge's left side."
+                .to_owned(),
+            panels: maps.into_iter().flatten().collect(),
+            columns: 2,
+            ..Figure::default()
+        },
+    })
+}
+
+/// The pressures of a face: at the time of the greatest one, and on average.
+fn map(result: &RunResult, face: &FaceProperties, rectangle: &Rectangle, name: &str) -> Option<[Panel; 2]> {
+    let units = result.summary.units;
+    let times = result.column("time")?;
+    let mut points = face.grid.points();
+    points.sort_by_key(|point| (point.column, point.row));
+    let columns: Option<Vec<&[f64]>> = points
+        .iter()
+        .map(|point| result.column(&format!("{name}_{}_pressure", point.number())))
+        .collect();
+    let columns = columns?;
+    // The release from the start is none of the motion's.
+    let first = times.partition_point(|time| *time < 0.1 * times.last().copied().unwrap_or_default());
+    let most = |row: usize| columns.iter().map(|column| column[row]).fold(0.0, f64::max);
+    let worst = (first..times.len()).max_by(|a, b| most(*a).total_cmp(&most(*b)))?;
+    let rows = (times.len() - first) as f64;
+    let at_worst: Vec<f64> = columns.iter().map(|column| column[worst]).collect();
+    let mean: Vec<f64> = columns
+        .iter()
+        .map(|column| column[first..].iter().sum::<f64>() / rows)
+        .collect();
+    let length = |value: f64| converted(value, Kind::Length, units);
+    let part = |place: usize, count: usize| place as f64 / (count - 1) as f64;
+    let x: Vec<f64> = (0..face.grid.across)
+        .map(|place| length(rectangle.width * (part(place, face.grid.across) - 0.5)))
+        .collect();
+    let y: Vec<f64> = (0..face.grid.up)
+        .map(|place| length(rectangle.length() * part(place, face.grid.up)))
+        .collect();
+    let unit = Kind::Length.label(units);
+    let panel = |title: String, pressures: Vec<f64>| {
+        let heights: Vec<f64> = pressures
+            .iter()
+            .map(|value| converted(*value, Kind::Pressure, units))
+            .collect();
+        let grid = Grid {
+            x: &x,
+            y: &y,
+            heights: &heights,
+        };
+        let (mut curves, mut marks) = (Vec::new(), Vec::new());
+        for (mut curve, mark) in contour_curves(&grid, &round_levels(&heights, LEVELS)) {
+            (curve.colour, curve.line) = (Colour::Black, Line::Solid);
+            curve.label = String::new();
+            curves.push(curve);
+            marks.push(mark);
+        }
+        Panel {
+            title,
+            x_label: format!("across, left is positive ({unit})"),
+            y_label: format!("up the face ({unit})"),
+            x_window: Some((x[0], x[x.len() - 1])),
+            curves,
+            marks,
+            ..Panel::default()
+        }
+    };
+    let greatest = format!(
+        "{} at {} s, greatest {} {}",
+        capital(name),
+        digits(times[worst]),
+        digits(converted(most(worst), Kind::Pressure, units)),
+        Kind::Pressure.label(units)
+    );
+    Some([
+        panel(greatest, at_worst),
+        panel(
+            format!("{}: mean ({})", capital(name), Kind::Pressure.label(units)),
+            mean,
+        ),
+    ])
+}
