@@ -5,6 +5,7 @@ mod claims;
 pub mod explorer;
 mod runs;
 pub mod study;
+pub mod car_run;
 pub mod truck;
 pub mod truck_run;
 mod viewer;
