@@ -211,9 +211,10 @@ impl Nominal {
                 let place = own.frame.origin;
                 if number < truck::BOLSTER {
                     wheelsets[2 * t + number] = bodies.len();
-                    let mut wheelset = parameters
-                        .wheelset
-                        .body(&format!("wheelset_{}", 2 * t + number + 1), &WheelsetPlace::default());
+                    let mut wheelset = parameters.wheelset.body(
+                        &format!("wheelset_{}", 2 * t + number + 1),
+                        &WheelsetPlace::default(),
+                    );
                     wheelset.frame.origin = place;
                     groups.push((bodies.len(), t));
                     bodies.push(wheelset);
@@ -252,7 +253,8 @@ impl Nominal {
             mounts[w / 2].bodies[truck::WHEELSETS + w % 2] = carriers[w];
         }
         // The plates carry half of the body each, whatever its place.
-        let trucks = [0, 1].map(|t| truck::mounted(&mut model, &with_half_body(&parts[t], carried), &mounts[t]));
+        let trucks =
+            [0, 1].map(|t| truck::mounted(&mut model, &with_half_body(&parts[t], carried), &mounts[t]));
         let wheels = wheels(&mut model, parameters, searches, lines, (wheelsets, rails, track));
         let control = match &parameters.drive {
             Drive::Coasting => None,
@@ -307,7 +309,11 @@ fn free(own: &truck::Parameters) -> truck::Parameters {
     for side_frame in &mut own.side_frames {
         side_frame.free = [true; 6];
     }
-    for wedge in own.wedges.iter_mut().filter(|wedge| wedge.kind == WedgeKind::Body) {
+    for wedge in own
+        .wedges
+        .iter_mut()
+        .filter(|wedge| wedge.kind == WedgeKind::Body)
+    {
         wedge.free = [true; 6];
     }
     own.lift = 0.0;
@@ -364,7 +370,11 @@ fn wheels(
                         law: own.law,
                     };
                     let on = rails.map_or(0, |rails| rails[w][i]);
-                    model.add(wheel.clone(), (wheelsets[w], marker([half, -half][i])), (on, track));
+                    model.add(
+                        wheel.clone(),
+                        (wheelsets[w], marker([half, -half][i])),
+                        (on, track),
+                    );
                     wheel
                 })
             });

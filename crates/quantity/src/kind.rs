@@ -195,7 +195,14 @@ impl Kind {
             }
             Kind::TravelSpeed => {
                 let (names, suffix) = (["mph", "m/s"], ["mph", "m_per_s"]);
-                facts([0, 1, -1, 0], "a speed", names, suffix, names, 1.0 / MILE_PER_HOUR)
+                facts(
+                    [0, 1, -1, 0],
+                    "a speed",
+                    names,
+                    suffix,
+                    names,
+                    1.0 / MILE_PER_HOUR,
+                )
             }
             Kind::AngularSpeed | Kind::Frequency => {
                 let name = if self == Kind::Frequency {

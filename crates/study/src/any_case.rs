@@ -68,7 +68,9 @@ impl AnyCase {
         overrides: &[String],
     ) -> Result<Self, CaseError> {
         Ok(match named(source, text, overrides) {
-            Some(truck::Model::Truck) => Self::Truck(Box::new(TruckCase::parse(source, text, tables, overrides)?)),
+            Some(truck::Model::Truck) => {
+                Self::Truck(Box::new(TruckCase::parse(source, text, tables, overrides)?))
+            }
             Some(truck::Model::Car) => Self::Car(Box::new(CarCase::parse(source, text, tables, overrides)?)),
             _ => Self::Wedge(Box::new(Case::parse(source, text, tables, overrides)?)),
         })

@@ -94,7 +94,8 @@ impl Truck {
     /// Returns the loads at an observation of [`Truck::system`].
     #[must_use]
     pub fn loads(&self, observation: &Observation) -> Loads {
-        self.mounted.loads_of(&View::new(&self.mounted, observation, None))
+        self.mounted
+            .loads_of(&View::new(&self.mounted, observation, None))
     }
 }
 

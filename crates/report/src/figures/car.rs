@@ -36,7 +36,12 @@ impl CarRun {
         let own = kind(name);
         let pairs = distances.iter().zip(values);
         pairs
-            .map(|(s, value)| (converted(*s, Kind::Distance, units), converted(*value, own, units)))
+            .map(|(s, value)| {
+                (
+                    converted(*s, Kind::Distance, units),
+                    converted(*value, own, units),
+                )
+            })
             .collect()
     }
 
@@ -133,20 +138,29 @@ pub fn exhibits(run: &CarRun) -> Vec<Exhibit> {
         .collect();
     let columns = |truck: usize| -> Vec<(String, String)> {
         WEDGE_NAMES
-            .map(|wedge| (wedge.replace('_', " "), format!("truck_{truck}_{wedge}_column_normal")))
+            .map(|wedge| {
+                (
+                    wedge.replace('_', " "),
+                    format!("truck_{truck}_{wedge}_column_normal"),
+                )
+            })
             .to_vec()
     };
     vec![
         exhibit(
             "wheel_loads",
             "vertical wheel forces",
-            &format!("Vertical force of each wheel on its rail over the distance, normal to the track's plane, below {filter} Hz."),
+            &format!(
+                "Vertical force of each wheel on its rail over the distance, normal to the track's plane, below {filter} Hz."
+            ),
             of_wheels("vertical", ("vertical force", Kind::Force)),
         ),
         exhibit(
             "lateral_forces",
             "lateral wheel forces",
-            &format!("Lateral force of each wheel on its rail, positive where it spreads the gauge, below {filter} Hz."),
+            &format!(
+                "Lateral force of each wheel on its rail, positive where it spreads the gauge, below {filter} Hz."
+            ),
             of_wheels("lateral", ("lateral force", Kind::Force)),
         ),
         exhibit(
@@ -191,7 +205,11 @@ pub fn exhibits(run: &CarRun) -> Vec<Exhibit> {
             "trucks",
             "Warp angle of each truck, and what its nests carry.",
             vec![
-                run.panel("(a) warp angle", ("warp angle", Kind::Angle), &trucks("warp_angle")),
+                run.panel(
+                    "(a) warp angle",
+                    ("warp angle", Kind::Angle),
+                    &trucks("warp_angle"),
+                ),
                 run.panel("(b) nests", ("load", Kind::Force), &nests),
             ],
         ),
@@ -222,7 +240,11 @@ pub fn exhibits(run: &CarRun) -> Vec<Exhibit> {
                     ]
                     .map(|(label, name)| (label.to_owned(), name.to_owned())),
                 ),
-                run.panel("(b) residual", ("energy", Kind::Energy), &one("residual", "ledger_residual")),
+                run.panel(
+                    "(b) residual",
+                    ("energy", Kind::Energy),
+                    &one("residual", "ledger_residual"),
+                ),
             ],
         ),
     ]

@@ -83,10 +83,12 @@ fn limits(summary: &CarSummary) -> Markup {
 
 fn statistics(summary: &CarSummary) -> Markup {
     let cell = |value: &Option<SummaryValue>| {
-        value.as_ref().map_or("–".to_owned(), |own| match own.unit.as_str() {
-            "" => digits(own.value),
-            unit => format!("{} {unit}", digits(own.value)),
-        })
+        value
+            .as_ref()
+            .map_or("–".to_owned(), |own| match own.unit.as_str() {
+                "" => digits(own.value),
+                unit => format!("{} {unit}", digits(own.value)),
+            })
     };
     html! {
         details {

@@ -1,11 +1,11 @@
 //! `index.html`: the report as one page that needs nothing else to be shown.
 
 mod agreement;
+pub mod car_run;
 mod claims;
 pub mod explorer;
 mod runs;
 pub mod study;
-pub mod car_run;
 pub mod truck;
 pub mod truck_run;
 mod viewer;

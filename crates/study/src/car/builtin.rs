@@ -76,7 +76,11 @@ lading.kind = \"{lading}\"
 simulation.duration = \"{duration} s\"
 {track}"
     );
-    BuiltIn::new(format!("car_{name}_{lading}"), format!("{title}, {lading} car"), &body)
+    BuiltIn::new(
+        format!("car_{name}_{lading}"),
+        format!("{title}, {lading} car"),
+        &body,
+    )
 }
 
 fn held(speed: f64) -> String {
@@ -88,7 +92,12 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
     let bend = curve([300.0, 200.0, 800.0], 7.5, 4.0, "");
     let out = "[[track.segments]]\nspiral = \"150 ft\"\n[[track.segments]]\ntangent = \"500 ft\"\n";
     let bunched = curve([300.0, 150.0, 200.0], 7.5, 4.5, out);
-    let staggered = format!("{}{}{}", tangent(1000.0), joints("left", 200.0), joints("right", 219.5));
+    let staggered = format!(
+        "{}{}{}",
+        tangent(1000.0),
+        joints("left", 200.0),
+        joints("right", 219.5)
+    );
     let abreast = format!("{}{}", tangent(1500.0), joints("both", 200.0));
     let both = |name: &str, title: &str, speed: f64, duration: f64, track: &str| {
         ["loaded", "empty"].map(|lading| case(name, title, lading, &held(speed), duration, track))
@@ -104,8 +113,20 @@ start.axle_shift = \"0.2 in\"";
                       axles, L/V, and the trucks' turning against center plates and wedges. Amplitudes and limits are remembered \
                       of AAR M-1001, chapter XI: check them against your edition.",
             cases: [
-                &both("tangent", "tangent track of FRA class 4 at 50 mph", 50.0, 20.0, &rough)[..],
-                &both("constant_curve", "curve of 7.5 deg at 28 mph, balanced", 28.0, 28.0, &bend),
+                &both(
+                    "tangent",
+                    "tangent track of FRA class 4 at 50 mph",
+                    50.0,
+                    20.0,
+                    &rough,
+                )[..],
+                &both(
+                    "constant_curve",
+                    "curve of 7.5 deg at 28 mph, balanced",
+                    28.0,
+                    28.0,
+                    &bend,
+                ),
             ]
             .concat(),
         },
@@ -124,7 +145,14 @@ start.axle_shift = \"0.2 in\"";
                     28.0,
                     &bunched,
                 ),
-                case("hunting", "tangent, slowing down from 75 to 30 mph", "empty", slowing, 50.0, &tangent(5000.0)),
+                case(
+                    "hunting",
+                    "tangent, slowing down from 75 to 30 mph",
+                    "empty",
+                    slowing,
+                    50.0,
+                    &tangent(5000.0),
+                ),
                 case(
                     "twist_and_roll",
                     "ten staggered low joints 39 ft apart at 16 mph",

@@ -123,7 +123,10 @@ fn way(r: &mut Reader<'_>, parameters: &Parameters, simulation: &Simulation) {
             (reach - start) / FOOT
         );
         let help = format!("write start.distance = \"{} ft\" or more", (reach / FOOT).ceil());
-        r.problem("start.distance", Problem::new(message).label("before the track").help(help));
+        r.problem(
+            "start.distance",
+            Problem::new(message).label("before the track").help(help),
+        );
         return;
     }
     let lead = straight_until(line);
@@ -134,8 +137,14 @@ fn way(r: &mut Reader<'_>, parameters: &Parameters, simulation: &Simulation) {
             (start + reach) / FOOT,
             lead / FOOT
         );
-        let help = format!("make the first tangent {:.0} ft or longer", ((start + reach) / FOOT).ceil());
-        r.problem("track", Problem::new(message).label("too short a lead-in").help(help));
+        let help = format!(
+            "make the first tangent {:.0} ft or longer",
+            ((start + reach) / FOOT).ceil()
+        );
+        r.problem(
+            "track",
+            Problem::new(message).label("too short a lead-in").help(help),
+        );
         return;
     }
     let speed = parameters.start.speed;
@@ -169,7 +178,10 @@ fn way(r: &mut Reader<'_>, parameters: &Parameters, simulation: &Simulation) {
     if tightest * LEAST_RADIUS > 1.0 {
         let axle = parameters.trucks[0].distances[2];
         let turn = 0.5 * parameters.truck_distance * tightest;
-        let bearings = parameters.trucks[0].car_body.as_ref().map_or(0.0, |own| own.side_bearings.distance);
+        let bearings = parameters.trucks[0]
+            .car_body
+            .as_ref()
+            .map_or(0.0, |own| own.side_bearings.distance);
         let message = format!(
             "the curve at {:.0} ft has a radius of {:.0} ft, tighter than the 150 ft that cars are built for: the trucks would \
              turn by {:.1} deg under the body, the side bearings would move by {:.1} in, and between the axles of a truck the \
@@ -180,7 +192,12 @@ fn way(r: &mut Reader<'_>, parameters: &Parameters, simulation: &Simulation) {
             turn * bearings / INCH,
             0.5 * axle * axle * tightest / INCH
         );
-        r.problem("track", Problem::new(message).label("too tight").help("choose a larger radius"));
+        r.problem(
+            "track",
+            Problem::new(message)
+                .label("too tight")
+                .help("choose a larger radius"),
+        );
     }
 }
 
@@ -191,7 +208,9 @@ fn straight_until(line: &CenterLine) -> f64 {
         let station = line.at(distance);
         station.curvature[0].abs() > 1e-7 || station.superelevation[0].abs() > 1e-4
     };
-    let first = (0..=steps).map(|step| step as f64 * FOOT).find(|distance| bends(*distance));
+    let first = (0..=steps)
+        .map(|step| step as f64 * FOOT)
+        .find(|distance| bends(*distance));
     first.unwrap_or(line.length())
 }
 

@@ -37,18 +37,29 @@ impl Columns {
         };
         own.add("time", Kind::Time, "", "time", |seen| seen.observation.time);
         let text = "of the center of gravity of body and lading along the track, in plan";
-        own.add("distance", Kind::Distance, TRACK, text, |seen| seen.loads.distance);
-        own.add("speed", Kind::TravelSpeed, TRACK, "of the car body along the track", |seen| {
-            seen.loads.speed
+        own.add("distance", Kind::Distance, TRACK, text, |seen| {
+            seen.loads.distance
         });
+        own.add(
+            "speed",
+            Kind::TravelSpeed,
+            TRACK,
+            "of the car body along the track",
+            |seen| seen.loads.speed,
+        );
         own.axles(static_loads);
-        own.add("body_roll", Kind::Angle, TRACK, "of the car body against the track, left side up", |seen| {
-            seen.loads.body_angles[0]
-        });
+        own.add(
+            "body_roll",
+            Kind::Angle,
+            TRACK,
+            "of the car body against the track, left side up",
+            |seen| seen.loads.body_angles[0],
+        );
         for end in 0..2 {
             for (k, direction) in ["lateral", "vertical"].into_iter().enumerate() {
                 let name = format!("body_at_truck_{}_{direction}_acceleration", end + 1);
-                let text = "of the car body at the truck's center, as an accelerometer shows it, without gravity";
+                let text =
+                    "of the car body at the truck's center, as an accelerometer shows it, without gravity";
                 own.add(name, Kind::RideAcceleration, BODY, text, move |seen| {
                     let own = &seen.loads.ends[end];
                     [own.lateral_acceleration, own.vertical_acceleration][k]
@@ -57,9 +68,13 @@ impl Columns {
         }
         for truck in 0..2 {
             let text = "mean yaw of the side frames less that of the bolster";
-            own.add(format!("truck_{}_warp_angle", truck + 1), Kind::Angle, TRUCK, text, move |seen| {
-                seen.loads.trucks[truck].warp_angle
-            });
+            own.add(
+                format!("truck_{}_warp_angle", truck + 1),
+                Kind::Angle,
+                TRUCK,
+                text,
+                move |seen| seen.loads.trucks[truck].warp_angle,
+            );
         }
         for truck in 0..2 {
             own.truck(truck);
@@ -101,9 +116,13 @@ impl Columns {
             for (side, name) in SIDES.into_iter().enumerate() {
                 let stem = format!("axle_{}_{name}", axle + 1);
                 let text = "force of the wheel on its rail, normal to the track's plane, positive down";
-                self.add(format!("{stem}_vertical"), Kind::Force, TRACK, text, move |seen| {
-                    seen.loads.wheels[axle][side].vertical
-                });
+                self.add(
+                    format!("{stem}_vertical"),
+                    Kind::Force,
+                    TRACK,
+                    text,
+                    move |seen| seen.loads.wheels[axle][side].vertical,
+                );
                 let text = "force of the wheel on its rail along the track's plane, positive where it spreads the gauge";
                 self.add(format!("{stem}_lateral"), Kind::Force, TRACK, text, move |seen| {
                     seen.loads.wheels[axle][side].lateral
@@ -117,9 +136,13 @@ impl Columns {
             }
             let stem = format!("axle_{}", axle + 1);
             let text = "place of the axle's middle from the track's center line, left";
-            self.add(format!("{stem}_lateral"), Kind::Length, TRACK, text, move |seen| {
-                seen.loads.axles[axle].lateral
-            });
+            self.add(
+                format!("{stem}_lateral"),
+                Kind::Length,
+                TRACK,
+                text,
+                move |seen| seen.loads.axles[axle].lateral,
+            );
             let text = "yaw of the axle against the track, left";
             self.add(format!("{stem}_yaw"), Kind::Angle, TRACK, text, move |seen| {
                 seen.loads.axles[axle].yaw
@@ -140,17 +163,29 @@ impl Columns {
         for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
             let stem = format!("{stem}_{name}");
             let text = "normal force of the column";
-            self.add(format!("{stem}_column_normal"), Kind::Force, TRUCK, text, move |seen| {
-                seen.loads.trucks[truck].wedges[number].column_normal
-            });
+            self.add(
+                format!("{stem}_column_normal"),
+                Kind::Force,
+                TRUCK,
+                text,
+                move |seen| seen.loads.trucks[truck].wedges[number].column_normal,
+            );
             let text = "friction of the column alone on the side frame, along z, positive up";
-            self.add(format!("{stem}_column_friction_z"), Kind::Force, TRUCK, text, move |seen| {
-                seen.loads.trucks[truck].wedges[number].column_friction_z
-            });
+            self.add(
+                format!("{stem}_column_friction_z"),
+                Kind::Force,
+                TRUCK,
+                text,
+                move |seen| seen.loads.trucks[truck].wedges[number].column_friction_z,
+            );
             let text = "normal force of the slope";
-            self.add(format!("{stem}_slope_normal"), Kind::Force, TRUCK, text, move |seen| {
-                seen.loads.trucks[truck].wedges[number].slope_normal
-            });
+            self.add(
+                format!("{stem}_slope_normal"),
+                Kind::Force,
+                TRUCK,
+                text,
+                move |seen| seen.loads.trucks[truck].wedges[number].slope_normal,
+            );
             for (k, coordinate) in ["x", "y", "z", "roll", "pitch", "yaw"].into_iter().enumerate() {
                 let name = format!("{stem}_{coordinate}");
                 if k < 3 {
@@ -171,15 +206,24 @@ impl Columns {
     fn more_of_truck(&mut self, truck: usize) {
         let stem = format!("truck_{}", truck + 1);
         let text = "moment about the truck's z axis that all elements exert on the bolster";
-        self.add(format!("{stem}_warp_moment"), Kind::Moment, TRUCK, text, move |seen| {
-            seen.loads.trucks[truck].warp_moment.total()
-        });
+        self.add(
+            format!("{stem}_warp_moment"),
+            Kind::Moment,
+            TRUCK,
+            text,
+            move |seen| seen.loads.trucks[truck].warp_moment.total(),
+        );
         let text = "normal force of the center plate";
-        self.add(format!("{stem}_center_plate_load"), Kind::Force, TRUCK, text, move |seen| {
-            seen.loads.trucks[truck].center_plate.load
-        });
+        self.add(
+            format!("{stem}_center_plate_load"),
+            Kind::Force,
+            TRUCK,
+            text,
+            move |seen| seen.loads.trucks[truck].center_plate.load,
+        );
         for (k, name) in ["roll", "pitch", "turning"].into_iter().enumerate() {
-            let text = "moment of the center plate on the bolster about the truck's axes, at the plate's height";
+            let text =
+                "moment of the center plate on the bolster about the truck's axes, at the plate's height";
             let name = format!("{stem}_center_plate_{name}_moment");
             self.add(name, Kind::Moment, TRUCK, text, move |seen| {
                 seen.loads.trucks[truck].center_plate.moment[k]

@@ -28,7 +28,10 @@ pub(super) fn of(loads: &Loads, heights: [f64; 4]) -> Option<Left> {
         let what = if own.lateral.abs() > ON_TOP {
             format!("the axle is {inches:.2} in from the middle, so that the flange is on top of the rail")
         } else if heights[axle] - own.height > FALLEN {
-            format!("the axle has fallen by {:.2} in", (heights[axle] - own.height) / 0.0254)
+            format!(
+                "the axle has fallen by {:.2} in",
+                (heights[axle] - own.height) / 0.0254
+            )
         } else {
             return None;
         };
@@ -56,7 +59,8 @@ pub(super) fn static_loads(parameters: &Parameters) -> [[f64; 2]; 4] {
         let frames: f64 = own.side_frames.iter().map(|frame| frame.body.mass).sum();
         let share = 0.5 + [forward, -forward][truck] / parameters.truck_distance;
         let carried = 0.5 * share * parameters.carried_mass() * gravity;
-        let rest = (0.5 * (own.bolster.body.mass + own.wedge_mass() + frames) + parameters.wheelset.mass) * gravity;
+        let rest =
+            (0.5 * (own.bolster.body.mass + own.wedge_mass() + frames) + parameters.wheelset.mass) * gravity;
         [1.0, -1.0].map(|side| 0.5 * (carried * (1.0 + side * left / half) + rest))
     })
 }

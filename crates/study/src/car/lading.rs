@@ -29,7 +29,8 @@ const KINDS: Names<LadingKind> = &[
 pub(super) fn kind(r: &mut Reader<'_>) -> LadingKind {
     let mut kind = LadingKind::Loaded;
     r.section("lading", "What the car carries.");
-    let comment = "\"loaded\": 200,400 lbf, with the car 263,000 lbf on rail; \"empty\"; \"masses\": those below";
+    let comment =
+        "\"loaded\": 200,400 lbf, with the car 263,000 lbf on rail; \"empty\"; \"masses\": those below";
     r.choice("kind", KINDS, &mut kind, comment);
     kind
 }
@@ -109,7 +110,12 @@ fn list(section: &Section<'_>, problems: &mut Problems) -> Option<Vec<Typed>> {
             table,
             place: Some(place),
         };
-        own.allow_in(&["name", "weight", "place", "inertia"], &[], "a mass of the lading", problems);
+        own.allow_in(
+            &["name", "weight", "place", "inertia"],
+            &[],
+            "a mass of the lading",
+            problems,
+        );
         let name = match table.get("name") {
             Some(_) => own.text("name", problems).map(|(text, _)| text.to_owned()),
             None => Some(format!("mass {}", number + 1)),
@@ -154,6 +160,10 @@ pub(super) fn body(r: &mut Reader<'_>, parameters: &mut Parameters) {
         &mut parameters.truck_distance,
         "from the center of one truck to that of the other",
     );
-    let gravity: Form = (Kind::Acceleration, Range::NotNegative, Reach::FromZero(STANDARD_GRAVITY));
+    let gravity: Form = (
+        Kind::Acceleration,
+        Range::NotNegative,
+        Reach::FromZero(STANDARD_GRAVITY),
+    );
     r.quantity("gravity", gravity, &mut parameters.gravity, "standard gravity");
 }

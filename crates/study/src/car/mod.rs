@@ -9,13 +9,13 @@ mod checks;
 mod columns;
 mod derailment;
 mod lading;
-mod wheels;
 pub mod run;
 mod sections;
 pub mod statistics;
 pub mod summary;
 mod track;
 mod trucks;
+mod wheels;
 
 use std::path::Path;
 

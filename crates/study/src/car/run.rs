@@ -219,7 +219,11 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         .collect();
     warnings.extend(plausibility::warnings_by_kind(&run));
     warnings.extend(run.case.doubts.iter().cloned());
-    warnings.extend(derailed.iter().map(|own| format!("derailed at {:.3} s: {}", own.time, own.what)));
+    warnings.extend(
+        derailed
+            .iter()
+            .map(|own| format!("derailed at {:.3} s: {}", own.time, own.what)),
+    );
     let told = statistics_of(&run, &columns, &values);
     warnings.extend(told.remarks.iter().cloned());
     if run.case.rules.filtered_columns {
@@ -244,7 +248,10 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let mut static_loads = BTreeMap::new();
     for (axle, loads) in (1..).zip(run.recorder.static_loads) {
         for (side, load) in SIDES.into_iter().zip(loads) {
-            static_loads.insert(format!("axle_{axle}_{side}"), SummaryValue::new(load, Kind::Force, units));
+            static_loads.insert(
+                format!("axle_{axle}_{side}"),
+                SummaryValue::new(load, Kind::Force, units),
+            );
         }
     }
     let rows = time.len();

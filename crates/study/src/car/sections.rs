@@ -55,7 +55,7 @@ const TIME: Form = (Kind::Time, Range::Positive, Reach::Positive);
 pub(super) fn everything(r: &mut Reader<'_>) -> Option<Drawn> {
     let carried = lading::kind(r);
     let masses = lading::masses(r, carried);
-    let straight = car::tangent(1000.0)?;
+    let straight = track::tangent(1000.0)?;
     let mut parameters = Parameters::new(carried.usual(), straight, USUAL_SPEED * MILE_PER_HOUR).ok()?;
     parameters.lading = masses;
     lading::body(r, &mut parameters);
@@ -116,10 +116,17 @@ fn speed(r: &mut Reader<'_>, parameters: &mut Parameters) -> Option<Vec<[f64; 2]
     }
     if kind == DriveKind::OverDistance {
         let comment = "distances along the track and speeds, straight between them";
-        let typed = r.other("over_distance", comment, None, |s, p| speeds(s, p).map(Some), write_speeds);
+        let typed = r.other(
+            "over_distance",
+            comment,
+            None,
+            |s, p| speeds(s, p).map(Some),
+            write_speeds,
+        );
         let Some(typed) = typed.filter(|typed| !typed.is_empty()) else {
             if !r.has("speed.over_distance") {
-                let problem = Problem::new("`speed.kind` is \"over_distance\", but `speed.over_distance` is missing");
+                let problem =
+                    Problem::new("`speed.kind` is \"over_distance\", but `speed.over_distance` is missing");
                 let help = "write over_distance = [[\"0 ft\", \"60 mph\"], [\"3000 ft\", \"30 mph\"]]";
                 r.problem("speed.kind", problem.label("which speeds?").help(help));
             }
@@ -190,7 +197,10 @@ fn speeds(section: &Section<'_>, problems: &mut Problems) -> Option<Pairs> {
         let distance = quantity(distance, &path, Kind::Distance, Range::Any, problems);
         let speed = quantity(speed, &path, Kind::TravelSpeed, Range::NotNegative, problems);
         let pair = [distance?, speed?];
-        if pairs.last().is_some_and(|before| before[0].to_si() >= pair[0].to_si()) {
+        if pairs
+            .last()
+            .is_some_and(|before| before[0].to_si() >= pair[0].to_si())
+        {
             problems.push(wrong("must have growing distances").at(&item.place));
             return None;
         }
@@ -200,9 +210,10 @@ fn speeds(section: &Section<'_>, problems: &mut Problems) -> Option<Pairs> {
 }
 
 fn write_speeds(pairs: &Option<Pairs>) -> Written {
-    let texts = pairs.iter().flatten().map(|[distance, speed]| {
-        format!("[{}, {}]", quoted(distance.text()), quoted(speed.text()))
-    });
+    let texts = pairs
+        .iter()
+        .flatten()
+        .map(|[distance, speed]| format!("[{}, {}]", quoted(distance.text()), quoted(speed.text())));
     Written::toml(format!("[{}]", texts.collect::<Vec<_>>().join(", ")))
 }
 
@@ -211,12 +222,23 @@ fn start(r: &mut Reader<'_>, parameters: &mut Parameters, speeds: Option<&[[f64;
     let speed = parameters.start.speed;
     parameters.start = Start::at(parameters.reach() + 1.0, speed);
     let own = &mut parameters.start;
-    let comment = "\"equilibrium\": at rest on straight track, without friction; \"nominal\": the loaded layout";
+    let comment =
+        "\"equilibrium\": at rest on straight track, without friction; \"nominal\": the loaded layout";
     r.choice("kind", STARTS, &mut own.kind, comment);
     let distance: Form = (Kind::Distance, Range::NotNegative, Reach::Positive);
-    r.quantity("distance", distance, &mut own.distance, "of the middle of the car along the track");
+    r.quantity(
+        "distance",
+        distance,
+        &mut own.distance,
+        "of the middle of the car along the track",
+    );
     let settle: Form = (Kind::Time, Range::NotNegative, Reach::FromZero(2.0));
-    r.quantity("settle", settle, &mut own.settle, "statistics leave out what is before it");
+    r.quantity(
+        "settle",
+        settle,
+        &mut own.settle,
+        "statistics leave out what is before it",
+    );
     let mut shift = 0.0;
     let comment = "of all wheelsets to the left, a disturbance; axle_1_shift to axle_4_shift set one";
     r.quantity("axle_shift", SHIFT, &mut shift, comment);
@@ -229,9 +251,19 @@ fn start(r: &mut Reader<'_>, parameters: &mut Parameters, speeds: Option<&[[f64;
         r.optional(key, SHIFT, &mut given, "\"0.1 in\"", "of this wheelset");
         *shift = given.unwrap_or(*shift);
     }
-    r.quantity("body_shift", SHIFT, &mut own.body_shift, "of the car body to the left");
+    r.quantity(
+        "body_shift",
+        SHIFT,
+        &mut own.body_shift,
+        "of the car body to the left",
+    );
     let heading: Form = (Kind::Angle, Range::Any, Reach::Signed(write::TURN));
-    r.quantity("heading", heading, &mut own.heading, "of the track in the fixed frame: changes nothing");
+    r.quantity(
+        "heading",
+        heading,
+        &mut own.heading,
+        "of the track in the fixed frame: changes nothing",
+    );
     if let Some(speeds) = speeds {
         own.speed = at(speeds, own.distance);
     }
@@ -260,16 +292,51 @@ fn output(r: &mut Reader<'_>, rules: &mut Rules) {
     frequency(r, "wheel_filter", &mut rules.wheel_filter, comment);
     let comment = "wheel L/V, axle sums and wheel loads that last so long";
     r.quantity("hold_time", time, &mut rules.hold_time, comment);
-    r.quantity("hold_distance", distance, &mut rules.hold_distance, "wheel L/V over this distance");
-    r.quantity("side_distance", distance, &mut rules.side_distance, "L/V of a truck's side over this distance");
+    r.quantity(
+        "hold_distance",
+        distance,
+        &mut rules.hold_distance,
+        "wheel L/V over this distance",
+    );
+    r.quantity(
+        "side_distance",
+        distance,
+        &mut rules.side_distance,
+        "L/V of a truck's side over this distance",
+    );
     let comment = "share of wheel L/V and axle sums in curves that lies below the value told";
     let range = Range::Between(0.0, 1.0, "between 0 and 1");
-    r.number("percentile", range, Reach::Between(0.5, 0.999), &mut rules.percentile, comment);
-    frequency(r, "acceleration_filter", &mut rules.acceleration_filter, "low-pass filter of accelerations");
+    r.number(
+        "percentile",
+        range,
+        Reach::Between(0.5, 0.999),
+        &mut rules.percentile,
+        comment,
+    );
+    frequency(
+        r,
+        "acceleration_filter",
+        &mut rules.acceleration_filter,
+        "low-pass filter of accelerations",
+    );
     let comment = "largest standard deviation of accelerations over this distance";
-    r.quantity("deviation_distance", distance, &mut rules.deviation_distance, comment);
-    r.quantity("rms_time", time, &mut rules.rms_time, "largest rms of accelerations over this time");
-    r.truth("filtered_columns", &mut rules.filtered_columns, "whether result.csv has filtered columns beside the raw ones");
+    r.quantity(
+        "deviation_distance",
+        distance,
+        &mut rules.deviation_distance,
+        comment,
+    );
+    r.quantity(
+        "rms_time",
+        time,
+        &mut rules.rms_time,
+        "largest rms of accelerations over this time",
+    );
+    r.truth(
+        "filtered_columns",
+        &mut rules.filtered_columns,
+        "whether result.csv has filtered columns beside the raw ones",
+    );
 }
 
 /// A cutoff in Hz; frequencies are angular inside.
@@ -284,7 +351,9 @@ fn frequency(r: &mut Reader<'_>, key: &'static str, hertz: &mut f64, comment: &s
     let Ok(usual) = Quantity::parse_as(&default, Kind::Frequency) else {
         return;
     };
-    let own = r.other(key, comment, usual, read, |own| Written::quantity(own, form.0, form.2));
+    let own = r.other(key, comment, usual, read, |own| {
+        Written::quantity(own, form.0, form.2)
+    });
     *hertz = own.to_si() / turn;
 }
 

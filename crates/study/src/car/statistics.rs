@@ -22,9 +22,7 @@ use std::collections::BTreeMap;
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
-use crate::signal::{
-    Found, LowPass, largest_deviation, largest_rms, peak_to_peak, percentile, sustained,
-};
+use crate::signal::{Found, LowPass, largest_deviation, largest_rms, peak_to_peak, percentile, sustained};
 use crate::summary::SummaryValue;
 
 const FOOT: f64 = 0.3048;
@@ -159,7 +157,9 @@ impl Statistics {
     pub fn of(histories: &Histories<'_>, rules: &Rules, units: Units) -> Self {
         let column = histories.column;
         let all = column("time");
-        let from = all.iter().position(|time| *time >= histories.begin * (1.0 - 1e-12));
+        let from = all
+            .iter()
+            .position(|time| *time >= histories.begin * (1.0 - 1e-12));
         let mut own = Self {
             values: BTreeMap::new(),
             filtered: Vec::new(),
@@ -227,7 +227,11 @@ impl Statistics {
         range: (usize, usize),
         units: Units,
     ) {
-        let curve: Vec<bool> = rows.distance.iter().map(|own| (histories.in_curve)(*own)).collect();
+        let curve: Vec<bool> = rows
+            .distance
+            .iter()
+            .map(|own| (histories.in_curve)(*own))
+            .collect();
         let mut axles: Vec<[[Pair; 2]; 2]> = Vec::new();
         for (axle, loads) in (1..).zip(histories.static_loads) {
             let mut wheels = Vec::new();
@@ -248,18 +252,31 @@ impl Statistics {
                 ratio(ll, lv, loads[0]).abs() + ratio(rl, rv, loads[1]).abs()
             });
             let name = format!("axle_{axle}_sum_l_over_v");
-            self.set(&format!("{name}_time"), &sum, rows, Kind::Dimensionless, units, |values| {
-                sustained(rows.time, values, rules.hold_time)
-            });
+            self.set(
+                &format!("{name}_time"),
+                &sum,
+                rows,
+                Kind::Dimensionless,
+                units,
+                |values| sustained(rows.time, values, rules.hold_time),
+            );
             self.in_curves(&name, &sum, &curve, rules, units);
             axles.push([left, right]);
         }
         for (truck, pair) in (1..).zip(axles.chunks(2)) {
             let [first, second] = pair else { continue };
             for (side, name) in SIDES.into_iter().enumerate() {
-                let least: f64 = histories.static_loads[2 * truck - 2..2 * truck].iter().map(|own| own[side]).sum();
+                let least: f64 = histories.static_loads[2 * truck - 2..2 * truck]
+                    .iter()
+                    .map(|own| own[side])
+                    .sum();
                 let own = Pair::of(
-                    [&first[side][0], &first[side][1], &second[side][0], &second[side][1]],
+                    [
+                        &first[side][0],
+                        &first[side][1],
+                        &second[side][0],
+                        &second[side][1],
+                    ],
                     |[l1, v1, l2, v2]| ratio(l1 + l2, v1 + v2, least),
                 );
                 self.set(
@@ -276,24 +293,40 @@ impl Statistics {
 
     /// Wheel L/V that lasts, over time and distance.
     fn held(&mut self, name: &str, ratio: &Pair, rows: &Rows<'_>, rules: &Rules, units: Units) {
-        self.set(&format!("{name}_time"), ratio, rows, Kind::Dimensionless, units, |values| {
-            sustained(rows.time, values, rules.hold_time)
-        });
-        self.set(&format!("{name}_distance"), ratio, rows, Kind::Dimensionless, units, |values| {
-            over_distance(rows, values, rules.hold_distance)
-        });
+        self.set(
+            &format!("{name}_time"),
+            ratio,
+            rows,
+            Kind::Dimensionless,
+            units,
+            |values| sustained(rows.time, values, rules.hold_time),
+        );
+        self.set(
+            &format!("{name}_distance"),
+            ratio,
+            rows,
+            Kind::Dimensionless,
+            units,
+            |values| over_distance(rows, values, rules.hold_distance),
+        );
     }
 
     /// The percentile in full curves.
     fn in_curves(&mut self, name: &str, own: &Pair, curve: &[bool], rules: &Rules, units: Units) {
         let found = own.each().map(|values| {
-            let inside: Vec<f64> = values?.iter().zip(curve).filter(|(_, inside)| **inside).map(|(v, _)| *v).collect();
+            let inside: Vec<f64> = values?
+                .iter()
+                .zip(curve)
+                .filter(|(_, inside)| **inside)
+                .map(|(v, _)| *v)
+                .collect();
             percentile(&inside, rules.percentile)
         });
         if found[0].is_none() {
             return;
         }
-        let [raw, filtered] = found.map(|own| own.map(|own| SummaryValue::new(own, Kind::Dimensionless, units)));
+        let [raw, filtered] =
+            found.map(|own| own.map(|own| SummaryValue::new(own, Kind::Dimensionless, units)));
         let statistic = Statistic {
             raw,
             filtered,
@@ -340,13 +373,27 @@ impl Statistics {
             raw: (histories.column)("body_roll")[range.0..range.1].to_vec(),
             filtered: None,
         };
-        self.set("body_roll_peak_to_peak", &roll, rows, Kind::Angle, units, whole(rows));
+        self.set(
+            "body_roll_peak_to_peak",
+            &roll,
+            rows,
+            Kind::Angle,
+            units,
+            whole(rows),
+        );
         for end in 1..=2 {
             for direction in ["lateral", "vertical"] {
                 let name = format!("body_at_truck_{end}_{direction}_acceleration");
                 let own = self.pair(histories, &name, filter, range);
                 let kind = Kind::RideAcceleration;
-                self.set(&format!("{name}_peak_to_peak"), &own, rows, kind, units, whole(rows));
+                self.set(
+                    &format!("{name}_peak_to_peak"),
+                    &own,
+                    rows,
+                    kind,
+                    units,
+                    whole(rows),
+                );
                 self.set(&format!("{name}_largest"), &own, rows, kind, units, |values| {
                     let sizes: Vec<f64> = values.iter().map(|own| own.abs()).collect();
                     sustained(rows.time, &sizes, 0.0)
@@ -388,7 +435,10 @@ impl Statistics {
         let value = |found: Found| SummaryValue::new(found.value, kind, units);
         let remark = match found[0] {
             Some(_) => String::new(),
-            None => format!("the {:.3} s after settling are too short", rows.time[rows.time.len() - 1] - rows.time[0]),
+            None => format!(
+                "the {:.3} s after settling are too short",
+                rows.time[rows.time.len() - 1] - rows.time[0]
+            ),
         };
         let statistic = Statistic {
             time: found[1].or(found[0]).map(|own| own.start),

@@ -7,13 +7,21 @@ use wheelrail::track::{CenterLine, Segment, Track};
 use crate::case::field::quoted;
 use crate::case::problem::{Problem, TomlSource};
 use crate::case::section::Section;
-use crate::case::tree::{self, Table, Value};
 use crate::case::text_of;
+use crate::case::tree::{self, Table, Value};
 use crate::track::{Support, of_section};
 use crate::truck::reader::Reader;
 
 /// Length of a track that is not given, ft.
 const USUAL: f64 = 5000.0;
+
+/// Returns a straight track without irregularities of a length (m).
+pub(super) fn tangent(length: f64) -> Option<Track> {
+    Some(Track {
+        center_line: CenterLine::new(&[Segment::Tangent(length)], 59.5 * 0.0254, &[]).ok()?,
+        irregularities: Vec::new(),
+    })
+}
 
 /// Reads the track.
 pub(super) fn track(r: &mut Reader<'_>) -> Option<(Track, Support)> {
@@ -25,18 +33,20 @@ pub(super) fn track(r: &mut Reader<'_>) -> Option<(Track, Support)> {
     r.known_elsewhere();
     let Some(section) = r.given() else {
         let segments = format!("[{{ tangent = \"{USUAL} ft\" }}]");
-        r.write("segments", [segments.clone(), segments], "one after the other: tangent, spiral, curve");
-        let line = CenterLine::new(&[Segment::Tangent(USUAL * 0.3048)], 59.5 * 0.0254, &[]).ok()?;
-        let track = Track {
-            center_line: line,
-            irregularities: Vec::new(),
-        };
-        return Some((track, Support::USUAL));
+        r.write(
+            "segments",
+            [segments.clone(), segments],
+            "one after the other: tangent, spiral, curve",
+        );
+        return Some((tangent(USUAL * 0.3048)?, Support::USUAL));
     };
     if let Some(entry) = section.table.entry("file") {
         section.allow_in(&["file"], &[], "a track that is a file", r.problems);
         let Value::Text(file) = &entry.node.value else {
-            let message = format!("`track.file` is {}; a name is expected", entry.node.value.describe());
+            let message = format!(
+                "`track.file` is {}; a name is expected",
+                entry.node.value.describe()
+            );
             r.problem("track.file", Problem::new(message).label("not text"));
             return None;
         };

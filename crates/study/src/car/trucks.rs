@@ -35,10 +35,11 @@ pub(super) fn complete(tree: &mut Table, problems: &mut Problems) {
     for name in EACH {
         match tree.entries.iter_mut().find(|entry| entry.key == name) {
             Some(Entry {
-                node: Node {
-                    value: Value::Table(own),
-                    ..
-                },
+                node:
+                    Node {
+                        value: Value::Table(own),
+                        ..
+                    },
                 ..
             }) => own.complete_from(&shared),
             Some(_) => {}
@@ -68,7 +69,12 @@ fn unused(shared: &Table, path: &str, [front, rear]: [&Table; 2], problems: &mut
             _ => {
                 let problem = Problem::new(format!("`{path}` has no effect: both trucks have their own"));
                 let problem = problem.at(&entry.node.place).label("not used");
-                let help = format!("set {0}.{2} and {1}.{2}", EACH[0], EACH[1], &path[BOTH.len() + 1..]);
+                let help = format!(
+                    "set {0}.{2} and {1}.{2}",
+                    EACH[0],
+                    EACH[1],
+                    &path[BOTH.len() + 1..]
+                );
                 problems.push(problem.help(help));
             }
         }
@@ -78,7 +84,12 @@ fn unused(shared: &Table, path: &str, [front, rear]: [&Table; 2], problems: &mut
 /// Reads both trucks, front and rear.
 pub(super) fn trucks(r: &mut Reader<'_>, lading: Lading) -> [Parameters; 2] {
     if EACH.iter().all(|name| !r.has(name)) {
-        let own = truck(r, BOTH, "Both trucks; [front_truck] and [rear_truck] take the same keys.", lading);
+        let own = truck(
+            r,
+            BOTH,
+            "Both trucks; [front_truck] and [rear_truck] take the same keys.",
+            lading,
+        );
         return [own.clone(), own];
     }
     [

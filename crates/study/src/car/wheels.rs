@@ -56,7 +56,12 @@ pub(super) struct Rails {
 /// Reads `[rails]`.
 pub(super) fn rails(r: &mut Reader<'_>) -> Rails {
     r.section("rails", "The rails: one profile, the same on both sides.");
-    let name = text(r, "profile", "136re", "\"136re\" (nominal, from memory) or a file: CSV with units, Simpack's .prr");
+    let name = text(
+        r,
+        "profile",
+        "136re",
+        "\"136re\" (nominal, from memory) or a file: CSV with units, Simpack's .prr",
+    );
     let from_file = name != "136re";
     let mut inclination = if from_file { 0.0 } else { nominal::INCLINATION };
     let range = Range::Between(-0.5, 0.5, "between -0.5 and 0.5: a slope");
@@ -85,12 +90,25 @@ pub(super) fn rails(r: &mut Reader<'_>) -> Rails {
 
 /// Reads `[wheels]`; `sprung` tells whether rails give way.
 pub(super) fn wheels(r: &mut Reader<'_>, parameters: &mut Parameters, rails: Rails, sprung: bool) {
-    r.section("wheels", "The wheelsets, their wheels, and what happens where they touch the rails.");
+    r.section(
+        "wheels",
+        "The wheelsets, their wheels, and what happens where they touch the rails.",
+    );
     let own = &mut parameters.wheelset;
     r.weight(&mut own.mass, "of a wheelset with its bearings and adapters");
     let inertia: Form = (Measure::Inertia, Range::Positive, Reach::Positive);
-    r.quantity("inertia_about_axle", inertia, &mut own.about_axle, "of a wheelset");
-    r.quantity("inertia_about_diameter", inertia, &mut own.about_diameter, "of a wheelset, in roll and yaw");
+    r.quantity(
+        "inertia_about_axle",
+        inertia,
+        &mut own.about_axle,
+        "of a wheelset",
+    );
+    r.quantity(
+        "inertia_about_diameter",
+        inertia,
+        &mut own.about_diameter,
+        "of a wheelset, in roll and yaw",
+    );
     let mut radius = 18.0 * INCH;
     r.quantity("radius", LENGTH, &mut radius, "nominal, at the tape circles");
     const GEOMETRIES: Names<bool> = &[("profiles", false), ("linear", true)];
@@ -144,13 +162,25 @@ pub(super) fn wheels(r: &mut Reader<'_>, parameters: &mut Parameters, rails: Rai
 fn contact_law(r: &mut Reader<'_>, sprung: bool) -> ContactLaw {
     let mut friction = 0.4;
     let range = crate::case::read::COEFFICIENT;
-    r.number("friction", range, Reach::FromZero(0.5), &mut friction, "of wheel on rail");
+    r.number(
+        "friction",
+        range,
+        Reach::FromZero(0.5),
+        &mut friction,
+        "of wheel on rail",
+    );
     let mut creep = Creep::Polach;
     let comment = "\"polach\", \"shen_hedrick_elkins\", \"fastsim\", \"kalker\" (linear, no saturation), \"frictionless\"";
     r.choice("creep", CREEPS, &mut creep, comment);
     let mut damping = if sprung { 0.3 } else { 2.0 };
     let comment = "of the normal force, s/m (Hunt and Crossley): 0.3 on sprung track, 2 on rigid; guesses";
-    r.number("contact_damping", Range::NotNegative, Reach::Positive, &mut damping, comment);
+    r.number(
+        "contact_damping",
+        Range::NotNegative,
+        Reach::Positive,
+        &mut damping,
+        comment,
+    );
     let mut slowest = 0.1;
     let speed: Form = (Measure::Speed, Range::Positive, Reach::Wide);
     let comment = "creepages are velocities over the root of the sum of squares of this and the car's speed";
@@ -177,7 +207,13 @@ fn contact_law(r: &mut Reader<'_>, sprung: bool) -> ContactLaw {
 fn linear_wheels(r: &mut Reader<'_>, radius: f64, axle_load: f64) -> Wheels {
     let slope = Range::Between(0.0, 1.0, "between 0 and 1");
     let mut conicity = 0.05;
-    r.number("conicity", slope, Reach::Wide, &mut conicity, "change of the rolling radius by the lateral shift");
+    r.number(
+        "conicity",
+        slope,
+        Reach::Wide,
+        &mut conicity,
+        "change of the rolling radius by the lateral shift",
+    );
     let mut half_distance = 29.75 * INCH;
     r.quantity("half_distance", LENGTH, &mut half_distance, "of the contacts");
     let mut contact_angle = 0.05;
@@ -189,7 +225,13 @@ fn linear_wheels(r: &mut Reader<'_>, radius: f64, axle_load: f64) -> Wheels {
     r.quantity("contact_angle", angle, &mut contact_angle, "in the middle");
     let mut contact_angle_rate = 0.0;
     let comment = "of the contact angle by the lateral shift, 1/m";
-    r.number("contact_angle_rate", Range::Any, Reach::Signed(10.0), &mut contact_angle_rate, comment);
+    r.number(
+        "contact_angle_rate",
+        Range::Any,
+        Reach::Signed(10.0),
+        &mut contact_angle_rate,
+        comment,
+    );
     let mut creep = CreepCoefficients {
         f11: 9e6,
         f22: 8e6,
@@ -197,19 +239,44 @@ fn linear_wheels(r: &mut Reader<'_>, radius: f64, axle_load: f64) -> Wheels {
         f33: 50.0,
     };
     let force: Form = (Measure::Force, Range::NotNegative, Reach::Wide);
-    r.quantity("f11", force, &mut creep.f11, "longitudinal creep coefficient of a contact");
-    r.quantity("f22", force, &mut creep.f22, "lateral creep coefficient of a contact");
+    r.quantity(
+        "f11",
+        force,
+        &mut creep.f11,
+        "longitudinal creep coefficient of a contact",
+    );
+    r.quantity(
+        "f22",
+        force,
+        &mut creep.f22,
+        "lateral creep coefficient of a contact",
+    );
     let moment: Form = (Measure::Moment, Range::NotNegative, Reach::Wide);
     r.quantity("f23", moment, &mut creep.f23, "of spin to lateral force");
     let range = Range::NotNegative;
-    r.number("f33", range, Reach::Wide, &mut creep.f33, "of spin to spin moment, N m^2");
+    r.number(
+        "f33",
+        range,
+        Reach::Wide,
+        &mut creep.f33,
+        "of spin to spin moment, N m^2",
+    );
     let mut spin = true;
     r.truth("spin", &mut spin, "whether spin acts");
     let mut gravity = true;
-    r.truth("gravity_stiffness", &mut gravity, "whether the axle load acts by the contact angles");
+    r.truth(
+        "gravity_stiffness",
+        &mut gravity,
+        "whether the axle load acts by the contact angles",
+    );
     let mut support = [1e9, 5e8];
     let stiffness: Form = (Measure::Stiffness, Range::Positive, Reach::Wide);
-    r.quantity("support", stiffness, &mut support[0], "vertical stiffness of what carries a wheelset");
+    r.quantity(
+        "support",
+        stiffness,
+        &mut support[0],
+        "vertical stiffness of what carries a wheelset",
+    );
     support[1] = support[0] * half_distance * half_distance;
     Wheels::Linear {
         wheelset: LinearWheelset {
@@ -231,7 +298,8 @@ fn linear_wheels(r: &mut Reader<'_>, radius: f64, axle_load: f64) -> Wheels {
 
 /// A text, such as the name of a profile.
 fn text(r: &mut Reader<'_>, key: &'static str, default: &str, comment: &str) -> String {
-    let read = |section: &crate::case::section::Section<'_>, problems: &mut crate::case::problem::Problems| {
+    let read = |section: &crate::case::section::Section<'_>,
+                problems: &mut crate::case::problem::Problems| {
         section.text(key, problems).map(|(text, _)| text.to_owned())
     };
     r.other(key, comment, default.to_owned(), read, |text| Written::text(text))
@@ -246,7 +314,12 @@ fn profile(r: &mut Reader<'_>, path: &str, name: &str, kind: Kind, deviation: f6
             Some(text) => {
                 let Some(slope) = slope(text) else {
                     let problem = Problem::new(format!("`{path}` is \"{name}\", which is no cone"));
-                    r.problem(path, problem.label("which slope?").help("write for example \"cone_1:20\""));
+                    r.problem(
+                        path,
+                        problem
+                            .label("which slope?")
+                            .help("write for example \"cone_1:20\""),
+                    );
                     return None;
                 };
                 Some(nominal::cone(slope, TREAD))
@@ -269,11 +342,15 @@ fn profile(r: &mut Reader<'_>, path: &str, name: &str, kind: Kind, deviation: f6
                         Kind::Rail => "\"136re\"",
                     };
                     let help = format!("name a file of points from the folder of the case file, or {names}");
-                    r.problem(path, problem.label("neither a file nor a nominal profile").help(help));
+                    r.problem(
+                        path,
+                        problem.label("neither a file nor a nominal profile").help(help),
+                    );
                     return None;
                 }
                 Err(refused) => {
-                    let problem = Problem::new(format!("`{path}`: {} {}", tables.shown(name), refused.reason));
+                    let problem =
+                        Problem::new(format!("`{path}`: {} {}", tables.shown(name), refused.reason));
                     r.problem(path, problem.label("this file").help(refused.help));
                     return None;
                 }

@@ -97,7 +97,11 @@ const WORST: [Worst; 11] = [
 ];
 
 const OTHERS: [(&str, Kind, &str); 6] = [
-    ("largest_warp_angle", Kind::Angle, "largest warp angle of a truck, without sign"),
+    (
+        "largest_warp_angle",
+        Kind::Angle,
+        "largest warp angle of a truck, without sign",
+    ),
     ("wedge_loss", Kind::Energy, "lost in the friction of all wedges"),
     ("end_speed", Kind::TravelSpeed, "speed at the end"),
     ("derailed", Kind::Count, "1 if a wheel left its rail, else 0"),
@@ -118,8 +122,12 @@ pub fn definitions() -> Definitions {
         kind,
         always,
     };
-    let worst = WORST.iter().map(|(name, kind, text, ..)| define(name, *kind, text, false));
-    let others = OTHERS.iter().map(|(name, kind, text)| define(name, *kind, text, true));
+    let worst = WORST
+        .iter()
+        .map(|(name, kind, text, ..)| define(name, *kind, text, false));
+    let others = OTHERS
+        .iter()
+        .map(|(name, kind, text)| define(name, *kind, text, true));
     Definitions(worst.chain(others).collect())
 }
 
@@ -159,7 +167,11 @@ fn measures(result: &CarResult) -> Measures {
             .filter(|(name, _)| name.ends_with(ending) && (sum || !name.contains("_sum_")));
         let found = own.filter_map(|(_, own)| own.filtered.as_ref().or(own.raw.as_ref()));
         let found = found.map(|own| own.value);
-        let worst = if least { found.reduce(f64::min) } else { found.reduce(f64::max) };
+        let worst = if least {
+            found.reduce(f64::min)
+        } else {
+            found.reduce(f64::max)
+        };
         values.push(worst.unwrap_or(f64::NAN));
     }
     let largest = |name: &str| {

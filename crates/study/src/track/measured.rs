@@ -31,7 +31,12 @@ fn table(section: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) -> 
     let path = match tables.locate(text) {
         Ok(path) => path,
         Err(refused) => {
-            let message = format!("`{}`: {} {}", section.path_of("table"), tables.shown(text), refused.reason);
+            let message = format!(
+                "`{}`: {} {}",
+                section.path_of("table"),
+                tables.shown(text),
+                refused.reason
+            );
             let problem = Problem::new(message).help(refused.help);
             problems.push(match section.table.place_of("table") {
                 Some(place) => problem.at(place).label("this table"),

@@ -13,9 +13,9 @@ use report::files::Folder;
 use report::page::{self, Viewer};
 use report::run_files::RunFiles;
 use study::any_case::AnyCase;
+use study::car::summary::CarSummary;
 use study::car::{self, CarCase};
 use study::case::{Case, builtin};
-use study::car::summary::CarSummary;
 use study::truck::run::TruckResult;
 use study::truck::{self, TruckCase, WEDGE_NAMES};
 
@@ -296,7 +296,11 @@ pub fn wedge_of(case: AnyCase) -> Result<Case, Failure> {
             format!(
                 "{} is a {}, and this command takes a single wedge",
                 other.name(),
-                if matches!(other, AnyCase::Car(_)) { "car" } else { "truck" }
+                if matches!(other, AnyCase::Car(_)) {
+                    "car"
+                } else {
+                    "truck"
+                }
             ),
             "`wedgelab run`, `study`, `fit`, `plot` and `compare` take trucks and cars",
         )

@@ -34,7 +34,11 @@ impl Base {
     pub fn open(path: &Path) -> Result<Self, Failure> {
         if let AnyCase::Car(case) = run::read_any(path, &[])? {
             let message = format!("{} is a car, and the explorer takes wedges and trucks", case.name);
-            return Err(Message::new(message, "`wedgelab run` runs cars, and `wedgelab study` varies them").into());
+            return Err(Message::new(
+                message,
+                "`wedgelab run` runs cars, and `wedgelab study` varies them",
+            )
+            .into());
         }
         let base = if run::is_built_in(path) {
             Self::BuiltIn(path.display().to_string())

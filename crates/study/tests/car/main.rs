@@ -1,0 +1,6 @@
+//! Freight cars on track: cases, statistics, messages.
+#![allow(clippy::unwrap_used)]
+
+mod case;
+mod input;
+mod statistics;
