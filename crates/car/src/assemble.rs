@@ -467,9 +467,12 @@ impl Placement {
                 rotation: Matrix([0, 1, 2].map(|row| [x.0[row], y.0[row], z.0[row]])),
             }
         };
+        // The middle between the actual rails, and up there.
         let section = |distance: f64| {
-            let section = lines.section_at(Line::Center, distance);
-            (of(section.origin), of(section.axes[2]))
+            let [left, right] = [Line::Left, Line::Right].map(|line| lines.section_at(line, distance));
+            let [a, b] = [of(left.origin), of(right.origin)];
+            let up: Vector<f64> = of(left.axes[0]).cross(a - b);
+            ((a + b).scale(0.5), up.scale::<f64, f64>(1.0 / length(up)))
         };
         let mut trucks = [0, 1].map(|t| {
             let center = start.distance + [half, -half][t];
