@@ -429,12 +429,15 @@ fn at_rest(
     for [carrier, of] in &nominal.model.carriers {
         nominal.model.bodies[*carrier].frame = nominal.model.bodies[*of].frame.clone();
     }
-    for (.., face) in &mut nominal.model.faces {
-        face.coefficient = 0.0;
-        face.law = FrictionLaw::Tanh { reference_speed: 1.0 };
+    // Wedges are without friction; plates and adapters hold, since nothing else does.
+    for (carried, .., face) in &mut nominal.model.faces {
+        if nominal.numbers.wedges.iter().flatten().any(|own| own == carried) {
+            face.coefficient = 0.0;
+            face.law = FrictionLaw::Tanh { reference_speed: 1.0 };
+        }
     }
     let mut system = System::new(nominal.model)?;
-    let rest = system.equilibrium(0.0, &system.initial_state(), StaticFriction::Without)?;
+    let rest = system.equilibrium(0.0, &system.initial_state(), StaticFriction::Following)?;
     let seen: Observation = system.observe(0.0, &rest);
     let poses = seen.bodies.iter().zip(system.bodies()).map(|(state, body)| {
         let moved = if body.free[3] { middle } else { 0.0 };
@@ -474,9 +477,12 @@ impl Placement {
                 rotation: Matrix([0, 1, 2].map(|row| [x.0[row], y.0[row], z.0[row]])),
             }
         };
+        // The middle between the actual rails, and up there.
         let section = |distance: f64| {
-            let section = lines.section_at(Line::Center, distance);
-            (of(section.origin), of(section.axes[2]))
+            let [left, right] = [Line::Left, Line::Right].map(|line| lines.section_at(line, distance));
+            let [a, b] = [of(left.origin), of(right.origin)];
+            let up: Vector<f64> = of(left.axes[0]).cross(a - b);
+            ((a + b).scale(0.5), up.scale::<f64, f64>(1.0 / length(up)))
         };
         let mut trucks = [0, 1].map(|t| {
             let center = start.distance + [half, -half][t];
@@ -549,8 +555,9 @@ impl Placement {
             speeds.push((number, rates));
         }
         if let Some(rails) = nominal.numbers.rails {
-            for number in rails.into_iter().flatten() {
-                nominal.model.bodies[number].initial = [0.0, 0.0, poses[number].place.0[2], 0.0, 0.0, 0.0];
+            for (w, number) in rails.into_iter().enumerate().flat_map(|(w, pair)| pair.map(|own| (w, own))) {
+                let moved: Vector<f64> = self.groups[w / 2].rotation.apply(poses[number].place);
+                nominal.model.bodies[number].initial = [moved.0[0], moved.0[1], moved.0[2], 0.0, 0.0, 0.0];
             }
         }
         for [carrier, of] in nominal.model.carriers.clone() {
