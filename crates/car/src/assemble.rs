@@ -555,7 +555,11 @@ impl Placement {
             speeds.push((number, rates));
         }
         if let Some(rails) = nominal.numbers.rails {
-            for (w, number) in rails.into_iter().enumerate().flat_map(|(w, pair)| pair.map(|own| (w, own))) {
+            for (w, number) in rails
+                .into_iter()
+                .enumerate()
+                .flat_map(|(w, pair)| pair.map(|own| (w, own)))
+            {
                 let moved: Vector<f64> = self.groups[w / 2].rotation.apply(poses[number].place);
                 nominal.model.bodies[number].initial = [moved.0[0], moved.0[1], moved.0[2], 0.0, 0.0, 0.0];
             }

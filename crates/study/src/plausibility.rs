@@ -45,7 +45,19 @@ pub fn warnings<C: RunCase>(run: &Run<C>) -> Vec<String> {
 /// says everything many times.
 #[must_use]
 pub fn warnings_by_kind<C: RunCase>(run: &Run<C>) -> Vec<String> {
-    let (units, findings) = (run.case.units(), findings(run));
+    warnings_of(run, findings(run))
+}
+
+/// Returns the same of a car's run. That bodies leave the place where they started is none of it: a car travels.
+#[must_use]
+pub fn warnings_of_car<C: RunCase>(run: &Run<C>) -> Vec<String> {
+    let mut found = findings(run);
+    found.retain(|finding| !matches!(finding.kind, FindingKind::Displacement));
+    warnings_of(run, found)
+}
+
+fn warnings_of<C: RunCase>(run: &Run<C>, findings: Vec<Finding>) -> Vec<String> {
+    let units = run.case.units();
     let kind = |finding: &Finding| std::mem::discriminant(&finding.kind);
     let mut warnings = Vec::new();
     for (number, finding) in findings.iter().enumerate() {
@@ -82,6 +94,14 @@ pub fn nonsense<C: RunCase>(run: &Run<C>) -> Option<String> {
 #[must_use]
 pub fn nonsense_in_truck<C: RunCase>(run: &Run<C>) -> Option<String> {
     nonsense_among(run, |kind| !matches!(kind, FindingKind::Penetration))
+}
+
+/// Returns the same of a car's run, which leaves the place where it started.
+#[must_use]
+pub fn nonsense_in_car<C: RunCase>(run: &Run<C>) -> Option<String> {
+    nonsense_among(run, |kind| {
+        !matches!(kind, FindingKind::Penetration | FindingKind::Displacement)
+    })
 }
 
 fn nonsense_among<C: RunCase>(run: &Run<C>, counts: impl Fn(FindingKind) -> bool) -> Option<String> {

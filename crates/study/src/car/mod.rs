@@ -1,7 +1,7 @@
 //! Freight cars on track: cases, runs, statistics, results.
 //!
 //! [`CarCase`] is what a user writes, completed and in SI; [`builtin`] has cases after the regimes of the field;
-//! [`statistics`] says what rules for the assessment of cars ask; [`run`] records a run.
+//! [`statistics`] says what rules for the assessment of cars ask; [`run`] records a run; [`stability`] linearizes.
 
 mod assumptions;
 pub mod builtin;
@@ -11,6 +11,7 @@ mod derailment;
 mod lading;
 pub mod run;
 mod sections;
+pub mod stability;
 pub mod statistics;
 pub mod summary;
 mod track;

@@ -217,7 +217,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
         .into_iter()
         .collect();
-    warnings.extend(plausibility::warnings_by_kind(&run));
+    warnings.extend(plausibility::warnings_of_car(&run));
     warnings.extend(run.case.doubts.iter().cloned());
     warnings.extend(
         derailed

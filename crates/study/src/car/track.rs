@@ -29,8 +29,6 @@ pub(super) fn track(r: &mut Reader<'_>) -> Option<(Track, Support)> {
         "track",
         "The track: the keys of a track file, or file = \"my_track.toml\". Rails are at rest; what they lie on is track.support.",
     );
-    // Its keys are read by the reader of track files.
-    r.known_elsewhere();
     let Some(section) = r.given() else {
         let segments = format!("[{{ tangent = \"{USUAL} ft\" }}]");
         r.write(
@@ -40,6 +38,8 @@ pub(super) fn track(r: &mut Reader<'_>) -> Option<(Track, Support)> {
         );
         return Some((tangent(USUAL * 0.3048)?, Support::USUAL));
     };
+    // Its keys are read by the reader of track files.
+    r.known_elsewhere();
     if let Some(entry) = section.table.entry("file") {
         section.allow_in(&["file"], &[], "a track that is a file", r.problems);
         let Value::Text(file) = &entry.node.value else {

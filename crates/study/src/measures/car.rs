@@ -141,7 +141,7 @@ pub fn judge(case: &CarCase) -> Result<Judged, Unmeasured> {
     case.simulation.output_units = Units::Si;
     let mut run = Run::new(&case).map_err(|error| Unmeasured::Refused(error.to_string()))?;
     let stopped = run.go_on_while(|_| ControlFlow::Continue(()));
-    let nonsense = plausibility::nonsense_in_truck(&run);
+    let nonsense = plausibility::nonsense_in_car(&run);
     let result = run.result(stopped);
     if let Some(stopped) = &result.summary.stopped {
         let reason = &stopped.reason;
