@@ -75,6 +75,18 @@ fn main() -> Result<(), Failure> {
                     wheels.tables = true;
                 }
             }
+            "massless" => {
+                for own in &mut parameters.trucks {
+                    for wedge in &mut own.wedges {
+                        wedge.kind = truck::WedgeKind::Massless;
+                    }
+                }
+            }
+            "warp" => {
+                for own in &mut parameters.trucks {
+                    own.warp_spring = Some(truck::empirical_warp(255e3 * 4.448 * INCH)?);
+                }
+            }
             other => return Err(format!("unknown word {other}").into()),
         }
     }

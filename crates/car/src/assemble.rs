@@ -197,6 +197,8 @@ impl Nominal {
         let (half, mut groups) = (0.5 * parameters.truck_distance, vec![(body, 2)]);
         let centers = [half, -half].map(|x| [x, 0.0, 0.0]);
         let parts = [0, 1].map(|t| free(&parameters.trucks[t]));
+        // Connections act on displacements along the fixed axes.
+        let flat = parameters.trucks.iter().any(has_connections);
         let mut mounts = [Mount::ALONE; 2];
         let mut wheelsets = [0; 4];
         for (t, mount) in mounts.iter_mut().enumerate() {
@@ -222,7 +224,7 @@ impl Nominal {
                 }
                 mount.bodies[number] = bodies.len();
                 groups.push((bodies.len(), t));
-                let mut own = upright(own);
+                let mut own = if flat { own } else { upright(own) };
                 own.name = format!("{prefix}_{}", own.name);
                 bodies.push(own);
             }
@@ -297,6 +299,12 @@ impl Nominal {
         };
         self.model.bodies.iter().map(pose).collect()
     }
+}
+
+/// Returns whether a truck has elements of the industry's models, which act on displacements along the fixed axes: wedges
+/// without mass and empirical warp springs.
+pub(crate) fn has_connections(own: &truck::Parameters) -> bool {
+    own.warp_spring.is_some() || own.wedges.iter().any(|wedge| wedge.kind == WedgeKind::Massless)
 }
 
 /// Returns a truck with all of its bodies free.
@@ -439,6 +447,9 @@ fn at_rest(
     let mut system = System::new(nominal.model)?;
     let rest = system.equilibrium(0.0, &system.initial_state(), StaticFriction::Following)?;
     let seen: Observation = system.observe(0.0, &rest);
+    // Nothing holds the car along the track.
+    let rolled = nominal.numbers.wheelsets.map(|number| seen.bodies[number].travel.0[0]);
+    let middle = middle + 0.25 * rolled.iter().sum::<f64>();
     let poses = seen.bodies.iter().zip(system.bodies()).map(|(state, body)| {
         let moved = if body.free[3] { middle } else { 0.0 };
         Pose {
@@ -534,8 +545,7 @@ impl Placement {
             let frame = fixed(body.frame.orientation);
             let own: Matrix<f64> = frame.transpose().times(pose.rotation);
             let turn = angles(&own);
-            body.frame.origin = [0.0; 3];
-            let place: Vector<f64> = frame.apply_transposed(pose.place);
+            let place: Vector<f64> = frame.apply_transposed(pose.place - Vector(body.frame.origin));
             body.initial = [place.0[0], place.0[1], place.0[2], turn[0], turn[1], turn[2]];
             let center = match group {
                 2 => base.place,

@@ -9,6 +9,7 @@
 //! |---|---|
 //! | parameters, with the values of a car of 263,000 lbf | [`Parameters`] |
 //! | bodies, elements, state at the start | [`Car`] |
+//! | motions about steady running, critical speed | [`Parameters::modes`], [`Parameters::critical_speed`] |
 //! | what one sees: wheel forces, places on the track, accelerations, trucks | [`Loads`] |
 //!
 //! Not in the model: flexible bodies, braking, coupler forces.
@@ -20,10 +21,12 @@ mod body;
 mod defaults;
 mod drive;
 mod error;
+mod linearize;
 mod loads;
 mod parameters;
 
 pub use assemble::{Car, Numbers};
 pub use error::{BuildError, InvalidParameter};
+pub use linearize::{CriticalSpeed, FrictionState, LinearizeError, Mode};
 pub use loads::{AxleLoads, EndMotion, Loads, WheelLoads};
 pub use parameters::{Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, Wheels};

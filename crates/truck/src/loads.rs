@@ -198,10 +198,7 @@ impl MountedTruck {
         };
         let place = self.wedge_places[number];
         let moved = |body: usize| {
-            let body = view.body(body);
-            let arm = place - (body.origin - body.travel);
-            let turned: Vector<f64> = body.rotation.apply(arm);
-            body.travel + turned - arm
+            view.moved(view.body(body), place)
         };
         let (bolster, side_frame) = (moved(BOLSTER), moved(SIDE_FRAMES + number % 2));
         WedgeLoads {

@@ -106,6 +106,24 @@ impl<'o> View<'o> {
         }
     }
 
+    /// Returns how far a point of a body, whose axes were the fixed ones in the nominal layout, is from its place (from the
+    /// truck's center, m) there.
+    pub fn moved(&self, body: &BodyState, place: Vector<f64>) -> Vector<f64> {
+        let nominal = body.origin - body.travel;
+        match &self.frame {
+            None => {
+                let arm = place - nominal;
+                let turned: Vector<f64> = body.rotation.apply(arm);
+                body.travel + turned - arm
+            }
+            Some(_) => {
+                let arm = place + Vector(self.truck.mount.center) - nominal;
+                let turned: Vector<f64> = body.rotation.apply(arm);
+                self.place(body.origin + turned) - place
+            }
+        }
+    }
+
     /// Returns the yaw of a body, rad.
     pub fn yaw(&self, number: usize) -> f64 {
         let Matrix(r) = self.rotation(number);
