@@ -448,7 +448,10 @@ fn at_rest(
     let rest = system.equilibrium(0.0, &system.initial_state(), StaticFriction::Following)?;
     let seen: Observation = system.observe(0.0, &rest);
     // Nothing holds the car along the track.
-    let rolled = nominal.numbers.wheelsets.map(|number| seen.bodies[number].travel.0[0]);
+    let rolled = nominal
+        .numbers
+        .wheelsets
+        .map(|number| seen.bodies[number].travel.0[0]);
     let middle = middle + 0.25 * rolled.iter().sum::<f64>();
     let poses = seen.bodies.iter().zip(system.bodies()).map(|(state, body)| {
         let moved = if body.free[3] { middle } else { 0.0 };

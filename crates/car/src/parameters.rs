@@ -280,7 +280,9 @@ impl Parameters {
         if self.trucks.iter().any(has_connections) {
             let line = &self.track.center_line;
             let count = line.length().ceil() as usize;
-            let bent = (0..=count).map(|k| k as f64).find(|at| line.at(*at).curvature[0] != 0.0);
+            let bent = (0..=count)
+                .map(|k| k as f64)
+                .find(|at| line.at(*at).curvature[0] != 0.0);
             if let Some(at) = bent {
                 return Err(InvalidParameter::new(
                     "the distance (m) of a curve under trucks with massless wedges or empirical warp springs",

@@ -197,9 +197,7 @@ impl MountedTruck {
             return WedgeLoads::default();
         };
         let place = self.wedge_places[number];
-        let moved = |body: usize| {
-            view.moved(view.body(body), place)
-        };
+        let moved = |body: usize| view.moved(view.body(body), place);
         let (bolster, side_frame) = (moved(BOLSTER), moved(SIDE_FRAMES + number % 2));
         WedgeLoads {
             column_normal: inside.column_normal,

@@ -101,6 +101,7 @@ pub fn exhibits(run: &CarRun) -> Vec<Exhibit> {
             title: format!("{name}: {title}"),
             caption: caption.to_owned(),
             panels,
+            columns: 2,
             ..Figure::default()
         },
     };

@@ -1,6 +1,6 @@
 //! What no single key shows: a lading that tips the car, a track that is too short, a curve that is too tight.
 
-use car::Parameters;
+use car::{Drive, Parameters};
 use quantity::Number;
 use truck::SideBearing;
 use wheelrail::track::CenterLine;
@@ -147,8 +147,8 @@ fn way(r: &mut Reader<'_>, parameters: &Parameters, simulation: &Simulation) {
         );
         return;
     }
-    let speed = parameters.start.speed;
-    let end = start + reach + fastest(parameters) * simulation.duration;
+    let run = way_of(parameters, simulation.duration);
+    let end = start + reach + run;
     if end > line.length() {
         let room = line.length() - start - reach;
         let message = format!(
@@ -157,13 +157,18 @@ fn way(r: &mut Reader<'_>, parameters: &Parameters, simulation: &Simulation) {
             end / FOOT,
             Number(simulation.duration)
         );
-        let help = match speed > 0.0 {
-            true => format!(
-                "write simulation.duration = \"{:.1} s\", or make the track longer",
-                (room / fastest(parameters) * 10.0).floor() / 10.0
-            ),
-            false => "make the track longer".to_owned(),
-        };
+        // The way grows with the time.
+        let (mut enough, mut too_long) = (0.0, simulation.duration);
+        for _ in 0..40 {
+            let middle = 0.5 * (enough + too_long);
+            *(if way_of(parameters, middle) > room {
+                &mut too_long
+            } else {
+                &mut enough
+            }) = middle;
+        }
+        let most = (10.0 * enough).floor() / 10.0;
+        let help = format!("write simulation.duration = \"{most:.1} s\", or make the track longer");
         r.problem("track", Problem::new(message).label("too short").help(help));
     }
     let (mut tightest, mut place) = (0.0_f64, 0.0);
@@ -214,10 +219,25 @@ fn straight_until(line: &CenterLine) -> f64 {
     first.unwrap_or(line.length())
 }
 
-/// The highest speed that the drive asks for, m/s.
-fn fastest(parameters: &Parameters) -> f64 {
-    match &parameters.drive {
-        car::Drive::Over { speeds, .. } => speeds.iter().map(|[_, speed]| *speed).fold(0.0, f64::max),
-        car::Drive::Held { .. } | car::Drive::Coasting => parameters.start.speed,
-    }
+/// How far the car comes in a time (s) at the speeds that its drive asks for, m.
+fn way_of(parameters: &Parameters, duration: f64) -> f64 {
+    let Drive::Over { speeds, .. } = &parameters.drive else {
+        return parameters.start.speed * duration;
+    };
+    const STEPS: usize = 2000;
+    let (start, step) = (parameters.start.distance, duration / STEPS as f64);
+    let end = (0..STEPS).fold(start, |distance, _| distance + step * speed_at(speeds, distance));
+    end - start
+}
+
+/// A speed (m/s) at a distance (m), straight between pairs.
+pub(super) fn speed_at(speeds: &[[f64; 2]], distance: f64) -> f64 {
+    let Some(after) = speeds.iter().position(|[own, _]| *own > distance) else {
+        return speeds.last().map_or(0.0, |[_, speed]| *speed);
+    };
+    let Some(before) = after.checked_sub(1) else {
+        return speeds[after][1];
+    };
+    let ([a, from], [b, to]) = (speeds[before], speeds[after]);
+    from + (to - from) * (distance - a) / (b - a)
 }

@@ -265,20 +265,8 @@ fn start(r: &mut Reader<'_>, parameters: &mut Parameters, speeds: Option<&[[f64;
         "of the track in the fixed frame: changes nothing",
     );
     if let Some(speeds) = speeds {
-        own.speed = at(speeds, own.distance);
+        own.speed = checks::speed_at(speeds, own.distance);
     }
-}
-
-/// A speed (m/s) at a distance (m), straight between pairs.
-fn at(speeds: &[[f64; 2]], distance: f64) -> f64 {
-    let Some(after) = speeds.iter().position(|[own, _]| *own > distance) else {
-        return speeds.last().map_or(0.0, |[_, speed]| *speed);
-    };
-    let Some(before) = after.checked_sub(1) else {
-        return speeds[after][1];
-    };
-    let ([a, from], [b, to]) = (speeds[before], speeds[after]);
-    from + (to - from) * (distance - a) / (b - a)
 }
 
 fn output(r: &mut Reader<'_>, rules: &mut Rules) {
@@ -354,7 +342,8 @@ fn frequency(r: &mut Reader<'_>, key: &'static str, hertz: &mut f64, comment: &s
     let own = r.other(key, comment, usual, read, |own| {
         Written::quantity(own, form.0, form.2)
     });
-    *hertz = own.to_si() / turn;
+    // Angular and back again leaves a last digit.
+    *hertz = (own.to_si() / turn * 1e9).round() / 1e9;
 }
 
 fn simulation(r: &mut Reader<'_>) -> Simulation {

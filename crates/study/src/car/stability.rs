@@ -16,6 +16,8 @@ use super::track::tangent;
 const SLOWEST: f64 = 0.05;
 /// Vibrations faster than this are those of contacts, Hz.
 const FASTEST: f64 = 30.0;
+/// Growth below this is none, 1/s: that of undamped vibrations in rounding.
+const NONE: f64 = 1e-5;
 
 /// The motions about steady running with one state of friction.
 #[derive(Clone, Debug)]
@@ -122,7 +124,7 @@ fn critical(
     speeds: &[f64],
     branch: &Branch,
 ) -> Result<Option<CriticalSpeed>, LinearizeError> {
-    let grows = |modes: &Vec<Mode>| modes.first().is_some_and(|mode| mode.growth > 0.0);
+    let grows = |modes: &Vec<Mode>| modes.first().is_some_and(|mode| mode.growth > NONE);
     let Some(first) = branch.modes.iter().position(grows) else {
         return Ok(None);
     };

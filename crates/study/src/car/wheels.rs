@@ -20,7 +20,7 @@ use crate::truck::reader::{Form, LENGTH, Reader};
 
 const INCH: f64 = 0.0254;
 /// How far splines may lie from the points of a file, m.
-const DEVIATION: f64 = 2e-5;
+const DEVIATION: f64 = 0.0008 * INCH;
 /// Half width of a conical tread, m.
 const TREAD: f64 = 2.0 * INCH;
 const STEEL: Material = Material {

@@ -6,7 +6,10 @@ use study::car::{CarCase, builtin};
 use study::case::Tables;
 
 fn parse(lines: &str) -> CarCase {
-    let text = format!("model = \"car\"\n{lines}");
+    let text = match lines.starts_with("name = ") {
+        true => lines.to_owned(),
+        false => format!("model = \"car\"\n{lines}"),
+    };
     match CarCase::parse("case.toml", &text, Tables::nowhere(), &[]) {
         Ok(case) => case,
         Err(error) => panic!("{:?}", error.problems()),

@@ -165,3 +165,18 @@ fn input_coils_that_would_go_solid_are_told() {
     let usual = CarCase::parse("c.toml", "model = \"car\"", Tables::nowhere(), &[]).unwrap();
     assert!(usual.doubts.is_empty(), "{:?}", usual.doubts);
 }
+
+/// A car that slows down comes less far than at its first speed.
+#[test]
+fn input_length_of_a_track_counts_the_speeds_over_distance() {
+    let slowing = |length: f64| {
+        let text = format!(
+            "model = \"car\"\nspeed.kind = \"over_distance\"\nspeed.over_distance = [[\"0 ft\", \"60 mph\"], [\"1000 ft\", \"20 mph\"]]\n\
+             simulation.duration = \"20 s\"\n[[track.segments]]\ntangent = \"{length} ft\""
+        );
+        CarCase::parse("c.toml", &text, Tables::nowhere(), &[])
+    };
+    // To 1,000 ft in 1000/40 mph · ln(60/20), at most; the rest at 20 mph: 1,101 ft, and 26 ft of car on either side.
+    assert!(slowing(1110.0).is_err());
+    assert!(slowing(1250.0).is_ok());
+}

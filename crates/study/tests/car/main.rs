@@ -3,4 +3,5 @@
 
 mod case;
 mod input;
+mod run;
 mod statistics;
