@@ -74,8 +74,11 @@ pub enum LinearizeError {
     },
 }
 
-/// Vibrations slower than this are drifts, Hz.
+/// Vibrations slower than this are drifts, Hz; those faster than this are of contacts, not of the car.
 const SLOWEST: f64 = 0.05;
+const FASTEST: f64 = 30.0;
+/// Growth below this is none, 1/s: that of undamped vibrations in rounding.
+const NONE: f64 = 1e-5;
 /// How long a car runs before it is linearized, s.
 const SETTLED: f64 = 1.0;
 /// About which eigenvalues are found best, 1/s.
@@ -164,7 +167,11 @@ impl Parameters {
                 growth: f64::NEG_INFINITY,
                 frequency: 0.0,
             };
-            Ok(modes.into_iter().find(|mode| mode.frequency > SLOWEST).unwrap_or(none))
+            let own = modes.into_iter().find(|mode| (SLOWEST..FASTEST).contains(&mode.frequency));
+            Ok(own.map_or(none, |mode| Mode {
+                growth: mode.growth - NONE,
+                ..mode
+            }))
         };
         let mut before = (low, worst(low)?);
         if before.1.growth > 0.0 {
