@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 
 use common::{INCH, MPH, POUND_FORCE, empty, loaded, tangent};
 use car::{FrictionState, Mode, Parameters, Wheels};
-use truck::{Adapter, AdapterPad, ControlCoil, SideBearings, Spring, WedgeKind, empirical_warp};
-use wedge::parameters::Damping;
+use truck::{Adapter, AdapterPad, ControlCoil, SideBearing, Spring, WedgeKind, empirical_warp};
+use wedge::parameters::{Contact, Damping, FaceFriction};
 use wheelrail::conicity::LinearGeometry;
 use wheelrail::contact::{CreepCoefficients, LinearWheelset};
 
@@ -18,8 +18,8 @@ const RADIUS: f64 = 18.0 * INCH;
 /// Stiffness of a nest across, N/m.
 const NEST: f64 = 17_800.0 * POUND_FORCE / INCH;
 
-/// The empty car on linear wheels, reduced: center plates turn freely, adapters are pins, nothing damps, wedges do
-/// nothing but for an empirical warp stiffness of the truck (N·m/rad).
+/// The empty car on linear wheels that do not roll about x, reduced: center plates turn freely, adapters are pins,
+/// nothing damps, wedges do nothing but for an empirical warp stiffness of the truck (N·m/rad).
 fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
     let mut parameters = empty(tangent(300.0), 10.0);
     parameters.support = None;
@@ -27,7 +27,10 @@ fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
     let axle_load = parameters.weight() / 4.0;
     parameters.wheels = Wheels::Linear {
         wheelset: LinearWheelset {
-            geometry: LinearGeometry::of_cones(conicity, HALF, RADIUS),
+            geometry: LinearGeometry {
+                roll_coefficient: 0.0,
+                ..LinearGeometry::of_cones(conicity, HALF, RADIUS)
+            },
             creep: CreepCoefficients {
                 f11: 6.69e6,
                 f22: 6.21e6,
@@ -73,8 +76,23 @@ fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
             });
         }
         if let Some(body) = &mut own.car_body {
-            body.side_bearings = SideBearings::rollers();
-            body.center_plate.friction.coefficient = 0.0;
+            // A pin that turns, and stiff side bearings without friction.
+            body.center_plate.rings = vec![1e-3];
+            body.center_plate.friction.coefficient = 10.0;
+            let stiff = Contact {
+                stiffness: 1e9,
+                damping: 0.0,
+            };
+            body.side_bearings.kind = SideBearing::ConstantContact {
+                preload: 2e4,
+                contact: stiff,
+                travel: 1.0,
+                solid: stiff,
+                friction: FaceFriction {
+                    coefficient: 0.0,
+                    ..body.center_plate.friction
+                },
+            };
         }
         own.gib.clearance = 1.0;
         own.lands.clearance = 1.0;
@@ -98,7 +116,7 @@ fn reproduction_critical_speeds_of_the_empty_car() {
         let parameters = reduced(conicity, Some(warp));
         let range = [0.8 * expected * MPH, 1.25 * expected * MPH];
         let found = parameters
-            .critical_speed(range, 0.1 * expected * MPH, FrictionState::Absent)
+            .critical_speed(range, 0.1 * expected * MPH, FrictionState::Stuck)
             .unwrap()
             .unwrap();
         let speed = found.speed / MPH;
@@ -131,7 +149,7 @@ fn analytic_wavelengths_of_trucks_that_warp_and_of_rigid_ones() {
                 own.warp_spring = Some(empirical_warp(1e9 * 0.03).unwrap());
             }
         }
-        let modes = parameters.modes(speed, FrictionState::Absent).unwrap();
+        let modes = parameters.modes(speed, FrictionState::Stuck).unwrap();
         let wavelength = TAU * (RADIUS * HALF / 0.05).sqrt() * factor;
         let found = near(&modes, speed / wavelength, 0.01);
         assert!(found.len() >= 2, "{wavelength} m expected of {:?}", near(&modes, speed / wavelength, 0.6));
@@ -169,18 +187,5 @@ fn analytic_frequencies_of_the_loaded_car_on_its_wheels() {
         let found = near(&modes, frequency, within);
         let slow: Vec<f64> = modes.iter().map(|mode| mode.frequency).filter(|own| (0.3..5.0).contains(own)).collect();
         assert!(!found.is_empty(), "{name}: {frequency} Hz expected of {slow:?}");
-    }
-}
-
-#[test]
-#[ignore]
-fn zz_print() {
-    for conicity in [0.05, 0.2] {
-        let parameters = reduced(conicity, Some(17e6 * POUND_FORCE * INCH));
-        for mph in [10.0, 20.0, 25.0, 30.0, 35.0, 40.0, 50.0, 60.0, 65.0, 70.0, 80.0] {
-            let modes = parameters.modes(mph * MPH, FrictionState::Absent).unwrap();
-            let list: Vec<_> = modes.iter().filter(|m| m.frequency > 0.02 && m.frequency < 30.0).take(6).map(|m| format!("{:.3e} {:.3}", m.growth, m.frequency)).collect();
-            println!("{conicity} {mph}: {list:?}");
-        }
     }
 }
