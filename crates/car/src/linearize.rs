@@ -1,7 +1,8 @@
 //! Linearization about steady running on straight track: growth and frequency of all motions, and the speed from which
 //! one grows.
 //!
-//! The car runs for a while, so that creep forces and loads agree, and its whole Jacobian matrix is taken there
+//! A car whose friction sticks runs on its wheels for a second, so that creep forces and loads agree; others are taken as
+//! they start, since nothing would damp what remains of the start. There its whole Jacobian matrix is taken
 //! (`System::eigenvalues`). Distance and spin stand in no force and give eigenvalues of zero. What friction does in wedges,
 //! plates, adapters and side bearings is a choice, since it decides: bristles that stick are springs; without friction
 //! these parts are free where nothing else holds them, and a car may buckle slowly, which is no vibration.
@@ -15,7 +16,7 @@ use wedge::parameters::FaceFriction;
 
 use crate::assemble::Car;
 use crate::error::BuildError;
-use crate::parameters::Parameters;
+use crate::parameters::{Parameters, Wheels};
 
 /// What friction does about steady running.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,9 +64,7 @@ pub enum LinearizeError {
     #[error("the speed is {0} m/s; it must be positive: a car that stands has no steady running")]
     Speed(f64),
     /// Speeds make no range.
-    #[error(
-        "speeds from {low} to {high} m/s in steps of {step} m/s make no search: they must be positive and rise"
-    )]
+    #[error("speeds from {low} to {high} m/s in steps of {step} m/s make no search: they must be positive and rise")]
     Range {
         /// The lowest, m/s.
         low: f64,
@@ -76,8 +75,11 @@ pub enum LinearizeError {
     },
 }
 
-/// Vibrations slower than this are drifts, Hz.
+/// Vibrations slower than this are drifts, Hz; those faster than this are of contacts, not of the car.
 const SLOWEST: f64 = 0.05;
+const FASTEST: f64 = 30.0;
+/// Growth below this is none, 1/s: that of undamped vibrations in rounding.
+const NONE: f64 = 1e-5;
 /// How long a car runs before it is linearized, s.
 const SETTLED: f64 = 1.0;
 /// About which eigenvalues are found best, 1/s.
@@ -112,7 +114,8 @@ impl Parameters {
     }
 
     /// Returns all motions about steady running at a speed (m/s), by falling growth; the car starts where its start says,
-    /// which must be on straight track without irregularities for a second of running.
+    /// which must be on straight track
+    /// without irregularities for a second of running.
     ///
     /// # Errors
     /// [`LinearizeError`].
@@ -128,16 +131,20 @@ impl Parameters {
         running.start.wheelset_shifts = [0.0; 4];
         running.start.body_shift = 0.0;
         let car = Car::new(&running)?;
-        let options = Options {
-            relative_tolerance: 1e-6,
-            ..Options::of(Method::Esdirk3)
-        };
-        let mut integrator = Integrator::new(car.system.clone(), options, 0.0, &car.initial_state)?;
-        while integrator.time() < SETTLED {
-            integrator.step_to(SETTLED)?;
+        let mut system = car.system.clone();
+        let mut state = car.initial_state.clone();
+        if friction == FrictionState::Stuck && matches!(running.wheels, Wheels::OnRails(_)) {
+            let options = Options {
+                relative_tolerance: 1e-6,
+                ..Options::of(Method::Esdirk3)
+            };
+            let mut integrator = Integrator::new(car.system, options, 0.0, &state)?;
+            while integrator.time() < SETTLED {
+                integrator.step_to(SETTLED)?;
+            }
+            state.copy_from_slice(integrator.x());
         }
-        let mut system = car.system;
-        let values = system.eigenvalues(SETTLED, integrator.x(), SHIFT)?;
+        let values = system.eigenvalues(0.0, &state, SHIFT)?;
         let modes = values.into_iter().filter(|[_, turning]| *turning >= 0.0);
         let modes = modes.map(|[growth, turning]| Mode {
             growth,
@@ -166,10 +173,11 @@ impl Parameters {
                 growth: f64::NEG_INFINITY,
                 frequency: 0.0,
             };
-            Ok(modes
-                .into_iter()
-                .find(|mode| mode.frequency > SLOWEST)
-                .unwrap_or(none))
+            let own = modes.into_iter().find(|mode| (SLOWEST..FASTEST).contains(&mode.frequency));
+            Ok(own.map_or(none, |mode| Mode {
+                growth: mode.growth - NONE,
+                ..mode
+            }))
         };
         let mut before = (low, worst(low)?);
         if before.1.growth > 0.0 {
@@ -191,11 +199,7 @@ impl Parameters {
                 let share = -before.1.growth / (after.1.growth - before.1.growth);
                 let speed = before.0 + share.clamp(0.1, 0.9) * (after.0 - before.0);
                 let own = (speed, worst(speed)?);
-                *(if own.1.growth > 0.0 {
-                    &mut after
-                } else {
-                    &mut before
-                }) = own;
+                *(if own.1.growth > 0.0 { &mut after } else { &mut before }) = own;
             }
             let share = -before.1.growth / (after.1.growth - before.1.growth);
             return Ok(Some(CriticalSpeed {
