@@ -5,8 +5,8 @@ mod common;
 
 use std::f64::consts::PI;
 
-use car::Loads;
 use common::{INCH, Ran, curve, loaded, run};
+use car::Loads;
 
 /// The force of all wheels on the rails along the track's plane, positive to the left, N.
 fn lateral(loads: &Loads) -> f64 {
@@ -48,10 +48,7 @@ fn analytic_the_rails_turn_the_car() {
         );
         let normal: f64 = last.wheels.iter().flatten().map(|wheel| wheel.vertical).sum();
         let pressed = mass * (parameters.gravity * roll.cos() + turning * roll.sin());
-        assert!(
-            (normal / pressed - 1.0).abs() < 1e-3,
-            "{normal} N, {pressed} N expected"
-        );
+        assert!((normal / pressed - 1.0).abs() < 1e-3, "{normal} N, {pressed} N expected");
     }
 }
 
@@ -65,11 +62,7 @@ fn limits_a_tight_curve_is_run_on_the_flange() {
     assert!(leading.yaw < -4e-3, "it steers outwards: {leading:?}");
     let [_, outer] = last.wheels[0];
     assert!(outer.l_over_v() > 0.3, "{outer:?}");
-    assert!(
-        last.trucks[0].warp_angle.abs() > 1e-3,
-        "{}",
-        last.trucks[0].warp_angle
-    );
+    assert!(last.trucks[0].warp_angle.abs() > 1e-3, "{}", last.trucks[0].warp_angle);
     assert!(ran.residual < 1e-4, "{}", ran.residual);
 }
 
@@ -110,11 +103,7 @@ fn limits_a_full_circle() {
     let ran = run(&parameters, (length - 40.0) / speed, 1.0, 1e-4);
     let turned = |own: &Loads| ran.car.lines.center_line().at(own.distance).heading;
     let last = ran.last();
-    let before = ran
-        .loads
-        .iter()
-        .find(|(_, own)| turned(own) > turned(last) - 2.0 * PI)
-        .unwrap();
+    let before = ran.loads.iter().find(|(_, own)| turned(own) > turned(last) - 2.0 * PI).unwrap();
     assert!(turned(last) > 2.0 * PI + 0.3, "{}", turned(last));
     for (a, b) in last.wheels.iter().flatten().zip(before.1.wheels.iter().flatten()) {
         assert!((a.vertical - b.vertical).abs() < 2e3, "{a:?} {b:?}");
