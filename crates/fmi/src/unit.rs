@@ -50,11 +50,11 @@ impl Unit {
         };
         Some(match kind {
             Kind::Time => "s",
-            Kind::Length => "m",
+            Kind::Length | Kind::Distance => "m",
             Kind::Angle => "rad",
-            Kind::Speed => "m/s",
+            Kind::Speed | Kind::TravelSpeed => "m/s",
             Kind::AngularSpeed | Kind::Frequency => "rad/s",
-            Kind::Acceleration => "m/s2",
+            Kind::Acceleration | Kind::RideAcceleration => "m/s2",
             Kind::Force => "N",
             Kind::Moment => "N.m",
             Kind::Energy => "J",

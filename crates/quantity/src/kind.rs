@@ -1,7 +1,7 @@
 //! What a number stands for, and what it is called in each system of units.
 
 use crate::Dimension;
-use crate::units::{INCH, POUND, POUND_FORCE};
+use crate::units::{FOOT, INCH, MILE_PER_HOUR, POUND, POUND_FORCE, STANDARD_GRAVITY};
 use serde::{Deserialize, Serialize};
 
 /// The system of units results are written in.
@@ -33,16 +33,22 @@ pub enum Kind {
     Time,
     /// A length.
     Length,
+    /// A distance along a track.
+    Distance,
     /// An angle.
     Angle,
     /// A speed.
     Speed,
+    /// The speed of a car.
+    TravelSpeed,
     /// An angular speed.
     AngularSpeed,
     /// A frequency; inside always an angular one, in rad/s.
     Frequency,
     /// An acceleration.
     Acceleration,
+    /// An acceleration that people and ladings feel, told in parts of gravity's.
+    RideAcceleration,
     /// A force.
     Force,
     /// A moment.
@@ -82,7 +88,7 @@ struct Facts {
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Kind; 19] = [
+    pub const ALL: [Kind; 22] = [
         Kind::Time,
         Kind::Length,
         Kind::Angle,
@@ -102,6 +108,9 @@ impl Kind {
         Kind::Pressure,
         Kind::Dimensionless,
         Kind::Count,
+        Kind::Distance,
+        Kind::TravelSpeed,
+        Kind::RideAcceleration,
     ];
 
     /// What a unit of this dimension measures, in words with an article: `a length`.
@@ -173,6 +182,10 @@ impl Kind {
                 let names = ["in", "m"];
                 facts([0, 1, 0, 0], "a length", names, names, names, 1.0 / INCH)
             }
+            Kind::Distance => {
+                let names = ["ft", "m"];
+                facts([0, 1, 0, 0], "a distance", names, names, names, 1.0 / FOOT)
+            }
             Kind::Angle => {
                 let unit = ["deg", "rad"];
                 facts([0, 0, 0, 1], "an angle", unit, ["rad"; 2], ["rad"; 2], 1.0)
@@ -181,6 +194,17 @@ impl Kind {
                 let names = ["in/s", "m/s"];
                 let suffix = ["in_per_s", "m_per_s"];
                 facts([0, 1, -1, 0], "a speed", names, suffix, names, 1.0 / INCH)
+            }
+            Kind::TravelSpeed => {
+                let (names, suffix) = (["mph", "m/s"], ["mph", "m_per_s"]);
+                facts(
+                    [0, 1, -1, 0],
+                    "a speed",
+                    names,
+                    suffix,
+                    names,
+                    1.0 / MILE_PER_HOUR,
+                )
             }
             Kind::AngularSpeed | Kind::Frequency => {
                 let name = if self == Kind::Frequency {
@@ -209,6 +233,14 @@ impl Kind {
                     1.0 / INCH,
                 )
             }
+            Kind::RideAcceleration => facts(
+                [0, 1, -2, 0],
+                "an acceleration",
+                ["g0", "m/s^2"],
+                ["g", "m_per_s2"],
+                ["g", "m/s²"],
+                1.0 / STANDARD_GRAVITY,
+            ),
             Kind::Force => {
                 let names = ["lbf", "N"];
                 facts([1, 1, -2, 0], "a force", names, names, names, 1.0 / POUND_FORCE)

@@ -6,6 +6,10 @@ use std::f64::consts::PI;
 
 /// The international inch, m (exact).
 pub const INCH: f64 = 0.0254;
+/// The international foot, m (exact).
+pub(crate) const FOOT: f64 = 0.304_8;
+/// The international mile per hour, m/s (exact).
+pub(crate) const MILE_PER_HOUR: f64 = 0.447_04;
 /// The avoirdupois pound, kg (exact).
 pub const POUND: f64 = 0.453_592_37;
 /// Standard gravity, m/s² (exact).
@@ -45,7 +49,7 @@ const fn unit(name: &'static str, factor: f64, dimension: Dimension) -> Named {
 /// counts cycles, so that one of them is 2π rad.
 pub(crate) static UNITS: &[Named] = &[
     unit("in", INCH, LENGTH),
-    unit("ft", 0.3048, LENGTH),
+    unit("ft", FOOT, LENGTH),
     unit("yd", 0.9144, LENGTH),
     unit("mi", 1609.344, LENGTH),
     unit("um", 1e-6, LENGTH),
@@ -69,7 +73,7 @@ pub(crate) static UNITS: &[Named] = &[
     unit("rev", 2.0 * PI, ANGLE),
     unit("Hz", 2.0 * PI, RATE),
     unit("rpm", 2.0 * PI / 60.0, RATE),
-    unit("mph", 0.447_04, SPEED),
+    unit("mph", MILE_PER_HOUR, SPEED),
     unit("g0", STANDARD_GRAVITY, ACCELERATION),
     unit("lbf", POUND_FORCE, FORCE),
     unit("kip", 4_448.221_615_260_5, FORCE),

@@ -15,7 +15,7 @@
 //! - [`run_files`]: the files of a run.
 //! - [`half_truck_files`]: the files of a half-truck's run.
 //! - [`warp_files`], [`curves_files`]: the files of `wedgelab warp` and `wedgelab curves`;
-//!   [`wheelrail_files`]: those of `wedgelab wheelrail plot`; [`track_files`]: those of `wedgelab track show`.
+//!   [`stability_files`]: those of `wedgelab stability`; [`wheelrail_files`]: those of `wedgelab wheelrail plot`; [`track_files`]: those of `wedgelab track show`.
 //! - [`table`]: tables of results, read back.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
 //!   [`study_digest`] what their page shows.
@@ -43,6 +43,7 @@ pub mod plot;
 pub mod run_files;
 pub mod sections;
 pub mod sensitivity;
+pub mod stability_files;
 pub mod study_digest;
 pub mod study_folder;
 pub mod study_work;

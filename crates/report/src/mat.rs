@@ -31,6 +31,7 @@
 use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
+use study::car::run::CarResult;
 use study::case::Case;
 use study::result::RunResult;
 use study::summary::RunSummary;
@@ -117,9 +118,26 @@ pub fn soundness(summary: &impl RunSummary) -> String {
 /// The writer's.
 pub fn write_truck(result: &TruckResult, out: &mut dyn Write) -> io::Result<()> {
     let own = &result.summary;
-    mat5::header(&format!("{}, case {}", own.program, own.name), out)?;
-    let mut about = format!("{}: {}\nwritten by {}\n", own.name, own.title, own.program);
-    about += &soundness(own);
+    write_all(result, [&own.name, &own.title, &own.program], out)
+}
+
+/// The same of a car's run.
+///
+/// # Errors
+/// The writer's.
+pub fn write_car(result: &CarResult, out: &mut dyn Write) -> io::Result<()> {
+    let own = &result.summary;
+    write_all(result, [&own.name, &own.title, &own.program], out)
+}
+
+fn write_all<S: RunSummary>(
+    result: &RunResult<S>,
+    [name, title, program]: [&str; 3],
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    mat5::header(&format!("{program}, case {name}"), out)?;
+    let mut about = format!("{name}: {title}\nwritten by {program}\n");
+    about += &soundness(&result.summary);
     write_columns(result, &mut about, out)?;
     mat5::text("about", about.trim_end(), out)
 }

@@ -1,5 +1,7 @@
 //! The files of a run: the table, the same under the thesis's names, the completed case, the summary.
 
+use study::car::CarCase;
+use study::car::run::CarResult;
 use study::case::Case;
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
 use study::result::RunResult;
@@ -61,6 +63,27 @@ impl RunFiles for TruckCase {
                 csv::write_columns(&result.columns, &result.values, units, out)
             })?;
             files.add(mat::FILE_NAME, |out| mat::write_truck(result, out))?;
+            files.add(CASE_FILE_NAME, |out| {
+                out.write_all(self.to_toml_embedded().as_bytes())
+            })?;
+            files.add(summary::FILE_NAME, |out| {
+                summary::write_json(&result.summary, out)
+            })
+        })
+    }
+}
+
+impl RunFiles for CarCase {
+    type Summary = study::car::summary::CarSummary;
+    const FILES: &'static [&'static str] = &NAMES;
+
+    fn write(&self, folder: &Folder, result: &CarResult) -> Result<(), FileError> {
+        let units = self.simulation.output_units;
+        folder.write(|files| {
+            files.add(csv::FILE_NAME, |out| {
+                csv::write_columns(&result.columns, &result.values, units, out)
+            })?;
+            files.add(mat::FILE_NAME, |out| mat::write_car(result, out))?;
             files.add(CASE_FILE_NAME, |out| {
                 out.write_all(self.to_toml_embedded().as_bytes())
             })?;

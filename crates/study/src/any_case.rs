@@ -8,6 +8,7 @@ use nucars::file_sets::{Instead, LoadError, RunFiles, Texts, find};
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
+use crate::car::{self, CarCase};
 use crate::case::problem::{Problems, TomlSource};
 use crate::case::{Case, CaseError, FieldSection, Problem, Tables, builtin, overrides, text_of, tree};
 use crate::half_truck::files::{FilesError, Settings, case_of_run};
@@ -28,6 +29,8 @@ pub enum AnyCase {
     HalfTruck(Box<HalfTruckCase>),
     /// A truck's.
     Truck(Box<TruckCase>),
+    /// A car's.
+    Car(Box<CarCase>),
 }
 
 /// Does the same with the case of whatever model.
@@ -37,12 +40,13 @@ macro_rules! each {
             AnyCase::Wedge($case) => $do,
             AnyCase::HalfTruck($case) => $do,
             AnyCase::Truck($case) => $do,
+            AnyCase::Car($case) => $do,
         }
     };
 }
 
 impl AnyCase {
-    /// Reads a case file of a wedge or of a truck (`model = "truck"`) and lays `--set` overrides
+    /// Reads a case file of a wedge, of a truck (`model = "truck"`) or of a car (`model = "car"`) and lays `--set` overrides
     /// (`path.key=value`) over it.
     ///
     /// # Errors
@@ -63,14 +67,16 @@ impl AnyCase {
         tables: impl Into<Tables<'t>>,
         overrides: &[String],
     ) -> Result<Self, CaseError> {
-        Ok(if names_truck(source, text, overrides) {
-            Self::Truck(Box::new(TruckCase::parse(source, text, tables, overrides)?))
-        } else {
-            Self::Wedge(Box::new(Case::parse(source, text, tables, overrides)?))
+        Ok(match named(source, text, overrides) {
+            Some(truck::Model::Truck) => {
+                Self::Truck(Box::new(TruckCase::parse(source, text, tables, overrides)?))
+            }
+            Some(truck::Model::Car) => Self::Car(Box::new(CarCase::parse(source, text, tables, overrides)?)),
+            _ => Self::Wedge(Box::new(Case::parse(source, text, tables, overrides)?)),
         })
     }
 
-    /// The built-in case of this name, of a wedge or of a truck; `None` if there is none.
+    /// The built-in case of this name, of a wedge, a truck or a car; `None` if there is none.
     ///
     /// # Errors
     /// An override is wrong.
@@ -82,6 +88,10 @@ impl AnyCase {
         if truck::builtin::names().any(|own| own == name) {
             let case = truck::builtin::case_with(name, overrides)?;
             return Ok(Some(Self::Truck(Box::new(case))));
+        }
+        if car::builtin::names().any(|own| own == name) {
+            let case = car::builtin::case_with(name, overrides)?;
+            return Ok(Some(Self::Car(Box::new(case))));
         }
         Ok(None)
     }
@@ -113,6 +123,7 @@ impl AnyCase {
             Self::Wedge(case) => Cycle::of(&case.parameters),
             Self::HalfTruck(case) => crate::half_truck::run::cycle(case),
             Self::Truck(case) => Cycle::of_motion(&case.parameters.bolster.motion.coordinates[2]),
+            Self::Car(_) => None,
         }
     }
 
@@ -132,6 +143,7 @@ impl AnyCase {
             Self::Wedge(case) => case.document.fields(),
             Self::HalfTruck(_) => Vec::new(),
             Self::Truck(case) => case.fields().to_vec(),
+            Self::Car(case) => case.fields().to_vec(),
         }
     }
 
@@ -143,6 +155,7 @@ impl AnyCase {
             Self::Wedge(case) => Some(case.document.clone().with_tables_embedded().to_toml()),
             Self::HalfTruck(_) => None,
             Self::Truck(case) => Some(case.to_toml_embedded().to_owned()),
+            Self::Car(case) => Some(case.to_toml_embedded().to_owned()),
         }
     }
 
@@ -153,6 +166,7 @@ impl AnyCase {
             Self::Wedge(_) => measures::of_wedges().clone(),
             Self::HalfTruck(case) => half_truck::definitions(case),
             Self::Truck(_) => measures::truck::definitions(),
+            Self::Car(_) => measures::car::definitions(),
         }
     }
 
@@ -165,18 +179,17 @@ impl AnyCase {
             Self::Wedge(case) => measures::judge(case),
             Self::HalfTruck(case) => half_truck::judge(case),
             Self::Truck(case) => measures::truck::judge(case),
+            Self::Car(case) => measures::car::judge(case),
         }
     }
 }
 
-/// Returns whether a case file says `model = "truck"`, or an override does.
-fn names_truck(source: &str, text: &str, overrides: &[String]) -> bool {
+/// Returns the model that a case file says, or an override; `None` if the text cannot be read.
+fn named(source: &str, text: &str, overrides: &[String]) -> Option<truck::Model> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let Ok(mut tree) = tree::parse(&TomlSource::new(source, text)) else {
-        return false;
-    };
+    let mut tree = tree::parse(&TomlSource::new(source, text)).ok()?;
     overrides::apply(&mut tree, overrides);
-    truck::model(&tree, &mut Problems::new()) == Some(truck::Model::Truck)
+    truck::model(&tree, &mut Problems::new())
 }
 
 /// What came out of a run of any model.
@@ -237,7 +250,7 @@ impl AnyResult {
 /// Where a case comes from: all that is needed to make it, or a variant of it, again on another machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CaseSource {
-    /// The text of a case file: of a wedge or of a truck.
+    /// The text of a case file: of a wedge, of a truck or of a car.
     #[serde(alias = "Wedge")]
     File {
         /// The case file's name.

@@ -5,6 +5,7 @@
 
 pub mod any_case;
 pub mod assumptions;
+pub mod car;
 pub mod case;
 pub mod closed_form;
 pub mod cycles;
@@ -21,6 +22,7 @@ pub mod records;
 pub mod result;
 mod rows;
 pub mod run;
+pub mod signal;
 pub mod stepping;
 pub mod summary;
 pub mod track;

@@ -96,6 +96,14 @@ pub fn nonsense_in_truck<C: RunCase>(run: &Run<C>) -> Option<String> {
     nonsense_among(run, |kind| !matches!(kind, FindingKind::Penetration))
 }
 
+/// Returns the same of a car's run, which leaves the place where it started.
+#[must_use]
+pub fn nonsense_in_car<C: RunCase>(run: &Run<C>) -> Option<String> {
+    nonsense_among(run, |kind| {
+        !matches!(kind, FindingKind::Penetration | FindingKind::Displacement)
+    })
+}
+
 fn nonsense_among<C: RunCase>(run: &Run<C>, counts: impl Fn(FindingKind) -> bool) -> Option<String> {
     let findings = findings(run);
     let found = findings

@@ -45,6 +45,15 @@ pub enum RunError {
     /// The parameters make no truck.
     #[error(transparent)]
     Truck(#[from] truck::BuildError),
+    /// The parameters make no car.
+    #[error(transparent)]
+    Car(#[from] car::BuildError),
+    /// A wheel has left its rail: the run ends there, with its results.
+    #[error("{what}")]
+    Derailed {
+        /// Which wheel, where, how.
+        what: String,
+    },
     /// A force is so large that it would tear the model apart.
     #[error(
         "the normal force of `{element}` is {force:.3e} N at {time} s, which would tear the truck apart: lower the motion \
@@ -55,12 +64,6 @@ pub enum RunError {
         element: String,
         /// Its force, N.
         force: f64,
-        /// The time, s.
-        time: f64,
-    },
-    /// A wheel has left its rail: the run ends there.
-    #[error("a wheel has derailed at {time} s")]
-    Derailed {
         /// The time, s.
         time: f64,
     },

@@ -1,16 +1,14 @@
 //! How parameters become a truck, and where it starts.
 
-use mechanics::curve::Curve;
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::Motion;
 use mechanics::system::{Model, ModelError, NoEquilibrium, StaticFriction, System};
-use mechanics::vector::Vector;
 use thiserror::Error;
 use wedge::parameters::{FaceFriction, Start};
 
-use crate::PLACES;
 use crate::bodies::bodies;
-use crate::elements::{Added, HEIGHT, Mount, WedgePlace, add};
+use crate::elements::{Mount, WedgePlace, add};
+use crate::mounted::MountedTruck;
 use crate::parameters::{Adapter, Parameters, SideBearing};
 
 /// Number of the leading wheelset among the bodies; the trailing one follows.
@@ -33,16 +31,7 @@ pub struct Truck {
     pub system: System,
     /// The state at time zero.
     pub initial_state: Vec<f64>,
-    pub(crate) added: Added,
-    /// Height of the center plate, m.
-    pub(crate) plate_height: f64,
-    /// The moment of each nest's empirical warp spring, N·m by rad.
-    pub(crate) warp_spring: Option<Curve>,
-    pub(crate) axle: f64,
-    /// Nominal places of the wedges' centers of gravity, m.
-    pub(crate) wedge_places: [Vector<f64>; 4],
-    /// Toe of their columns, rad.
-    pub(crate) toes: [f64; 4],
+    pub(crate) mounted: MountedTruck,
 }
 
 /// Why parameters define no truck.
@@ -72,7 +61,7 @@ impl Truck {
                     let points = observation.faces[face].points.iter();
                     points.fold(0.0, |depth: f64, point| depth.max(-point.gap))
                 };
-                let gaps = truck.added.wedges.map(|place| match place {
+                let gaps = truck.mounted.added.wedges.map(|place| match place {
                     WedgePlace::Body { column } => [column, column + 1].map(depth),
                     WedgePlace::Massless { .. } => [0.0; 2],
                 });
@@ -94,20 +83,11 @@ impl Truck {
         let bodies = bodies(parameters, Mount::ALONE.center);
         let mut model = Model::new(bodies, [0.0, 0.0, -parameters.gravity]);
         let added = add(&mut model, parameters, &Mount::ALONE, gaps);
-        let car = parameters.car_body.as_ref();
         let system = System::new(model)?;
         Ok(Self {
             initial_state: system.initial_state(),
             system,
-            added,
-            plate_height: car.map_or(0.0, |car| car.center_plate.height),
-            warp_spring: parameters.warp_spring.clone(),
-            axle: parameters.distances[2],
-            toes: [0, 1, 2, 3].map(|number| parameters.wedges[number].toe),
-            wedge_places: PLACES.map(|[end, way]| {
-                let [side, place, _] = parameters.distances;
-                Vector([place * end, side * way, HEIGHT])
-            }),
+            mounted: MountedTruck::alone(parameters, added),
         })
     }
 }

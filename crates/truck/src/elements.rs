@@ -6,16 +6,18 @@ use std::ops::Range;
 use mechanics::elements::{RadialStop, ShearSpring, Stop, TableSpring};
 use mechanics::link::Marker;
 use mechanics::motion::Motion;
+use mechanics::orientation::fixed;
 use mechanics::system::{AppliedLoad, Model};
 use wedge::parameters::{Contact, FaceFriction};
 
 use crate::assemble::{BOLSTER, CAR_BODY, SIDE_FRAMES, WEDGES, WHEELSETS};
 use crate::massless::{massless_wedge, warp_spring};
+use crate::mounted::MountedTruck;
 use crate::parameters::{
     Adapter, AdapterPad, CarBody, Clearance, FrictionAdapter, Parameters, SideBearing, Spring, WedgeKind,
 };
 use crate::units::INCH;
-use crate::wedge_mount::{WedgeMount, attach, plane, point};
+use crate::wedge_mount::{WedgeMount, attach, marker_on, plane, point};
 use crate::{PLACES, WEDGE_NAMES};
 
 /// Height of the wedges' centers of gravity and of the gibs, m.
@@ -52,6 +54,17 @@ pub(crate) enum Law {
     Rim(RadialStop),
 }
 
+impl Law {
+    fn name(&mut self) -> &mut String {
+        match self {
+            Self::Spring(law) => &mut law.name,
+            Self::Table(law) => &mut law.name,
+            Self::Stop(law) => &mut law.name,
+            Self::Rim(law) => &mut law.name,
+        }
+    }
+}
+
 /// An element of the suspension: its bodies with markers A and B.
 #[derive(Clone, Debug)]
 pub(crate) struct Suspended {
@@ -66,6 +79,8 @@ pub(crate) struct Added {
     pub suspension: Vec<Suspended>,
     /// Of each wedge: its first face (the column; the slope follows), or its connection if it has no mass.
     pub wedges: [WedgePlace; 4],
+    /// The coils of the thesis.
+    pub coils: Range<usize>,
     /// The faces of the adapters, and that of the center plate.
     pub adapters: Range<usize>,
     pub center_plate: Option<usize>,
@@ -88,10 +103,12 @@ impl Default for WedgePlace {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mount {
     /// The numbers of its bodies there, in the order of [`WHEELSETS`] to [`CAR_BODY`]. Two may be one: the bolster and
-    /// a car that is rigid with it.
+    /// a car that is rigid with it. Of wheelsets that spin it is their carriers (`Model::add_carrier`).
     pub bodies: [usize; 10],
     /// Its center, m.
     pub center: [f64; 3],
+    /// What the names of its elements begin with.
+    pub prefix: &'static str,
 }
 
 impl Mount {
@@ -99,6 +116,7 @@ impl Mount {
     pub const ALONE: Self = Self {
         bodies: [0, 1, 2, 3, 4, 5, 6, 7, 8, 9],
         center: [0.0; 3],
+        prefix: "",
     };
 }
 
@@ -109,9 +127,23 @@ pub fn add_elements(model: &mut Model, parameters: &Parameters, mount: &Mount) {
     model.faces.retain(|(carried, on, ..)| carried != on);
 }
 
+/// Adds the elements of a truck to a model whose bodies are there, each a body of its own, at rest in their nominal
+/// places along the fixed axes; their reference frames may be turned. Returns the truck, for its loads. Afterwards the
+/// bodies may be moved to where they start.
+#[must_use]
+pub fn mounted(model: &mut Model, parameters: &Parameters, mount: &Mount) -> MountedTruck {
+    let axes = mount.bodies.map(|body| match model.bodies.get(body) {
+        Some(body) => fixed(body.frame.orientation),
+        None => fixed([0.0; 3]),
+    });
+    let added = add(model, parameters, mount, [[0.0; 2]; 4]);
+    MountedTruck::new(parameters, *mount, added, axes)
+}
+
 /// Adds them, and returns what was added; `gaps` (m) are how far column and slope of each wedge are moved away along
 /// their normals.
 pub(crate) fn add(model: &mut Model, parameters: &Parameters, mount: &Mount, gaps: [[f64; 2]; 4]) -> Added {
+    let first = (model.faces.len(), model.connections.len(), model.coils.len());
     let builder = Builder {
         parameters,
         mount,
@@ -119,7 +151,20 @@ pub(crate) fn add(model: &mut Model, parameters: &Parameters, mount: &Mount, gap
         model,
         added: Added::default(),
     };
-    let added = builder.build();
+    let mut added = builder.build();
+    added.coils = first.2..model.coils.len();
+    let prefix = mount.prefix;
+    if !prefix.is_empty() {
+        let (faces, connections) = (&mut model.faces[first.0..], &mut model.connections[first.1..]);
+        let names = faces.iter_mut().map(|(.., face)| &mut face.name);
+        let names = names.chain(connections.iter_mut().map(|own| &mut own.name));
+        for name in names.chain(added.suspension.iter_mut().map(|own| own.law.name())) {
+            name.insert_str(0, prefix);
+        }
+        for connection in connections.iter_mut().filter(|own| !own.account.is_empty()) {
+            connection.account.insert_str(0, prefix);
+        }
+    }
     join(model, &added.suspension);
     added
 }
@@ -207,10 +252,14 @@ impl Builder<'_> {
 
     /// Returns the marker of a body at a place (m), turned about z (rad).
     fn marker(&self, body: usize, at: [f64; 3], yaw: f64) -> (usize, Marker) {
+        self.turned_marker(body, at, [0.0, 0.0, yaw])
+    }
+
+    /// Returns the marker of a body at a place (m), turned by roll, pitch, yaw (rad).
+    fn turned_marker(&self, body: usize, at: [f64; 3], angles: [f64; 3]) -> (usize, Marker) {
         let number = self.mount.bodies[body];
-        let origin = self.model.bodies[number].frame.origin;
-        let place = std::array::from_fn(|k| at[k] + self.mount.center[k] - origin[k]);
-        (number, Marker::new(place, [0.0, 0.0, yaw]))
+        let place = std::array::from_fn(|k| at[k] + self.mount.center[k]);
+        (number, marker_on(&self.model.bodies[number], place, angles))
     }
 
     /// Adds a spring that carries body `a` on the seat of body `b`.
@@ -326,8 +375,8 @@ impl Builder<'_> {
         });
         let points = points.collect();
         let [.., height] = places[0];
-        let (bolster, marker) = self.marker(BOLSTER, [0.0, 0.0, height + depth], 0.0);
-        let marker = Marker::new(marker.origin.0, [0.0, -FRAC_PI_2, 0.0]);
+        let (bolster, marker) =
+            self.turned_marker(BOLSTER, [0.0, 0.0, height + depth], [0.0, -FRAC_PI_2, 0.0]);
         let face = plane(name, points, friction);
         self.model
             .faces
@@ -370,7 +419,6 @@ impl Builder<'_> {
         let (name, at) = (format!("{side}_side_bearing"), [0.0, y, car.center_plate.height]);
         match &car.side_bearings.kind {
             SideBearing::Roller(clearance) => {
-                let (bolster, place) = self.marker(BOLSTER, at, 0.0);
                 let law = Stop {
                     name,
                     clearances: [clearance.clearance, f64::INFINITY],
@@ -378,11 +426,11 @@ impl Builder<'_> {
                     damping: clearance.damping,
                 };
                 // The x axis of the marker is the bolster's z axis.
-                let upright = Marker::new(place.origin.0, [0.0, -FRAC_PI_2, 0.0]);
+                let upright = self.turned_marker(BOLSTER, at, [0.0, -FRAC_PI_2, 0.0]);
                 self.added.suspension.push(Suspended {
                     role: Role::CarBody,
                     law: Law::Stop(law),
-                    ends: [self.marker(CAR_BODY, at, 0.0), (bolster, upright)],
+                    ends: [self.marker(CAR_BODY, at, 0.0), upright],
                 });
             }
             SideBearing::ConstantContact {
@@ -435,13 +483,12 @@ impl Builder<'_> {
             point(place.origin.0, &adapter.contact, 0.5)
         });
         let top = ADAPTER_HEIGHT + adapter.preload / adapter.contact.stiffness;
-        let (wheelset, place) = self.marker(WHEELSETS + axle, [x, y, top], 0.0);
-        let marker = Marker::new(place.origin.0, [0.0, -FRAC_PI_2, 0.0]);
+        let (number, marker) = self.turned_marker(WHEELSETS + axle, [x, y, top], [0.0, -FRAC_PI_2, 0.0]);
         let face = plane(name.to_owned(), points.to_vec(), &adapter.friction);
         self.model
             .faces
-            .push((self.mount.bodies[side_frame], wheelset, marker, face));
-        let (role, ends) = (Role::Adapter(axle), [side_frame, wheelset]);
+            .push((self.mount.bodies[side_frame], number, marker, face));
+        let (role, ends) = (Role::Adapter(axle), [side_frame, WHEELSETS + axle]);
         for across in [ADAPTER_STOPS, -ADAPTER_STOPS] {
             let at = [x, y + across, ADAPTER_HEIGHT];
             let name = format!("{name}_longitudinal_stop");

@@ -23,6 +23,7 @@ mod defaults;
 mod elements;
 mod loads;
 mod massless;
+mod mounted;
 pub mod nest;
 mod parameters;
 mod units;
@@ -30,9 +31,10 @@ mod wedge_mount;
 
 pub use assemble::{BOLSTER, BuildError, CAR_BODY, SIDE_FRAMES, Truck, WEDGES, WHEELSETS, held};
 pub use bodies::bodies;
-pub use elements::{Mount, add_elements};
+pub use elements::{Mount, add_elements, mounted};
 pub use loads::{CenterPlateLoads, Loads, WarpMoment, WedgeLoads};
 pub use massless::empirical_warp;
+pub use mounted::{MountedTruck, TruckFrame};
 pub use parameters::{
     Adapter, AdapterPad, Applied, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter,
     Lading, NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Spring, Wedge, WedgeKind,

@@ -14,6 +14,7 @@ use mechanics::vector::{Matrix, Vector};
 
 use crate::assemble::{BOLSTER, SIDE_FRAMES, Truck, WEDGES};
 use crate::elements::{Law, Role, Suspended, WedgePlace};
+use crate::mounted::{MountedTruck, TruckFrame, View};
 
 /// The moment about z that elements exert on the bolster, by kind of element, N·m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -93,22 +94,32 @@ impl Truck {
     /// Returns the loads at an observation of [`Truck::system`].
     #[must_use]
     pub fn loads(&self, observation: &Observation) -> Loads {
-        let bodies = &observation.bodies;
-        let yaw = |body: usize| {
-            let Matrix(r) = bodies[body].rotation;
-            libm::atan2(r[1][0], r[0][0])
-        };
+        self.mounted
+            .loads_of(&View::new(&self.mounted, observation, None))
+    }
+}
+
+impl MountedTruck {
+    /// Returns the loads at an observation of the system in which the truck is, in the axes of a frame.
+    #[must_use]
+    pub fn loads(&self, observation: &Observation, frame: &TruckFrame) -> Loads {
+        self.loads_of(&View::new(self, observation, Some(*frame)))
+    }
+
+    fn loads_of(&self, view: &View<'_>) -> Loads {
+        let yaw = |body: usize| view.yaw(body);
         let mut loads = Loads {
             warp_angle: 0.5 * (yaw(SIDE_FRAMES) + yaw(SIDE_FRAMES + 1)) - yaw(BOLSTER),
             ..Loads::default()
         };
         let arm = self.axle;
-        let bolster = bodies[BOLSTER].center_of_gravity;
+        let bolster = view.place(view.body(BOLSTER).center_of_gravity);
+        let total = |forces: &[Vector<f64>]| view.vector(total(forces));
         for (number, wedge) in loads.wedges.iter_mut().enumerate() {
             let first = match self.added.wedges[number] {
                 WedgePlace::Body { column } => column,
                 WedgePlace::Massless { connection } => {
-                    let state = &observation.connections[connection];
+                    let state = &view.seen.connections[connection];
                     let place = self.wedge_places[number];
                     let [vertical, longitudinal, lateral] = [0, 1, 2].map(|k| state.forces[k]);
                     // On the bolster; the opposite acts on the side frame.
@@ -116,30 +127,31 @@ impl Truck {
                     loads.nest_vertical[number % 2] -= vertical;
                     loads.warp_moment.slopes += about_z(place, force);
                     loads.roll_moment += about_x(place - bolster, force);
-                    *wedge = self.massless_wedge(number, state, bodies);
+                    *wedge = self.massless_wedge(number, state, view);
                     continue;
                 }
             };
-            let [column, slope] = [first, first + 1].map(|face| &observation.faces[face]);
-            let body = &bodies[WEDGES + number];
+            let [column, slope] = [first, first + 1].map(|face| &view.seen.faces[face]);
+            let body = view.body(WEDGES + number);
             *wedge = WedgeLoads {
                 column_normal: normal(column),
                 column_friction_z: -total(&column.friction_forces).0[2],
                 slope_normal: normal(slope),
-                displacement: (body.center_of_gravity - self.wedge_places[number]).0,
-                angles: [3, 4, 5].map(|k| body.coordinates[k]),
+                displacement: (view.place(body.center_of_gravity) - self.wedge_places[number]).0,
+                angles: view.angles(WEDGES + number),
             };
             let side = number % 2;
             let on_wedge = total(&column.friction_forces) + total(&column.normal_forces);
             loads.nest_vertical[side] += on_wedge.0[2];
             for (i, place) in slope.point_positions.iter().enumerate() {
-                let force = slope.normal_forces[i] + slope.friction_forces[i];
-                loads.warp_moment.slopes -= about_z(*place, force);
-                loads.roll_moment -= about_x(*place - bolster, force);
+                let force = view.vector(slope.normal_forces[i] + slope.friction_forces[i]);
+                let place = view.place(*place);
+                loads.warp_moment.slopes -= about_z(place, force);
+                loads.roll_moment -= about_x(place - bolster, force);
             }
         }
         for element in &self.added.suspension {
-            self.add(&mut loads, element, bodies);
+            self.add(&mut loads, element, view, bolster);
         }
         if let Some(moment) = &self.warp_spring {
             for side_frame in [SIDE_FRAMES, SIDE_FRAMES + 1] {
@@ -147,26 +159,29 @@ impl Truck {
             }
         }
         // Coils of the thesis, which end at the wedges' origins.
-        for (mounted, coil) in self.system.coils().iter().zip(&observation.coils) {
-            match mounted.on.checked_sub(SIDE_FRAMES).filter(|side| *side < 2) {
-                Some(side) => loads.nest_vertical[side] += coil.force.0[2],
+        let numbers = &self.mount.bodies;
+        for coil in &view.seen.coils[self.added.coils.clone()] {
+            let force = view.vector(coil.force);
+            match (0..2).find(|side| coil.on == numbers[SIDE_FRAMES + side]) {
+                Some(side) => loads.nest_vertical[side] += force.0[2],
                 None => {
-                    let place = bodies[mounted.body].origin;
-                    loads.warp_moment.control_coils -= about_z(place, coil.force);
-                    loads.roll_moment -= about_x(place - bolster, coil.force);
+                    let place = view.place(view.seen.bodies[coil.body].origin);
+                    loads.warp_moment.control_coils -= about_z(place, force);
+                    loads.roll_moment -= about_x(place - bolster, force);
                 }
             }
         }
-        for (i, adapter) in observation.faces[self.added.adapters.clone()].iter().enumerate() {
+        for (i, adapter) in view.seen.faces[self.added.adapters.clone()].iter().enumerate() {
             let on_side_frame = total(&adapter.friction_forces) + total(&adapter.normal_forces);
             loads.interaxle_shear_moment += [arm, -arm][i % 2] * on_side_frame.0[1];
         }
         if let Some(plate) = self.added.center_plate {
-            let face = &observation.faces[plate];
+            let face = &view.seen.faces[plate];
             let mut moment = Vector::zero();
             for (i, place) in face.point_positions.iter().enumerate() {
-                let arm = *place - Vector([0.0, 0.0, self.plate_height]);
-                moment = moment - arm.cross::<f64, f64>(face.normal_forces[i] + face.friction_forces[i]);
+                let arm = view.place(*place) - Vector([0.0, 0.0, self.plate_height]);
+                let force = view.vector(face.normal_forces[i] + face.friction_forces[i]);
+                moment = moment - arm.cross::<f64, f64>(force);
             }
             loads.center_plate = CenterPlateLoads {
                 load: normal(face),
@@ -177,17 +192,12 @@ impl Truck {
     }
 
     /// What a wedge without mass does, and where it is.
-    fn massless_wedge(&self, number: usize, state: &ConnectionState, bodies: &[BodyState]) -> WedgeLoads {
+    fn massless_wedge(&self, number: usize, state: &ConnectionState, view: &View<'_>) -> WedgeLoads {
         let Some(inside) = state.wedge else {
             return WedgeLoads::default();
         };
         let place = self.wedge_places[number];
-        let moved = |body: usize| {
-            let body = &bodies[body];
-            let arm = place - (body.origin - body.travel);
-            let turned: Vector<f64> = body.rotation.apply(arm);
-            body.travel + turned - arm
-        };
+        let moved = |body: usize| view.moved(view.body(body), place);
         let (bolster, side_frame) = (moved(BOLSTER), moved(SIDE_FRAMES + number % 2));
         WedgeLoads {
             column_normal: inside.column_normal,
@@ -199,17 +209,19 @@ impl Truck {
     }
 
     /// Adds what one element of the suspension does.
-    fn add(&self, loads: &mut Loads, element: &Suspended, bodies: &[BodyState]) {
+    fn add(&self, loads: &mut Loads, element: &Suspended, view: &View<'_>, bolster: Vector<f64>) {
         let [(a, marker_a), (b, marker_b)] = &element.ends;
+        let (bodies, numbers) = (&view.seen.bodies, &self.mount.bodies);
         let (place, force) = at_marker((&bodies[*a], marker_a), (&bodies[*b], marker_b), &element.law);
+        let (place, force) = (view.place(place), view.vector(force));
         // On the bolster, and on the side frame of that side, N.
-        let sign = match (*a == BOLSTER, *b == BOLSTER) {
+        let sign = match (*a == numbers[BOLSTER], *b == numbers[BOLSTER]) {
             (true, _) => 1.0,
             (_, true) => -1.0,
             _ => 0.0,
         };
         let moment = sign * about_z(place, force);
-        let roll = sign * about_x(place - bodies[BOLSTER].center_of_gravity, force);
+        let roll = sign * about_x(place - bolster, force);
         let parts = &mut loads.warp_moment;
         let part = match element.role {
             Role::LoadCoil => &mut parts.load_coils,
@@ -226,7 +238,7 @@ impl Truck {
         *part += moment;
         loads.roll_moment += roll;
         // What acts on a side frame is the reaction on body B.
-        if let Some(side) = b.checked_sub(SIDE_FRAMES).filter(|side| *side < 2) {
+        if let Some(side) = (0..2).find(|side| *b == numbers[SIDE_FRAMES + side]) {
             loads.nest_vertical[side] += force.0[2];
         }
     }

@@ -9,6 +9,7 @@ use mechanics::contact::{ContactFace, ContactPoint};
 use mechanics::elements::Stop;
 use mechanics::frame::Frame;
 use mechanics::link::Marker;
+use mechanics::orientation::fixed;
 use mechanics::surface::Plane;
 use mechanics::system::Model;
 use mechanics::vector::Vector;
@@ -108,12 +109,15 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> V
     for (on, face, x, pitch, gap, (friction, properties)) in faces {
         let lower = if face == "column" { -1.0 } else { 2.0 };
         let edges = [lower * length / 3.0, -length / 3.0];
-        let points = contact_points(wedge, properties, end, edges);
+        let mut points = contact_points(wedge, properties, end, edges);
+        for point in &mut points {
+            point.position = Vector(in_axes_of(&model.bodies[at.body], point.position.0));
+        }
         // The normal is the marker's x axis.
         let (sine, cosine) = libm::sincos(pitch);
         let surface = [x - gap * cosine, y, middle + gap * sine];
-        let (on, place) = at.marker(model, on, surface, 0.0);
-        let marker = Marker::new(place.origin.0, [0.0, pitch, 0.0]);
+        let place = std::array::from_fn(|k| surface[k] + at.from[k]);
+        let marker = marker_on(&model.bodies[on], place, [0.0, pitch, 0.0]);
         let face = plane(format!("{name}_{face}"), points, friction);
         model.faces.push((at.body, on, marker, face));
     }
@@ -157,10 +161,33 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> V
 impl WedgeMount<'_> {
     /// Returns the marker of a body at a place (m), turned about z (rad).
     fn marker(&self, model: &Model, body: usize, at: [f64; 3], yaw: f64) -> (usize, Marker) {
-        let origin = model.bodies[body].frame.origin;
-        let place = std::array::from_fn(|k| at[k] + self.from[k] - origin[k]);
-        (body, Marker::new(place, [0.0, 0.0, yaw]))
+        let place = std::array::from_fn(|k| at[k] + self.from[k]);
+        (body, marker_on(&model.bodies[body], place, [0.0, 0.0, yaw]))
     }
+}
+
+/// Returns the marker of a body in its nominal place at a point (m), turned by roll, pitch, yaw (rad), both along the
+/// fixed axes, in the axes of the body, which may have a reference frame that is turned.
+pub(crate) fn marker_on(body: &Body, place: [f64; 3], angles: [f64; 3]) -> Marker {
+    let origin = body.frame.origin;
+    let along = Marker::new(std::array::from_fn(|k| place[k] - origin[k]), angles);
+    if body.frame.orientation == [0.0; 3] {
+        return along;
+    }
+    let axes = fixed(body.frame.orientation).transpose();
+    Marker {
+        origin: axes.apply(along.origin),
+        rotation: axes.times(along.rotation),
+    }
+}
+
+/// Returns a vector along the fixed axes in the axes of a body in its nominal place.
+pub(crate) fn in_axes_of(body: &Body, vector: [f64; 3]) -> [f64; 3] {
+    if body.frame.orientation == [0.0; 3] {
+        return vector;
+    }
+    let own: Vector<f64> = fixed(body.frame.orientation).apply_transposed(Vector(vector));
+    own.0
 }
 
 /// Adds the coil of Steets (2007), which ends at the wedge's origin; the center of gravity is `to_center` (m) from
@@ -169,7 +196,7 @@ fn thesis_coil(model: &mut Model, at: &WedgeMount<'_>, seat: usize, to_center: [
     let law = Coil {
         end: Vector::zero(),
         acts_at: match coil.acts_at {
-            CoilLine::CenterOfGravity => Vector(to_center),
+            CoilLine::CenterOfGravity => Vector(in_axes_of(&model.bodies[at.body], to_center)),
             CoilLine::Seat => Vector::zero(),
         },
         law: coil.law.clone(),

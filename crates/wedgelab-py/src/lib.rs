@@ -9,6 +9,7 @@
 
 use pyo3::prelude::*;
 
+mod car;
 mod case;
 mod errors;
 mod figures;
@@ -30,6 +31,8 @@ mod wheelrail;
 mod _wedgelab {
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use crate::car::NativeCarCase;
     #[pymodule_export]
     use crate::case::{NativeCase, built_in_groups};
     #[pymodule_export]

@@ -7,10 +7,12 @@ use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
+use study::car::CarCase;
 use study::case::Case;
 use study::half_truck::HalfTruckCase;
 use study::truck::TruckCase;
 
+use crate::car::NativeCarCase;
 use crate::case::NativeCase;
 use crate::half_truck::NativeHalfTruckCase;
 use crate::outcome::{NativeResult, Origin, Table};
@@ -25,6 +27,7 @@ enum Work {
     Wedge(Arc<Case>),
     HalfTruck(Arc<HalfTruckCase>),
     Truck(Arc<TruckCase>),
+    Car(Arc<CarCase>),
 }
 
 impl Work {
@@ -33,6 +36,7 @@ impl Work {
             Self::Wedge(case) => &case.name,
             Self::HalfTruck(case) => &case.name,
             Self::Truck(case) => &case.name,
+            Self::Car(case) => &case.name,
         }
     }
 
@@ -41,6 +45,7 @@ impl Work {
             Self::Wedge(case) => Origin::Wedge(Arc::clone(case)),
             Self::HalfTruck(_) => Origin::HalfTruck,
             Self::Truck(case) => Origin::Truck(Arc::clone(case)),
+            Self::Car(case) => Origin::Car(Arc::clone(case)),
         }
     }
 
@@ -56,6 +61,7 @@ impl Work {
             Self::Wedge(case) => table(&**case, columns, go_on),
             Self::HalfTruck(case) => table(&**case, columns, go_on),
             Self::Truck(case) => table(&**case, columns, go_on),
+            Self::Car(case) => table(&**case, columns, go_on),
         }
     }
 }
@@ -80,6 +86,9 @@ pub fn run_many(
         }
         if let Ok(case) = case.cast::<NativeTruckCase>() {
             return Ok(Work::Truck(Arc::clone(&case.get().case)));
+        }
+        if let Ok(case) = case.cast::<NativeCarCase>() {
+            return Ok(Work::Car(Arc::clone(&case.get().case)));
         }
         let case = case.cast::<NativeHalfTruckCase>()?;
         Ok(Work::HalfTruck(Arc::clone(&case.get().case)))

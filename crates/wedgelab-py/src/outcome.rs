@@ -12,6 +12,8 @@ use pyo3::types::{PyBytes, PyList};
 use report::files::Folder;
 use report::run_files::{self, RunFiles};
 use serde::{Deserialize, Serialize};
+use study::car::CarCase;
+use study::car::summary::CarSummary;
 use study::case::Case;
 use study::half_truck::{HalfTruckResult, HalfTruckSummary};
 use study::result::RunResult;
@@ -19,6 +21,7 @@ use study::summary::{RunSummary, Summary};
 use study::truck::TruckCase;
 use study::truck::summary::TruckSummary;
 
+use crate::car::NativeCarCase;
 use crate::case::NativeCase;
 use crate::errors::{guarded, simple};
 use crate::truck::NativeTruckCase;
@@ -33,6 +36,8 @@ pub enum AnySummary {
     HalfTruck(Box<HalfTruckSummary>),
     /// Of a truck.
     Truck(Box<TruckSummary>),
+    /// Of a car.
+    Car(Box<CarSummary>),
 }
 
 impl AnySummary {
@@ -41,6 +46,7 @@ impl AnySummary {
             Self::Wedge(summary) => &**summary,
             Self::HalfTruck(summary) => &**summary,
             Self::Truck(summary) => &**summary,
+            Self::Car(summary) => &**summary,
         }
     }
 }
@@ -63,6 +69,12 @@ impl From<TruckSummary> for AnySummary {
     }
 }
 
+impl From<CarSummary> for AnySummary {
+    fn from(summary: CarSummary) -> Self {
+        Self::Car(Box::new(summary))
+    }
+}
+
 /// The case that a result came from.
 #[derive(Clone)]
 pub enum Origin {
@@ -72,6 +84,8 @@ pub enum Origin {
     HalfTruck,
     /// A truck's.
     Truck(Arc<TruckCase>),
+    /// A car's.
+    Car(Arc<CarCase>),
 }
 
 /// The table of a run and its summary.
@@ -285,13 +299,24 @@ impl NativeResult {
         Some(NativeTruckCase { case })
     }
 
-    /// What was run: `wedge`, `half_truck` or `truck`.
+    /// The case of a car's run.
+    #[getter]
+    fn car_case(&self) -> Option<NativeCarCase> {
+        let Origin::Car(case) = &self.origin else {
+            return None;
+        };
+        let case = Arc::clone(case);
+        Some(NativeCarCase { case })
+    }
+
+    /// What was run: `wedge`, `half_truck`, `truck` or `car`.
     #[getter]
     fn model(&self) -> &'static str {
         match self.origin {
             Origin::Wedge(_) => "wedge",
             Origin::HalfTruck => "half_truck",
             Origin::Truck(_) => "truck",
+            Origin::Car(_) => "car",
         }
     }
 
@@ -328,6 +353,7 @@ impl NativeResult {
             AnySummary::Wedge(summary) => serde_json::to_value(summary),
             AnySummary::HalfTruck(summary) => serde_json::to_value(summary),
             AnySummary::Truck(summary) => serde_json::to_value(summary),
+            AnySummary::Car(summary) => serde_json::to_value(summary),
         };
         let value = value.map_err(|error| PyValueError::new_err(error.to_string()))?;
         values::from_json(py, &value)
@@ -378,6 +404,10 @@ impl NativeResult {
                     RunFiles::write(&**case, &folder()?, &result).map_err(failed)?;
                 }
                 (Origin::Truck(case), AnySummary::Truck(summary)) => {
+                    let result = self.result(&**summary);
+                    RunFiles::write(&**case, &folder()?, &result).map_err(failed)?;
+                }
+                (Origin::Car(case), AnySummary::Car(summary)) => {
                     let result = self.result(&**summary);
                     RunFiles::write(&**case, &folder()?, &result).map_err(failed)?;
                 }

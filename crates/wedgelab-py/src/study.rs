@@ -16,6 +16,7 @@ use report::parquet::Content;
 use report::study_folder::{StudyFolder, StudyFolderError, columns};
 use report::study_work;
 
+use crate::car::NativeCarCase;
 use crate::case::NativeCase;
 use crate::errors::{case_error, guarded, internal, panic_text, raise, shown, simple};
 use crate::half_truck;
@@ -142,6 +143,7 @@ impl NativeStudy {
             match case {
                 AnyCase::Wedge(case) => Ok(Py::new(py, NativeCase::new(*case))?.into_any()),
                 AnyCase::Truck(case) => Ok(Py::new(py, NativeTruckCase::new(*case))?.into_any()),
+                AnyCase::Car(case) => Ok(Py::new(py, NativeCarCase::new(*case))?.into_any()),
                 AnyCase::HalfTruck(_) => {
                     let set = self.study.overrides(number);
                     let case = half_truck::of_source(py, &self.study.source().case, set)?;

@@ -16,8 +16,8 @@ use clap::{Parser, Subcommand};
 use numerics::processor::{OldProcessor, check};
 
 use commands::{
-    case, compare, curves, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, study, track, warp,
-    wheelrail,
+    case, compare, curves, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, stability, study,
+    track, warp, wheelrail,
 };
 use failure::Failure;
 
@@ -38,6 +38,7 @@ Begin with:
   wedgelab case NAME > my.toml       a complete case file to change ...
   wedgelab run my.toml               ... and to run
   wedgelab warp                      warp of a whole truck with four wedges
+  wedgelab stability                 hunting of a whole car on track
   wedgelab explore my.toml           a page to change it and see its loop move
   wedgelab study STUDY.toml          many variants of a case, into one table
   wedgelab compare RESULT RESULT     differences and overlay figures
@@ -65,6 +66,7 @@ enum Command {
     QuasiStatic(quasi_static::Arguments),
     Warp(warp::Arguments),
     Curves(curves::Arguments),
+    Stability(stability::Arguments),
     Wheelrail(wheelrail::Arguments),
     Track(track::Arguments),
     Nucars(nucars::Arguments),
@@ -85,6 +87,7 @@ impl Cli {
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Warp(arguments) => warp::execute(&arguments),
             Command::Curves(arguments) => curves::execute(&arguments),
+            Command::Stability(arguments) => stability::execute(&arguments),
             Command::Wheelrail(arguments) => wheelrail::execute(&arguments),
             Command::Track(arguments) => track::execute(&arguments),
             Command::Nucars(arguments) => nucars::execute(&arguments),

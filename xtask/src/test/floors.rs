@@ -16,7 +16,8 @@ const FLOORS: &[(&str, &[&str])] = &[
     ("integration", &["integrate", "wheelrail"]),
     ("mechanics", &["mechanics"]),
     ("systems", &["wedge", "nucars", "rolling"]),
-    ("vehicles", &["truck"]),
+    ("trucks", &["truck"]),
+    ("vehicles", &["car"]),
     ("asking", &["study"]),
     ("telling", &["report", "fmi"]),
     (

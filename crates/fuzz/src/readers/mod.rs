@@ -38,6 +38,7 @@ pub const ALL: [Reader; 25] = [
     cases::VALUES,
     cases::OVERRIDES,
     trucks::TRUCKS,
+    trucks::CARS,
     trucks::TRACKS,
     trucks::MEASURED_TRACKS,
     trucks::PROFILES,

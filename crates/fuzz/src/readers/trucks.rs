@@ -1,5 +1,6 @@
-//! Trucks, tracks and profiles of wheels and rails.
+//! Trucks, cars, tracks and profiles of wheels and rails.
 
+use study::car::{self, CarCase};
 use study::track::TrackFile;
 use study::truck::{TruckCase, builtin};
 use wheelrail::profile::{Kind, Points, Profile};
@@ -126,6 +127,61 @@ fn truck(input: &[u8]) -> Outcome {
     match TruckCase::parse("truck.toml", text, nowhere(), &[]) {
         Ok(case) => {
             match TruckCase::parse("again.toml", case.to_toml(), nowhere(), &[]) {
+                Ok(again) => assert!(again == case, "another case: {}", case.name),
+                Err(error) => refused_as_written(&messages(&error)),
+            }
+            Outcome::ACCEPTED
+        }
+        Err(error) => refused(&error),
+    }
+}
+
+/// Cases of cars.
+pub const CARS: Reader = Reader {
+    name: "cars",
+    about: "case files of freight cars on track",
+    corpus: car_corpus,
+    dictionary: &[
+        b"model = \"car\"",
+        b"[front_truck.friction]",
+        b"[rear_truck]",
+        b"[[lading.masses]]",
+        b"kind = \"masses\"",
+        b"[[track.segments]]",
+        b"file = \"track.toml\"",
+        b"geometry = \"linear\"",
+        b"profile = \"cone_1:20\"",
+        b"over_distance = [[\"0 ft\", \"60 mph\"]]",
+        b"kind = \"coasting\"",
+    ],
+    read: car,
+};
+
+fn car_corpus() -> Vec<Vec<u8>> {
+    let some = ["car_spiral_loaded", "car_hunting_empty"];
+    let mut corpus: Vec<Vec<u8>> = some
+        .iter()
+        .filter_map(|name| car::builtin::text(name).ok())
+        .map(|text| text.as_bytes().to_vec())
+        .collect();
+    corpus.push(
+        b"model = \"car\"\n[lading]\nkind = \"masses\"\n[[lading.masses]]\nname = \"coil\"\nweight = \"40 kip\"\n\
+          place = [\"0 in\", \"5 in\", \"70 in\"]\ninertia = [\"0 lbf in s^2\", \"1 lbf in s^2\", \"1 lbf in s^2\"]\n\
+          [front_truck.wedge]\nkind = \"massless\"\n[wheels]\nprofile = \"cone_1:20\"\ncreep = \"fastsim\"\n[speed]\n\
+          kind = \"coasting\"\nvalue = \"0 mph\"\n[track]\nsupport = { kind = \"rigid\" }\n\
+          segments = [{ tangent = \"3000 ft\" }]\n"
+            .to_vec(),
+    );
+    corpus
+}
+
+fn car(input: &[u8]) -> Outcome {
+    let Ok(text) = std::str::from_utf8(input) else {
+        return Outcome::NO_TEXT;
+    };
+    match CarCase::parse("car.toml", text, nowhere(), &[]) {
+        Ok(case) => {
+            match CarCase::parse("again.toml", case.to_toml(), nowhere(), &[]) {
                 Ok(again) => assert!(again == case, "another case: {}", case.name),
                 Err(error) => refused_as_written(&messages(&error)),
             }

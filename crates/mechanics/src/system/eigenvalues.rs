@@ -15,7 +15,8 @@
 //! the slow ones, are found best.
 
 use integrate::Problem;
-use nalgebra::{DMatrix, linalg::Schur};
+use nalgebra::DMatrix;
+use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
 
 use super::{NoVibration, System};
 
@@ -74,7 +75,15 @@ impl System {
             }
             inverse = turned.lu().solve(&inverse).ok_or(NoVibration)?;
         }
-        let schur = Schur::try_new(inverse, f64::EPSILON, 100_000).ok_or(NoVibration)?;
+        // Lengths, angles and their rates, deflections: of very different sizes.
+        balance_parlett_reinsch(&mut inverse);
+        // Where the sizes of eigenvalues differ by many orders, sub-diagonal entries stay a little above the smallest
+        // bound for being zero.
+        let bounds = [1.0, 10.0, 100.0, 1000.0].map(|times| times * f64::EPSILON);
+        let found = bounds
+            .into_iter()
+            .find_map(|bound| Schur::try_new(inverse.clone(), bound, 20 * n + 1000));
+        let schur = found.ok_or(NoVibration)?;
         let values = schur.complex_eigenvalues();
         let mut found: Vec<[f64; 2]> = values
             .iter()

@@ -306,6 +306,9 @@ impl System {
                 }
             }
             (self.force[free.body], self.moment[free.body]) = (force, moment);
+            if let Some(carrier) = free.carrier {
+                (self.force[carrier], self.moment[carrier]) = (Vector::zero(), Vector::zero());
+            }
         }
         self.points_updated = true;
         if !self.plain {
@@ -329,6 +332,13 @@ impl System {
         }
         for free in self.free.iter().filter(|free| free.loaded) {
             self.loads[free.body] = self.given[free.body];
+            if let Some(carrier) = free.carrier {
+                let force = self.force[carrier];
+                self.force[free.body] += force;
+                let [_, pitch, yaw] = self.kinematics[carrier].about_axes(&self.moment[carrier]);
+                self.loads[free.body][4] += pitch;
+                self.loads[free.body][5] += yaw;
+            }
         }
         for load in &self.applied {
             let [value, ..] = load.jet;

@@ -42,6 +42,7 @@ struct Bodies<'s> {
     kinematics: &'s [Kinematics<f64>],
     free: &'s [FreeBody],
     free_number: &'s [Option<usize>],
+    gathered_at: &'s [usize],
 }
 
 impl System {
@@ -60,10 +61,22 @@ impl System {
                 ..Gathered::NONE
             };
         }
+        for free in &self.free {
+            let Some(carrier) = free.carrier else { continue };
+            let mut rotation_axes = self.kinematics[carrier].rotation_axes(&free.free);
+            if free.free.contains(&3) {
+                (rotation_axes.axes[0], rotation_axes.axis_rates[0]) = (Vector::zero(), Vector::zero());
+            }
+            self.gathered[self.gathered_at[carrier]] = Gathered {
+                rotation_axes,
+                ..Gathered::NONE
+            };
+        }
         let bodies = Bodies {
             kinematics: &self.kinematics,
             free: &self.free,
             free_number: &self.free_number,
+            gathered_at: &self.gathered_at,
         };
         for face in &mut self.faces {
             let deflections = &internal[face.first_internal..][..face.internal_count];
@@ -102,6 +115,19 @@ impl System {
             }
             let blocks = self.jacobian.blocks_mut(free.pair);
             add_block(&self.gathered[number].block, free, free.free.len(), blocks);
+            if let Some(carrier) = free.carrier {
+                let gathered = &self.gathered[self.gathered_at[carrier]];
+                let (stiffness, damping) = self.jacobian.blocks_mut(free.pair);
+                let n = free.free.len();
+                add_block(&gathered.block, free, n, (&mut *stiffness, damping));
+                // The axis of pitch turns with the yaw.
+                let place = |k: usize| free.free.iter().position(|own| *own == k);
+                if let (true, Some(pitch), Some(yaw)) = (whole, place(4), place(5)) {
+                    let [sine, cosine, _] = self.kinematics[carrier].orientation.axes[1].0;
+                    let [x, y, _] = gathered.moment.0;
+                    stiffness[pitch * n + yaw] += cosine * x - sine * y;
+                }
+            }
             let (moves, angles) = (!self.frames[free.body].fixed, free.angles());
             match (whole, moves, angles) {
                 (_, true, _) => self.inertia::<12>(number, x),
@@ -229,23 +255,24 @@ fn differentiate_element<E: Mountable>(
     let [Some(a), b] = ends else {
         return;
     };
-    let rotation_axes_b = b.map_or(RotationAxes::NONE, |b| gathered[b].rotation_axes);
-    let rotation_axes_a = gathered[a].rotation_axes;
+    let [at_a, at_b] = [mounted.body, mounted.on].map(|body| bodies.gathered_at[body]);
+    let rotation_axes_b = b.map_or(RotationAxes::NONE, |_| gathered[at_b].rotation_axes);
+    let rotation_axes_a = gathered[at_a].rotation_axes;
     let on = &bodies.kinematics[mounted.on];
     let chain = Chain::new(mounted, &relative, arm, [&rotation_axes_a, &rotation_axes_b], on);
     let (free_a, n_a) = (&bodies.free[a], bodies.free[a].free.len());
-    gathered[a].moment += body.rotation.apply_transposed::<f64, f64>(chain.moment_on_a());
+    gathered[at_a].moment += body.rotation.apply_transposed::<f64, f64>(chain.moment_on_a());
 
     let (mut powers, mut other) = (Powers::NONE, NO_BLOCK);
-    chain.by_a(free_a, &mut gathered[a].block, &mut other, &mut powers);
+    chain.by_a(free_a, &mut gathered[at_a].block, &mut other, &mut powers);
     keep_powers(&mounted.rows[0], &powers, n_a, jacobian);
     if let Some(b) = b {
         let (free_b, n_b) = (&bodies.free[b], bodies.free[b].free.len());
         let moment = mounted.marker.rotation.apply(chain.moment_on_b());
-        gathered[b].moment += moment;
+        gathered[at_b].moment += moment;
         add_block(&other, free_b, n_a, jacobian.blocks_mut(mounted.pairs[1]));
         let (mut powers, mut other) = (Powers::NONE, NO_BLOCK);
-        chain.by_b(free_b, &mut gathered[b].block, &mut other, &mut powers);
+        chain.by_b(free_b, &mut gathered[at_b].block, &mut other, &mut powers);
         add_block(&other, free_a, n_b, jacobian.blocks_mut(mounted.pairs[0]));
         keep_powers(&mounted.rows[1], &powers, n_b, jacobian);
     }

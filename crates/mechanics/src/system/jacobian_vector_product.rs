@@ -53,7 +53,7 @@ fn dual(value: f64, change: f64) -> Dual<1> {
 
 impl System {
     /// Returns the derivatives along a direction at `time` and state `x`; `None` if the direction does not
-    /// have the state's length, or if there are bodies with linearized kinematics or connections, which are not
+    /// have the state's length, or if there are bodies with linearized kinematics, carriers or connections, which are not
     /// supported.
     ///
     /// At a discontinuity of the derivative (a corner that just touches, a bristle at its limit) they are
@@ -66,7 +66,8 @@ impl System {
     ) -> Option<JacobianVectorProduct> {
         let n = x.len();
         let linearized = self.free.iter().any(|free| free.linear.is_some());
-        let supported = !linearized && self.connections.is_empty();
+        let carried = self.free.iter().any(|free| free.carrier.is_some());
+        let supported = !linearized && !carried && self.connections.is_empty();
         if !supported || n != self.layout.len() || !(direction.state.is_empty() || direction.state.len() == n)
         {
             return None;

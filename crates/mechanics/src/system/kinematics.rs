@@ -113,8 +113,12 @@ impl System {
         if free.linear.is_some() && !free.touched {
             return;
         }
-        let (coordinates, speeds) = self.coordinates(free, x);
+        let (mut coordinates, mut speeds) = self.coordinates(free, x);
         self.kinematics[body] = Kinematics::new(coordinates, speeds, self.bodies[body].rolls());
+        if let Some(carrier) = free.carrier {
+            (coordinates[3], speeds[3]) = (0.0, 0.0);
+            self.kinematics[carrier] = Kinematics::new(coordinates, speeds, false);
+        }
     }
 }
 

@@ -125,6 +125,8 @@ struct FreeBody {
     connected: bool,
     /// Whether there are loads on its coordinates.
     loaded: bool,
+    /// The number of the body that goes along without its last angle.
+    carrier: Option<usize>,
 }
 
 /// Inertia (kg, kg·m²) and weight (N, N·m) along each free coordinate of a body with linearized kinematics.
@@ -206,8 +208,9 @@ pub struct System {
     accelerations: Vec<[f64; 6]>,
     force: Vec<Vector<f64>>,
     moment: Vec<Vector<f64>>,
-    /// Derivatives summed for each free body.
+    /// Derivatives summed for each free body and each carrier, and where those of a body are.
     gathered: Vec<Gathered>,
+    gathered_at: Vec<usize>,
     /// Derivative by time of the force on each body and of the moments about the axes of its angles.
     load_rate: Vec<(Vector<f64>, [f64; 3])>,
     jacobian: Partitioned,

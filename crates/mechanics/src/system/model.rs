@@ -44,6 +44,8 @@ pub struct Model {
     pub loads: Vec<AppliedLoad>,
     /// Choices that the laws of connections leave open.
     pub options: Options,
+    /// Carriers: see [`Model::add_carrier`]; the number of each and that of the body it goes with.
+    pub carriers: Vec<[usize; 2]>,
 }
 
 impl Model {
@@ -55,6 +57,24 @@ impl Model {
             gravity,
             ..Self::default()
         }
+    }
+
+    /// Adds the carrier of a body and returns its number: what goes along with the body but does not turn with its
+    /// last angle (roll), as bearings do with an axle that spins. Elements act on it as on a body of its own; their
+    /// wrench acts on the body's coordinates but for the last angle, by virtual work: what moment about that axis is
+    /// left, nothing takes. It has no mass.
+    pub fn add_carrier(&mut self, name: &str, of: usize) -> usize {
+        let frame = self
+            .bodies
+            .get(of)
+            .map_or(Frame::fixed([0.0; 3], [0.0; 3]), |body| body.frame.clone());
+        let initial = self.bodies.get(of).map_or([0.0; 6], |body| body.initial);
+        let mut body = Body::prescribed(name, frame);
+        body.initial = [initial[0], initial[1], initial[2], 0.0, initial[4], initial[5]];
+        self.bodies.push(body);
+        let number = self.bodies.len() - 1;
+        self.carriers.push([number, of]);
+        number
     }
 
     /// Adds a force element between marker A on one body (its number) and marker B on another. One of the two
@@ -123,6 +143,16 @@ pub enum ModelError {
         value: f64,
         /// The coordinate that needs it.
         coordinate: &'static str,
+    },
+    /// A carrier goes with a body that has linearized kinematics or is a carrier itself, or a connection acts on it.
+    #[error(
+        "{carrier} cannot go with body {body} without its last angle: a carrier goes with a body of finite kinematics, and no connections act on it"
+    )]
+    Carrier {
+        /// The carrier's name.
+        carrier: String,
+        /// The number of the body.
+        body: usize,
     },
     /// A free body has held coordinates in a moving frame.
     #[error(
@@ -197,6 +227,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         connections,
         loads,
         options,
+        carriers,
     } = model;
     options.check()?;
     if bodies.iter().all(Body::is_prescribed) {
@@ -216,6 +247,20 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         connection.check(index, &bodies, &options)?;
         (connected[connection.a], connected[connection.b]) = (true, true);
     }
+    for &[carrier, of] in &carriers {
+        let fits = of < count && !bodies[of].linearized && carriers.iter().all(|[own, _]| *own != of);
+        if !fits || connected[carrier] {
+            let carrier = bodies[carrier].name.clone();
+            return Err(ModelError::Carrier { carrier, body: of });
+        }
+        touched[of] |= touched[carrier];
+    }
+    let carrier_of = |body: usize| {
+        carriers
+            .iter()
+            .find(|[_, of]| *of == body)
+            .map(|[carrier, _]| *carrier)
+    };
     let mut free = Vec::new();
     let mut slots = vec![[None; 6]; bodies.len()];
     let mut free_number = vec![None; bodies.len()];
@@ -249,12 +294,16 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             pair: 0,
             faces: Vec::new(),
             coils: Vec::new(),
-            loaded: linear.is_some() || connected[number],
+            loaded: linear.is_some() || connected[number] || carrier_of(number).is_some(),
+            carrier: carrier_of(number),
             linear,
             touched: touched[number],
             connected: connected[number],
         });
         offset += count;
+    }
+    for &[carrier, of] in &carriers {
+        free_number[carrier] = free_number[of];
     }
     // Of a body with linearized kinematics that no element sees, the motions are coordinates alone.
     let frame_of = |(body, touched): (&Body, &bool)| match body.linearized && !touched {
@@ -444,7 +493,8 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         added: owned..parts.energy_terms.len(),
         force: vec![Vector::zero(); bodies.len()],
         moment: vec![Vector::zero(); bodies.len()],
-        gathered: vec![Gathered::NONE; free.len()],
+        gathered: vec![Gathered::NONE; free.len() + carriers.len()],
+        gathered_at: gathered_at(&free_number, &carriers, free.len()),
         load_rate: vec![(Vector::zero(), [0.0; 3]); bodies.len()],
         bodies,
         gravity: Vector(gravity),
@@ -472,6 +522,15 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         current_face: (0, f64::NAN),
         points_updated: false,
     })
+}
+
+/// Returns where the derivatives of each body are gathered: first those of free bodies, then those of carriers.
+fn gathered_at(free_number: &[Option<usize>], carriers: &[[usize; 2]], free: usize) -> Vec<usize> {
+    let mut places: Vec<usize> = free_number.iter().map(|number| number.unwrap_or(0)).collect();
+    for (i, [carrier, _]) in carriers.iter().enumerate() {
+        places[*carrier] = free + i;
+    }
+    places
 }
 
 /// Returns the inertia and weight of a body with linearized kinematics.

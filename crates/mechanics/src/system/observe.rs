@@ -82,6 +82,10 @@ pub struct FaceState {
 /// A coil.
 #[derive(Clone, Copy, Debug)]
 pub struct CoilState {
+    /// The number of the carried body.
+    pub body: usize,
+    /// The number of the body with the seat.
+    pub on: usize,
     /// Its force and moment, marker axes.
     pub coil: CoilForce<f64>,
     /// Force on the carried body, fixed axes, N.
@@ -221,6 +225,8 @@ impl System {
             let energy = mounted.element.stored_energy(coil.length);
             energies.coil += energy;
             coils.push(CoilState {
+                body: mounted.body,
+                on: mounted.on,
                 coil,
                 force: axes.apply(coil.force),
                 spring_force: axes.apply(coil.spring_force),

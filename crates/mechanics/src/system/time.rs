@@ -23,7 +23,7 @@ impl System {
             let Some(number) = self.free_number[body] else {
                 continue;
             };
-            if self.frames[body].fixed {
+            if self.frames[body].fixed || self.free[number].body != body {
                 continue;
             }
             // The inertia forces change with a moving reference frame: this needs its jerk.
@@ -67,6 +67,11 @@ impl System {
         }
         for free in &self.free {
             let (mut force, mut moments) = self.load_rate[free.body];
+            if let Some(carrier) = free.carrier {
+                let (own, [_, pitch, yaw]) = self.load_rate[carrier];
+                force += own;
+                (moments[1], moments[2]) = (moments[1] + pitch, moments[2] + yaw);
+            }
             for k in 0..3 {
                 force.0[k] += self.loads[free.body][k];
                 moments[k] += self.loads[free.body][3 + k];

@@ -4,10 +4,11 @@
 //! - [`comparison`]: the stand-alone wedge against types 6.8 and 6.9 of the comparison program.
 //! - [`model`]: the bolster's motion, the friction law, the coil.
 //! - [`run`]: what the thesis lacks, run by run; `pressure`: over faces with grids of points.
-//! - [`truck`]: a run of a three-piece truck.
+//! - [`truck`]: a run of a three-piece truck; [`car`]: of a car on track, over the distance.
 //! - [`sensitivity`]: statements that hold over the contact stiffness.
 //! - [`study`]: main effects and contours of studies; [`jam`]: their jam map.
 
+pub mod car;
 pub mod comparison;
 pub mod jam;
 pub mod model;

@@ -1,6 +1,7 @@
 //! `index.html`: the report as one page that needs nothing else to be shown.
 
 mod agreement;
+pub mod car_run;
 mod claims;
 pub mod explorer;
 mod runs;

@@ -15,9 +15,12 @@ pub fn largest(kind: Kind) -> f64 {
         // Eleven days of simulated time.
         Kind::Time => 1e6,
         Kind::Length => 1e3,
+        // The longest track.
+        Kind::Distance => 1e6,
         // 160 turns.
         Kind::Angle => 1e3,
         Kind::Speed | Kind::AngularSpeed | Kind::Acceleration => 1e4,
+        Kind::TravelSpeed | Kind::RideAcceleration => 1e4,
         // 160 kHz, far above every vibration of contacts.
         Kind::Frequency => 1e6,
         // A million tons.

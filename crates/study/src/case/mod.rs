@@ -125,13 +125,15 @@ impl Case {
         tables: Tables<'_>,
         mut problems: Problems,
     ) -> Result<Self, CaseError> {
-        if model(&tree, &mut problems) == Some(Model::Truck) {
+        if let Some(other @ (Model::Truck | Model::Car)) = model(&tree, &mut problems) {
+            let name = if other == Model::Car { "car" } else { "truck" };
             let problem = Problem::new(format!(
-                "{source} is the case of a truck; a single wedge's is expected"
+                "{source} is the case of a {name}; a single wedge's is expected"
             ));
-            let problem = problem.help("`wedgelab run` takes both; here leave out model = \"truck\"");
+            let help = format!("`wedgelab run` takes both; here leave out model = \"{name}\"");
+            let problem = problem.help(help);
             problems.push(match tree.place_of("model") {
-                Some(place) => problem.at(place).label("a truck"),
+                Some(place) => problem.at(place).label(format!("a {name}")),
                 None => problem,
             });
             return Err(CaseError::new(problems));

@@ -24,7 +24,7 @@ enum Access {
 
 /// Why a table's file is not read.
 #[derive(Debug)]
-pub(super) struct Refused {
+pub(crate) struct Refused {
     /// What is wrong, after the name of the file.
     pub reason: String,
     /// What to write instead.
@@ -60,13 +60,21 @@ impl<'a> Tables<'a> {
         }
     }
 
+    /// The same access, to files beside another one: what a file names is looked for from its own folder.
+    pub(crate) fn beside(self, folder: &Path) -> Tables<'_> {
+        Tables {
+            folder,
+            access: self.access,
+        }
+    }
+
     /// Whether messages may tell what is in a table's file.
-    pub(super) fn may_quote(self) -> bool {
+    pub(crate) fn may_quote(self) -> bool {
         self.access == Access::Anywhere
     }
 
     /// The name of a file in messages: with its folder, or, if files are restricted, as typed.
-    pub(super) fn shown(self, file: &str) -> String {
+    pub(crate) fn shown(self, file: &str) -> String {
         match self.access {
             Access::Anywhere => self.folder.join(file).display().to_string(),
             Access::BelowFolder | Access::Nowhere => file.to_owned(),
@@ -74,7 +82,7 @@ impl<'a> Tables<'a> {
     }
 
     /// The path to read a file at.
-    pub(super) fn locate(self, file: &str) -> Result<PathBuf, Refused> {
+    pub(crate) fn locate(self, file: &str) -> Result<PathBuf, Refused> {
         match self.access {
             Access::Anywhere => Ok(self.folder.join(file)),
             Access::BelowFolder => self.locate_below(file),

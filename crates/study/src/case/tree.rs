@@ -3,6 +3,7 @@
 //! Three trees are laid over each other: the thesis's values, the file, and what `--set` gives.
 //! Whatever turns out to be wrong can still be shown where it was written.
 
+use super::field::quoted;
 use super::problem::{Problem, Problems, TomlLocation, TomlSource};
 use input::structure;
 use std::sync::Arc;
@@ -123,6 +124,44 @@ impl Value {
             Value::List(_) => "a list",
             Value::Table(_) => "a table",
         }
+    }
+
+    /// Returns it as TOML: in one line, but a list of tables with one table a line. A date, which nothing reads, is empty
+    /// text.
+    pub fn to_toml(&self) -> String {
+        match self {
+            Value::Text(text) => quoted(text),
+            Value::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => format!("{number:.0}"),
+            Value::Number(number) => format!("{number:?}"),
+            Value::Truth(truth) => truth.to_string(),
+            Value::Date => quoted(""),
+            Value::List(items) => {
+                let all: Vec<String> = items.iter().map(|item| item.value.to_toml()).collect();
+                if items.iter().any(|item| matches!(item.value, Value::Table(_))) {
+                    let lines: Vec<String> = all.iter().map(|one| format!("\n    {one},")).collect();
+                    format!("[{}\n]", lines.concat())
+                } else {
+                    format!("[{}]", all.join(", "))
+                }
+            }
+            Value::Table(table) => {
+                let pairs = table.entries.iter();
+                let all: Vec<String> = pairs
+                    .map(|entry| format!("{} = {}", key(&entry.key), entry.node.value.to_toml()))
+                    .collect();
+                format!("{{ {} }}", all.join(", "))
+            }
+        }
+    }
+}
+
+/// A key as TOML writes it.
+fn key(key: &str) -> String {
+    let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    if !key.is_empty() && key.chars().all(bare) {
+        key.to_owned()
+    } else {
+        quoted(key)
     }
 }
 

@@ -10,6 +10,7 @@ use input::{FileType, limits};
 use super::factor::{Factor, Value};
 use super::{Accuracy, DIMENSIONS, Sampling, Study, StudySource, accuracy_overrides};
 use crate::any_case::CaseSource;
+use crate::car;
 use crate::case::builtin;
 use crate::case::name;
 use crate::case::problem::{Problem, Problems, TomlLocation, TomlSource};
@@ -365,7 +366,9 @@ fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) 
         }
     }
     if !path.is_file()
-        && let Ok(text) = builtin::text(case).or_else(|_| truck::builtin::text(case))
+        && let Ok(text) = builtin::text(case)
+            .or_else(|_| truck::builtin::text(case))
+            .or_else(|_| car::builtin::text(case))
     {
         return Some(CaseSource::File {
             name: format!("{case}.toml"),
@@ -381,7 +384,9 @@ fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) 
         }),
         Err(error) => {
             let shown = path.display();
-            let (message, help) = match quantity::nearest(case, builtin::names().chain(truck::builtin::names())) {
+            let names = builtin::names().chain(truck::builtin::names());
+            let names = names.chain(car::builtin::names());
+            let (message, help) = match quantity::nearest(case, names) {
                 _ if !matches!(error.reason, Reason::NotFound) => {
                     (error.to_string(), error.help().unwrap_or_default())
                 }

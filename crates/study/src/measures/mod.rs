@@ -22,6 +22,7 @@
 //! Stick share and wear power are taken over the whole cycles after the first half period, as energies are;
 //! where there are none, over the whole run. A measure that a run does not have is `NaN`.
 
+pub mod car;
 mod clock;
 pub mod half_truck;
 mod measuring;

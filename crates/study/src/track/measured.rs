@@ -1,11 +1,10 @@
 //! Measured tables in track files: irregularities, and the center line.
 
-use std::path::{Path, PathBuf};
-
 use wheelrail::track::{CenterLine, Form, MeasuredError, MeasuredTable, Placed};
 
 use super::irregularity::named;
 use super::{length, optional_length};
+use crate::case::Tables;
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{Names, Section};
 
@@ -23,13 +22,29 @@ fn wrong(section: &Section<'_>, error: &MeasuredError) -> Problem {
 }
 
 /// The table that a section names, beside the track file.
-fn table(section: &Section<'_>, folder: &Path, problems: &mut Problems) -> Option<MeasuredTable> {
+fn table(section: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) -> Option<MeasuredTable> {
     let (text, _) = section.text("table", problems)?;
     let signs_known = match section.table.get("signs") {
         Some(_) => section.choice("signs", SIGNS, problems)?,
         None => false,
     };
-    let path: PathBuf = folder.join(text);
+    let path = match tables.locate(text) {
+        Ok(path) => path,
+        Err(refused) => {
+            let message = format!(
+                "`{}`: {} {}",
+                section.path_of("table"),
+                tables.shown(text),
+                refused.reason
+            );
+            let problem = Problem::new(message).help(refused.help);
+            problems.push(match section.table.place_of("table") {
+                Some(place) => problem.at(place).label("this table"),
+                None => problem,
+            });
+            return None;
+        }
+    };
     MeasuredTable::read(&path, signs_known)
         .map_err(|error| problems.push(wrong(section, &error)))
         .ok()
@@ -38,7 +53,7 @@ fn table(section: &Section<'_>, folder: &Path, problems: &mut Problems) -> Optio
 /// The irregularities of a measured table; `end` is the length of the track, m.
 pub(super) fn irregularities(
     section: &Section<'_>,
-    folder: &Path,
+    tables: Tables<'_>,
     end: Option<f64>,
     problems: &mut Problems,
 ) -> Option<Vec<Placed>> {
@@ -70,7 +85,7 @@ pub(super) fn irregularities(
         Some(_) => section.choice("beyond", BEYOND, problems),
         None => Some(false),
     };
-    let table = table(section, folder, problems)?;
+    let table = table(section, tables, problems)?;
     let (start, taper) = (start?, taper?);
     let last = table.range()[1] + start;
     if let (Some(false), Some(end)) = (level, end)
@@ -101,12 +116,12 @@ pub(super) fn irregularities(
 /// The center line of a measured table.
 pub(super) fn center_line(
     section: &Section<'_>,
-    folder: &Path,
+    tables: Tables<'_>,
     rail_distance: f64,
     problems: &mut Problems,
 ) -> Option<CenterLine> {
     section.allow_in(&["table", "signs"], &[], "a track", problems);
-    let table = table(section, folder, problems)?;
+    let table = table(section, tables, problems)?;
     table
         .center_line(rail_distance)
         .map_err(|error| problems.push(wrong(section, &error)))

@@ -36,7 +36,7 @@ use wheelrail::track::{CenterLine, CurveElements, Placed, Segment, Track, TrackE
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::{Names, Range, Section};
 use crate::case::tree::{self, Node, Table, Value};
-use crate::case::{CaseError, name, text_of};
+use crate::case::{CaseError, Tables, name, text_of};
 
 use irregularity::irregularity;
 pub use support::Support;
@@ -99,20 +99,38 @@ fn read(tree: &Table, source: &str, problems: &mut Problems) -> Option<TrackFile
         table: tree,
         place: None,
     };
-    top.allow_in(&KEYS, &[], "a track", problems);
     let name = name::read(&top, name::of_source(source), problems);
     let title = match tree.get("title") {
         Some(_) => top.text("title", problems).map_or("", |(text, _)| text),
         None => "",
     };
-    let rail_distance = optional_length(&top, "rail_distance", 59.5 * 0.0254, problems);
+    let folder = Path::new(source).parent().unwrap_or(Path::new(""));
+    let read = of_section(&top, Tables::anywhere(folder), problems);
+    let (track, support) = read?;
+    Some(TrackFile {
+        name: name?,
+        title: title.to_owned(),
+        track,
+        support,
+    })
+}
+
+/// Reads what a track file says of the track and of what its rails lie on, from the file or from a table of a case;
+/// `tables` says where measured tables are looked for.
+pub(crate) fn of_section(
+    top: &Section<'_>,
+    tables: Tables<'_>,
+    problems: &mut Problems,
+) -> Option<(Track, Support)> {
+    let tree = top.table;
+    top.allow_in(&KEYS, &[], "a track", problems);
+    let rail_distance = optional_length(top, "rail_distance", 59.5 * 0.0254, problems);
     let support = match tree.get("support") {
         Some(_) => top
             .section("support", problems)
             .and_then(|section| support::support(&section, problems)),
         None => Some(Support::usual()),
     };
-    let folder = Path::new(source).parent().unwrap_or(Path::new(""));
     let measured = match (
         tree.get("center_line"),
         tree.entry("segments").or(tree.entry("grades")),
@@ -129,7 +147,7 @@ fn read(tree: &Table, source: &str, problems: &mut Problems) -> Option<TrackFile
         }
         (Some(_), None) => {
             let section = top.section("center_line", problems)?;
-            Some(measured::center_line(&section, folder, rail_distance?, problems)?)
+            Some(measured::center_line(&section, tables, rail_distance?, problems)?)
         }
         (None, _) => None,
     };
@@ -137,11 +155,11 @@ fn read(tree: &Table, source: &str, problems: &mut Problems) -> Option<TrackFile
         let help = "write [[segments]] and below it tangent = \"500 ft\"";
         top.require("segments", help, problems)?;
     }
-    let segments: Vec<Option<Segment>> = tables(&top, "segments", problems)
+    let segments: Vec<Option<Segment>> = list(top, "segments", problems)
         .iter()
         .map(|section| segment(section, problems))
         .collect();
-    let grades: Vec<Option<[f64; 2]>> = tables(&top, "grades", problems)
+    let grades: Vec<Option<[f64; 2]>> = list(top, "grades", problems)
         .iter()
         .map(|section| {
             section.allow_in(&["distance", "grade"], &[], "a track", problems);
@@ -162,23 +180,19 @@ fn read(tree: &Table, source: &str, problems: &mut Problems) -> Option<TrackFile
         _ => None,
     };
     let end = center_line.as_ref().map(CenterLine::length);
-    let irregularities: Vec<Option<Vec<Placed>>> = tables(&top, "irregularities", problems)
+    let irregularities: Vec<Option<Vec<Placed>>> = list(top, "irregularities", problems)
         .iter()
         .map(|section| match section.table.get("table") {
-            Some(_) => measured::irregularities(section, folder, end, problems),
+            Some(_) => measured::irregularities(section, tables, end, problems),
             None => irregularity(section, end, problems).map(|placed| vec![placed]),
         })
         .collect();
     let irregularities: Vec<Vec<Placed>> = irregularities.into_iter().collect::<Option<_>>()?;
-    Some(TrackFile {
-        name: name?,
-        title: title.to_owned(),
-        track: Track {
-            center_line: center_line?,
-            irregularities: irregularities.into_iter().flatten().collect(),
-        },
-        support: support?,
-    })
+    let track = Track {
+        center_line: center_line?,
+        irregularities: irregularities.into_iter().flatten().collect(),
+    };
+    Some((track, support?))
 }
 
 /// A track that cannot be, shown at its segments.
@@ -192,20 +206,21 @@ fn impossible(tree: &Table, error: &TrackError) -> Problem {
 }
 
 /// The tables of a list, `[[key]]`.
-fn tables<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Vec<Section<'t>> {
+fn list<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Vec<Section<'t>> {
     let Some(node) = top.table.get(key) else {
         return Vec::new();
     };
     let not_a_list = |node: &Node, problems: &mut Problems| {
         let problem = Problem::new(format!(
-            "`{key}` holds {}; tables are expected",
+            "`{}` holds {}; tables are expected",
+            top.path_of(key),
             node.value.describe()
         ));
         problems.push(
             problem
                 .at(&node.place)
                 .label("not a table")
-                .help(format!("write [[{key}]] on a line of its own")),
+                .help(format!("write [[{}]] on a line of its own", top.path_of(key))),
         );
     };
     let Value::List(items) = &node.value else {
@@ -220,7 +235,7 @@ fn tables<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Vec<Sect
                 // Its first bracket: the rest may be long.
                 place.span.end = place.span.end.min(place.span.start + 1);
                 found.push(Section {
-                    path: format!("{key}[{number}]"),
+                    path: format!("{}[{number}]", top.path_of(key)),
                     table,
                     place: Some(place),
                 });

@@ -7,12 +7,12 @@ pub mod builtin;
 pub mod columns;
 pub mod contacts;
 pub mod loop_curve;
-mod reader;
+pub(crate) mod reader;
 pub mod run;
-mod sections;
+pub(crate) mod sections;
 pub mod summary;
 pub mod warp;
-mod wedges;
+pub(crate) mod wedges;
 
 use std::path::Path;
 
@@ -55,10 +55,15 @@ pub struct TruckCase {
 pub(crate) enum Model {
     Wedge,
     Truck,
+    Car,
 }
 
 /// Their names.
-pub(crate) const MODELS: Names<Model> = &[("wedge", Model::Wedge), ("truck", Model::Truck)];
+pub(crate) const MODELS: Names<Model> = &[
+    ("wedge", Model::Wedge),
+    ("truck", Model::Truck),
+    ("car", Model::Car),
+];
 
 /// Returns the model of a case; a wedge if none is named.
 pub(crate) fn model(tree: &Table, problems: &mut Problems) -> Option<Model> {
@@ -137,10 +142,13 @@ impl TruckCase {
         tables: Tables<'_>,
         mut problems: Problems,
     ) -> Result<Self, CaseError> {
-        if model(tree, &mut problems) == Some(Model::Wedge) {
-            let problem = Problem::new(format!(
-                "{source} is the case of a single wedge; a truck's is expected"
-            ));
+        if let Some(other) = model(tree, &mut problems).filter(|own| *own != Model::Truck) {
+            let what = if other == Model::Car {
+                "a car"
+            } else {
+                "a single wedge"
+            };
+            let problem = Problem::new(format!("{source} is the case of {what}; a truck's is expected"));
             problems.push(problem.help("write model = \"truck\" in its first line"));
         }
         let default_name = name::of_source(source);
@@ -240,7 +248,7 @@ fn read(tree: &Table, default_name: &str, tables: Tables<'_>, problems: &mut Pro
     sections::check_something_moves(&mut r, &parameters);
     let settle = sections::start(&mut r, &mut parameters);
     let simulation = simulation(&mut r);
-    let (text, embedded, fields) = r.finish();
+    let (text, embedded, fields) = r.finish("a truck's case");
     Some(TruckCase {
         name,
         title: title.to_owned(),

@@ -17,33 +17,38 @@ use crate::case::write::{Page, TURN, write_motion};
 use crate::case::{self, Tables, motion, resolve};
 
 /// Kind, range and suggested reach of a quantity.
-pub(super) type Form = (Kind, Range, Reach);
+pub(crate) type Form = (Kind, Range, Reach);
 
 /// A length that is not negative.
-pub(super) const CLEARANCE: Form = (Kind::Length, Range::NotNegative, Reach::FromZero(0.025));
+pub(crate) const CLEARANCE: Form = (Kind::Length, Range::NotNegative, Reach::FromZero(0.025));
 /// A length.
-pub(super) const LENGTH: Form = (Kind::Length, Range::Positive, Reach::Positive);
+pub(crate) const LENGTH: Form = (Kind::Length, Range::Positive, Reach::Positive);
 /// A stiffness.
-pub(super) const STIFFNESS: Form = (Kind::Stiffness, Range::Positive, Reach::Wide);
+pub(crate) const STIFFNESS: Form = (Kind::Stiffness, Range::Positive, Reach::Wide);
 /// A damping.
-pub(super) const DAMPING: Form = (Kind::Damping, Range::NotNegative, Reach::FromZero(5000.0));
+pub(crate) const DAMPING: Form = (Kind::Damping, Range::NotNegative, Reach::FromZero(5000.0));
 /// A static load.
-pub(super) const PRELOAD: Form = (Kind::Force, Range::NotNegative, Reach::Positive);
+pub(crate) const PRELOAD: Form = (Kind::Force, Range::NotNegative, Reach::Positive);
 /// A force that a mass weighs.
 const WEIGHT: Form = (Kind::Force, Range::Positive, Reach::Positive);
 
 /// Reads sections and writes them down.
-pub(super) struct Reader<'r> {
+pub(crate) struct Reader<'r> {
     tree: &'r Table,
     tables: Tables<'r>,
     pub problems: &'r mut Problems,
     /// As typed, and with the points of tables in files.
     pages: [Page; 2],
+    /// The table that sections are in: empty, or a truck of a car.
+    within: &'static str,
+    /// The full path of the current section.
     section: String,
     /// Whether only what is given is written down, and no default.
     overlay: bool,
     /// Sections with their keys.
     known: Vec<(String, Vec<&'static str>)>,
+    /// Sections whose keys others read.
+    elsewhere: Vec<String>,
     /// The motions that were given, with their paths.
     pub motions: Vec<(String, motion::Motion)>,
 }
@@ -55,33 +60,50 @@ impl<'r> Reader<'r> {
             tables,
             problems,
             pages: [Page::default(), Page::default()],
+            within: "",
             section: String::new(),
             overlay: false,
             known: vec![(String::new(), Vec::new())],
+            elsewhere: Vec::new(),
             motions: Vec::new(),
+        }
+    }
+
+    /// Takes the sections that follow from a table of the case; from the case itself where that is empty. Paths of
+    /// sections are relative to it.
+    pub fn within(&mut self, table: &'static str) {
+        self.within = table;
+    }
+
+    /// The full path of what stands at a path within the table that sections are taken from.
+    fn full(&self, path: &str) -> String {
+        match (self.within, path) {
+            ("", path) => path.to_owned(),
+            (within, "") => within.to_owned(),
+            (within, path) => format!("{within}.{path}"),
         }
     }
 
     /// Begins a section.
     pub fn section(&mut self, path: &str, about: &str) {
-        path.clone_into(&mut self.section);
+        self.section = self.full(path);
         self.overlay = false;
-        self.known.push((path.to_owned(), Vec::new()));
+        self.known.push((self.section.clone(), Vec::new()));
         for page in &mut self.pages {
-            page.section(path, about);
+            page.section(&self.section, about);
         }
     }
 
     /// Begins a section that holds for one of several bodies, and of which nothing is written that is not
     /// given. Returns whether anything is.
     pub fn overlay(&mut self, path: &str, about: &str) -> bool {
-        path.clone_into(&mut self.section);
+        self.section = self.full(path);
         self.overlay = true;
-        self.known.push((path.to_owned(), Vec::new()));
-        let given = self.table_at(path).is_some();
+        self.known.push((self.section.clone(), Vec::new()));
+        let given = self.table_at(&self.section).is_some();
         if given {
             for page in &mut self.pages {
-                page.section(path, about);
+                page.section(&self.section, about);
             }
         }
         given
@@ -89,9 +111,10 @@ impl<'r> Reader<'r> {
 
     /// Says that a section holds keys that are read elsewhere.
     pub fn expect(&mut self, section: &str, keys: &[&'static str]) {
-        match self.known.iter_mut().find(|(known, _)| known == section) {
+        let section = self.full(section);
+        match self.known.iter_mut().find(|(known, _)| *known == section) {
             Some((_, known)) => known.extend(keys),
-            None => self.known.push((section.to_owned(), keys.to_vec())),
+            None => self.known.push((section, keys.to_vec())),
         }
     }
 
@@ -102,12 +125,18 @@ impl<'r> Reader<'r> {
 
     /// What stands at a path.
     pub fn at(&self, path: &str) -> Option<&'r Node> {
+        let path = &self.full(path);
         let (section, key) = path.rsplit_once('.').unwrap_or(("", path));
         self.table_at(section)?.get(key)
     }
 
     /// Notes a mistake at a path.
     pub fn problem(&mut self, path: &str, problem: Problem) {
+        self.problem_at(&self.full(path), problem);
+    }
+
+    /// The same at a full path.
+    fn problem_at(&mut self, path: &str, problem: Problem) {
         self.problems.push(match self.tree.place_of(path) {
             Some(place) => problem.at(place),
             None => problem,
@@ -315,7 +344,7 @@ impl<'r> Reader<'r> {
             let path = self.path("free_coordinates");
             let problem = Problem::new(format!("`{path}` is empty: {none}"));
             let help = "list the free ones of \"x\", \"y\", \"z\", \"roll\", \"pitch\", \"yaw\"";
-            self.problem(&path, problem.label("nothing is free").help(help));
+            self.problem_at(&path, problem.label("nothing is free").help(help));
         }
         *free = [false; 6];
         for coordinate in list {
@@ -370,7 +399,7 @@ impl<'r> Reader<'r> {
                     "add \"{}\" to {body}.free_coordinates, or prescribe {body}.{key} instead",
                     Coordinate::NAMES[at].0
                 );
-                self.problem(&path, problem.label("this would have no effect").help(help));
+                self.problem_at(&path, problem.label("this would have no effect").help(help));
             }
         }
     }
@@ -475,9 +504,37 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Notes keys that nobody asked for. Returns the completed case, as typed and with the points of tables
+    /// Where files that the case names are looked for.
+    pub fn tables(&self) -> Tables<'r> {
+        self.tables
+    }
+
+    /// Says that the keys of the current section are read by another reader.
+    pub fn known_elsewhere(&mut self) {
+        self.known.retain(|(path, _)| *path != self.section);
+        self.elsewhere.push(self.section.clone());
+    }
+
+    /// A line of the current section that another reader has read: as typed, and with files written into it.
+    pub fn write(&mut self, key: &str, texts: [String; 2], comment: &str) {
+        for (page, text) in self.pages.iter_mut().zip(texts) {
+            page.line(key, Written::toml(text), comment);
+        }
+    }
+
+    /// The same of the case as typed alone.
+    pub fn write_typed(&mut self, key: &str, text: String, comment: &str) {
+        self.pages[0].line(key, Written::toml(text), comment);
+    }
+
+    /// The same of the case with files written into it alone.
+    pub fn write_embedded(&mut self, key: &str, text: String) {
+        self.pages[1].line(key, Written::toml(text), "");
+    }
+
+    /// Notes keys that nobody asked for; `what` is read: a truck's case. Returns the completed case, as typed and with the points of tables
     /// in files, and its fields.
-    pub fn finish(self) -> (String, String, Vec<FieldSection>) {
+    pub fn finish(self, what: &str) -> (String, String, Vec<FieldSection>) {
         let owners: Vec<(&str, &[&str])> = self
             .known
             .iter()
@@ -497,6 +554,9 @@ impl<'r> Reader<'r> {
                     keys.push(rest.split('.').next().unwrap_or(rest));
                 }
             }
+            if path.is_empty() {
+                keys.extend(self.elsewhere.iter().map(String::as_str));
+            }
             let (outer, key) = path.rsplit_once('.').unwrap_or(("", path));
             let outer = self.table_at(outer);
             let entry = outer.and_then(|table| table.entry(key));
@@ -514,7 +574,7 @@ impl<'r> Reader<'r> {
                     table,
                     place: None,
                 };
-                section.allow_in(&keys, &owners, "a truck's case", self.problems);
+                section.allow_in(&keys, &owners, what, self.problems);
             }
         }
         let [typed, embedded] = self.pages;
@@ -537,7 +597,7 @@ fn in_customary_units(value: f64, kind: Kind) -> Option<Quantity> {
 }
 
 /// The check of tables in motions against the duration.
-pub(super) fn check_motions(reader: &mut Reader<'_>, duration: &Quantity) {
+pub(crate) fn check_motions(reader: &mut Reader<'_>, duration: &Quantity) {
     let (tree, tables) = (reader.tree, reader.tables);
     let mut rows = 0;
     for (path, motion) in &reader.motions {

@@ -10,7 +10,10 @@ use truck::{Bolster, Clearance, Lading, Parameters, RigidBody, WedgeKind, empiri
 use wedge::parameters::{Contact, Damping, FaceFriction, Start};
 
 pub(super) use car_body::car_body;
-pub(super) use load_springs::{load_springs, spring_stiffnesses};
+pub(crate) use car_body::{center_plate, side_bearings};
+pub(crate) use load_springs::load_springs;
+pub(super) use load_springs::spring_stiffnesses;
+pub(crate) use wheelsets::adapter;
 pub(super) use wheelsets::wheelsets;
 
 use super::reader::{CLEARANCE, DAMPING, Form, Reader, STIFFNESS};
@@ -31,7 +34,7 @@ pub enum Condition {
 
 impl Condition {
     /// Returns the friction of wedges on both faces.
-    pub(super) fn friction(self) -> f64 {
+    pub(crate) fn friction(self) -> f64 {
         match self {
             Self::New => 0.4,
             Self::Worn => 0.25,
@@ -50,15 +53,15 @@ pub enum Load {
     CarBody,
 }
 
-pub(super) const CONDITIONS: Names<Condition> = &[("new", Condition::New), ("worn", Condition::Worn)];
-pub(super) const DAMPINGS: Names<Damping> =
+pub(crate) const CONDITIONS: Names<Condition> = &[("new", Condition::New), ("worn", Condition::Worn)];
+pub(crate) const DAMPINGS: Names<Damping> =
     &[("variable", Damping::Variable), ("constant", Damping::Constant)];
-pub(super) const LOADS: Names<Load> = &[
+pub(crate) const LOADS: Names<Load> = &[
     ("nothing", Load::Nothing),
     ("half_car", Load::HalfCar),
     ("car_body", Load::CarBody),
 ];
-pub(super) const LADINGS: Names<Lading> = &[("loaded", Lading::Loaded), ("empty", Lading::Empty)];
+pub(crate) const LADINGS: Names<Lading> = &[("loaded", Lading::Loaded), ("empty", Lading::Empty)];
 const STARTS: Names<Start> = &[
     ("rest", Start::Rest),
     ("touching", Start::Touching),
@@ -73,7 +76,7 @@ const INERTIA: Form = (Kind::Inertia, Range::Positive, Reach::Positive);
 const LIFT: Form = (Kind::Length, Range::Any, Reach::Signed(0.0254));
 const TIME: Form = (Kind::Time, Range::NotNegative, Reach::FromZero(1.0));
 
-fn rigid_body(r: &mut Reader<'_>, body: &mut RigidBody) {
+pub(crate) fn rigid_body(r: &mut Reader<'_>, body: &mut RigidBody) {
     r.weight(
         &mut body.mass,
         "a force; the mass is the weight over standard gravity",
@@ -104,7 +107,7 @@ fn clearance(r: &mut Reader<'_>, stop: &mut Clearance) {
     );
 }
 
-pub(super) fn contact(r: &mut Reader<'_>, contact: &mut Contact, of: &str) {
+pub(crate) fn contact(r: &mut Reader<'_>, contact: &mut Contact, of: &str) {
     r.quantity("stiffness", STIFFNESS, &mut contact.stiffness, of);
     r.quantity(
         "damping",
@@ -134,7 +137,7 @@ fn friction(r: &mut Reader<'_>, friction: &mut FaceFriction) {
     }
 }
 
-pub(super) fn bolster(r: &mut Reader<'_>, parameters: &mut Parameters, load: Load, lading: Lading) {
+pub(crate) fn bolster(r: &mut Reader<'_>, parameters: &mut Parameters, load: Load, lading: Lading) {
     if load == Load::HalfCar {
         parameters.bolster = Bolster::with_half_car(lading);
     }
@@ -161,7 +164,7 @@ pub(super) fn bolster(r: &mut Reader<'_>, parameters: &mut Parameters, load: Loa
     r.loads("bolster", applied, *free);
 }
 
-pub(super) fn side_frames(
+pub(crate) fn side_frames(
     r: &mut Reader<'_>,
     parameters: &mut Parameters,
     toe: impl FnOnce(&mut Reader<'_>),
@@ -200,7 +203,7 @@ enum WarpSpring {
     Stiff,
 }
 
-pub(super) fn warp_spring(r: &mut Reader<'_>, parameters: &mut Parameters) {
+pub(crate) fn warp_spring(r: &mut Reader<'_>, parameters: &mut Parameters) {
     r.section(
         "warp_spring",
         "An empirical spring in each nest between the yaw of bolster and side frame, with a stop at 30 mrad: in NUCARS's\n\
@@ -228,7 +231,7 @@ pub(super) fn warp_spring(r: &mut Reader<'_>, parameters: &mut Parameters) {
     parameters.warp_spring = empirical_warp(moment).ok();
 }
 
-pub(super) fn stops(r: &mut Reader<'_>, parameters: &mut Parameters) {
+pub(crate) fn stops(r: &mut Reader<'_>, parameters: &mut Parameters) {
     r.section("gib", "Gibs: lateral stops between bolster and side frame.");
     clearance(r, &mut parameters.gib);
     let about = "Lands: longitudinal stops between bolster and side frame, four a column.";
@@ -237,7 +240,7 @@ pub(super) fn stops(r: &mut Reader<'_>, parameters: &mut Parameters) {
 }
 
 /// Reads where a run starts. Returns the time for which the truck settles first, s.
-pub(super) fn start(r: &mut Reader<'_>, parameters: &mut Parameters) -> f64 {
+pub(crate) fn start(r: &mut Reader<'_>, parameters: &mut Parameters) -> f64 {
     r.section(
         "start",
         "Where the run starts; simulation.start is read as start.kind.",
@@ -274,7 +277,7 @@ pub(super) fn start(r: &mut Reader<'_>, parameters: &mut Parameters) -> f64 {
 }
 
 /// Wedges without mass between prescribed neighbors leave nothing that moves.
-pub(super) fn check_something_moves(r: &mut Reader<'_>, parameters: &Parameters) {
+pub(crate) fn check_something_moves(r: &mut Reader<'_>, parameters: &Parameters) {
     let massless = |wedge: &truck::Wedge| wedge.kind == WedgeKind::Massless;
     let held = |free: [bool; 6]| free == [false; 6];
     let frames = parameters.side_frames.iter().all(|own| held(own.free));

@@ -18,7 +18,7 @@ use crate::case::write::{ANGLES, FRICTION, WEAR, toe};
 
 /// A wedge while its sections are read: laws of friction keep their numbers while another one is chosen.
 #[derive(Clone)]
-pub(super) struct Draft {
+pub(crate) struct Draft {
     wedge: Wedge,
     laws: [Law; 2],
     reference_speed: f64,
@@ -301,7 +301,7 @@ impl Draft {
 
 /// Reads the sections that all four wedges share, in their places among the others: first `wedge`, then those
 /// that come after it.
-pub(super) fn all(r: &mut Reader<'_>, parameters: &Parameters, friction: f64) -> Draft {
+pub(crate) fn all(r: &mut Reader<'_>, parameters: &Parameters, friction: f64) -> Draft {
     let mut draft = Draft::new(parameters, friction);
     r.section(
         "wedge",
@@ -339,12 +339,12 @@ pub(super) fn all(r: &mut Reader<'_>, parameters: &Parameters, friction: f64) ->
 }
 
 /// Reads the toe of all columns.
-pub(super) fn toe_of_all(r: &mut Reader<'_>, draft: &mut Draft) {
+pub(crate) fn toe_of_all(r: &mut Reader<'_>, draft: &mut Draft) {
     draft.toe(r);
 }
 
 /// Reads the sections of single wedges over `base`.
-pub(super) fn single(r: &mut Reader<'_>, parameters: &mut Parameters, base: &Draft) {
+pub(crate) fn single(r: &mut Reader<'_>, parameters: &mut Parameters, base: &Draft) {
     for (name, wedge) in WEDGE_NAMES.into_iter().zip(&mut parameters.wedges) {
         let mut draft = base.clone();
         let path = format!("wedge.{name}");

@@ -120,7 +120,8 @@ impl Recorder for WheelsetRecorder {
                 time: row.time,
                 distance: self.row[1],
             });
-            return Err(RunError::Derailed { time: row.time });
+            let what = format!("a wheel has derailed at {} s", row.time);
+            return Err(RunError::Derailed { what });
         }
         Ok(entries)
     }

@@ -5,6 +5,7 @@ Units: a text carries its unit (``"32 deg"``), a bare number is in SI units. ``d
 
 from . import cluster, nucars, wheelrail
 from ._wedgelab import Quantity, __version__
+from .car import CarCase
 from .case import Case, Group, built_in
 from .errors import (
     CaseError,
@@ -27,7 +28,16 @@ from .figures import Curve, Figure, Mark, Panel, report_figures
 from .many import run_many
 from .nucars import HalfTruckCase
 from .quasi_static import Sliding, quasi_static
-from .result import Column, DataTable, HalfTruckResult, Record, Result, TruckResult, UnknownColumn
+from .result import (
+    CarResult,
+    Column,
+    DataTable,
+    HalfTruckResult,
+    Record,
+    Result,
+    TruckResult,
+    UnknownColumn,
+)
 from .sections import (
     BolsterSection,
     Constant,
@@ -52,6 +62,8 @@ from .truck import TruckCase
 __all__ = [
     "COORDINATES",
     "BolsterSection",
+    "CarCase",
+    "CarResult",
     "Case",
     "CaseError",
     "Column",

@@ -7,12 +7,23 @@ import sys
 from collections.abc import Callable, Iterable
 from typing import Any, Union, overload
 
-from ._wedgelab import NativeCase, NativeHalfTruckCase, NativeTruckCase
+from ._wedgelab import NativeCarCase, NativeCase, NativeHalfTruckCase, NativeTruckCase
 from ._wedgelab import run_many as _run_many
+from .car import CarCase
 from .case import Case, _names
 from .errors import RunError, WedgelabError
 from .nucars import HalfTruckCase
-from .result import AnyResult, HalfTruckResult, Result, TruckResult, is_sound, result_of, unsound_error, warn
+from .result import (
+    AnyResult,
+    CarResult,
+    HalfTruckResult,
+    Result,
+    TruckResult,
+    is_sound,
+    result_of,
+    unsound_error,
+    warn,
+)
 from .truck import TruckCase
 
 __all__ = ["run_many"]
@@ -47,8 +58,17 @@ def run_many(
     progress: Progress = False,
     errors: str = "raise",
 ) -> list[TruckResult]: ...
+@overload
 def run_many(
-    cases: Iterable[Case] | Iterable[HalfTruckCase] | Iterable[TruckCase],
+    cases: Iterable[CarCase],
+    *,
+    workers: int | None = None,
+    columns: Iterable[str] | None = None,
+    progress: Progress = False,
+    errors: str = "raise",
+) -> list[CarResult]: ...
+def run_many(
+    cases: Iterable[Case] | Iterable[HalfTruckCase] | Iterable[TruckCase] | Iterable[CarCase],
     *,
     workers: int | None = None,
     columns: Iterable[str] | None = None,
@@ -65,10 +85,10 @@ def run_many(
     Runs that cannot begin or go on: with ``errors="raise"`` all others are finished, then the first of them is raised, with everything
     that came out as its ``results``; with ``errors="keep"`` the list has the exceptions in their places.
     """
-    natives: list[NativeCase | NativeHalfTruckCase | NativeTruckCase] = []
+    natives: list[NativeCase | NativeHalfTruckCase | NativeTruckCase | NativeCarCase] = []
     for place, case in enumerate(cases):
-        if not isinstance(case, (Case, HalfTruckCase, TruckCase)):
-            kinds = "a Case, HalfTruckCase or TruckCase"
+        if not isinstance(case, (Case, HalfTruckCase, TruckCase, CarCase)):
+            kinds = "a Case, HalfTruckCase, TruckCase or CarCase"
             raise WedgelabError(f"cases[{place}] is a {type(case).__name__}; {kinds} is expected")
         natives.append(case._native)
     count = _workers(workers)

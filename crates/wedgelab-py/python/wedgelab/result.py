@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._optional import need
-from ._wedgelab import NativeCase, NativeResult, NativeTruckCase
+from ._wedgelab import NativeCarCase, NativeCase, NativeResult, NativeTruckCase
 from .errors import EnergyWarning, PlausibilityWarning, RunError, WedgelabError
 from .figures import Figure, _figures
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from .case import Case
 
-__all__ = ["AnyResult", "Column", "DataTable", "HalfTruckResult", "Record", "Result", "TruckResult"]
+__all__ = ["AnyResult", "CarResult", "Column", "DataTable", "HalfTruckResult", "Record", "Result", "TruckResult"]
 
 Floats = npt.NDArray[np.float64]
 
@@ -460,12 +460,55 @@ class TruckResult(_Base):
         return (_truck_result_of_parts, (None if native is None else native.to_toml(), header, values))
 
 
-AnyResult = Union[Result, HalfTruckResult, TruckResult]
+class CarResult(_Base):
+    """What came out of a car's run; columns and their units as in `Result`."""
+
+    __slots__ = ()
+
+    @property
+    def ledger(self) -> DataTable:
+        """The energy ledger at the end, in the summary's units: entry, value, unit."""
+        entries = self.summary.ledger.entries
+        return DataTable(
+            {
+                "entry": np.array(list(entries)),
+                "value": np.array([measure.value for measure in entries.values()], dtype=float),
+                "unit": np.array([measure.unit for measure in entries.values()]),
+            }
+        )
+
+    def plot_over_distance(self, column: str, ax: Axes | None = None, **options: Any) -> Axes:
+        """Draws a column over the distance along the track; gives the axes."""
+        return self._loop(ax, "distance", column, options)
+
+    def write(self, folder: str | os.PathLike[str], *, force: bool = False) -> list[str]:
+        """Writes what ``wedgelab run`` writes into a folder: result.csv, result.mat, case.toml, summary.json.
+
+        Existing results are overwritten only with ``force``.
+        """
+        return self._native.write(folder, force)
+
+    def __repr__(self) -> str:
+        how = "" if self.is_complete else ", incomplete"
+        return f"<CarResult of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        header, values = self._native.parts()
+        native = self._native.car_case
+        return (_car_result_of_parts, (None if native is None else native.to_toml(), header, values))
+
+
+AnyResult = Union[Result, HalfTruckResult, TruckResult, CarResult]
 
 
 def result_of(native: NativeResult) -> AnyResult:
     """The result of a run of any model."""
-    kinds: dict[str, type[AnyResult]] = {"wedge": Result, "half_truck": HalfTruckResult, "truck": TruckResult}
+    kinds: dict[str, type[AnyResult]] = {
+        "wedge": Result,
+        "half_truck": HalfTruckResult,
+        "truck": TruckResult,
+        "car": CarResult,
+    }
     return kinds[native.model](native)
 
 
@@ -481,6 +524,13 @@ def _truck_result_of_parts(case: str | None, header: bytes, values: Floats) -> T
         raise WedgelabError("this saved result has no case")
     native = NativeTruckCase.parse(case, "case.toml", "", {})
     return TruckResult(native.result_of_parts(header, values))
+
+
+def _car_result_of_parts(case: str | None, header: bytes, values: Floats) -> CarResult:
+    if case is None:
+        raise WedgelabError("this saved result has no case")
+    native = NativeCarCase.parse(case, "case.toml", "", {})
+    return CarResult(native.result_of_parts(header, values))
 
 
 def _half_truck_of_parts(header: bytes, values: Floats) -> HalfTruckResult:

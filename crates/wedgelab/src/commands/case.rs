@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use study::any_case::AnyCase;
+use study::car;
 use study::case::builtin;
 use study::truck;
 
@@ -33,6 +34,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     let Some(name) = &arguments.name else {
         let groups = builtin::groups().iter().chain(truck::builtin::groups());
+        let groups = groups.chain(car::builtin::groups());
         for (index, group) in groups.enumerate() {
             let between = if index == 0 { "" } else { "\n" };
             writeln!(out, "{between}{}: {}", group.name, group.title)?;

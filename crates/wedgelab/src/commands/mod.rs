@@ -11,6 +11,7 @@ pub mod plot;
 pub mod quasi_static;
 pub mod reproduce;
 pub mod run;
+pub mod stability;
 pub mod study;
 pub mod track;
 pub mod warp;

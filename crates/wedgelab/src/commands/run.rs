@@ -7,11 +7,14 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::{Kind, nearest};
+use report::figures::car::CarRun;
 use report::figures::truck::TruckRun;
 use report::files::Folder;
 use report::page::{self, Viewer};
 use report::run_files::RunFiles;
 use study::any_case::AnyCase;
+use study::car::summary::CarSummary;
+use study::car::{self, CarCase};
 use study::case::{Case, builtin};
 use study::truck::run::TruckResult;
 use study::truck::{self, TruckCase, WEDGE_NAMES};
@@ -25,10 +28,10 @@ use crate::table::Table;
 
 /// Run one case
 ///
-/// Runs a case file, of a wedge or of a truck, and writes result.csv (the time histories), result.mat (the same, of a wedge under the
+/// Runs a case file, of a wedge, of a truck or of a car on track, and writes result.csv (the time histories), result.mat (the same, of a wedge under the
 /// thesis's names), case.toml (the case, completed) and summary.json (averages, extremes, events, energy ledger,
 /// solver statistics, assumptions) into a folder named as the case; of a truck also index.html, where it is seen moving in
-/// 3D with its loops and wedges.
+/// 3D with its loops and wedges, of a car with limits, statistics and figures over the distance.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -36,6 +39,7 @@ Examples:
   wedgelab run my.toml --set friction.column=0.3 --out softer
   wedgelab run truck_warp_nest_constant_rising --set truck.condition=worn
   wedgelab run truck_vertical_variable --set wedge.leading_left.friction.column=0.2
+  wedgelab run car_twist_and_roll_loaded --set 'speed.value=\"18 mph\"' --set truck.friction.column=0.1
   wedgelab run vdrun_toe_0_psi_0 --set 'wedge.angle=\"35 deg\"' --set 'simulation.duration=\"20 s\"'")]
 pub struct Arguments {
     /// Case file, or, if there is no such file, the name of a built-in case
@@ -62,6 +66,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             (table([(&done.result.summary, done.wall)]), TABLE_NOTE)
         }),
         AnyCase::Truck(case) => run_truck(&case, arguments),
+        AnyCase::Car(case) => run_car(&case, arguments),
         // Those have a command of their own.
         AnyCase::HalfTruck(case) => Err(Message::new(
             format!("{} is a half-truck", case.name),
@@ -142,6 +147,75 @@ fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failur
     }
 }
 
+/// Runs a car, and writes its page besides.
+fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
+    let names = [<CarCase as RunFiles>::FILES, &[page::FILE_NAME]].concat();
+    let folder = folders::check(path, &names, arguments.force)?;
+    let progress = Progress::new(1, arguments.quiet);
+    interrupt::stops_run();
+    let done =
+        compute(case, &progress).and_then(|done| write(&done, case, &folder, &progress).map(|()| done));
+    progress.finish();
+    let run = CarRun {
+        case: case.clone(),
+        result: done?.result,
+    };
+    let html = page::car_run::render(&run);
+    Folder::check(folder.path(), &[page::FILE_NAME], true)?
+        .write(|files| files.add(page::FILE_NAME, |out| out.write_all(html.as_bytes())))?;
+    let summary = &run.result.summary;
+    let mut out = io::stdout().lock();
+    if summary.limits.is_empty() {
+        writeln!(out, "No statistics: the run does not reach beyond start.settle.")?;
+    } else {
+        car_table(summary).write(&mut out)?;
+    }
+    writeln!(
+        out,
+        "\n{CAR_NOTE}\n\nWritten into {}: {} (open it in a browser).",
+        folder.path().display(),
+        names.join(", ")
+    )?;
+    match unsound::<CarCase>(summary, folder.path()) {
+        Some(failure) => Err(failure),
+        None => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// What the columns of a car's table are.
+const CAR_NOTE: &str = "\
+Worst value of each kind, of filtered forces and accelerations, beside limits that are remembered of AAR M-1001, chapter XI: check
+them against your edition. A limit counts for its regimes only (summary.json names them). Margin: what is left, in parts of it.";
+
+/// The table of a car's limits.
+fn car_table(summary: &CarSummary) -> Table {
+    let mut table = Table::new(
+        2,
+        &[
+            ("quantity", ""),
+            ("worst at", ""),
+            ("value", ""),
+            ("limit", ""),
+            ("margin", "%"),
+        ],
+    );
+    for own in &summary.limits {
+        let shown = |value: f64| match own.unit.as_str() {
+            "" => format!("{value:.3}"),
+            unit => format!("{value:.3} {unit}"),
+        };
+        table.row([
+            own.quantity.clone(),
+            own.statistic.replace('_', " "),
+            shown(own.value),
+            shown(own.limit),
+            format!("{:.0}", 100.0 * own.margin),
+        ]);
+    }
+    table
+}
+
 /// What the columns of a truck's table are.
 const TRUCK_NOTE: &str = "\
 Column normal force: of each wedge, its least and largest at any output time. Energy per cycle: lost in friction at column and
@@ -174,9 +248,10 @@ fn truck_table(result: &TruckResult) -> Table {
     table
 }
 
-/// The names of all built-in cases: wedges, then trucks.
+/// The names of all built-in cases: wedges, then trucks, then cars.
 pub fn built_in_names() -> impl Iterator<Item = &'static str> {
-    builtin::names().chain(truck::builtin::names())
+    let names = builtin::names().chain(truck::builtin::names());
+    names.chain(car::builtin::names())
 }
 
 /// Whether a built-in case is meant. A folder may well have its name: that of its results.
@@ -185,7 +260,7 @@ pub fn is_built_in(path: &Path) -> bool {
     (!path.exists() || path.is_dir()) && built_in_names().any(|builtin| builtin == name)
 }
 
-/// The case that a user names, of a wedge or of a truck, with `--set` overrides.
+/// The case that a user names, of a wedge, a truck or a car, with `--set` overrides.
 pub fn read_any(path: &Path, set: &[String]) -> Result<AnyCase, Failure> {
     let name = path.to_str().unwrap_or("");
     if is_built_in(path)
@@ -219,10 +294,15 @@ pub fn wedge_of(case: AnyCase) -> Result<Case, Failure> {
         AnyCase::Wedge(case) => Ok(*case),
         other => Err(Message::new(
             format!(
-                "{} is a truck, and this command takes a single wedge",
-                other.name()
+                "{} is a {}, and this command takes a single wedge",
+                other.name(),
+                if matches!(other, AnyCase::Car(_)) {
+                    "car"
+                } else {
+                    "truck"
+                }
             ),
-            "`wedgelab run`, `study`, `fit`, `plot` and `compare` take trucks",
+            "`wedgelab run`, `study`, `fit`, `plot` and `compare` take trucks and cars",
         )
         .into()),
     }

@@ -1,6 +1,6 @@
 //! A car body on center plate and side bearings.
 
-use truck::{CarBody, Lading, Parameters, SideBearing, SideBearings};
+use truck::{CarBody, CenterPlate, Lading, Parameters, SideBearing, SideBearings};
 
 use super::super::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
 use super::{HEIGHT, Load, clearance, contact, friction, rigid_body};
@@ -40,7 +40,21 @@ pub(in crate::truck) fn car_body(
     r.free_coordinates(&mut car.free, Some("the car body could not move"), comment);
     rigid_body(r, &mut car.body);
     r.loads("car_body", &mut car.applied, car.free);
-    let plate = &mut car.center_plate;
+    center_plate(r, &mut car.center_plate);
+    side_bearings(r, &mut car.side_bearings);
+    if car.side_bearings.preload() > car.body.mass * parameters.gravity {
+        let message = "the side bearings' preloads are more than the body's weight";
+        let help = "lower side_bearing.preload: AAR allows 85 % of a quarter of the body's weight";
+        r.problem(
+            "side_bearing.preload",
+            Problem::new(message).label("lifts the body").help(help),
+        );
+    }
+    parameters.car_body = Some(car);
+}
+
+/// The section of a center plate.
+pub(crate) fn center_plate(r: &mut Reader<'_>, plate: &mut CenterPlate) {
     r.section(
         "center_plate",
         "The center plate: two rings of points with friction, and a rim.",
@@ -70,8 +84,12 @@ pub(in crate::truck) fn car_body(
     );
     r.quantity("rim_stiffness", STIFFNESS, &mut plate.rim.stiffness, "of the rim");
     r.quantity("rim_damping", DAMPING, &mut plate.rim.damping, "of the rim");
+}
+
+/// The section of side bearings.
+pub(crate) fn side_bearings(r: &mut Reader<'_>, bearings: &mut SideBearings) {
     r.section("side_bearing", "Side bearings.");
-    let mut rolls = matches!(car.side_bearings.kind, SideBearing::Roller(_));
+    let mut rolls = matches!(bearings.kind, SideBearing::Roller(_));
     const KINDS: Names<bool> = &[("roller", true), ("constant_contact", false)];
     r.choice(
         "kind",
@@ -102,14 +120,5 @@ pub(in crate::truck) fn car_body(
             friction(r, law);
         }
     }
-    car.side_bearings = own;
-    if car.side_bearings.preload() > car.body.mass * parameters.gravity {
-        let message = "the side bearings' preloads are more than the body's weight";
-        let help = "lower side_bearing.preload: AAR allows 85 % of a quarter of the body's weight";
-        r.problem(
-            "side_bearing.preload",
-            Problem::new(message).label("lifts the body").help(help),
-        );
-    }
-    parameters.car_body = Some(car);
+    *bearings = own;
 }

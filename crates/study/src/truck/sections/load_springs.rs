@@ -69,7 +69,7 @@ const COILS: Names<(CatalogCoil, [i8; 2])> = &{
     all
 };
 
-pub(in crate::truck) fn load_springs(r: &mut Reader<'_>, parameters: &mut Parameters) {
+pub(crate) fn load_springs(r: &mut Reader<'_>, parameters: &mut Parameters) {
     r.section("load_springs", "Load coils between bolster and side frames.");
     const KINDS: Names<NestKind> = &[
         ("groups", NestKind::Groups),

@@ -34,49 +34,15 @@ pub(in crate::truck) fn wheelsets(r: &mut Reader<'_>, parameters: &mut Parameter
             r.motions(own, false);
         }
     }
-    r.section("adapter", "Where side frames stand on the bearings.");
     const KINDS: Names<AdapterKind> = &[
         ("friction", AdapterKind::Friction),
         ("pad", AdapterKind::Pad),
         ("nothing", AdapterKind::Nothing),
     ];
-    let mut kind = AdapterKind::Friction;
     let comment = "\"friction\": steel on steel; \"pad\": elastomeric; \"nothing\": wheelsets and adapters are left out";
-    r.choice("kind", KINDS, &mut kind, comment);
-    match kind {
-        AdapterKind::Friction => {
-            if let Adapter::Friction(adapter) = &mut wheelsets.adapter {
-                friction_adapter(r, adapter);
-            }
-        }
-        AdapterKind::Pad => {
-            wheelsets.adapter = Adapter::pad();
-            if let Adapter::Pad(pad) = &mut wheelsets.adapter {
-                r.quantity(
-                    "preload",
-                    PRELOAD,
-                    &mut pad.preload,
-                    "of an adapter in the nominal layout",
-                );
-                r.quantity(
-                    "stiffness",
-                    STIFFNESS,
-                    &mut pad.stiffness,
-                    "vertical: as steel, a guess",
-                );
-                let comment = "along and across: the least of claim 32 of US patent 9,637,143";
-                r.quantity("shear_stiffness", STIFFNESS, &mut pad.shear_stiffness, comment);
-                let comment = "of its two springs: yaw stiffness is the shear stiffness times its square";
-                r.quantity("half_distance", LENGTH, &mut pad.half_distance, comment);
-                r.quantity(
-                    "damping",
-                    DAMPING,
-                    &mut pad.damping,
-                    "of every direction: a guess",
-                );
-            }
-        }
-        AdapterKind::Nothing => {
+    match read_adapter(r, KINDS, comment) {
+        Some(adapter) => wheelsets.adapter = adapter,
+        None => {
             parameters.wheelsets = None;
             for (name, own) in ["left_side_frame", "right_side_frame"]
                 .iter()
@@ -95,6 +61,55 @@ pub(in crate::truck) fn wheelsets(r: &mut Reader<'_>, parameters: &mut Parameter
         }
     }
     parameters.wheelsets = Some(wheelsets);
+}
+
+/// The section of the adapters of a truck that cannot do without.
+pub(crate) fn adapter(r: &mut Reader<'_>, own: &mut Adapter) {
+    const KINDS: Names<AdapterKind> = &[("friction", AdapterKind::Friction), ("pad", AdapterKind::Pad)];
+    let comment = "\"friction\": steel on steel; \"pad\": elastomeric";
+    if let Some(adapter) = read_adapter(r, KINDS, comment) {
+        *own = adapter;
+    }
+}
+
+/// The section of the adapters; `None` if there are none.
+fn read_adapter(r: &mut Reader<'_>, kinds: Names<AdapterKind>, comment: &str) -> Option<Adapter> {
+    r.section("adapter", "Where side frames stand on the bearings.");
+    let mut kind = AdapterKind::Friction;
+    r.choice("kind", kinds, &mut kind, comment);
+    let mut own = match kind {
+        AdapterKind::Friction => Adapter::friction(),
+        AdapterKind::Pad => Adapter::pad(),
+        AdapterKind::Nothing => return None,
+    };
+    match &mut own {
+        Adapter::Friction(adapter) => friction_adapter(r, adapter),
+        Adapter::Pad(pad) => {
+            r.quantity(
+                "preload",
+                PRELOAD,
+                &mut pad.preload,
+                "of an adapter in the nominal layout",
+            );
+            r.quantity(
+                "stiffness",
+                STIFFNESS,
+                &mut pad.stiffness,
+                "vertical: as steel, a guess",
+            );
+            let comment = "along and across: the least of claim 32 of US patent 9,637,143";
+            r.quantity("shear_stiffness", STIFFNESS, &mut pad.shear_stiffness, comment);
+            let comment = "of its two springs: yaw stiffness is the shear stiffness times its square";
+            r.quantity("half_distance", LENGTH, &mut pad.half_distance, comment);
+            r.quantity(
+                "damping",
+                DAMPING,
+                &mut pad.damping,
+                "of every direction: a guess",
+            );
+        }
+    }
+    Some(own)
 }
 
 fn friction_adapter(r: &mut Reader<'_>, adapter: &mut FrictionAdapter) {

@@ -32,7 +32,14 @@ pub enum Base {
 impl Base {
     /// The case of `wedgelab run PATH`, checked.
     pub fn open(path: &Path) -> Result<Self, Failure> {
-        run::read_any(path, &[])?;
+        if let AnyCase::Car(case) = run::read_any(path, &[])? {
+            let message = format!("{} is a car, and the explorer takes wedges and trucks", case.name);
+            return Err(Message::new(
+                message,
+                "`wedgelab run` runs cars, and `wedgelab study` varies them",
+            )
+            .into());
+        }
         let base = if run::is_built_in(path) {
             Self::BuiltIn(path.display().to_string())
         } else {

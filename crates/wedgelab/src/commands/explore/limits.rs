@@ -62,6 +62,7 @@ pub struct TooManyRows {
 pub fn simulation(case: &AnyCase) -> [f64; 2] {
     match case {
         AnyCase::Wedge(case) => [case.simulation.duration, case.simulation.output_interval],
+        AnyCase::Car(case) => [case.simulation.duration, case.simulation.output_interval],
         AnyCase::Truck(case) => [case.simulation.duration, case.simulation.output_interval],
         AnyCase::HalfTruck(case) => case.duration_and_interval(),
     }

@@ -84,6 +84,7 @@ pub fn compute(case: AnyCase, wanted: impl Fn() -> bool) -> Result<Outcome, Refu
             Outcome::Truck(Box::new((*case, result, contacts)))
         }
         AnyCase::HalfTruck(_) => return Err(Refused::mistake("", NO_HALF_TRUCK.to_owned(), "")),
+        AnyCase::Car(_) => return Err(Refused::mistake("", NO_CAR.to_owned(), "")),
     };
     if replaced {
         return Err(Refused::Replaced);
@@ -94,6 +95,9 @@ pub fn compute(case: AnyCase, wanted: impl Fn() -> bool) -> Result<Outcome, Refu
 
 /// Why half-trucks are refused.
 pub const NO_HALF_TRUCK: &str = "the explorer takes wedges and trucks, not the half-trucks of NUCARS's files";
+
+/// Why cars are refused.
+pub const NO_CAR: &str = "the explorer takes wedges and trucks, not cars: `wedgelab run` runs them";
 
 fn begun<C: RunCase>(run: Result<Run<C>, study::run::RunError>) -> Result<Run<C>, Refused> {
     run.map_err(|error| Refused::mistake("", format!("the run cannot begin: {error}"), OUT_OF_PROPORTION))

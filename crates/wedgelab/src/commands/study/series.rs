@@ -9,6 +9,7 @@ use report::files::Folder;
 use report::run_files::RunFiles;
 use report::study_folder::SERIES;
 use study::any_case::AnyCase;
+use study::car::CarCase;
 use study::case::Case;
 use study::design::Study;
 use study::half_truck::HalfTruckCase;
@@ -31,6 +32,7 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         AnyCase::Wedge(_) => Case::FILES,
         AnyCase::HalfTruck(_) => HalfTruckCase::FILES,
         AnyCase::Truck(_) => TruckCase::FILES,
+        AnyCase::Car(_) => CarCase::FILES,
     };
     let (mut written, mut failures) = (Vec::new(), Vec::new());
     for number in numbers {
@@ -49,6 +51,7 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
                 one(&*case, &folder, &progress)?
             }
             AnyCase::Truck(case) => one(&case.named(&name), &folder, &progress)?,
+            AnyCase::Car(case) => one(&case.named(&name), &folder, &progress)?,
         };
         let Some(failure) = whole else {
             progress.finish();

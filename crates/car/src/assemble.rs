@@ -1,0 +1,593 @@
+//! How parameters become a car, and where it starts.
+//!
+//! The model is put together in the nominal layout on straight track, along the fixed axes; so elements know where on
+//! their bodies they act. Then the bodies are moved to where they start. Those that do not spin turn by heading, pitch and
+//! roll, wheelsets by heading, roll and spin ([`rolling::wheelset`]); adapters stand on carriers of the wheelsets,
+//! which do not spin. A truck starts as one layout whose axles stand on the track, the body as one between its trucks.
+
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+
+use mechanics::body::Body;
+use mechanics::frame::Frame;
+use mechanics::friction::FrictionLaw;
+use mechanics::link::Marker;
+use mechanics::orientation::fixed;
+use mechanics::system::{Model, Observation, StaticFriction, System};
+use mechanics::vector::{Matrix, Vector, rotation_z};
+use rolling::linear::LinearOnTrack;
+use rolling::track::{RailSupport, rail_body};
+use rolling::wheel::{Search, WheelOnRail};
+use rolling::wheelset::{WheelsetPlace, leave_spin_uncontrolled, marker};
+use truck::{Bolster, Mount, MountedTruck, WedgeKind};
+use wheelrail::contact::{ContactTable, Side};
+use wheelrail::track::{CenterLine, Line, RailLines, Segment, Track};
+
+use crate::body::{Carried, Pose, angles};
+use crate::drive::SpeedControl;
+use crate::error::BuildError;
+use crate::parameters::{Drive, Parameters, StartKind, Wheels};
+
+/// Height of the couplers above the top of rail, at which the drive acts: 34.5 in, m.
+const COUPLERS: f64 = 34.5 * 0.0254;
+/// Overlap up to which contact tables reach, m.
+const OVERLAP: f64 = 2e-4;
+/// Smallest reference speed of creepages with linear wheels, m/s.
+const SLOWEST: f64 = 0.1;
+/// Reference frames of bodies that do not spin have their axes along x, z, -y of the track.
+const UPRIGHT: [f64; 3] = [FRAC_PI_2, 0.0, 0.0];
+
+/// The numbers of a car's bodies in its system.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Numbers {
+    /// The ground.
+    pub ground: usize,
+    /// The car body.
+    pub body: usize,
+    /// The bolsters, front and rear.
+    pub bolsters: [usize; 2],
+    /// The side frames of each truck, left and right.
+    pub side_frames: [[usize; 2]; 2],
+    /// The wedges of each truck in the order of [`truck::WEDGE_NAMES`]; those without mass stand still.
+    pub wedges: [[usize; 4]; 2],
+    /// The wheelsets from the front.
+    pub wheelsets: [usize; 4],
+    /// The carriers of the wheelsets, on which adapters stand.
+    pub carriers: [usize; 4],
+    /// The sprung rails under each wheelset, left and right.
+    pub rails: Option<[[usize; 2]; 4]>,
+}
+
+/// A car on a track, ready to be integrated.
+#[derive(Clone, Debug)]
+pub struct Car {
+    /// The equations of motion, of which all names of elements of the trucks begin with `truck_1_` (front) or `truck_2_`
+    /// (rear).
+    pub system: System,
+    /// The state at time zero.
+    pub initial_state: Vec<f64>,
+    /// Where the rails lie.
+    pub lines: Arc<RailLines>,
+    /// The numbers of its bodies.
+    pub numbers: Numbers,
+    /// The trucks, for their loads.
+    pub trucks: [MountedTruck; 2],
+    /// From the track's own axes to fixed axes: a heading.
+    pub(crate) axes: Matrix<f64>,
+    pub(crate) wheels: WheelElements,
+    /// Center of gravity of the body, and its axes, in the nominal layout.
+    pub(crate) carried: Carried,
+    pub(crate) truck_distance: f64,
+    /// Heights of the center plates, m.
+    pub(crate) plates: [f64; 2],
+    pub(crate) gravity: f64,
+}
+
+/// What carries the wheelsets.
+#[derive(Clone, Debug)]
+pub(crate) enum WheelElements {
+    /// Of each wheelset the left and the right wheel, and half the distance of the tape circles (m).
+    OnRails([[WheelOnRail; 2]; 4], f64),
+    Linear(Box<LinearOnTrack>),
+}
+
+/// A model in the nominal layout.
+struct Nominal {
+    model: Model,
+    numbers: Numbers,
+    trucks: [MountedTruck; 2],
+    wheels: WheelElements,
+    /// Which bodies belong to the front truck, the rear truck (0, 1) or the car body (2).
+    groups: Vec<(usize, usize)>,
+}
+
+impl Car {
+    /// Returns the car with these parameters at its start.
+    ///
+    /// # Errors
+    /// The parameters make no car, or there is no equilibrium to start from.
+    pub fn new(parameters: &Parameters) -> Result<Self, BuildError> {
+        parameters.check()?;
+        let carried = Carried::new(parameters);
+        let offsets = match &parameters.wheels {
+            Wheels::OnRails(wheels) => wheels.geometry.rail_origins(),
+            Wheels::Linear { wheelset, .. } => [wheelset.geometry.half_distance; 2],
+        };
+        let searches = searches(&parameters.wheels)?;
+        let lines = Arc::new(RailLines::new(parameters.track.clone(), offsets));
+        let heading = parameters.start.heading;
+        let mut nominal = Nominal::new(parameters, &carried, &searches, &lines, heading);
+        let poses = match parameters.start.kind {
+            StartKind::Nominal => nominal.poses(),
+            StartKind::Equilibrium => at_rest(parameters, &carried, &searches, offsets)?,
+        };
+        let axes: Matrix<f64> = rotation_z(libm::sincos(heading));
+        let start = Placement::new(parameters, &lines, axes);
+        let speeds = start.put(&mut nominal, &poses, parameters);
+        let mut system = System::new(nominal.model)?;
+        for wheelset in nominal.numbers.wheelsets {
+            leave_spin_uncontrolled(&mut system, wheelset);
+        }
+        let mut initial_state = system.initial_state();
+        let first = system.layout().speeds;
+        for (body, rates) in speeds {
+            for (k, rate) in rates.into_iter().enumerate() {
+                if let Some(place) = system.position_of(body, k) {
+                    initial_state[first + place] = rate;
+                }
+            }
+        }
+        Ok(Self {
+            system,
+            initial_state,
+            lines,
+            numbers: nominal.numbers,
+            trucks: nominal.trucks,
+            axes,
+            wheels: nominal.wheels,
+            carried,
+            truck_distance: parameters.truck_distance,
+            plates: parameters
+                .trucks
+                .each_ref()
+                .map(|own| own.car_body.as_ref().map_or(0.0, |car| car.center_plate.height)),
+            gravity: parameters.gravity,
+        })
+    }
+}
+
+/// How patches are found at the left and the right wheel; none of linear wheels.
+fn searches(wheels: &Wheels) -> Result<Vec<Search>, BuildError> {
+    let Wheels::OnRails(wheels) = wheels else {
+        return Ok(Vec::new());
+    };
+    let pairs = wheels.geometry.pairs().iter();
+    let searches = pairs.map(|pair| {
+        Ok(match wheels.tables {
+            false => Search::Exact(Arc::new(pair.clone())),
+            true => Search::Table(Arc::new(ContactTable::new(pair.clone(), OVERLAP)?)),
+        })
+    });
+    searches.collect()
+}
+
+/// Turns the reference frame of a body that does not spin.
+fn upright(mut body: Body) -> Body {
+    let [x, y, z] = body.inertia;
+    body.inertia = [x, z, y];
+    let axes = fixed(UPRIGHT);
+    let center: Vector<f64> = axes.apply_transposed(Vector(body.center_of_gravity));
+    body.center_of_gravity = center.0;
+    body.frame.orientation = UPRIGHT;
+    body.initial = [0.0; 6];
+    body
+}
+
+impl Nominal {
+    fn new(
+        parameters: &Parameters,
+        carried: &Carried,
+        searches: &[Search],
+        lines: &Arc<RailLines>,
+        heading: f64,
+    ) -> Self {
+        let mut bodies = vec![Body::prescribed("ground", Frame::fixed([0.0; 3], [0.0; 3]))];
+        let body = bodies.len();
+        bodies.push(car_body(carried));
+        let (half, mut groups) = (0.5 * parameters.truck_distance, vec![(body, 2)]);
+        let centers = [half, -half].map(|x| [x, 0.0, 0.0]);
+        let parts = [0, 1].map(|t| free(&parameters.trucks[t]));
+        // Connections act on displacements along the fixed axes.
+        let flat = parameters.trucks.iter().any(has_connections);
+        let mut mounts = [Mount::ALONE; 2];
+        let mut wheelsets = [0; 4];
+        for (t, mount) in mounts.iter_mut().enumerate() {
+            mount.center = centers[t];
+            mount.prefix = ["truck_1_", "truck_2_"][t];
+            let prefix = ["front", "rear"][t];
+            for (number, own) in truck::bodies(&parts[t], centers[t]).into_iter().enumerate() {
+                if number == truck::CAR_BODY {
+                    mount.bodies[number] = body;
+                    continue;
+                }
+                let place = own.frame.origin;
+                if number < truck::BOLSTER {
+                    wheelsets[2 * t + number] = bodies.len();
+                    let mut wheelset = parameters.wheelset.body(
+                        &format!("wheelset_{}", 2 * t + number + 1),
+                        &WheelsetPlace::default(),
+                    );
+                    wheelset.frame.origin = place;
+                    groups.push((bodies.len(), t));
+                    bodies.push(wheelset);
+                    continue;
+                }
+                mount.bodies[number] = bodies.len();
+                groups.push((bodies.len(), t));
+                let mut own = if flat { own } else { upright(own) };
+                own.name = format!("{prefix}_{}", own.name);
+                bodies.push(own);
+            }
+        }
+        let mut model = Model::new(bodies, [0.0, 0.0, -parameters.gravity]);
+        let track = Marker::new([0.0; 3], [0.0, 0.0, heading]);
+        let mut rails = None;
+        if let Some(support) = &parameters.support {
+            let mut numbers = [[0; 2]; 4];
+            for (w, pair) in numbers.iter_mut().enumerate() {
+                for (i, (number, side)) in pair.iter_mut().zip(["left", "right"]).enumerate() {
+                    *number = model.bodies.len();
+                    let mut rail = rail_body(support);
+                    rail.name = format!("rail_{}_{side}", w + 1);
+                    model.bodies.push(rail);
+                    let own = RailSupport {
+                        name: format!("{}_{}_{}", support.name, w + 1, ["left", "right"][i]),
+                        ..support.clone()
+                    };
+                    model.add(own, (*number, track), (0, track));
+                }
+            }
+            rails = Some(numbers);
+        }
+        let mut carriers = [0; 4];
+        for (w, wheelset) in wheelsets.into_iter().enumerate() {
+            carriers[w] = model.add_carrier(&format!("bearings_{}", w + 1), wheelset);
+            mounts[w / 2].bodies[truck::WHEELSETS + w % 2] = carriers[w];
+        }
+        // The plates carry half of the body each, whatever its place.
+        let trucks =
+            [0, 1].map(|t| truck::mounted(&mut model, &with_half_body(&parts[t], carried), &mounts[t]));
+        let wheels = wheels(&mut model, parameters, searches, lines, (wheelsets, rails, track));
+        let control = match &parameters.drive {
+            Drive::Coasting => None,
+            Drive::Held { gain } => Some((*gain, vec![[0.0, parameters.start.speed]])),
+            Drive::Over { gain, speeds } => Some((*gain, speeds.clone())),
+        };
+        if let Some((gain, speeds)) = control {
+            let control = SpeedControl {
+                lines: lines.clone(),
+                gain,
+                speeds,
+            };
+            let at = body_marker(carried, [0.0, 0.0, COUPLERS]);
+            model.add(control, (body, at), (0, track));
+        }
+        let numbers = Numbers {
+            ground: 0,
+            body,
+            bolsters: [0, 1].map(|t| mounts[t].bodies[truck::BOLSTER]),
+            side_frames: [0, 1].map(|t| [0, 1].map(|k| mounts[t].bodies[truck::SIDE_FRAMES + k])),
+            wedges: [0, 1].map(|t| [0, 1, 2, 3].map(|k| mounts[t].bodies[truck::WEDGES + k])),
+            wheelsets,
+            carriers,
+            rails,
+        };
+        Self {
+            model,
+            numbers,
+            trucks,
+            wheels,
+            groups,
+        }
+    }
+
+    /// Returns the poses of all bodies of the car in the nominal layout, by their numbers, with the displacements of rails.
+    fn poses(&self) -> Vec<Pose> {
+        let pose = |body: &Body| Pose {
+            place: Vector(body.frame.origin),
+            rotation: fixed(body.frame.orientation),
+        };
+        self.model.bodies.iter().map(pose).collect()
+    }
+}
+
+/// Returns whether a truck has elements of the industry's models, which act on displacements along the fixed axes: wedges
+/// without mass and empirical warp springs.
+pub(crate) fn has_connections(own: &truck::Parameters) -> bool {
+    own.warp_spring.is_some() || own.wedges.iter().any(|wedge| wedge.kind == WedgeKind::Massless)
+}
+
+/// Returns a truck with all of its bodies free.
+fn free(own: &truck::Parameters) -> truck::Parameters {
+    let mut own = truck::held(own);
+    own.bolster = Bolster {
+        free: [true; 6],
+        ..own.bolster
+    };
+    for side_frame in &mut own.side_frames {
+        side_frame.free = [true; 6];
+    }
+    for wedge in own
+        .wedges
+        .iter_mut()
+        .filter(|wedge| wedge.kind == WedgeKind::Body)
+    {
+        wedge.free = [true; 6];
+    }
+    own.lift = 0.0;
+    own
+}
+
+/// Returns a truck under half of a body.
+fn with_half_body(own: &truck::Parameters, carried: &Carried) -> truck::Parameters {
+    let mut own = own.clone();
+    if let Some(car) = &mut own.car_body {
+        car.body.mass = 0.5 * carried.mass;
+    }
+    own
+}
+
+/// The body with its lading.
+fn car_body(carried: &Carried) -> Body {
+    let [x, y, z] = carried.inertia;
+    let mut body = Body::free("car_body", carried.mass, [x, z, y], [0.0; 6]);
+    // Its own axes are the principal ones, in the order forward, up, right.
+    let turned: Matrix<f64> = carried.axes.times(fixed(UPRIGHT));
+    body.frame = Frame::fixed(carried.center, angles(&turned));
+    body
+}
+
+/// Returns a marker on the body at a place of the nominal layout (m).
+pub(crate) fn body_marker(carried: &Carried, place: [f64; 3]) -> Marker {
+    let own = car_body(carried);
+    let axes = fixed(own.frame.orientation);
+    Marker {
+        origin: axes.apply_transposed(Vector(place) - Vector(own.frame.origin)),
+        rotation: axes.transpose(),
+    }
+}
+
+/// Adds wheels.
+fn wheels(
+    model: &mut Model,
+    parameters: &Parameters,
+    searches: &[Search],
+    lines: &Arc<RailLines>,
+    (wheelsets, rails, track): ([usize; 4], Option<[[usize; 2]; 4]>, Marker),
+) -> WheelElements {
+    match &parameters.wheels {
+        Wheels::OnRails(own) => {
+            let half = 0.5 * own.tape_distance;
+            let elements = [0, 1, 2, 3].map(|w| {
+                [0, 1].map(|i| {
+                    let wheel = WheelOnRail {
+                        name: format!("wheel_{}_{}", w + 1, ["left", "right"][i]),
+                        lines: lines.clone(),
+                        side: [Side::Left, Side::Right][i],
+                        search: searches[i].clone(),
+                        law: own.law,
+                    };
+                    let on = rails.map_or(0, |rails| rails[w][i]);
+                    model.add(
+                        wheel.clone(),
+                        (wheelsets[w], marker([half, -half][i])),
+                        (on, track),
+                    );
+                    wheel
+                })
+            });
+            WheelElements::OnRails(elements, half)
+        }
+        Wheels::Linear { wheelset, support } => {
+            let element = |name: String| LinearOnTrack {
+                name,
+                lines: lines.clone(),
+                wheelset: *wheelset,
+                support: *support,
+                slowest: SLOWEST,
+            };
+            for (w, own) in wheelsets.into_iter().enumerate() {
+                let element = element(format!("wheelset_{}", w + 1));
+                model.add(element, (own, marker(0.0)), (0, track));
+            }
+            WheelElements::Linear(Box::new(element(String::new())))
+        }
+    }
+}
+
+/// Returns the poses of all bodies in the equilibrium at rest on straight track, without friction, from the middle between
+/// the trucks.
+fn at_rest(
+    parameters: &Parameters,
+    carried: &Carried,
+    searches: &[Search],
+    offsets: [f64; 2],
+) -> Result<Vec<Pose>, BuildError> {
+    let middle = parameters.reach() + 10.0;
+    let straight = CenterLine::new(
+        &[Segment::Tangent(2.0 * middle)],
+        parameters.track.center_line.rail_distance(),
+        &[],
+    );
+    let track = Track {
+        center_line: straight?,
+        irregularities: Vec::new(),
+    };
+    let lines = Arc::new(RailLines::new(track, offsets));
+    let still = Parameters {
+        drive: Drive::Coasting,
+        ..parameters.clone()
+    };
+    let mut nominal = Nominal::new(&still, carried, searches, &lines, 0.0);
+    for body in &mut nominal.model.bodies {
+        if !body.is_prescribed() && body.free[3] {
+            body.frame.origin[0] += middle;
+        }
+    }
+    for [carrier, of] in &nominal.model.carriers {
+        nominal.model.bodies[*carrier].frame = nominal.model.bodies[*of].frame.clone();
+    }
+    // Wedges are without friction; plates and adapters hold, since nothing else does.
+    for (carried, .., face) in &mut nominal.model.faces {
+        if nominal.numbers.wedges.iter().flatten().any(|own| own == carried) {
+            face.coefficient = 0.0;
+            face.law = FrictionLaw::Tanh { reference_speed: 1.0 };
+        }
+    }
+    let mut system = System::new(nominal.model)?;
+    let rest = system.equilibrium(0.0, &system.initial_state(), StaticFriction::Following)?;
+    let seen: Observation = system.observe(0.0, &rest);
+    // Nothing holds the car along the track.
+    let rolled = nominal
+        .numbers
+        .wheelsets
+        .map(|number| seen.bodies[number].travel.0[0]);
+    let middle = middle + 0.25 * rolled.iter().sum::<f64>();
+    let poses = seen.bodies.iter().zip(system.bodies()).map(|(state, body)| {
+        let moved = if body.free[3] { middle } else { 0.0 };
+        Pose {
+            place: state.origin - Vector([moved, 0.0, 0.0]),
+            rotation: state.rotation,
+        }
+    });
+    Ok(poses.collect())
+}
+
+/// Where trucks and body stand on the track at the start, in fixed axes.
+struct Placement {
+    /// Of front truck, rear truck and body: the pose of the axes that are forward, left, up in the nominal layout, from
+    /// the middle between the trucks.
+    groups: [Pose; 3],
+    /// Their angular velocities about the vertical, and velocities of their centers.
+    turning: [Vector<f64>; 3],
+    moving: [Vector<f64>; 3],
+}
+
+impl Placement {
+    fn new(parameters: &Parameters, lines: &RailLines, axes: Matrix<f64>) -> Self {
+        let (start, half) = (&parameters.start, 0.5 * parameters.truck_distance);
+        let of = |v: [f64; 3]| -> Vector<f64> { axes.apply(Vector(v)) };
+        // Axes along a chord between two sections, upright as their mean is.
+        let between = |[front, rear]: [(Vector<f64>, Vector<f64>); 2]| -> Pose {
+            let along = front.0 - rear.0;
+            let x = along.scale::<f64, f64>(1.0 / length(along));
+            let up = front.1 + rear.1;
+            let left: Vector<f64> = up.cross(x);
+            let y = left.scale::<f64, f64>(1.0 / length(left));
+            let z: Vector<f64> = x.cross(y);
+            let sum = front.0 + rear.0;
+            Pose {
+                place: sum.scale(0.5),
+                rotation: Matrix([0, 1, 2].map(|row| [x.0[row], y.0[row], z.0[row]])),
+            }
+        };
+        // The middle between the actual rails, and up there.
+        let section = |distance: f64| {
+            let [left, right] = [Line::Left, Line::Right].map(|line| lines.section_at(line, distance));
+            let [a, b] = [of(left.origin), of(right.origin)];
+            let up: Vector<f64> = of(left.axes[0]).cross(a - b);
+            ((a + b).scale(0.5), up.scale::<f64, f64>(1.0 / length(up)))
+        };
+        let mut trucks = [0, 1].map(|t| {
+            let center = start.distance + [half, -half][t];
+            let axle = parameters.trucks[t].distances[2];
+            between([section(center + axle), section(center - axle)])
+        });
+        let ends = trucks.map(|pose| (pose.place, pose.rotation.column(2)));
+        let mut body = between(ends);
+        let along = |distance: f64| {
+            let section = lines.section_at(Line::Center, distance);
+            let turning = Vector([0.0, 0.0, section.curvature * start.speed]);
+            (turning, section.curvature)
+        };
+        let turning = [start.distance + half, start.distance - half, start.distance].map(|at| along(at).0);
+        let moving = [trucks[0], trucks[1], body].map(|pose| {
+            let ahead: Vector<f64> = pose.rotation.column(0);
+            ahead.scale(start.speed)
+        });
+        // Poses of the nominal layout's origin, the middle between the trucks.
+        for (pose, center) in trucks.iter_mut().zip([half, -half]) {
+            pose.place = pose.place - pose.rotation.column(0).scale::<f64, f64>(center);
+        }
+        let aside: Vector<f64> = body.rotation.column(1);
+        body.place += aside.scale(start.body_shift);
+        Self {
+            groups: [trucks[0], trucks[1], body],
+            turning,
+            moving,
+        }
+    }
+
+    /// Moves all bodies to where they start; returns the rates of their coordinates.
+    fn put(&self, nominal: &mut Nominal, poses: &[Pose], parameters: &Parameters) -> Vec<(usize, [f64; 6])> {
+        let radius = match &parameters.wheels {
+            Wheels::OnRails(own) => own.geometry.pairs()[0].nominal_radius(),
+            Wheels::Linear { wheelset, .. } => wheelset.geometry.radius,
+        };
+        let half = 0.5 * parameters.truck_distance;
+        let mut speeds = Vec::new();
+        for &(number, group) in &nominal.groups {
+            let base = &self.groups[group];
+            let mut pose = poses[number].after(base);
+            let wheelset = nominal.numbers.wheelsets.iter().position(|own| *own == number);
+            if let Some(w) = wheelset {
+                let axle: Vector<f64> = base.rotation.column(1);
+                pose.place += axle.scale(parameters.start.wheelset_shifts[w]);
+            }
+            let body = &mut nominal.model.bodies[number];
+            let frame = fixed(body.frame.orientation);
+            let own: Matrix<f64> = frame.transpose().times(pose.rotation);
+            let turn = angles(&own);
+            let place: Vector<f64> = frame.apply_transposed(pose.place - Vector(body.frame.origin));
+            body.initial = [place.0[0], place.0[1], place.0[2], turn[0], turn[1], turn[2]];
+            let center = match group {
+                2 => base.place,
+                _ => {
+                    let ahead: Vector<f64> = base.rotation.column(0);
+                    base.place + ahead.scale::<f64, f64>([half, -half][group])
+                }
+            };
+            let swing: Vector<f64> = self.turning[group].cross(pose.place - center);
+            let velocity: Vector<f64> = frame.apply_transposed(self.moving[group] + swing);
+            let mut rates = [velocity.0[0], velocity.0[1], velocity.0[2], 0.0, 0.0, 0.0];
+            // Both kinds of bodies have the heading as their first angle.
+            rates[4] = self.turning[group].0[2];
+            if wheelset.is_some() {
+                rates[3] = parameters.start.speed / radius;
+            }
+            speeds.push((number, rates));
+        }
+        if let Some(rails) = nominal.numbers.rails {
+            for (w, number) in rails
+                .into_iter()
+                .enumerate()
+                .flat_map(|(w, pair)| pair.map(|own| (w, own)))
+            {
+                let moved: Vector<f64> = self.groups[w / 2].rotation.apply(poses[number].place);
+                nominal.model.bodies[number].initial = [moved.0[0], moved.0[1], moved.0[2], 0.0, 0.0, 0.0];
+            }
+        }
+        for [carrier, of] in nominal.model.carriers.clone() {
+            let body = nominal.model.bodies[of].clone();
+            let carrier = &mut nominal.model.bodies[carrier];
+            carrier.frame = body.frame;
+            let [x, y, z, _, pitch, yaw] = body.initial;
+            carrier.initial = [x, y, z, 0.0, pitch, yaw];
+        }
+        speeds
+    }
+}
+
+fn length(v: Vector<f64>) -> f64 {
+    v.dot::<f64, f64>(v).sqrt()
+}

@@ -1,0 +1,66 @@
+//! What keeps a car moving: a force on the car body along the track, proportional to what lacks in speed.
+//!
+//! Marker A is on the car body at the height of the couplers, marker B the origin of the track's fixed axes. With the
+//! velocity v of A along the track where A is, and the speed V that is wanted there, `F = gain (V - v)` along the
+//! track; its work is the element's.
+
+use std::sync::Arc;
+
+use mechanics::element::{Element, Wrench};
+use mechanics::link::RelativeMotion;
+use mechanics::vector::Vector;
+use numerics::scalar::Real;
+use wheelrail::track::{Line, RailLines};
+
+/// A controller of speed.
+#[derive(Clone, Debug)]
+pub(crate) struct SpeedControl {
+    pub lines: Arc<RailLines>,
+    /// Force by speed, N·s/m.
+    pub gain: f64,
+    /// Distances (m, rising) and speeds (m/s); at least one pair.
+    pub speeds: Vec<[f64; 2]>,
+}
+
+impl SpeedControl {
+    #[inline(always)]
+    fn wanted<S: Real>(&self, distance: S) -> S {
+        let at = self.speeds.partition_point(|[from, _]| *from <= distance.value());
+        match (
+            at.checked_sub(1).map(|before| self.speeds[before]),
+            self.speeds.get(at),
+        ) {
+            (Some([from, slow]), Some([to, fast])) => {
+                (distance - from) * ((fast - slow) / (to - from)) + slow
+            }
+            (Some([_, speed]), None) | (None, Some(&[_, speed])) => S::from(speed),
+            (None, None) => S::zero(),
+        }
+    }
+}
+
+impl Element for SpeedControl {
+    fn name(&self) -> &str {
+        "drive"
+    }
+
+    fn does_work(&self) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S> {
+        let section = self.lines.section(Line::Center, motion.position.0);
+        let [speed, ..] = section.of(motion.velocity.0);
+        let force = (self.wanted(section.distance) - speed) * self.gain;
+        Wrench {
+            force: Vector(section.fixed([force, S::zero(), S::zero()])),
+            moment: Vector::zero(),
+            powers: [S::zero(), force * speed],
+        }
+    }
+
+    fn energy(&self, _: &RelativeMotion<f64>) -> f64 {
+        0.0
+    }
+}

@@ -1,0 +1,48 @@
+//! What can be wrong with a car.
+
+use mechanics::system::{ModelError, NoEquilibrium};
+use thiserror::Error;
+
+/// A value that makes no car.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{message}")]
+pub struct InvalidParameter {
+    message: String,
+}
+
+impl InvalidParameter {
+    pub(crate) fn new(what: &str, value: f64, must: &str) -> Self {
+        Self {
+            message: format!("{what} is {value}; it must be {must}"),
+        }
+    }
+
+    pub(crate) fn missing(message: &str) -> Self {
+        Self {
+            message: message.to_owned(),
+        }
+    }
+}
+
+/// Why parameters make no car.
+#[derive(Debug, Error)]
+pub enum BuildError {
+    /// A value makes none.
+    #[error(transparent)]
+    Parameter(#[from] InvalidParameter),
+    /// Bodies and elements make no system.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The contact tables cannot be made.
+    #[error("the contact tables cannot be made: {0}")]
+    Tables(#[from] wheelrail::profile::ProfileError),
+    /// The straight track on which the car finds its equilibrium cannot be made.
+    #[error(transparent)]
+    Track(#[from] wheelrail::track::TrackError),
+    /// There is no equilibrium to start from.
+    #[error(
+        "cannot start from equilibrium: {0}; look at lading off the center, coils that do not carry it, a car that tips; \
+         a start in the nominal layout needs none"
+    )]
+    Equilibrium(#[from] NoEquilibrium),
+}

@@ -1,0 +1,271 @@
+//! What one sees of a car at a state: forces of the wheels, places on the track, accelerations, and its trucks.
+//!
+//! Signs: the *vertical* force of a wheel is that on the rail, along the normal of the track's plane, positive down; the
+//! *lateral* one lies in that plane, positive where it spreads the gauge; the *longitudinal* one is positive where the wheel
+//! pushes the rail forward. Places are relative to the center line without irregularities: positive to the left; yaw is
+//! positive to the left, roll with the left side up. The track's plane is that of the center line's section at the body in
+//! question. *Accelerations* of the body are what accelerometers on it show, less gravity along its up: along its own left
+//! and up.
+
+use mechanics::body::Kinematics;
+use mechanics::element::Element;
+use mechanics::link::RelativeMotion;
+use mechanics::orientation::fixed;
+use mechanics::system::{BodyState, Observation};
+use mechanics::vector::{Matrix, Vector};
+use rolling::wheel::{PatchState, motion_of};
+use truck::TruckFrame;
+use wheelrail::track::{Line, Section};
+
+use crate::assemble::{Car, WheelElements, body_marker};
+
+/// A wheel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WheelLoads {
+    /// Vertical force on the rail, N.
+    pub vertical: f64,
+    /// Lateral force on the rail, N.
+    pub lateral: f64,
+    /// Longitudinal force on the rail, N.
+    pub longitudinal: f64,
+    /// Power lost by creep over the speed, N: the wear number Tγ. Zero with linear wheels.
+    pub wear_number: f64,
+}
+
+impl WheelLoads {
+    /// Returns the lateral force over the vertical one: zero where the wheel carries nothing.
+    #[must_use]
+    pub fn l_over_v(&self) -> f64 {
+        match self.vertical > 0.0 {
+            true => self.lateral / self.vertical,
+            false => 0.0,
+        }
+    }
+}
+
+/// A wheelset relative to the track.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AxleLoads {
+    /// Distance along the track, m.
+    pub distance: f64,
+    /// Its center to the left of the center line, m.
+    pub lateral: f64,
+    /// Its center above the plane of the rails' nominal tops, m.
+    pub height: f64,
+    /// Yaw relative to the track, rad: minus the angle of attack of a wheelset in a curve to the left that steers
+    /// outwards.
+    pub yaw: f64,
+    /// Roll relative to the track's plane, rad.
+    pub roll: f64,
+    /// Rate of the spin, rad/s.
+    pub spin: f64,
+}
+
+/// The body above a truck's center, at the height of the center plate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EndMotion {
+    /// To the left of the center line, m.
+    pub lateral: f64,
+    /// Above its height in the nominal layout, relative to the track's plane, m.
+    pub vertical: f64,
+    /// Lateral acceleration, m/s².
+    pub lateral_acceleration: f64,
+    /// Vertical acceleration, m/s².
+    pub vertical_acceleration: f64,
+}
+
+/// All of it, SI.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Loads {
+    /// Distance along the track of the body's center of gravity, m.
+    pub distance: f64,
+    /// Speed of the body's center of gravity along the track, m/s.
+    pub speed: f64,
+    /// The wheels of each wheelset from the front, left and right.
+    pub wheels: [[WheelLoads; 2]; 4],
+    /// The wheelsets from the front.
+    pub axles: [AxleLoads; 4],
+    /// Roll, pitch (nose down), yaw of the body relative to the track, rad.
+    pub body_angles: [f64; 3],
+    /// The body above front and rear truck.
+    pub ends: [EndMotion; 2],
+    /// The trucks, front and rear, in axes of the track at their bolsters.
+    pub trucks: [truck::Loads; 2],
+}
+
+impl Car {
+    /// Returns what one sees at an observation of [`Car::system`]; `rates` are the rates of its state there
+    /// (`integrate::Problem::derivative`), which the accelerations need.
+    #[must_use]
+    pub fn loads(&self, seen: &Observation, rates: &[f64]) -> Loads {
+        let mut loads = Loads::default();
+        let body = &seen.bodies[self.numbers.body];
+        let section = self.section(body.center_of_gravity);
+        loads.distance = section.distance;
+        [loads.speed, ..] = section.of(self.own(body.velocity).0);
+        for (w, number) in self.numbers.wheelsets.into_iter().enumerate() {
+            let state = &seen.bodies[number];
+            let section = self.section(state.origin);
+            let axle = section.of(self.own(state.rotation.column(0)).0);
+            let [_, lateral, height] = section.of(self.arm(state.origin, &section));
+            loads.axles[w] = AxleLoads {
+                distance: section.distance,
+                lateral,
+                height,
+                yaw: -libm::asin(axle[0].clamp(-1.0, 1.0)),
+                roll: libm::asin(axle[2].clamp(-1.0, 1.0)),
+                spin: state.speeds[3],
+            };
+            loads.wheels[w] = self.wheels(w, seen, &section);
+        }
+        let turned = self.body_rotation(body);
+        let axes = [0, 1, 2].map(|k| section.of(self.own(turned.column(k)).0));
+        loads.body_angles = [
+            libm::atan2(axes[1][2], axes[2][2]),
+            libm::asin((-axes[0][2]).clamp(-1.0, 1.0)),
+            libm::atan2(axes[0][1], axes[0][0]),
+        ];
+        for (t, end) in loads.ends.iter_mut().enumerate() {
+            *end = self.end(t, body, &turned, rates);
+        }
+        for (t, truck) in self.trucks.iter().enumerate() {
+            let bolster = &seen.bodies[self.numbers.bolsters[t]];
+            loads.trucks[t] = truck.loads(seen, &self.frame_at(bolster.center_of_gravity));
+        }
+        loads
+    }
+
+    /// Gives the patches of all wheels to `see`, with the number of the wheelset and of the side (left 0, right 1); places
+    /// and normals are in the track's own axes (those of [`Car::lines`]). None of linear wheels.
+    pub fn patches(&self, seen: &Observation, mut see: impl FnMut(usize, usize, PatchState)) {
+        let WheelElements::OnRails(wheels, half) = &self.wheels else {
+            return;
+        };
+        for (w, pair) in wheels.iter().enumerate() {
+            for (i, wheel) in pair.iter().enumerate() {
+                let motion = self.wheel_motion(seen, w, i, *half);
+                wheel.patches(&motion, |patch| see(w, i, patch));
+            }
+        }
+    }
+
+    /// Returns the track's axes at the foot of a place (fixed axes, m) on the center line: origin, and axes forward, left, up
+    /// as columns.
+    #[must_use]
+    pub fn frame_at(&self, place: Vector<f64>) -> TruckFrame {
+        let section = self.section(place);
+        let columns = section
+            .axes
+            .map(|axis| self.axes.apply::<f64, f64>(Vector(axis)).0);
+        TruckFrame {
+            origin: self.axes.apply(Vector(section.origin)),
+            axes: Matrix(columns).transpose(),
+        }
+    }
+
+    /// Returns the rotation of the body from the nominal layout's axes forward, left, up to fixed axes.
+    #[must_use]
+    pub fn body_rotation(&self, body: &BodyState) -> Matrix<f64> {
+        let nominal = fixed(self.system.bodies()[self.numbers.body].frame.orientation);
+        body.rotation.times(nominal.transpose())
+    }
+
+    /// A vector in the track's own axes.
+    fn own(&self, vector: Vector<f64>) -> Vector<f64> {
+        self.axes.apply_transposed(vector)
+    }
+
+    fn section(&self, place: Vector<f64>) -> Section<f64> {
+        self.lines.section(Line::Center, self.own(place).0)
+    }
+
+    fn arm(&self, place: Vector<f64>, section: &Section<f64>) -> [f64; 3] {
+        (self.own(place) - Vector(section.origin)).0
+    }
+
+    fn wheel_motion(&self, seen: &Observation, w: usize, i: usize, half: f64) -> RelativeMotion<f64> {
+        let on = self
+            .numbers
+            .rails
+            .map_or(self.numbers.ground, |rails| rails[w][i]);
+        let wheelset = &seen.bodies[self.numbers.wheelsets[w]];
+        motion_of(wheelset, [half, -half][i], &seen.bodies[on], self.axes)
+    }
+
+    fn wheels(&self, w: usize, seen: &Observation, section: &Section<f64>) -> [WheelLoads; 2] {
+        match &self.wheels {
+            WheelElements::OnRails(wheels, half) => [0, 1].map(|i| {
+                let motion = self.wheel_motion(seen, w, i, *half);
+                let wrench = wheels[w][i].evaluate::<f64>(&motion);
+                let [x, y, z] = section.of(wrench.force.0);
+                let [forward, ..] = section.of(motion.velocity.0);
+                // Power of creep alone, without that of the contact's damping.
+                let mut creep = 0.0;
+                wheels[w][i].patches(&motion, |patch| {
+                    let (own, slip) = (&patch.forces.creep, &patch.forces.creepage);
+                    let lost = own.x * slip.longitudinal + own.y * slip.lateral + own.spin_moment * slip.spin;
+                    creep -= lost * patch.patch.share;
+                });
+                WheelLoads {
+                    vertical: z,
+                    lateral: [-y, y][i],
+                    longitudinal: -x,
+                    wear_number: if forward == 0.0 { 0.0 } else { creep },
+                }
+            }),
+            WheelElements::Linear(element) => {
+                let state = &seen.bodies[self.numbers.wheelsets[w]];
+                let motion = motion_of(state, 0.0, &seen.bodies[self.numbers.ground], self.axes);
+                let wrench = element.evaluate::<f64>(&motion);
+                let [x, y, z] = section.of(wrench.force.0);
+                let [roll, ..] = section.of(wrench.moment.0);
+                // The forces act at the rails' height.
+                let half = element.wheelset.geometry.half_distance;
+                let shift = 0.5 * (roll - y * element.wheelset.geometry.radius) / half;
+                [1.0, -1.0].map(|side| WheelLoads {
+                    vertical: 0.5 * z + side * shift,
+                    lateral: -side * 0.5 * y,
+                    longitudinal: -0.5 * x,
+                    wear_number: 0.0,
+                })
+            }
+        }
+    }
+
+    fn end(&self, t: usize, body: &BodyState, turned: &Matrix<f64>, rates: &[f64]) -> EndMotion {
+        let half = 0.5 * self.truck_distance;
+        let nominal = [[half, -half][t], 0.0, self.plates[t]];
+        let point = body_marker(&self.carried, nominal).origin;
+        let arm: Vector<f64> = body.rotation.apply(point);
+        let place = body.origin + arm;
+        let section = self.section(place);
+        let [_, lateral, height] = section.of(self.arm(place, &section));
+        let (system, number) = (&self.system, self.numbers.body);
+        let first = system.layout().speeds;
+        let accelerations = [0, 1, 2, 3, 4, 5].map(|k| {
+            let place = system.position_of(number, k);
+            place.map_or(0.0, |place| rates[first + place])
+        });
+        let frame = fixed(system.bodies()[number].frame.orientation);
+        let [x, y, z, roll, pitch, yaw] = accelerations;
+        let kinematics = Kinematics::<f64>::new(body.coordinates, body.speeds, true);
+        let spin_rate = kinematics
+            .orientation
+            .spin_rate(kinematics.rates, [roll, pitch, yaw], true);
+        let alpha: Vector<f64> = body.rotation.apply(spin_rate);
+        let origin: Vector<f64> = frame.apply(Vector([x, y, z]));
+        let omega = body.angular_velocity;
+        let swing: Vector<f64> = omega.cross(arm);
+        let shown = origin
+            + alpha.cross::<f64, f64>(arm)
+            + omega.cross::<f64, f64>(swing)
+            + Vector([0.0, 0.0, self.gravity]);
+        let [_, left, up] = [0, 1, 2].map(|k| turned.column(k).dot::<f64, f64>(shown));
+        EndMotion {
+            lateral,
+            vertical: height - self.plates[t],
+            lateral_acceleration: left,
+            vertical_acceleration: up - self.gravity,
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! Parameters of a car on track, SI units.
+//!
+//! Default values are one consistent set: a car of 263,000 lbf with all that it carries, on two of the trucks of
+//! [`truck::Parameters`], truck centers 486 in apart. Weights of wheelsets are what these leave of the car's weight.
+
+use std::sync::Arc;
+
+use rolling::track::RailSupport;
+use rolling::wheelset::WheelsetBody;
+use truck::RigidBody;
+use wheelrail::contact::{ContactLaw, LinearWheelset};
+use wheelrail::track::Track;
+use wheelrail::wheelset::RigidWheelset;
+
+use crate::assemble::has_connections;
+use crate::error::InvalidParameter;
+
+/// A rigid mass that the car body carries, fastened to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mass {
+    /// Its name, for messages.
+    pub name: String,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Where its center of gravity is: forward of the middle between the trucks, to the left of the middle, above the
+    /// top of rail, m, in the nominal layout of the trucks.
+    pub place: [f64; 3],
+    /// Moments of inertia about its center of gravity (roll, pitch, yaw), kg·m².
+    pub inertia: [f64; 3],
+}
+
+/// Wheels and what they touch.
+#[derive(Clone, Debug)]
+pub enum Wheels {
+    /// Profiles of wheels on profiles of rails.
+    OnRails(ProfiledWheels),
+    /// Linear geometry and creep, for stability on straight or gently curved track without irregularities, whose
+    /// rails do not give way.
+    Linear {
+        /// Geometry and coefficients.
+        wheelset: LinearWheelset,
+        /// Stiffness of what carries a wheelset: vertically N/m, and in roll N·m/rad.
+        support: [f64; 2],
+    },
+}
+
+/// Wheels on rails.
+#[derive(Clone, Debug)]
+pub struct ProfiledWheels {
+    /// Profiles of both wheels and both rails, gauge and distance of the tape circles.
+    pub geometry: Arc<RigidWheelset>,
+    /// Distance of the tape circles, m.
+    pub tape_distance: f64,
+    /// Whether patches come from tables: faster, for motion on treads only.
+    pub tables: bool,
+    /// Friction, creep law and damping of the contacts.
+    pub law: ContactLaw,
+}
+
+/// What keeps a car moving.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Drive {
+    /// A force on the car body along the track, proportional to what lacks in speed, that of the start.
+    Held {
+        /// Force by speed, N·s/m.
+        gain: f64,
+    },
+    /// As `Held`, to a speed that depends on the distance along the track: pairs of distance (m, rising) and speed (m/s),
+    /// linear between them, constant before and after.
+    Over {
+        /// Force by speed, N·s/m.
+        gain: f64,
+        /// Distances (m) and speeds (m/s).
+        speeds: Vec<[f64; 2]>,
+    },
+    /// Nothing.
+    Coasting,
+}
+
+/// Where and how a run begins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// Distance along the track of the middle between the trucks, m.
+    pub distance: f64,
+    /// Speed, m/s; wheels roll.
+    pub speed: f64,
+    /// Heading of the track's own axes in the fixed frame, rad: of no consequence.
+    pub heading: f64,
+    /// How far each wheelset, front to rear, is moved to the left from the middle of the track, m: a disturbance.
+    pub wheelset_shifts: [f64; 4],
+    /// How far the body is moved to the left from the middle of the track, m: a disturbance.
+    pub body_shift: f64,
+    /// Whether coils, plates and wheels start in the equilibrium of the car at rest without friction, or in the nominal
+    /// layout.
+    pub kind: StartKind,
+    /// How long the car settles after the start, s: statistics leave this out.
+    pub settle: f64,
+}
+
+/// Where coils, plates and wheels start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StartKind {
+    /// In the equilibrium of the car at rest on straight track, without friction, moved along the track.
+    #[default]
+    Equilibrium,
+    /// In the nominal layout, each body at its place along the track.
+    Nominal,
+}
+
+/// A car on a track.
+#[derive(Clone, Debug)]
+pub struct Parameters {
+    /// Gravity, m/s².
+    pub gravity: f64,
+    /// The car body without lading; its height is that of the center of gravity above the top of rail in the nominal
+    /// layout, which is that of the loaded car.
+    pub body: RigidBody,
+    /// What it carries.
+    pub lading: Vec<Mass>,
+    /// From the center of one truck to that of the other, m.
+    pub truck_distance: f64,
+    /// Front and rear truck. Each has wheelsets and a car body, of which the center plate and the side bearings count:
+    /// mass, freedom and loads of the half body and of the wheelsets' motions are not used. Bolsters, side frames and wedge
+    /// bodies are free in all six coordinates.
+    pub trucks: [truck::Parameters; 2],
+    /// Each of the four wheelsets.
+    pub wheelset: WheelsetBody,
+    /// What they roll on.
+    pub wheels: Wheels,
+    /// The track.
+    pub track: Track,
+    /// Springs under each rail; none: rails do not give way.
+    pub support: Option<RailSupport>,
+    /// What keeps it moving.
+    pub drive: Drive,
+    /// The start.
+    pub start: Start,
+}
+
+impl Parameters {
+    /// Returns the mass of body and lading, kg.
+    #[must_use]
+    pub fn carried_mass(&self) -> f64 {
+        self.body.mass + self.lading.iter().map(|own| own.mass).sum::<f64>()
+    }
+
+    /// Returns the weight of the car, N: all that stands on the wheels.
+    #[must_use]
+    pub fn weight(&self) -> f64 {
+        let trucks = self.trucks.iter().map(|own| {
+            let frames: f64 = own.side_frames.iter().map(|frame| frame.body.mass).sum();
+            own.bolster.body.mass + own.wedge_mass() + frames
+        });
+        (self.carried_mass() + trucks.sum::<f64>() + 4.0 * self.wheelset.mass) * self.gravity
+    }
+
+    /// Returns the place of the center of gravity of body and lading: forward, to the left, above the top of rail, m.
+    #[must_use]
+    pub fn center_of_gravity(&self) -> [f64; 3] {
+        let mut moment = [0.0, 0.0, self.body.mass * self.body.height];
+        for own in &self.lading {
+            for (sum, place) in moment.iter_mut().zip(own.place) {
+                *sum += own.mass * place;
+            }
+        }
+        moment.map(|own| own / self.carried_mass())
+    }
+
+    /// Checks all that makes a car.
+    ///
+    /// # Errors
+    /// The first value that makes none.
+    pub fn check(&self) -> Result<(), InvalidParameter> {
+        let positive = |what: &str, value: f64| match value > 0.0 && value.is_finite() {
+            true => Ok(()),
+            false => Err(InvalidParameter::new(what, value, "positive")),
+        };
+        let finite = |what: &str, value: f64| match value.is_finite() {
+            true => Ok(()),
+            false => Err(InvalidParameter::new(what, value, "a number")),
+        };
+        positive("the car body's mass (kg)", self.body.mass)?;
+        for value in self.body.inertia {
+            positive("a moment of inertia of the car body (kg·m²)", value)?;
+        }
+        positive(
+            "the height of the car body's center of gravity (m)",
+            self.body.height,
+        )?;
+        for own in &self.lading {
+            positive(&format!("the mass of {} (kg)", own.name), own.mass)?;
+            for value in own.place {
+                finite(&format!("the place of {} (m)", own.name), value)?;
+            }
+            for value in own.inertia {
+                if !(value >= 0.0 && value.is_finite()) {
+                    let what = format!("a moment of inertia of {} (kg·m²)", own.name);
+                    return Err(InvalidParameter::new(&what, value, "zero or positive"));
+                }
+            }
+        }
+        positive("the distance between the trucks (m)", self.truck_distance)?;
+        positive("the mass of a wheelset (kg)", self.wheelset.mass)?;
+        positive(
+            "a wheelset's moment of inertia about the axle (kg·m²)",
+            self.wheelset.about_axle,
+        )?;
+        positive(
+            "a wheelset's moment of inertia about a diameter (kg·m²)",
+            self.wheelset.about_diameter,
+        )?;
+        for (own, which) in self.trucks.iter().zip(["front", "rear"]) {
+            if own.wheelsets.is_none() {
+                return Err(InvalidParameter::missing(&format!(
+                    "the {which} truck has no wheelsets"
+                )));
+            }
+            if own.car_body.is_none() {
+                return Err(InvalidParameter::missing(&format!(
+                    "the {which} truck has no center plate and side bearings"
+                )));
+            }
+        }
+        let Start {
+            distance,
+            speed,
+            heading,
+            settle,
+            ..
+        } = self.start;
+        finite("the distance of the start (m)", distance)?;
+        finite("the heading (rad)", heading)?;
+        for (what, value) in [
+            ("the speed of the start (m/s)", speed),
+            ("the settling time (s)", settle),
+        ] {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(InvalidParameter::new(what, value, "zero or positive"));
+            }
+        }
+        let reach = self.reach();
+        let length = self.track.center_line.length();
+        if distance < reach || distance + reach > length {
+            return Err(InvalidParameter::new(
+                "the distance of the start (m)",
+                distance,
+                &format!(
+                    "between {reach:.2} and {:.2} m, so that all wheels are on the track",
+                    length - reach
+                ),
+            ));
+        }
+        match &self.drive {
+            Drive::Coasting => {}
+            Drive::Held { gain } => positive("the gain of the drive (N·s/m)", *gain)?,
+            Drive::Over { gain, speeds } => {
+                positive("the gain of the drive (N·s/m)", *gain)?;
+                if speeds.is_empty() {
+                    return Err(InvalidParameter::missing(
+                        "the speeds over distance are an empty list",
+                    ));
+                }
+                if let Some(pair) = speeds.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
+                    let what = "a distance of the speeds over distance (m)";
+                    return Err(InvalidParameter::new(
+                        what,
+                        pair[1][0],
+                        "more than the one before it",
+                    ));
+                }
+                for [distance, speed] in speeds {
+                    finite("a distance of the speeds over distance (m)", *distance)?;
+                    if !(*speed >= 0.0 && speed.is_finite()) {
+                        let what = "a speed over distance (m/s)";
+                        return Err(InvalidParameter::new(what, *speed, "zero or positive"));
+                    }
+                }
+            }
+        }
+        if self.trucks.iter().any(has_connections) {
+            let line = &self.track.center_line;
+            let count = line.length().ceil() as usize;
+            let bent = (0..=count)
+                .map(|k| k as f64)
+                .find(|at| line.at(*at).curvature[0] != 0.0);
+            if let Some(at) = bent {
+                return Err(InvalidParameter::new(
+                    "the distance (m) of a curve under trucks with massless wedges or empirical warp springs",
+                    at,
+                    "beyond the track: these elements know displacements from straight track only; take wedge bodies, or \
+                     a track without curves",
+                ));
+            }
+            if heading != 0.0 {
+                let what = "the heading (rad) with massless wedges or empirical warp springs";
+                return Err(InvalidParameter::new(what, heading, "zero"));
+            }
+        }
+        if matches!(self.wheels, Wheels::Linear { .. }) && self.support.is_some() {
+            return Err(InvalidParameter::missing(
+                "linear wheels roll on rails that do not give way: leave the support out",
+            ));
+        }
+        Ok(())
+    }
+
+    /// Returns how far the outermost axles are from the middle of the car, m.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        let axles = self.trucks.iter().map(|own| own.distances[2]);
+        0.5 * self.truck_distance + axles.fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,75 @@
+//! The energy ledger of a car, and the spin of its wheelsets.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+use car::{Car, StartKind, Wheels};
+use common::{INCH, curve, loaded, run, tangent};
+use integrate::Problem;
+use rolling::wheelset::coordinate;
+use wheelrail::contact::CreepLaw;
+use wheelrail::track::spectrum::{Realization, Spectrum};
+use wheelrail::track::{Direction, Irregularity, Placed, Rails};
+
+/// Work of the drive against losses and what is stored, on rough track and into a curve.
+#[test]
+fn energy_closes_on_rough_track_and_in_curves() {
+    let mut rough = tangent(120.0);
+    for (rails, direction, spectrum, seed) in [
+        (Rails::Both, Direction::Lateral, Spectrum::FraLateral(6), 1),
+        (Rails::Against, Direction::Vertical, Spectrum::FraCrossLevel(6), 2),
+        (Rails::Both, Direction::Vertical, Spectrum::FraVertical(6), 3),
+    ] {
+        let own = Realization::new(spectrum, [1.524, 91.44], 400, 30.0, seed).unwrap();
+        rough.irregularities.push(Placed {
+            rails,
+            direction,
+            irregularity: Irregularity::Spectrum(own),
+        });
+    }
+    for (name, track, speed, duration) in [
+        ("rough", rough, 15.0, 3.0),
+        ("curve", curve(7.5, 1.0, 4.0 * INCH, 200.0), 11.0, 10.0),
+    ] {
+        let ran = run(&loaded(track, speed), duration, 0.05, 1e-6);
+        assert!(ran.residual < 1e-4, "{name}: {}", ran.residual);
+    }
+}
+
+/// A wheelset that spins and turns with the track has the gyroscopic moment `I Ω ψ'` about its forward axis. Without
+/// creep nothing else knows of the spin.
+#[test]
+fn analytic_gyroscopic_moment_of_the_wheelsets() {
+    let mut parameters = loaded(curve(5.0, 1.0, 0.0, 200.0), 13.0);
+    parameters.start.distance = 150.0;
+    parameters.start.kind = StartKind::Nominal;
+    if let Wheels::OnRails(wheels) = &mut parameters.wheels {
+        wheels.law.creep = CreepLaw::Frictionless;
+    }
+    let car = Car::new(&parameters).unwrap();
+    let mut system = car.system.clone();
+    let speeds = system.layout().speeds;
+    let mut still = car.initial_state.clone();
+    let (mut with, mut without) = (vec![0.0; still.len()], vec![0.0; still.len()]);
+    system.derivative(0.0, &car.initial_state, &mut with);
+    for wheelset in car.numbers.wheelsets {
+        still[speeds + system.position_of(wheelset, coordinate::SPIN).unwrap()] = 0.0;
+    }
+    system.derivative(0.0, &still, &mut without);
+    for wheelset in car.numbers.wheelsets {
+        let at = |k: usize| speeds + system.position_of(wheelset, k).unwrap();
+        let (spin, turning) = (
+            car.initial_state[at(coordinate::SPIN)],
+            car.initial_state[at(coordinate::HEADING)],
+        );
+        let change = with[at(coordinate::ROLL)] - without[at(coordinate::ROLL)];
+        let own = &parameters.wheelset;
+        // The spin leads the axle's left end down where it turns to the left.
+        let expected = own.about_axle * spin * turning / own.about_diameter;
+        assert!(spin > 20.0 && turning > 0.01, "{spin} {turning}");
+        assert!(
+            (change.abs() / expected - 1.0).abs() < 1e-3,
+            "{change} and {expected} rad/s²"
+        );
+    }
+}

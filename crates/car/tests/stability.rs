@@ -1,0 +1,211 @@
+//! Stability of cars on linear wheels, and kinematics of trucks that steer themselves.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+use std::f64::consts::TAU;
+
+use car::{FrictionState, Mode, Parameters, Wheels};
+use common::{INCH, MPH, POUND_FORCE, empty, loaded, tangent};
+use truck::{Adapter, AdapterPad, ControlCoil, SideBearing, Spring, WedgeKind, empirical_warp};
+use wedge::parameters::{Contact, Damping, FaceFriction};
+use wheelrail::conicity::LinearGeometry;
+use wheelrail::contact::{CreepCoefficients, LinearWheelset};
+
+/// Half the distance of the contacts and radius of the wheels, m.
+const HALF: f64 = 29.75 * INCH;
+const RADIUS: f64 = 18.0 * INCH;
+/// Stiffness of a nest across, N/m.
+const NEST: f64 = 17_800.0 * POUND_FORCE / INCH;
+
+/// The empty car on linear wheels that do not roll about x, reduced: center plates turn freely, adapters are pins,
+/// nothing damps, wedges do nothing but for an empirical warp stiffness of the truck (N·m/rad).
+fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
+    let mut parameters = empty(tangent(300.0), 10.0);
+    parameters.support = None;
+    parameters.drive = car::Drive::Coasting;
+    let axle_load = parameters.weight() / 4.0;
+    parameters.wheels = Wheels::Linear {
+        wheelset: LinearWheelset {
+            geometry: LinearGeometry {
+                roll_coefficient: 0.0,
+                ..LinearGeometry::of_cones(conicity, HALF, RADIUS)
+            },
+            creep: CreepCoefficients {
+                f11: 6.69e6,
+                f22: 6.21e6,
+                f23: 0.0,
+                f33: 0.0,
+            },
+            spin: false,
+            axle_load,
+        },
+        support: [1e9, 1e9],
+    };
+    for own in &mut parameters.trucks {
+        own.damping = Damping::Constant;
+        for wedge in &mut own.wedges {
+            wedge.kind = WedgeKind::Massless;
+            wedge.column_friction.coefficient = 0.0;
+            wedge.slope_friction.coefficient = 0.0;
+            wedge.control_coil = ControlCoil::Shear(Spring {
+                preload: 10.0,
+                stiffness: 1.0,
+                ..Spring::default()
+            });
+        }
+        // All load coils in the middle of the nest: they do not turn the bolster against the side frames.
+        for coil in own.load_coils.iter_mut().flatten() {
+            coil.place = [0.0; 2];
+            coil.spring = Spring {
+                preload: 11_515.0 * POUND_FORCE / 4.0,
+                stiffness: 6468.7 * POUND_FORCE / INCH,
+                shear_stiffness: NEST / 4.0,
+                damping: 0.0,
+                solid: None,
+            };
+        }
+        if let Some(wheelsets) = &mut own.wheelsets {
+            // Pins: they give way to yaw by 9e3 N·m/rad.
+            wheelsets.adapter = Adapter::Pad(AdapterPad {
+                preload: parameters.body.mass * 9.806_65 / 8.0,
+                stiffness: 1e13,
+                shear_stiffness: 1e9,
+                half_distance: 0.003,
+                damping: 0.0,
+            });
+        }
+        if let Some(body) = &mut own.car_body {
+            // A pin that turns, and stiff side bearings without friction.
+            body.center_plate.rings = vec![1e-3];
+            body.center_plate.friction.coefficient = 10.0;
+            let stiff = Contact {
+                stiffness: 1e9,
+                damping: 0.0,
+            };
+            body.side_bearings.kind = SideBearing::ConstantContact {
+                preload: 2e4,
+                contact: stiff,
+                travel: 1.0,
+                solid: stiff,
+                friction: FaceFriction {
+                    coefficient: 0.0,
+                    ..body.center_plate.friction
+                },
+            };
+        }
+        own.gib.clearance = 1.0;
+        own.lands.clearance = 1.0;
+        // The coils' shear along the track, which holds the bolster square to the axles, is in series with the warp
+        // spring.
+        let square = 2.0 * NEST * own.distances[0] * own.distances[0];
+        own.warp_spring = warp.map(|warp| {
+            let nest = 0.5 / (1.0 / warp - 1.0 / square);
+            empirical_warp(0.030 * nest).unwrap()
+        });
+    }
+    parameters
+}
+
+/// 65, 45 and 32 mph at conicities of 0.05, 0.1 and 0.2 with 17 kip·in/mrad of warp stiffness: from a separate linear
+/// model with nine coordinates.
+#[test]
+fn reproduction_critical_speeds_of_the_empty_car() {
+    let warp = 17e6 * POUND_FORCE * INCH;
+    for (conicity, expected) in [(0.05, 65.0), (0.1, 45.0), (0.2, 32.0)] {
+        let parameters = reduced(conicity, Some(warp));
+        let range = [0.8 * expected * MPH, 1.25 * expected * MPH];
+        let found = parameters
+            .critical_speed(range, 0.1 * expected * MPH, FrictionState::Stuck)
+            .unwrap()
+            .unwrap();
+        let speed = found.speed / MPH;
+        println!("{conicity}: {speed} mph, {} Hz", found.frequency);
+        assert!(
+            (speed / expected - 1.0).abs() < 0.03,
+            "{conicity}: {speed} mph, {expected} expected"
+        );
+    }
+}
+
+/// Vibrations with a frequency (Hz) near this one.
+fn near(modes: &[Mode], frequency: f64, within: f64) -> Vec<Mode> {
+    let own = modes
+        .iter()
+        .filter(|mode| (mode.frequency / frequency - 1.0).abs() < within);
+    own.copied().collect()
+}
+
+/// Wheelsets of trucks that warp freely run like single ones, with the wavelength of Klingel; those of a rigid truck with
+/// `√(1 + f22 b²/(f11 l²))` times it, b being half the wheelbase.
+#[test]
+fn analytic_wavelengths_of_trucks_that_warp_and_of_rigid_ones() {
+    let speed = 2.0;
+    for (rigid, factor) in [
+        (false, 1.0),
+        (true, (1.0_f64 + 6.21 / 6.69 * (35.0_f64 / 29.75).powi(2)).sqrt()),
+    ] {
+        let mut parameters = reduced(0.05, None);
+        if let Wheels::Linear { wheelset, .. } = &mut parameters.wheels {
+            wheelset.axle_load = 0.0;
+        }
+        if rigid {
+            for own in &mut parameters.trucks {
+                for coil in own.load_coils.iter_mut().flatten() {
+                    coil.spring.shear_stiffness *= 1e2;
+                }
+                own.warp_spring = Some(empirical_warp(1e9 * 0.03).unwrap());
+            }
+        }
+        let modes = parameters.modes(speed, FrictionState::Stuck).unwrap();
+        let wavelength = TAU * (RADIUS * HALF / 0.05).sqrt() * factor;
+        let found = near(&modes, speed / wavelength, 0.01);
+        assert!(
+            found.len() >= 2,
+            "{wavelength} m expected of {:?}",
+            near(&modes, speed / wavelength, 0.6)
+        );
+        for mode in found {
+            assert!(mode.growth.abs() < 0.02, "{mode:?}");
+        }
+    }
+}
+
+/// With plates and adapters that hold, on wheels that creep holds: bounce and upper sway are those of the car on fixed
+/// side frames (2.027 and 2.996 Hz), the lower sway that with the give of the center plates (0.762 Hz).
+#[test]
+fn analytic_frequencies_of_the_loaded_car_on_its_wheels() {
+    let mut parameters = reduced(0.05, None);
+    let whole = loaded(tangent(300.0), 2.0);
+    (parameters.lading, parameters.body) = (whole.lading.clone(), whole.body);
+    for (own, usual) in parameters.trucks.iter_mut().zip(&whole.trucks) {
+        own.load_coils = truck::Parameters::new(Damping::Constant).load_coils;
+        for coil in own.load_coils.iter_mut().flatten() {
+            coil.spring.solid = None;
+        }
+        own.car_body = usual.car_body.clone();
+        if let Some(wheelsets) = &mut own.wheelsets
+            && let Adapter::Pad(pad) = &mut wheelsets.adapter
+        {
+            pad.preload = 31_382.0 * POUND_FORCE;
+        }
+    }
+    if let Wheels::Linear { wheelset, support } = &mut parameters.wheels {
+        (wheelset.creep.f11, wheelset.creep.f22, wheelset.axle_load) = (17.4e6, 16.2e6, 0.0);
+        *support = [1e11, 1e11];
+    }
+    let modes = parameters.modes(0.5, FrictionState::Stuck).unwrap();
+    for (name, frequency, within) in [
+        ("bounce", 2.027, 0.01),
+        ("lower sway", 0.762, 0.02),
+        ("upper sway", 2.996, 0.03),
+    ] {
+        let found = near(&modes, frequency, within);
+        let slow: Vec<f64> = modes
+            .iter()
+            .map(|mode| mode.frequency)
+            .filter(|own| (0.3..5.0).contains(own))
+            .collect();
+        assert!(!found.is_empty(), "{name}: {frequency} Hz expected of {slow:?}");
+    }
+}

@@ -1,0 +1,138 @@
+//! The page of one run of a car: its limits and statistics, figures over the distance, assumptions.
+
+use maud::{Markup, html};
+use study::car::summary::CarSummary;
+use study::summary::SummaryValue;
+
+use super::{document, shown_in};
+use crate::figures::car::{CarRun, exhibits};
+use crate::figures::{capital, digits};
+
+/// The page as HTML; it needs nothing else to be shown.
+#[must_use]
+pub fn render(run: &CarRun) -> String {
+    let summary = &run.result.summary;
+    let exhibits = exhibits(run);
+    let heading = if summary.title.is_empty() {
+        &summary.name
+    } else {
+        &summary.title
+    };
+    let lead = format!(
+        "The run {} of a freight car on track. Computed by {}.",
+        summary.name, summary.program
+    );
+    let main = html! {
+        (doubts(summary))
+        section { h2 { "Limits" } (limits(summary)) }
+        section { h2 { "Statistics" } (statistics(summary)) }
+        section {
+            h2 { "Figures" }
+            @for exhibit in &exhibits { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
+        }
+        section { h2 { "Wedges" } (wedges(summary)) }
+        section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
+    };
+    document(&capital(heading), &lead, None, &main, None)
+}
+
+fn doubts(summary: &CarSummary) -> Markup {
+    html! {
+        @if let Some(own) = &summary.derailed {
+            p.warning { (summary.name) " derails at " (digits(own.time)) " s: " (own.what) }
+        }
+        @if let Some(stopped) = &summary.stopped {
+            p.warning { (summary.name) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
+        }
+        @for warning in &summary.warnings { p.warning { (summary.name) ": " (warning) } }
+        @if summary.failed.is_some() { p.warning { (summary.name) (super::runs::FAILED) } }
+    }
+}
+
+fn limits(summary: &CarSummary) -> Markup {
+    html! {
+        p {
+            "The worst value of each kind beside limits that are remembered of AAR M-1001, chapter XI: check them against your edition \
+             of the standard. A limit counts for the regimes named. Margin: what is left, in parts of the limit."
+        }
+        div.wide {
+            table {
+                thead {
+                    tr {
+                        th scope="col" { "quantity" } th scope="col" { "worst at" }
+                        th.number scope="col" { "value" } th.number scope="col" { "limit" }
+                        th.number scope="col" { "margin" } th scope="col" { "regimes" }
+                    }
+                }
+                tbody {
+                    @for own in &summary.limits {
+                        tr {
+                            th scope="row" { (own.quantity) }
+                            td { (own.statistic.replace('_', " ")) }
+                            td.number { (digits(own.value)) @if !own.unit.is_empty() { " " (own.unit) } }
+                            td.number { (digits(own.limit)) @if !own.unit.is_empty() { " " (own.unit) } }
+                            td.number { (format!("{:.0} %", 100.0 * own.margin)) }
+                            td { (own.regimes) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn statistics(summary: &CarSummary) -> Markup {
+    let cell = |value: &Option<SummaryValue>| {
+        value
+            .as_ref()
+            .map_or("–".to_owned(), |own| match own.unit.as_str() {
+                "" => digits(own.value),
+                unit => format!("{} {unit}", digits(own.value)),
+            })
+    };
+    html! {
+        details {
+            summary { "All statistics, raw and filtered" }
+            div.wide {
+                table {
+                    thead {
+                        tr {
+                            th scope="col" { "statistic" } th.number scope="col" { "raw" }
+                            th.number scope="col" { "filtered" } th.number scope="col" { "from (s)" }
+                        }
+                    }
+                    tbody {
+                        @for (name, own) in &summary.statistics {
+                            tr {
+                                th scope="row" { (name.replace('_', " ")) @if !own.remark.is_empty() { " (" (own.remark) ")" } }
+                                td.number { (cell(&own.raw)) }
+                                td.number { (cell(&own.filtered)) }
+                                td.number { (own.time.map_or("–".to_owned(), digits)) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn wedges(summary: &CarSummary) -> Markup {
+    html! {
+        p { "Energy that the friction of each wedge took at column and slope." }
+        div.wide {
+            table {
+                tbody {
+                    @for (name, own) in &summary.wedge_losses {
+                        tr { th scope="row" { (name.replace('_', " ")) } td.number { (digits(own.value)) " " (own.unit) } }
+                    }
+                }
+            }
+        }
+        p {
+            "Energy ledger: its largest residual at any output time is "
+            (format!("{:.1e}", summary.ledger.largest_relative_residual))
+            " of the largest of work, losses and change of stored energy. " (summary.solver.steps) " steps."
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! The built-in cars, after the regimes by which freight cars are assessed. Every one is the text of a case file.
+//!
+//! Amplitudes and curves are remembered of AAR M-1001, chapter XI: check them against your edition.
+
+use std::sync::LazyLock;
+
+use quantity::nearest;
+
+use super::CarCase;
+use crate::case::builtin::{BuiltIn, Group};
+use crate::case::problem::Problem;
+use crate::case::{CaseError, Tables};
+
+/// Irregularities of a track of FRA class 4 by spectra, tapered at the start.
+const CLASS_4: &str = "
+[[track.irregularities]]
+spectrum = \"fra_vertical\"
+class = 4
+rails = \"both\"
+direction = \"vertical\"
+seed = 1
+[[track.irregularities]]
+spectrum = \"fra_cross_level\"
+class = 4
+rails = \"against\"
+direction = \"vertical\"
+seed = 2
+[[track.irregularities]]
+spectrum = \"fra_lateral\"
+class = 4
+rails = \"both\"
+direction = \"lateral\"
+seed = 3
+";
+
+/// A curve to the left with spirals at both ends: lengths of tangent, spiral and curve (ft), degree, superelevation (in).
+fn curve([tangent, spiral, curve]: [f64; 3], degree: f64, superelevation: f64, after: &str) -> String {
+    format!(
+        "[[track.segments]]
+tangent = \"{tangent} ft\"
+[[track.segments]]
+spiral = \"{spiral} ft\"
+[[track.segments]]
+curve = \"{curve} ft\"
+degree = \"{degree} deg\"
+direction = \"left\"
+superelevation = \"{superelevation} in\"
+{after}"
+    )
+}
+
+/// Ten low joints 39 ft apart, 0.75 in deep, of these rails, from a distance (ft) on.
+fn joints(rails: &str, start: f64) -> String {
+    format!(
+        "[[track.irregularities]]
+shape = \"joints\"
+rails = \"{rails}\"
+direction = \"vertical\"
+depth = \"0.75 in\"
+spacing = \"39 ft\"
+joints = 10
+start = \"{start} ft\"
+"
+    )
+}
+
+fn tangent(length: f64) -> String {
+    format!("[[track.segments]]\ntangent = \"{length} ft\"\n")
+}
+
+fn case(name: &str, title: &str, lading: &str, speed: &str, duration: f64, track: &str) -> BuiltIn {
+    let body = format!(
+        "model = \"car\"
+lading.kind = \"{lading}\"
+{speed}
+simulation.duration = \"{duration} s\"
+{track}"
+    );
+    BuiltIn::new(
+        format!("car_{name}_{lading}"),
+        format!("{title}, {lading} car"),
+        &body,
+    )
+}
+
+fn held(speed: f64) -> String {
+    format!("speed.value = \"{speed} mph\"")
+}
+
+static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
+    let rough = format!("{}{CLASS_4}", tangent(2500.0));
+    let bend = curve([300.0, 200.0, 800.0], 7.5, 4.0, "");
+    let out = "[[track.segments]]\nspiral = \"150 ft\"\n[[track.segments]]\ntangent = \"500 ft\"\n";
+    let bunched = curve([300.0, 150.0, 200.0], 7.5, 4.5, out);
+    let staggered = format!(
+        "{}{}{}",
+        tangent(1000.0),
+        joints("left", 200.0),
+        joints("right", 219.5)
+    );
+    let abreast = format!("{}{}", tangent(1500.0), joints("both", 200.0));
+    let both = |name: &str, title: &str, speed: f64, duration: f64, track: &str| {
+        ["loaded", "empty"].map(|lading| case(name, title, lading, &held(speed), duration, track))
+    };
+    let slowing = "speed.kind = \"over_distance\"
+speed.over_distance = [[\"200 ft\", \"75 mph\"], [\"4200 ft\", \"30 mph\"]]
+start.axle_shift = \"0.2 in\"";
+    vec![
+        Group {
+            name: "car",
+            title: "A freight car on track",
+            look_at: "Tangent: accelerations at the truck centers, losses of the wedges. Curves: lateral forces of the leading \
+                      axles, L/V, and the trucks' turning against center plates and wedges. Amplitudes and limits are remembered \
+                      of AAR M-1001, chapter XI: check them against your edition.",
+            cases: [
+                &both(
+                    "tangent",
+                    "tangent track of FRA class 4 at 50 mph",
+                    50.0,
+                    20.0,
+                    &rough,
+                )[..],
+                &both(
+                    "constant_curve",
+                    "curve of 7.5 deg at 28 mph, balanced",
+                    28.0,
+                    28.0,
+                    &bend,
+                ),
+            ]
+            .concat(),
+        },
+        Group {
+            name: "car_regimes",
+            title: "Regimes of freight cars",
+            look_at: "Spiral: the least wheel load. Hunting: where the lateral motion dies while the car slows down, and the \
+                      standard deviation of the lateral acceleration. Twist and roll: the roll of the body, greatest less least, \
+                      over speeds. Pitch and bounce: wheel loads.",
+            cases: vec![
+                case(
+                    "spiral",
+                    "into and out of a curve of 7.5 deg by short spirals at 20 mph",
+                    "loaded",
+                    &held(20.0),
+                    28.0,
+                    &bunched,
+                ),
+                case(
+                    "hunting",
+                    "tangent, slowing down from 75 to 30 mph",
+                    "empty",
+                    slowing,
+                    50.0,
+                    &tangent(5000.0),
+                ),
+                case(
+                    "twist_and_roll",
+                    "ten staggered low joints 39 ft apart at 16 mph",
+                    "loaded",
+                    &held(16.0),
+                    27.0,
+                    &staggered,
+                ),
+                case(
+                    "pitch_and_bounce",
+                    "ten low joints 39 ft apart, both rails alike, at 55 mph",
+                    "loaded",
+                    &held(55.0),
+                    10.0,
+                    &abreast,
+                ),
+            ],
+        },
+    ]
+});
+
+/// The groups.
+pub fn groups() -> &'static [Group] {
+    &GROUPS
+}
+
+/// The names of all built-in cars.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    groups()
+        .iter()
+        .flat_map(|group| &group.cases)
+        .map(|case| case.name.as_str())
+}
+
+/// The built-in car of this name, with `--set` overrides (`path.key=value`).
+///
+/// # Errors
+/// There is none of this name, or an override is wrong.
+pub fn case_with(name: &str, overrides: &[String]) -> Result<CarCase, CaseError> {
+    CarCase::parse(&format!("{name}.toml"), text(name)?, Tables::nowhere(), overrides)
+}
+
+/// The case file of the built-in car of this name.
+///
+/// # Errors
+/// There is none of this name; the help names the nearest.
+pub fn text(name: &str) -> Result<&'static str, CaseError> {
+    let found = groups()
+        .iter()
+        .flat_map(|group| &group.cases)
+        .find(|case| case.name == name);
+    found.map(BuiltIn::text).ok_or_else(|| {
+        let help = match nearest(name, names()) {
+            Some(near) => format!("did you mean {near}?"),
+            None => "`wedgelab case` lists all".to_owned(),
+        };
+        Problem::new(format!("there is no built-in car \"{name}\""))
+            .help(help)
+            .into()
+    })
+}

@@ -1,0 +1,243 @@
+//! What no single key shows: a lading that tips the car, a track that is too short, a curve that is too tight.
+
+use car::{Drive, Parameters};
+use quantity::Number;
+use truck::SideBearing;
+use wheelrail::track::CenterLine;
+
+use super::lading::LadingKind;
+use crate::case::Simulation;
+use crate::case::problem::Problem;
+use crate::truck::reader::Reader;
+
+const FOOT: f64 = 0.3048;
+const INCH: f64 = 0.0254;
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
+/// Coils that rise or sink by less are not spoken of, m.
+const SMALL_RISE: f64 = 0.05 * INCH;
+/// The curve below whose radius no truck of this kind runs, m: 150 ft, the least that rules for the design of cars
+/// name (remembered).
+const LEAST_RADIUS: f64 = 150.0 * FOOT;
+
+/// Notes what is wrong. Returns what is doubtful.
+pub(super) fn all(
+    r: &mut Reader<'_>,
+    parameters: &Parameters,
+    simulation: &Simulation,
+    lading: LadingKind,
+) -> Vec<String> {
+    balance(r, parameters, lading);
+    way(r, parameters, simulation);
+    if let Err(error) = parameters.check() {
+        r.problems.push(Problem::new(error.to_string()));
+    }
+    [height(parameters)].into_iter().flatten().collect()
+}
+
+/// A center of gravity outside of what carries the body.
+fn balance(r: &mut Reader<'_>, parameters: &Parameters, lading: LadingKind) {
+    let [forward, left, _] = parameters.center_of_gravity();
+    let key = lading.key();
+    let half = 0.5 * parameters.truck_distance;
+    if forward.abs() >= half {
+        let message = format!(
+            "the center of gravity of body and lading lies {:.1} in from the middle, beyond the {} truck, {:.1} in from it: \
+             the car tips",
+            forward.abs() / INCH,
+            if forward > 0.0 { "front" } else { "rear" },
+            half / INCH
+        );
+        let help = "move the masses of the lading between the trucks";
+        r.problem(key, Problem::new(message).label("tips the car").help(help));
+    }
+    let bearing = parameters
+        .trucks
+        .iter()
+        .filter_map(|own| own.car_body.as_ref())
+        .map(|own| own.side_bearings.distance)
+        .fold(f64::INFINITY, f64::min);
+    if left.abs() >= bearing {
+        let message = format!(
+            "the center of gravity of body and lading lies {:.1} in to the {} of the middle, beyond the side bearings at \
+             {:.1} in: the body tips over them",
+            left.abs() / INCH,
+            if left > 0.0 { "left" } else { "right" },
+            bearing / INCH
+        );
+        let help = "move the masses of the lading towards the middle, or set another beside them";
+        r.problem(key, Problem::new(message).label("tips the body").help(help));
+    }
+    for (name, own) in ["front", "rear"].into_iter().zip(&parameters.trucks) {
+        let Some(body) = &own.car_body else { continue };
+        let share = 0.5 + if name == "front" { forward } else { -forward } / parameters.truck_distance;
+        let carried = share * parameters.carried_mass() * parameters.gravity;
+        if matches!(body.side_bearings.kind, SideBearing::ConstantContact { .. })
+            && body.side_bearings.preload() > carried
+        {
+            let message = format!(
+                "the side bearings of the {name} truck push with {:.0} lbf, more than the {:.0} lbf of the body that stand \
+                 there: they lift it off the center plate",
+                body.side_bearings.preload() / POUND_FORCE,
+                carried / POUND_FORCE
+            );
+            let help = "lower side_bearing.preload of the truck, or load the car";
+            r.problem(key, Problem::new(message).label("lifted").help(help));
+        }
+    }
+}
+
+/// Returns the warning about coils that do not carry in the nominal layout what stands on them.
+fn height(parameters: &Parameters) -> Option<String> {
+    let [forward, ..] = parameters.center_of_gravity();
+    let mut worst: Option<(f64, &str, f64)> = None;
+    for (name, own) in ["front", "rear"].into_iter().zip(&parameters.trucks) {
+        let share = 0.5 + if name == "front" { forward } else { -forward } / parameters.truck_distance;
+        let mut standing = own.clone();
+        let body = standing.car_body.as_mut()?;
+        body.body.mass = share * parameters.carried_mass();
+        let rise = standing.surplus()? / own.load_stiffness();
+        let travel = own.load_coils.iter().flatten();
+        let travel = travel.filter_map(|coil| coil.spring.solid.map(|solid| solid[0]));
+        let travel = travel.fold(f64::INFINITY, f64::min);
+        if -rise > travel && worst.is_none_or(|(other, ..)| rise < other) {
+            worst = Some((rise, name, travel));
+        }
+    }
+    let (rise, name, travel) = worst.filter(|(rise, ..)| rise.abs() > SMALL_RISE)?;
+    Some(format!(
+        "the coils of the {name} truck would give by {:.2} in under what stands on them, but go solid after {:.2} in: raise \
+         load_springs.preload of the truck, or carry less",
+        -rise / INCH,
+        travel / INCH
+    ))
+}
+
+/// Where the car starts, and whether the track is long and wide enough for it.
+fn way(r: &mut Reader<'_>, parameters: &Parameters, simulation: &Simulation) {
+    let line = &parameters.track.center_line;
+    let (start, reach) = (parameters.start.distance, parameters.reach());
+    if start < reach {
+        let message = format!(
+            "the car starts at {:.1} ft with its rear axle {:.1} ft before the beginning of the track",
+            start / FOOT,
+            (reach - start) / FOOT
+        );
+        let help = format!("write start.distance = \"{} ft\" or more", (reach / FOOT).ceil());
+        r.problem(
+            "start.distance",
+            Problem::new(message).label("before the track").help(help),
+        );
+        return;
+    }
+    let lead = straight_until(line);
+    if start + reach > lead {
+        let message = format!(
+            "the car starts with its front axle at {:.1} ft, but the track is straight and level across only until {:.1} ft: a \
+             run begins on tangent track",
+            (start + reach) / FOOT,
+            lead / FOOT
+        );
+        let help = format!(
+            "make the first tangent {:.0} ft or longer",
+            ((start + reach) / FOOT).ceil()
+        );
+        r.problem(
+            "track",
+            Problem::new(message).label("too short a lead-in").help(help),
+        );
+        return;
+    }
+    let run = way_of(parameters, simulation.duration);
+    let end = start + reach + run;
+    if end > line.length() {
+        let room = line.length() - start - reach;
+        let message = format!(
+            "the track is {:.0} ft long, but the front axle comes to {:.0} ft in {} s",
+            line.length() / FOOT,
+            end / FOOT,
+            Number(simulation.duration)
+        );
+        // The way grows with the time.
+        let (mut enough, mut too_long) = (0.0, simulation.duration);
+        for _ in 0..40 {
+            let middle = 0.5 * (enough + too_long);
+            *(if way_of(parameters, middle) > room {
+                &mut too_long
+            } else {
+                &mut enough
+            }) = middle;
+        }
+        let most = (10.0 * enough).floor() / 10.0;
+        let help = format!("write simulation.duration = \"{most:.1} s\", or make the track longer");
+        r.problem("track", Problem::new(message).label("too short").help(help));
+    }
+    let (mut tightest, mut place) = (0.0_f64, 0.0);
+    let steps = (line.length() / FOOT).ceil() as usize;
+    for step in 0..=steps {
+        let distance = step as f64 * FOOT;
+        let curvature = line.at(distance).curvature[0].abs();
+        if curvature > tightest {
+            (tightest, place) = (curvature, distance);
+        }
+    }
+    if tightest * LEAST_RADIUS > 1.0 {
+        let axle = parameters.trucks[0].distances[2];
+        let turn = 0.5 * parameters.truck_distance * tightest;
+        let bearings = parameters.trucks[0]
+            .car_body
+            .as_ref()
+            .map_or(0.0, |own| own.side_bearings.distance);
+        let message = format!(
+            "the curve at {:.0} ft has a radius of {:.0} ft, tighter than the 150 ft that cars are built for: the trucks would \
+             turn by {:.1} deg under the body, the side bearings would move by {:.1} in, and between the axles of a truck the \
+             outer rail lies {:.2} in off the line through them, where the flanges press",
+            place / FOOT,
+            1.0 / tightest / FOOT,
+            turn.to_degrees(),
+            turn * bearings / INCH,
+            0.5 * axle * axle * tightest / INCH
+        );
+        r.problem(
+            "track",
+            Problem::new(message)
+                .label("too tight")
+                .help("choose a larger radius"),
+        );
+    }
+}
+
+/// Where the track first bends, or its first superelevation begins; its length if nowhere.
+fn straight_until(line: &CenterLine) -> f64 {
+    let steps = (line.length() / FOOT).ceil() as usize;
+    let bends = |distance: f64| {
+        let station = line.at(distance);
+        station.curvature[0].abs() > 1e-7 || station.superelevation[0].abs() > 1e-4
+    };
+    let first = (0..=steps)
+        .map(|step| step as f64 * FOOT)
+        .find(|distance| bends(*distance));
+    first.unwrap_or(line.length())
+}
+
+/// How far the car comes in a time (s) at the speeds that its drive asks for, m.
+fn way_of(parameters: &Parameters, duration: f64) -> f64 {
+    let Drive::Over { speeds, .. } = &parameters.drive else {
+        return parameters.start.speed * duration;
+    };
+    const STEPS: usize = 2000;
+    let (start, step) = (parameters.start.distance, duration / STEPS as f64);
+    let end = (0..STEPS).fold(start, |distance, _| distance + step * speed_at(speeds, distance));
+    end - start
+}
+
+/// A speed (m/s) at a distance (m), straight between pairs.
+pub(super) fn speed_at(speeds: &[[f64; 2]], distance: f64) -> f64 {
+    let Some(after) = speeds.iter().position(|[own, _]| *own > distance) else {
+        return speeds.last().map_or(0.0, |[_, speed]| *speed);
+    };
+    let Some(before) = after.checked_sub(1) else {
+        return speeds[after][1];
+    };
+    let ([a, from], [b, to]) = (speeds[before], speeds[after]);
+    from + (to - from) * (distance - a) / (b - a)
+}

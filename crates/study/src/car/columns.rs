@@ -1,0 +1,355 @@
+//! The columns of a car's results.
+
+use car::{Car, Loads};
+use mechanics::output::Column;
+use mechanics::system::{EnergyTermKind, Observation, System};
+use quantity::Kind;
+use truck::WEDGE_NAMES;
+
+use super::statistics::{SIDES, ratio};
+
+/// What values are taken from: an observation, its loads, and the stored energy at the start, J.
+pub(super) struct Seen<'s> {
+    pub observation: &'s Observation,
+    pub loads: &'s Loads,
+    pub start_energy: f64,
+}
+
+type Value = Box<dyn Fn(&Seen<'_>) -> f64 + Send + Sync>;
+
+/// The table: what its columns are, and how their values are taken.
+pub(super) struct Columns {
+    pub columns: Vec<Column>,
+    values: Vec<Value>,
+}
+
+/// Axes that signs refer to, by what a column is about.
+const TRACK: &str = "of the track: forward, left, up";
+const BODY: &str = "of the car body: left, up";
+const TRUCK: &str = "of the truck: x forward, y left, z up";
+
+impl Columns {
+    /// Returns the columns of a car; static loads of the wheels are by axle, left and right, N.
+    pub fn new(car: &Car, static_loads: [[f64; 2]; 4]) -> Self {
+        let mut own = Self {
+            columns: Vec::new(),
+            values: Vec::new(),
+        };
+        own.add("time", Kind::Time, "", "time", |seen| seen.observation.time);
+        let text = "of the center of gravity of body and lading along the track, in plan";
+        own.add("distance", Kind::Distance, TRACK, text, |seen| {
+            seen.loads.distance
+        });
+        own.add(
+            "speed",
+            Kind::TravelSpeed,
+            TRACK,
+            "of the car body along the track",
+            |seen| seen.loads.speed,
+        );
+        own.axles(static_loads);
+        own.add(
+            "body_roll",
+            Kind::Angle,
+            TRACK,
+            "of the car body against the track, left side up",
+            |seen| seen.loads.body_angles[0],
+        );
+        for end in 0..2 {
+            for (k, direction) in ["lateral", "vertical"].into_iter().enumerate() {
+                let name = format!("body_at_truck_{}_{direction}_acceleration", end + 1);
+                let text =
+                    "of the car body at the truck's center, as an accelerometer shows it, without gravity";
+                own.add(name, Kind::RideAcceleration, BODY, text, move |seen| {
+                    let own = &seen.loads.ends[end];
+                    [own.lateral_acceleration, own.vertical_acceleration][k]
+                });
+            }
+        }
+        for truck in 0..2 {
+            let text = "mean yaw of the side frames less that of the bolster";
+            own.add(
+                format!("truck_{}_warp_angle", truck + 1),
+                Kind::Angle,
+                TRUCK,
+                text,
+                move |seen| seen.loads.trucks[truck].warp_angle,
+            );
+        }
+        for truck in 0..2 {
+            own.truck(truck);
+        }
+        for truck in 0..2 {
+            own.more_of_truck(truck);
+        }
+        own.wear();
+        own.losses_of_wedges(&car.system);
+        own.energies(&car.system);
+        own
+    }
+
+    /// Appends the values of all columns, SI.
+    pub fn read(&self, seen: &Seen<'_>, out: &mut Vec<f64>) {
+        out.extend(self.values.iter().map(|value| value(seen)));
+    }
+
+    fn add(
+        &mut self,
+        name: impl Into<String>,
+        kind: Kind,
+        frame: &'static str,
+        text: &str,
+        value: impl Fn(&Seen<'_>) -> f64 + Send + Sync + 'static,
+    ) {
+        self.columns.push(Column {
+            name: name.into(),
+            kind,
+            frame: frame.into(),
+            reference: "".into(),
+            text: text.to_owned(),
+        });
+        self.values.push(Box::new(value));
+    }
+
+    fn axles(&mut self, static_loads: [[f64; 2]; 4]) {
+        for (axle, loads) in static_loads.into_iter().enumerate() {
+            for (side, name) in SIDES.into_iter().enumerate() {
+                let stem = format!("axle_{}_{name}", axle + 1);
+                let text = "force of the wheel on its rail, normal to the track's plane, positive down";
+                self.add(
+                    format!("{stem}_vertical"),
+                    Kind::Force,
+                    TRACK,
+                    text,
+                    move |seen| seen.loads.wheels[axle][side].vertical,
+                );
+                let text = "force of the wheel on its rail along the track's plane, positive where it spreads the gauge";
+                self.add(format!("{stem}_lateral"), Kind::Force, TRACK, text, move |seen| {
+                    seen.loads.wheels[axle][side].lateral
+                });
+                let text = "lateral over vertical force; zero below a hundredth of the static load";
+                let name = format!("{stem}_l_over_v");
+                self.add(name, Kind::Dimensionless, TRACK, text, move |seen| {
+                    let wheel = &seen.loads.wheels[axle][side];
+                    ratio(wheel.lateral, wheel.vertical, loads[side])
+                });
+            }
+            let stem = format!("axle_{}", axle + 1);
+            let text = "place of the axle's middle from the track's center line, left";
+            self.add(
+                format!("{stem}_lateral"),
+                Kind::Length,
+                TRACK,
+                text,
+                move |seen| seen.loads.axles[axle].lateral,
+            );
+            let text = "yaw of the axle against the track, left";
+            self.add(format!("{stem}_yaw"), Kind::Angle, TRACK, text, move |seen| {
+                seen.loads.axles[axle].yaw
+            });
+        }
+    }
+
+    /// Nests and wedges of a truck.
+    fn truck(&mut self, truck: usize) {
+        let stem = format!("truck_{}", truck + 1);
+        for (side, name) in SIDES.into_iter().enumerate() {
+            let text = "load on the side frame from all that bolster, wedges and coils exert, positive down";
+            let name = format!("{stem}_{name}_nest_vertical_force");
+            self.add(name, Kind::Force, TRUCK, text, move |seen| {
+                seen.loads.trucks[truck].nest_vertical[side]
+            });
+        }
+        for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
+            let stem = format!("{stem}_{name}");
+            let text = "normal force of the column";
+            self.add(
+                format!("{stem}_column_normal"),
+                Kind::Force,
+                TRUCK,
+                text,
+                move |seen| seen.loads.trucks[truck].wedges[number].column_normal,
+            );
+            let text = "friction of the column alone on the side frame, along z, positive up";
+            self.add(
+                format!("{stem}_column_friction_z"),
+                Kind::Force,
+                TRUCK,
+                text,
+                move |seen| seen.loads.trucks[truck].wedges[number].column_friction_z,
+            );
+            let text = "normal force of the slope";
+            self.add(
+                format!("{stem}_slope_normal"),
+                Kind::Force,
+                TRUCK,
+                text,
+                move |seen| seen.loads.trucks[truck].wedges[number].slope_normal,
+            );
+            for (k, coordinate) in ["x", "y", "z", "roll", "pitch", "yaw"].into_iter().enumerate() {
+                let name = format!("{stem}_{coordinate}");
+                if k < 3 {
+                    let text = "displacement of its center of gravity from its nominal place in the truck";
+                    self.add(name, Kind::Length, TRUCK, text, move |seen| {
+                        seen.loads.trucks[truck].wedges[number].displacement[k]
+                    });
+                } else {
+                    self.add(name, Kind::Angle, TRUCK, "its angle in truck axes", move |seen| {
+                        seen.loads.trucks[truck].wedges[number].angles[k - 3]
+                    });
+                }
+            }
+        }
+    }
+
+    /// What is not among the fixed names: warp moment, center plate.
+    fn more_of_truck(&mut self, truck: usize) {
+        let stem = format!("truck_{}", truck + 1);
+        let text = "moment about the truck's z axis that all elements exert on the bolster";
+        self.add(
+            format!("{stem}_warp_moment"),
+            Kind::Moment,
+            TRUCK,
+            text,
+            move |seen| seen.loads.trucks[truck].warp_moment.total(),
+        );
+        let text = "normal force of the center plate";
+        self.add(
+            format!("{stem}_center_plate_load"),
+            Kind::Force,
+            TRUCK,
+            text,
+            move |seen| seen.loads.trucks[truck].center_plate.load,
+        );
+        for (k, name) in ["roll", "pitch", "turning"].into_iter().enumerate() {
+            let text =
+                "moment of the center plate on the bolster about the truck's axes, at the plate's height";
+            let name = format!("{stem}_center_plate_{name}_moment");
+            self.add(name, Kind::Moment, TRUCK, text, move |seen| {
+                seen.loads.trucks[truck].center_plate.moment[k]
+            });
+        }
+    }
+
+    fn wear(&mut self) {
+        for axle in 0..4 {
+            for (side, name) in SIDES.into_iter().enumerate() {
+                let name = format!("axle_{}_{name}_wear_number", axle + 1);
+                let text = "energy that creep takes by the distance: creep forces times creepages";
+                self.add(name, Kind::Force, TRACK, text, move |seen| {
+                    seen.loads.wheels[axle][side].wear_number
+                });
+            }
+        }
+    }
+
+    fn losses_of_wedges(&mut self, system: &System) {
+        for truck in 1..=2 {
+            for wedge in WEDGE_NAMES {
+                let places = losses_of_wedge(system, truck, wedge);
+                let name = format!("truck_{truck}_{wedge}_friction_loss");
+                let text = "energy lost in its friction at column and slope since the start";
+                self.sum(&name, text, places);
+            }
+        }
+    }
+
+    fn energies(&mut self, system: &System) {
+        let of = |wanted: &dyn Fn(EnergyTermKind, &str) -> bool| -> Vec<usize> {
+            let terms = system.energy_terms().iter().enumerate();
+            terms
+                .filter(|(_, term)| wanted(term.kind, &term.element))
+                .map(|(place, _)| place)
+                .collect()
+        };
+        let is_wheel = |element: &str| element.starts_with("wheel_") || element.starts_with("linear_wheel");
+        let entries: [(&str, &str, Vec<usize>); 6] = [
+            (
+                "drive_work",
+                "work of what holds the speed, and of motions and loads, since the start",
+                of(&|kind, element| kind.is_work() && !is_wheel(element)),
+            ),
+            (
+                "contact_work",
+                "work of the contacts of wheels and rails that is not stored and not lost in creep and damping: it comes from \
+                 forces that no energy belongs to",
+                of(&|kind, element| kind.is_work() && is_wheel(element)),
+            ),
+            (
+                "creep_loss",
+                "energy lost in creep and in the damping of the contacts of wheels and rails since the start",
+                of(&|kind, element| kind == EnergyTermKind::ElementLoss && is_wheel(element)),
+            ),
+            (
+                "friction_loss",
+                "energy lost in the friction of wedges, adapters, center plates and side bearings since the start",
+                of(&|kind, _| {
+                    matches!(
+                        kind,
+                        EnergyTermKind::FrictionLoss
+                            | EnergyTermKind::ColumnFriction
+                            | EnergyTermKind::SlopeFriction
+                            | EnergyTermKind::WedgeKinematics
+                    )
+                }),
+            ),
+            (
+                "contact_damping_loss",
+                "energy lost in the damping of faces since the start",
+                of(&|kind, _| kind == EnergyTermKind::ContactDampingLoss),
+            ),
+            (
+                "element_loss",
+                "energy lost in coils, stops and rails' supports since the start",
+                of(&|kind, element| {
+                    !kind.is_work()
+                        && !is_wheel(element)
+                        && !matches!(
+                            kind,
+                            EnergyTermKind::FrictionLoss
+                                | EnergyTermKind::ColumnFriction
+                                | EnergyTermKind::SlopeFriction
+                                | EnergyTermKind::WedgeKinematics
+                                | EnergyTermKind::ContactDampingLoss
+                        )
+                }),
+            ),
+        ];
+        for (name, text, places) in entries {
+            self.sum(name, text, places);
+        }
+        let text = "energy stored, less that at the start";
+        self.add("stored_energy_change", Kind::Energy, "", text, |seen| {
+            seen.observation.energies.total() - seen.start_energy
+        });
+        let text = "work less stored energy and losses";
+        self.add("ledger_residual", Kind::Energy, "", text, |seen| {
+            -seen.observation.residual(seen.start_energy)
+        });
+    }
+
+    /// A sum of quadratures.
+    fn sum(&mut self, name: &str, text: &str, places: Vec<usize>) {
+        self.add(name, Kind::Energy, "", text, move |seen| {
+            places
+                .iter()
+                .map(|place| seen.observation.quadratures[*place])
+                .sum()
+        });
+    }
+}
+
+/// The places among the energy terms of what a wedge of a truck (1 front, 2 rear) loses in friction.
+pub(super) fn losses_of_wedge(system: &System, truck: usize, wedge: &str) -> Vec<usize> {
+    let stem = format!("truck_{truck}_{wedge}");
+    let faces = [format!("{stem}_column"), format!("{stem}_slope")];
+    let terms = system.energy_terms().iter().enumerate();
+    terms
+        .filter(|(_, term)| match term.kind {
+            EnergyTermKind::FrictionLoss => faces.contains(&term.element),
+            EnergyTermKind::ColumnFriction | EnergyTermKind::SlopeFriction => term.element == stem,
+            _ => false,
+        })
+        .map(|(place, _)| place)
+        .collect()
+}

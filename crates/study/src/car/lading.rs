@@ -1,0 +1,169 @@
+//! The sections of the car body and of what it carries.
+
+use car::{Mass, Parameters};
+use quantity::{Kind, STANDARD_GRAVITY};
+use truck::Lading;
+
+use crate::case::field::{Reach, Written, quoted};
+use crate::case::problem::{Problem, Problems};
+use crate::case::section::{Names, Range, Section};
+use crate::case::tree::Value;
+use crate::truck::reader::{Form, LENGTH, Reader};
+use crate::truck::sections;
+
+/// What a car carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LadingKind {
+    Loaded,
+    Empty,
+    Masses,
+}
+
+const KINDS: Names<LadingKind> = &[
+    ("loaded", LadingKind::Loaded),
+    ("empty", LadingKind::Empty),
+    ("masses", LadingKind::Masses),
+];
+
+/// Reads `lading.kind`, on which defaults of other sections hang.
+pub(super) fn kind(r: &mut Reader<'_>) -> LadingKind {
+    let mut kind = LadingKind::Loaded;
+    r.section("lading", "What the car carries.");
+    let comment =
+        "\"loaded\": 200,400 lbf, with the car 263,000 lbf on rail; \"empty\"; \"masses\": those below";
+    r.choice("kind", KINDS, &mut kind, comment);
+    kind
+}
+
+impl LadingKind {
+    /// The lading for which a car of this kind is built.
+    pub(super) fn usual(self) -> Lading {
+        match self {
+            Self::Loaded | Self::Masses => Lading::Loaded,
+            Self::Empty => Lading::Empty,
+        }
+    }
+}
+
+/// A mass as typed.
+struct Typed {
+    mass: Mass,
+    toml: String,
+}
+
+/// Reads the masses of the lading; the section has begun.
+pub(super) fn masses(r: &mut Reader<'_>, kind: LadingKind) -> Vec<Mass> {
+    if kind != LadingKind::Masses {
+        if r.has("lading.masses") {
+            let problem = Problem::new("`lading.masses` has no effect: the lading is another");
+            let help = "write lading.kind = \"masses\"";
+            r.problem("lading.masses", problem.label("not used").help(help));
+        }
+        r.expect("lading", &["masses"]);
+        return match kind {
+            LadingKind::Loaded => vec![Mass::usual()],
+            _ => Vec::new(),
+        };
+    }
+    let comment = "rigid masses: weight; place forward, to the left, above the top of rail; inertia about x, y, z; \
+                   off the middle allowed";
+    let read = r.other(
+        "masses",
+        comment,
+        Vec::new(),
+        |section, problems| list(section, problems),
+        |list: &Vec<Typed>| {
+            let lines: Vec<String> = list.iter().map(|own| format!("\n    {},", own.toml)).collect();
+            Written::toml(format!("[{}\n]", lines.concat()))
+        },
+    );
+    if read.is_empty() && !r.has("lading.masses") {
+        let problem = Problem::new("`lading.kind` is \"masses\", but there are none").label("which masses?");
+        let help = "write lading.masses = [{ name = \"coil\", weight = \"40 kip\", place = [\"0 in\", \"10 in\", \"70 in\"], \
+                    inertia = [\"0 lbf in s^2\", \"0 lbf in s^2\", \"0 lbf in s^2\"] }], or lading.kind = \"empty\"";
+        r.problem("lading.kind", problem.help(help));
+    }
+    read.into_iter().map(|own| own.mass).collect()
+}
+
+fn list(section: &Section<'_>, problems: &mut Problems) -> Option<Vec<Typed>> {
+    let node = section.table.get("masses")?;
+    let wrong = |found: &str| {
+        Problem::new(format!("`lading.masses` holds {found}; tables are expected"))
+            .label("not a list of tables")
+            .help("write [[lading.masses]] on a line of its own and the keys below it")
+    };
+    let Value::List(items) = &node.value else {
+        problems.push(wrong(node.value.describe()).at(&node.place));
+        return None;
+    };
+    let mut list = Vec::new();
+    for (number, item) in items.iter().enumerate() {
+        let Value::Table(table) = &item.value else {
+            problems.push(wrong(item.value.describe()).at(&item.place));
+            return None;
+        };
+        let mut place = item.place.clone();
+        place.span.end = place.span.end.min(place.span.start + 1);
+        let own = Section {
+            path: format!("lading.masses[{number}]"),
+            table,
+            place: Some(place),
+        };
+        own.allow_in(
+            &["name", "weight", "place", "inertia"],
+            &[],
+            "a mass of the lading",
+            problems,
+        );
+        let name = match table.get("name") {
+            Some(_) => own.text("name", problems).map(|(text, _)| text.to_owned()),
+            None => Some(format!("mass {}", number + 1)),
+        };
+        let weight = own.quantity("weight", Kind::Force, Range::Positive, problems);
+        let place = own.triple("place", Kind::Length, Range::Any, problems);
+        let inertia = own.triple("inertia", Kind::Inertia, Range::NotNegative, problems);
+        let (name, weight, place, inertia) = (name?, weight?, place?, inertia?);
+        let triple = |own: &[quantity::Quantity; 3]| {
+            let texts = own.each_ref().map(|one| quoted(one.text()));
+            format!("[{}]", texts.join(", "))
+        };
+        list.push(Typed {
+            toml: format!(
+                "{{ name = {}, weight = {}, place = {}, inertia = {} }}",
+                quoted(&name),
+                quoted(weight.text()),
+                triple(&place),
+                triple(&inertia)
+            ),
+            mass: Mass {
+                name,
+                mass: weight.to_si() / STANDARD_GRAVITY,
+                place: place.each_ref().map(quantity::Quantity::to_si),
+                inertia: inertia.each_ref().map(quantity::Quantity::to_si),
+            },
+        });
+    }
+    Some(list)
+}
+
+/// The section of the body.
+pub(super) fn body(r: &mut Reader<'_>, parameters: &mut Parameters) {
+    r.section(
+        "car",
+        "The car body without lading. Axes: x forward, y left, z up from the top of rail, origin midway between the trucks.",
+    );
+    sections::rigid_body(r, &mut parameters.body);
+    r.quantity(
+        "truck_distance",
+        LENGTH,
+        &mut parameters.truck_distance,
+        "from the center of one truck to that of the other",
+    );
+    let gravity: Form = (
+        Kind::Acceleration,
+        Range::NotNegative,
+        Reach::FromZero(STANDARD_GRAVITY),
+    );
+    r.quantity("gravity", gravity, &mut parameters.gravity, "standard gravity");
+}

@@ -1,0 +1,217 @@
+//! Freight cars on track: cases, runs, statistics, results.
+//!
+//! [`CarCase`] is what a user writes, completed and in SI; [`builtin`] has cases after the regimes of the field;
+//! [`statistics`] says what rules for the assessment of cars ask; [`run`] records a run; [`stability`] linearizes.
+
+mod assumptions;
+pub mod builtin;
+mod checks;
+mod columns;
+mod derailment;
+mod lading;
+pub mod run;
+mod sections;
+pub mod stability;
+pub mod statistics;
+pub mod summary;
+mod track;
+mod trucks;
+mod wheels;
+
+use std::path::Path;
+
+use car::Parameters;
+
+use crate::case::field::{FieldSection, Written, quoted};
+use crate::case::problem::{Problem, Problems, TomlSource};
+use crate::case::section::Section;
+use crate::case::tree::Table;
+use crate::case::{self, CaseError, Simulation, Tables, name, overrides, tree};
+use crate::truck::reader::Reader;
+use crate::truck::{MODELS, Model, model};
+use statistics::Rules;
+
+/// The case of a car, ready to run.
+#[derive(Clone, Debug)]
+pub struct CarCase {
+    /// A name that can be the name of a folder.
+    pub name: String,
+    /// One line for people; may be empty.
+    pub title: String,
+    /// The car on its track, SI.
+    pub parameters: Parameters,
+    /// What statistics are taken, and how.
+    pub rules: Rules,
+    /// How to run it.
+    pub simulation: Simulation,
+    /// What reading found doubtful but not wrong.
+    pub doubts: Vec<String>,
+    text: String,
+    embedded: String,
+    fields: Vec<FieldSection>,
+}
+
+impl PartialEq for CarCase {
+    /// Two cases are the same if their completed case files are.
+    fn eq(&self, other: &Self) -> bool {
+        self.embedded == other.embedded
+    }
+}
+
+impl CarCase {
+    /// Reads a case file and lays `--set` overrides (`path.key=value`) over it. A case without a name takes that
+    /// of its file.
+    ///
+    /// # Errors
+    /// The file cannot be read, or something in it, in a file it names, or in an override is wrong; all
+    /// mistakes are reported together.
+    pub fn read(path: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+        let text = case::text_of(path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&path.display().to_string(), &text, folder, overrides)
+    }
+
+    /// As [`CarCase::read`], from a text. `source` names it in messages; `tables` says where files that it names
+    /// are looked for.
+    ///
+    /// # Errors
+    /// As [`CarCase::read`].
+    pub fn parse<'t>(
+        source: &str,
+        text: &str,
+        tables: impl Into<Tables<'t>>,
+        overrides: &[String],
+    ) -> Result<Self, CaseError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut tree = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
+        case::refuse_study(&tree, source)?;
+        let problems = overrides::apply(&mut tree, overrides);
+        Self::of_tree(tree, source, tables.into(), problems)
+    }
+
+    /// Lays values over the text of a case: TOML as in a case file, but a bare number where a quantity is expected is
+    /// in SI units. Tables are merged key by key; the lists of a track and of a lading are replaced.
+    ///
+    /// # Errors
+    /// As [`CarCase::parse`].
+    pub fn of_values<'t>(
+        source: &str,
+        text: &str,
+        values: Option<&str>,
+        tables: impl Into<Tables<'t>>,
+    ) -> Result<Self, CaseError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let below = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
+        case::refuse_study(&below, source)?;
+        let tree = match values {
+            None => below,
+            Some(values) => {
+                let mut tree = tree::parse(&TomlSource::in_si("values", values)).map_err(CaseError::new)?;
+                tree.complete_from(&below);
+                tree
+            }
+        };
+        Self::of_tree(tree, source, tables.into(), Problems::new())
+    }
+
+    /// Reads a tree; `problems` are those found on the way to it.
+    fn of_tree(
+        mut tree: Table,
+        source: &str,
+        tables: Tables<'_>,
+        mut problems: Problems,
+    ) -> Result<Self, CaseError> {
+        if model(&tree, &mut problems).is_some_and(|model| model != Model::Car) {
+            let problem = Problem::new(format!("{source} is no case of a car"));
+            problems.push(problem.help("write model = \"car\" in its first line"));
+        }
+        trucks::complete(&mut tree, &mut problems);
+        let case = read(&tree, name::of_source(source), tables, &mut problems);
+        match case.filter(|_| problems.is_empty()) {
+            Some(case) => Ok(case),
+            None => Err(CaseError::new(problems)),
+        }
+    }
+
+    /// Returns the same case under another name.
+    #[must_use]
+    pub fn named(&self, name: &str) -> Self {
+        let rename = |text: &str| {
+            let (_, rest) = text.split_once('\n').unwrap_or(("", text));
+            format!("name = {}\n{rest}", quoted(name))
+        };
+        Self {
+            name: name.to_owned(),
+            text: rename(&self.text),
+            embedded: rename(&self.embedded),
+            ..self.clone()
+        }
+    }
+
+    /// Returns the whole case as TOML: every key in groups, each with what it means. Reads back to the same case.
+    #[must_use]
+    pub fn to_toml(&self) -> &str {
+        &self.text
+    }
+
+    /// Returns the same with the contents of a track file written into it. Profiles of wheels and rails and measured
+    /// tables stay files.
+    #[must_use]
+    pub fn to_toml_embedded(&self) -> &str {
+        &self.embedded
+    }
+
+    /// Returns the whole case as fields, in the order of [`CarCase::to_toml`] and with its texts.
+    #[must_use]
+    pub fn fields(&self) -> &[FieldSection] {
+        &self.fields
+    }
+
+    /// Returns the speed at the start, m/s.
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.parameters.start.speed
+    }
+}
+
+/// Reads a case, section by section.
+fn read(tree: &Table, default_name: &str, tables: Tables<'_>, problems: &mut Problems) -> Option<CarCase> {
+    let top = Section {
+        path: String::new(),
+        table: tree,
+        place: None,
+    };
+    let name = name::read(&top, default_name, problems)?;
+    let title = match tree.get("title") {
+        Some(_) => top.text("title", problems).map(|(text, _)| text)?,
+        None => "",
+    };
+    let mut r = Reader::new(tree, tables, problems);
+    r.expect("", &["name", "title", "model"]);
+    r.top("name", Written::text(&name), "a folder name: results go there");
+    r.top("title", Written::text(title), "one line for people");
+    r.top(
+        "model",
+        Written::choice(MODELS, &Model::Car),
+        "\"car\": a freight car on track",
+    );
+    let drawn = sections::everything(&mut r);
+    let (text, embedded, fields) = r.finish("a car's case");
+    let sections::Drawn {
+        parameters,
+        rules,
+        simulation,
+        doubts,
+    } = drawn?;
+    Some(CarCase {
+        name,
+        title: title.to_owned(),
+        parameters,
+        rules,
+        simulation,
+        doubts,
+        text,
+        embedded,
+        fields,
+    })
+}

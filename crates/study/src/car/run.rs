@@ -1,0 +1,399 @@
+//! Running a car.
+
+use std::collections::BTreeMap;
+
+use car::Car;
+use integrate::{Family, Integrator, Options, Problem};
+use mechanics::energy_balance::Entries;
+use mechanics::output::Column;
+use mechanics::plausibility::Finding;
+use mechanics::system::{ContactState, System};
+use quantity::{Kind, System as Units};
+use serde::{Deserialize, Serialize};
+use truck::WEDGE_NAMES;
+
+use super::CarCase;
+use super::columns::{Columns, Seen, losses_of_wedge};
+use super::derailment;
+use super::statistics::{self, Histories, SIDES, Statistics};
+use super::summary::{CarSummary, Derailed, SCHEMA};
+use crate::energy;
+use crate::finite::{find, is_finite};
+use crate::metrics::Extremes;
+use crate::plausibility;
+use crate::progress;
+use crate::result::RunResult;
+use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, append};
+use crate::summary::{LedgerSummary, Stopped, SummaryValue};
+
+/// What came out of a run.
+pub type CarResult = RunResult<CarSummary>;
+
+/// Normal forces above this tear a truck apart, N: 5 million lbf.
+const MOST_FORCE: f64 = 5e6 * 4.448_221_615_260_5;
+
+/// Records a car's run: its table, and where it derails.
+pub struct CarRecorder {
+    car: Car,
+    columns: Columns,
+    values: Vec<Vec<f64>>,
+    static_loads: [[f64; 2]; 4],
+    derailed: Option<Derailed>,
+    units: Units,
+    /// Where rows begin, if the run goes on from a saved state, s.
+    continued: Option<f64>,
+    row: Vec<f64>,
+    /// Rates of the state.
+    rates: Vec<f64>,
+    /// Heights of the axles at the first row, m.
+    heights: Option<[f64; 4]>,
+}
+
+/// What is counted along a car's run: nothing, since all is in its rows.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CarCounts {}
+
+impl RunCase for CarCase {
+    type Recorder = CarRecorder;
+    type Output = CarResult;
+
+    const WHERE_TO_LOOK: &'static str =
+        "look for values that are out of proportion; `wedgelab case` has cars that run";
+    const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn duration_and_interval(&self) -> [f64; 2] {
+        [self.simulation.duration, self.simulation.output_interval]
+    }
+
+    fn units(&self) -> Units {
+        self.simulation.output_units
+    }
+
+    fn options(&self) -> Options {
+        let method = self.simulation.method;
+        Options {
+            relative_tolerance: self.simulation.relative_tolerance,
+            maximum_step: match method.tableau().family {
+                // Rows are to be resolved.
+                Family::DiagonallyImplicit => self.simulation.output_interval,
+                _ => f64::INFINITY,
+            },
+            ..Options::of(method)
+        }
+    }
+
+    fn begin(&self) -> Result<Beginning<CarRecorder>, RunError> {
+        let car = Car::new(&self.parameters)?;
+        let static_loads = derailment::static_loads(&self.parameters);
+        let columns = Columns::new(&car, static_loads);
+        Ok(Beginning {
+            system: car.system.clone(),
+            x: car.initial_state.clone(),
+            recorder: CarRecorder {
+                values: vec![Vec::new(); columns.columns.len()],
+                row: Vec::with_capacity(columns.columns.len()),
+                rates: vec![0.0; car.initial_state.len()],
+                heights: None,
+                static_loads,
+                derailed: None,
+                units: self.simulation.output_units,
+                continued: None,
+                columns,
+                car,
+            },
+        })
+    }
+
+    fn output(run: Run<Self>, stopped: Option<Stopped>) -> CarResult {
+        output(run, stopped)
+    }
+}
+
+impl Run<CarCase> {
+    /// Returns the columns of the rows, without those that are filtered when the run has ended.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.recorder.columns.columns
+    }
+}
+
+impl Recorder for CarRecorder {
+    type Counts = CarCounts;
+
+    fn counts(&self) -> CarCounts {
+        CarCounts {}
+    }
+
+    fn restore(&mut self, _: CarCounts, time: f64) -> Result<(), RunError> {
+        self.continued = Some(time);
+        Ok(())
+    }
+
+    fn step(&mut self, _: &Integrator<System>, _: &mut System, _: &mut [f64]) {}
+
+    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
+        let observation = system.observe(row.time, row.x);
+        for (face, mounted) in observation.faces.iter().zip(system.faces()) {
+            let force: f64 = face.points.iter().map(|point| point.normal).sum();
+            if force > MOST_FORCE {
+                return Err(RunError::TornApart {
+                    element: mounted.element.name.clone(),
+                    force,
+                    time: row.time,
+                });
+            }
+        }
+        system.derivative(row.time, row.x, &mut self.rates);
+        let loads = self.car.loads(&observation, &self.rates);
+        let heights = *self.heights.get_or_insert(loads.axles.map(|axle| axle.height));
+        let seen = Seen {
+            observation: &observation,
+            loads: &loads,
+            start_energy: row.start_energy,
+        };
+        self.row.clear();
+        self.columns.read(&seen, &mut self.row);
+        append(&mut self.values, &self.columns.columns, &self.row, row.time)?;
+        if let Some(own) = derailment::of(&loads, heights) {
+            let distance = SummaryValue::new(own.distance, Kind::Distance, self.units);
+            let what = format!(
+                "the {} wheel of axle {} left its rail at {:.1} {}: {}",
+                SIDES[own.side],
+                own.axle + 1,
+                distance.value,
+                distance.unit,
+                own.what
+            );
+            self.derailed = Some(Derailed {
+                time: row.time,
+                distance,
+                axle: own.axle + 1,
+                side: SIDES[own.side].to_owned(),
+                what: what.clone(),
+            });
+            return Err(RunError::Derailed { what });
+        }
+        Ok(system.ledger_entries(&observation, row.start_energy))
+    }
+
+    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
+        plausibility::in_truck(system, finding, [&[], &[]], units)
+    }
+
+    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
+        // Of each face: how many of its points are open, stick and slip.
+        let mut states = contact_states
+            .iter()
+            .map(|state| ContactState::from_number(*state));
+        let faces = self.car.system.faces().iter();
+        faces
+            .map(|mounted| {
+                let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+                for state in states.by_ref().take(mounted.element.points.len()) {
+                    *counts.entry(state.name()).or_default() += 1;
+                }
+                let words: Vec<String> = counts
+                    .iter()
+                    .map(|(name, count)| format!("{count} {name}"))
+                    .collect();
+                (mounted.element.name.clone(), words.join(", "))
+            })
+            .collect()
+    }
+}
+
+fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
+    let units = run.case.simulation.output_units;
+    let mut columns = run.recorder.columns.columns.clone();
+    let mut values = std::mem::take(&mut run.recorder.values);
+    let balance = run.energy_balance;
+    let derailed = run.recorder.derailed.take();
+    // A derailment is a result.
+    let stopped = stopped.filter(|_| derailed.is_none());
+    let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
+        .into_iter()
+        .collect();
+    warnings.extend(plausibility::warnings_of_rolling(&run));
+    warnings.extend(run.case.doubts.iter().cloned());
+    warnings.extend(
+        derailed
+            .iter()
+            .map(|own| format!("derailed at {:.3} s: {}", own.time, own.what)),
+    );
+    let told = statistics_of(&run, &columns, &values);
+    warnings.extend(told.remarks.iter().cloned());
+    if run.case.rules.filtered_columns {
+        filtered(&run, &told, &mut columns, &mut values);
+    }
+    let column = |name: &str| found(&columns, &values, name);
+    let time = column("time");
+    let mut extremes = BTreeMap::new();
+    for (column, values) in columns.iter().zip(&values).skip(1) {
+        if let Some(mut found) = Extremes::of(time, values) {
+            found.minimum *= column.kind.from_si(units);
+            found.maximum *= column.kind.from_si(units);
+            extremes.insert(column.full_name(units), found);
+        }
+    }
+    let ends = |name: &str, kind: Kind| {
+        let values = column(name);
+        [values.first(), values.last()]
+            .map(|value| SummaryValue::new(value.copied().unwrap_or_default(), kind, units))
+    };
+    let (distance, speed) = (ends("distance", Kind::Distance), ends("speed", Kind::TravelSpeed));
+    let mut static_loads = BTreeMap::new();
+    for (axle, loads) in (1..).zip(run.recorder.static_loads) {
+        for (side, load) in SIDES.into_iter().zip(loads) {
+            static_loads.insert(
+                format!("axle_{axle}_{side}"),
+                SummaryValue::new(load, Kind::Force, units),
+            );
+        }
+    }
+    let rows = time.len();
+    let (ledger, wedge_losses) = ledger(&mut run);
+    let mut summary = CarSummary {
+        schema: SCHEMA.to_owned(),
+        program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
+        name: run.case.name.clone(),
+        title: run.case.title.clone(),
+        units,
+        complete: stopped.is_none() && (run.is_finished() || derailed.is_some()),
+        stopped,
+        derailed,
+        failed: energy::failure(&balance, energy::WHAT_TO_DO),
+        warnings,
+        rows,
+        distance,
+        speed,
+        static_loads,
+        limits: statistics::limits(&told.values),
+        statistics: told.values,
+        wedge_losses,
+        extremes,
+        ledger,
+        method: run.case.simulation.method.to_string(),
+        relative_tolerance: run.case.simulation.relative_tolerance,
+        solver: run.integrator.statistics().clone(),
+        assumptions: super::assumptions::of(&run.case),
+    };
+    let energies = find(&summary.ledger.entries);
+    let residual = !is_finite(summary.ledger.largest_relative_residual);
+    let wrong = energies.map(|name| format!("`{name}`"));
+    if let Some(what) = wrong.or(residual.then(|| "the ledger's relative residual".to_owned()))
+        && summary.stopped.is_none()
+    {
+        summary.complete = false;
+        summary.stopped = Some(run.stopped(format!("{what} is not a finite number")));
+    }
+    CarResult {
+        columns,
+        values,
+        summary,
+    }
+}
+
+/// The values of a column; empty if there is none of this name.
+fn found<'v>(columns: &[Column], values: &'v [Vec<f64>], name: &str) -> &'v [f64] {
+    let place = columns.iter().position(|column| column.name == name);
+    place.map_or(&[][..], |place| values[place].as_slice())
+}
+
+fn statistics_of(run: &Run<CarCase>, columns: &[Column], values: &[Vec<f64>]) -> Statistics {
+    let line = &run.case.parameters.track.center_line;
+    // Full curves: the curvature does not change there.
+    let in_curve = |distance: f64| {
+        let [curvature, rate] = line.at(distance).curvature;
+        curvature.abs() > 1e-6 && rate.abs() < 1e-9
+    };
+    let histories = Histories {
+        column: &|name| found(columns, values, name),
+        interval: run.case.simulation.output_interval,
+        begin: run.case.parameters.start.settle,
+        static_loads: run.recorder.static_loads,
+        in_curve: &in_curve,
+    };
+    let mut told = Statistics::of(&histories, &run.case.rules, run.case.simulation.output_units);
+    if let Some(time) = run.recorder.continued {
+        told.remarks.push(format!(
+            "the run went on from a state saved at {time} s: rows before it are neither in its table nor in its statistics"
+        ));
+    }
+    told
+}
+
+/// Appends filtered columns.
+fn filtered(run: &Run<CarCase>, told: &Statistics, columns: &mut Vec<Column>, values: &mut Vec<Vec<f64>>) {
+    let rows = values.first().map_or(0, Vec::len);
+    let rules = &run.case.rules;
+    let mut append = |of: &str, own: Vec<f64>, cutoff: f64| {
+        let Some(raw) = columns.iter().find(|column| column.name == of).cloned() else {
+            return;
+        };
+        columns.push(Column {
+            name: format!("{of}_filtered"),
+            text: format!("{}; below {cutoff} Hz", raw.text),
+            ..raw
+        });
+        values.push(own);
+    };
+    let whole = |name: &str| -> Option<Vec<f64>> {
+        let own = told.filtered.iter().find(|own| own.of == name)?;
+        let mut values = own.values.clone();
+        // A last row that is nearer than the others has the value before it.
+        let last = values.last().copied().unwrap_or_default();
+        values.resize(rows, last);
+        Some(values)
+    };
+    for (axle, loads) in (1..).zip(run.recorder.static_loads) {
+        for (side, load) in SIDES.into_iter().zip(loads) {
+            let stem = format!("axle_{axle}_{side}");
+            let names = ["vertical", "lateral"].map(|what| format!("{stem}_{what}"));
+            let [Some(vertical), Some(lateral)] = names.each_ref().map(|name| whole(name)) else {
+                continue;
+            };
+            let pairs = lateral.iter().zip(&vertical);
+            let ratios = pairs.map(|(l, v)| statistics::ratio(*l, *v, load)).collect();
+            let [vertical_name, lateral_name] = &names;
+            append(vertical_name, vertical, rules.wheel_filter);
+            append(lateral_name, lateral, rules.wheel_filter);
+            append(&format!("{stem}_l_over_v"), ratios, rules.wheel_filter);
+        }
+    }
+    for end in 1..=2 {
+        for direction in ["lateral", "vertical"] {
+            let name = format!("body_at_truck_{end}_{direction}_acceleration");
+            if let Some(own) = whole(&name) {
+                append(&name, own, rules.acceleration_filter);
+            }
+        }
+    }
+}
+
+/// The ledger at the end, and what the friction of each wedge took.
+fn ledger(run: &mut Run<CarCase>) -> (LedgerSummary, BTreeMap<String, SummaryValue>) {
+    let units = run.case.simulation.output_units;
+    run.system.segment_like(run.integrator.problem());
+    let seen = run.system.observe(run.integrator.time(), run.integrator.x());
+    let measure = |value: f64| SummaryValue::new(value, Kind::Energy, units);
+    let mut entries = BTreeMap::new();
+    for (term, value) in run.system.energy_terms().iter().zip(&seen.quadratures) {
+        entries.insert(term.name(), measure(*value));
+    }
+    entries.insert("stored".to_owned(), measure(seen.energies.total()));
+    entries.insert("residual".to_owned(), measure(-seen.residual(run.start_energy)));
+    let mut losses = BTreeMap::new();
+    for truck in 1..=2 {
+        for wedge in WEDGE_NAMES {
+            let places = losses_of_wedge(&run.system, truck, wedge);
+            let loss = places.iter().map(|place| seen.quadratures[*place]).sum();
+            losses.insert(format!("truck_{truck}_{wedge}"), measure(loss));
+        }
+    }
+    let ledger = LedgerSummary::new(entries, run.start_energy, &run.energy_balance, units);
+    (ledger, losses)
+}

@@ -1,0 +1,376 @@
+//! All sections of a car's case, in the order of the completed case.
+
+use car::{Drive, Parameters, Start, StartKind};
+use integrate::Method;
+use quantity::{Kind, Quantity, System};
+use rolling::track::RailSupport;
+
+use super::checks;
+use super::lading::{self, LadingKind};
+use super::statistics::Rules;
+use super::{track, trucks, wheels};
+use crate::case::document::{METHODS, SYSTEMS};
+use crate::case::field::{Reach, Written, quoted};
+use crate::case::problem::{Problem, Problems};
+use crate::case::read::{TOLERANCE, check_rows};
+use crate::case::section::{Names, Range, Section, quantity};
+use crate::case::tree::Value;
+use crate::case::{Simulation, write};
+use crate::track::Support;
+use crate::truck::reader::{DAMPING, Form, Reader};
+
+/// What the sections say.
+pub(super) struct Drawn {
+    pub parameters: Parameters,
+    pub rules: Rules,
+    pub simulation: Simulation,
+    pub doubts: Vec<String>,
+}
+
+/// What keeps the car moving, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum DriveKind {
+    Held,
+    OverDistance,
+    Coasting,
+}
+
+const DRIVES: Names<DriveKind> = &[
+    ("held", DriveKind::Held),
+    ("over_distance", DriveKind::OverDistance),
+    ("coasting", DriveKind::Coasting),
+];
+const STARTS: Names<StartKind> = &[
+    ("equilibrium", StartKind::Equilibrium),
+    ("nominal", StartKind::Nominal),
+];
+
+/// Speed of a car that none is given for, mph.
+const USUAL_SPEED: f64 = 40.0;
+const MILE_PER_HOUR: f64 = 0.447_04;
+const SHIFT: Form = (Kind::Length, Range::Any, Reach::Signed(0.0127));
+const TIME: Form = (Kind::Time, Range::Positive, Reach::Positive);
+
+/// Reads all sections; `None` if there is no car to speak of: what is wrong has been noted.
+pub(super) fn everything(r: &mut Reader<'_>) -> Option<Drawn> {
+    let carried = lading::kind(r);
+    let masses = lading::masses(r, carried);
+    let straight = track::tangent(1000.0)?;
+    let mut parameters = Parameters::new(carried.usual(), straight, USUAL_SPEED * MILE_PER_HOUR).ok()?;
+    parameters.lading = masses;
+    lading::body(r, &mut parameters);
+    parameters.trucks = trucks::trucks(r, carried.usual());
+    for own in &mut parameters.trucks {
+        own.gravity = parameters.gravity;
+    }
+    let line = track::track(r);
+    let sprung = !matches!(line, Some((_, Support::Rigid)));
+    if let Some((track, support)) = &line {
+        parameters.track = track.clone();
+        parameters.support = rail_support(support, parameters.gravity);
+    }
+    let rails = wheels::rails(r);
+    wheels::wheels(r, &mut parameters, rails, sprung);
+    let speeds = speed(r, &mut parameters);
+    start(r, &mut parameters, speeds.as_deref());
+    let mut rules = Rules::default();
+    output(r, &mut rules);
+    let simulation = simulation(r);
+    // Without a track there is no place to look at.
+    line?;
+    let doubts = checks::all(r, &parameters, &simulation, carried);
+    Some(Drawn {
+        parameters,
+        rules,
+        simulation,
+        doubts,
+    })
+}
+
+/// Returns the springs under the rails.
+fn rail_support(support: &Support, gravity: f64) -> Option<RailSupport> {
+    support.rail().map(|rail| RailSupport {
+        preload: rail.mass * gravity,
+        ..rail.clone()
+    })
+}
+
+/// Reads `[speed]`. Returns the speeds over distance, if they are given: pairs of m and m/s.
+fn speed(r: &mut Reader<'_>, parameters: &mut Parameters) -> Option<Vec<[f64; 2]>> {
+    r.section("speed", "How fast it goes.");
+    let mut kind = DriveKind::Held;
+    let comment = "\"held\": a force on the body along the track holds the value; \"over_distance\": the same with the values \
+                   below; \"coasting\": no force";
+    r.choice("kind", DRIVES, &mut kind, comment);
+    let mut gain = 1e5;
+    if kind != DriveKind::Coasting {
+        r.quantity("gain", DAMPING, &mut gain, "force by what lacks in speed");
+    } else {
+        r.expect("speed", &["gain"]);
+    }
+    if kind == DriveKind::OverDistance {
+        let comment = "distances along the track and speeds, straight between them";
+        let typed = r.other(
+            "over_distance",
+            comment,
+            None,
+            |s, p| speeds(s, p).map(Some),
+            write_speeds,
+        );
+        let Some(typed) = typed.filter(|typed| !typed.is_empty()) else {
+            if !r.has("speed.over_distance") {
+                let problem =
+                    Problem::new("`speed.kind` is \"over_distance\", but `speed.over_distance` is missing");
+                let help = "write over_distance = [[\"0 ft\", \"60 mph\"], [\"3000 ft\", \"30 mph\"]]";
+                r.problem("speed.kind", problem.label("which speeds?").help(help));
+            }
+            return None;
+        };
+        let speeds: Vec<[f64; 2]> = typed
+            .iter()
+            .map(|pair| pair.each_ref().map(Quantity::to_si))
+            .collect();
+        parameters.drive = Drive::Over {
+            gain,
+            speeds: speeds.clone(),
+        };
+        return Some(speeds);
+    }
+    let range = match kind {
+        DriveKind::Coasting => Range::NotNegative,
+        _ => Range::Positive,
+    };
+    if kind == DriveKind::Held
+        && let Some(node) = r.at("speed.value")
+        && let Value::Text(text) = &node.value
+        && Quantity::parse_as(text, Kind::TravelSpeed).is_ok_and(|own| own.to_si() == 0.0)
+    {
+        let problem = Problem::new("`speed.value` is zero, but a car that is held at a speed rolls");
+        let help = "write speed.kind = \"coasting\" for a car that stands, or a speed";
+        r.problem("speed.value", problem.label("does not roll").help(help));
+        return None;
+    }
+    let value = &mut parameters.start.speed;
+    r.quantity(
+        "value",
+        (Kind::TravelSpeed, range, Reach::Positive),
+        value,
+        "at the start; wheels roll",
+    );
+    parameters.drive = match kind {
+        DriveKind::Coasting => Drive::Coasting,
+        _ => Drive::Held { gain },
+    };
+    None
+}
+
+type Pairs = Vec<[Quantity; 2]>;
+
+fn speeds(section: &Section<'_>, problems: &mut Problems) -> Option<Pairs> {
+    let node = section.table.get("over_distance")?;
+    let wrong = |what: &str| {
+        Problem::new(format!("`speed.over_distance` {what}"))
+            .label("pairs of distance and speed")
+            .help("write over_distance = [[\"0 ft\", \"60 mph\"], [\"3000 ft\", \"30 mph\"]]")
+    };
+    let Value::List(items) = &node.value else {
+        problems.push(wrong("is no list").at(&node.place));
+        return None;
+    };
+    let mut pairs: Pairs = Vec::new();
+    for (number, item) in items.iter().enumerate() {
+        let Value::List(pair) = &item.value else {
+            problems.push(wrong("holds what is no pair").at(&item.place));
+            return None;
+        };
+        let [distance, speed] = pair.as_slice() else {
+            problems.push(wrong("holds what is no pair").at(&item.place));
+            return None;
+        };
+        let path = format!("speed.over_distance[{number}]");
+        let distance = quantity(distance, &path, Kind::Distance, Range::Any, problems);
+        let speed = quantity(speed, &path, Kind::TravelSpeed, Range::NotNegative, problems);
+        let pair = [distance?, speed?];
+        if pairs
+            .last()
+            .is_some_and(|before| before[0].to_si() >= pair[0].to_si())
+        {
+            problems.push(wrong("must have growing distances").at(&item.place));
+            return None;
+        }
+        pairs.push(pair);
+    }
+    Some(pairs)
+}
+
+fn write_speeds(pairs: &Option<Pairs>) -> Written {
+    let texts = pairs
+        .iter()
+        .flatten()
+        .map(|[distance, speed]| format!("[{}, {}]", quoted(distance.text()), quoted(speed.text())));
+    Written::toml(format!("[{}]", texts.collect::<Vec<_>>().join(", ")))
+}
+
+fn start(r: &mut Reader<'_>, parameters: &mut Parameters, speeds: Option<&[[f64; 2]]>) {
+    r.section("start", "Where the run starts.");
+    let speed = parameters.start.speed;
+    parameters.start = Start::at(parameters.reach() + 1.0, speed);
+    let own = &mut parameters.start;
+    let comment =
+        "\"equilibrium\": at rest on straight track, without friction; \"nominal\": the loaded layout";
+    r.choice("kind", STARTS, &mut own.kind, comment);
+    let distance: Form = (Kind::Distance, Range::NotNegative, Reach::Positive);
+    r.quantity(
+        "distance",
+        distance,
+        &mut own.distance,
+        "of the middle of the car along the track",
+    );
+    let settle: Form = (Kind::Time, Range::NotNegative, Reach::FromZero(2.0));
+    r.quantity(
+        "settle",
+        settle,
+        &mut own.settle,
+        "statistics leave out what is before it",
+    );
+    let mut shift = 0.0;
+    let comment = "of all wheelsets to the left, a disturbance; axle_1_shift to axle_4_shift set one";
+    r.quantity("axle_shift", SHIFT, &mut shift, comment);
+    own.wheelset_shifts = [shift; 4];
+    for (key, shift) in ["axle_1_shift", "axle_2_shift", "axle_3_shift", "axle_4_shift"]
+        .into_iter()
+        .zip(&mut own.wheelset_shifts)
+    {
+        let mut given = r.has(&format!("start.{key}")).then_some(*shift);
+        r.optional(key, SHIFT, &mut given, "\"0.1 in\"", "of this wheelset");
+        *shift = given.unwrap_or(*shift);
+    }
+    r.quantity(
+        "body_shift",
+        SHIFT,
+        &mut own.body_shift,
+        "of the car body to the left",
+    );
+    let heading: Form = (Kind::Angle, Range::Any, Reach::Signed(write::TURN));
+    r.quantity(
+        "heading",
+        heading,
+        &mut own.heading,
+        "of the track in the fixed frame: changes nothing",
+    );
+    if let Some(speeds) = speeds {
+        own.speed = checks::speed_at(speeds, own.distance);
+    }
+}
+
+fn output(r: &mut Reader<'_>, rules: &mut Rules) {
+    r.section(
+        "output",
+        "What statistics are taken, and how. All values are remembered: check them against your edition of the rules.",
+    );
+    let time: Form = (Kind::Time, Range::Positive, Reach::Positive);
+    let distance: Form = (Kind::Distance, Range::Positive, Reach::Positive);
+    let comment = "low-pass filter of wheel forces: fourth order, no phase, -3 dB there";
+    frequency(r, "wheel_filter", &mut rules.wheel_filter, comment);
+    let comment = "wheel L/V, axle sums and wheel loads that last so long";
+    r.quantity("hold_time", time, &mut rules.hold_time, comment);
+    r.quantity(
+        "hold_distance",
+        distance,
+        &mut rules.hold_distance,
+        "wheel L/V over this distance",
+    );
+    r.quantity(
+        "side_distance",
+        distance,
+        &mut rules.side_distance,
+        "L/V of a truck's side over this distance",
+    );
+    let comment = "share of wheel L/V and axle sums in curves that lies below the value told";
+    let range = Range::Between(0.0, 1.0, "between 0 and 1");
+    r.number(
+        "percentile",
+        range,
+        Reach::Between(0.5, 0.999),
+        &mut rules.percentile,
+        comment,
+    );
+    frequency(
+        r,
+        "acceleration_filter",
+        &mut rules.acceleration_filter,
+        "low-pass filter of accelerations",
+    );
+    let comment = "largest standard deviation of accelerations over this distance";
+    r.quantity(
+        "deviation_distance",
+        distance,
+        &mut rules.deviation_distance,
+        comment,
+    );
+    r.quantity(
+        "rms_time",
+        time,
+        &mut rules.rms_time,
+        "largest rms of accelerations over this time",
+    );
+    r.truth(
+        "filtered_columns",
+        &mut rules.filtered_columns,
+        "whether result.csv has filtered columns beside the raw ones",
+    );
+}
+
+/// A cutoff in Hz; frequencies are angular inside.
+fn frequency(r: &mut Reader<'_>, key: &'static str, hertz: &mut f64, comment: &str) {
+    let turn = 2.0 * std::f64::consts::PI;
+    let form: Form = (Kind::Frequency, Range::Positive, Reach::Positive);
+    let default = format!("{hertz} Hz");
+    let read = |section: &Section<'_>, problems: &mut Problems| {
+        let (kind, range, _) = form;
+        section.quantity(key, kind, range, problems)
+    };
+    let Ok(usual) = Quantity::parse_as(&default, Kind::Frequency) else {
+        return;
+    };
+    let own = r.other(key, comment, usual, read, |own| {
+        Written::quantity(own, form.0, form.2)
+    });
+    // Angular and back again leaves a last digit.
+    *hertz = (own.to_si() / turn * 1e9).round() / 1e9;
+}
+
+fn simulation(r: &mut Reader<'_>) -> Simulation {
+    let mut simulation = Simulation {
+        duration: 20.0,
+        output_interval: 0.005,
+        relative_tolerance: 1e-4,
+        output_units: System::Us,
+        method: Method::default(),
+    };
+    r.section("simulation", "How to run it.");
+    let duration = r.quantity("duration", TIME, &mut simulation.duration, "");
+    let comment = "time between two rows of the result; filters need 4 rows a period";
+    let interval = r.quantity("output_interval", TIME, &mut simulation.output_interval, comment);
+    let comment = "of the integrator, between 0 and 1";
+    let tolerance = &mut simulation.relative_tolerance;
+    r.number("relative_tolerance", TOLERANCE, Reach::Wide, tolerance, comment);
+    let comment = "\"us\" (ft, mph, in, lbf, g) or \"si\" (m, N)";
+    r.choice("output_units", SYSTEMS, &mut simulation.output_units, comment);
+    let comment = "\"rodas5p\"; \"tr-bdf2\" and \"esdirk3\" damp vibrations";
+    r.choice("method", METHODS, &mut simulation.method, comment);
+    if let (Some(duration), Some(interval), Some(section)) = (&duration, &interval, r.given()) {
+        check_rows(&section, duration, interval, r.problems);
+    }
+    simulation
+}
+
+impl LadingKind {
+    /// The key that decides it, for messages.
+    pub(super) fn key(self) -> &'static str {
+        match self {
+            Self::Masses => "lading.masses",
+            Self::Loaded | Self::Empty => "lading.kind",
+        }
+    }
+}

@@ -1,0 +1,619 @@
+//! What rules for the assessment of freight cars ask of a run, from its columns.
+//!
+//! All lengths of time and distance, frequencies and limits are those that are remembered of AAR M-1001, chapter XI
+//! (1993, and a later edition): **check them against your edition**. They are parameters ([`Rules`]).
+//!
+//! | statistic | how |
+//! |---|---|
+//! | wheel L/V | lateral force on the rail, positive where it spreads the gauge, over the vertical force; the largest that lasts for the hold time, and over the hold distance |
+//! | axle sum L/V | sum of the sizes of both wheels' L/V; the largest that lasts for the hold time |
+//! | truck side L/V | lateral over vertical forces of both wheels of a side; the largest that lasts over the side distance |
+//! | in curves | the percentile of wheel L/V and axle sums over the rows with the car's middle in full curves |
+//! | least wheel load | share of the static one; the least, and the one that is not exceeded for the hold time |
+//! | body roll | greatest less least |
+//! | accelerations at the truck centers | greatest less least, largest size, largest standard deviation over a distance, largest rms over a time |
+//!
+//! Raw: from the rows. Filtered: wheel forces and accelerations through a low-pass filter
+//! ([`crate::signal::LowPass`]), ratios of filtered forces. Before the settling time nothing counts. A ratio is zero
+//! where a wheel carries less than a hundredth of its static load: what is told there is the least wheel load.
+
+use std::collections::BTreeMap;
+
+use quantity::{Kind, System as Units};
+use serde::{Deserialize, Serialize};
+
+use crate::signal::{Found, LowPass, largest_deviation, largest_rms, peak_to_peak, percentile, sustained};
+use crate::summary::SummaryValue;
+
+const FOOT: f64 = 0.3048;
+const GRAVITY: f64 = 9.806_65;
+/// Share of the static load below which a wheel has no ratio.
+pub const LEAST_SHARE: f64 = 0.01;
+/// The names of the sides in columns.
+pub const SIDES: [&str; 2] = ["left", "right"];
+
+/// How statistics are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rules {
+    /// Cutoff of the filter of wheel forces, Hz.
+    pub wheel_filter: f64,
+    /// How long an exceedance lasts, s.
+    pub hold_time: f64,
+    /// The same over a distance, m.
+    pub hold_distance: f64,
+    /// Distance of a truck side's L/V, m.
+    pub side_distance: f64,
+    /// Share of the rows in curves below the value told.
+    pub percentile: f64,
+    /// Cutoff of the filter of accelerations, Hz.
+    pub acceleration_filter: f64,
+    /// Distance of the standard deviation of accelerations, m.
+    pub deviation_distance: f64,
+    /// Time of the rms of accelerations, s.
+    pub rms_time: f64,
+    /// Whether results have filtered columns.
+    pub filtered_columns: bool,
+}
+
+impl Default for Rules {
+    fn default() -> Self {
+        Self {
+            wheel_filter: 15.0,
+            hold_time: 0.05,
+            hold_distance: 3.0 * FOOT,
+            side_distance: 6.0 * FOOT,
+            percentile: 0.95,
+            acceleration_filter: 10.0,
+            deviation_distance: 2000.0 * FOOT,
+            rms_time: 2.0,
+            filtered_columns: true,
+        }
+    }
+}
+
+/// A column of a run by name (without unit), SI.
+pub type Column<'c> = &'c dyn Fn(&str) -> &'c [f64];
+
+/// What statistics are taken of.
+pub struct Histories<'c> {
+    /// The columns.
+    pub column: Column<'c>,
+    /// Time between two rows, s.
+    pub interval: f64,
+    /// Where statistics begin, s.
+    pub begin: f64,
+    /// Static loads of the wheels, by axle, left and right, N.
+    pub static_loads: [[f64; 2]; 4],
+    /// Whether a distance along the track (m) is in a full curve.
+    pub in_curve: &'c dyn Fn(f64) -> bool,
+}
+
+/// One number of a run, raw and filtered.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Statistic {
+    /// From the rows.
+    pub raw: Option<SummaryValue>,
+    /// From filtered forces or accelerations.
+    pub filtered: Option<SummaryValue>,
+    /// Where the filtered value, or else the raw one, begins, s.
+    pub time: Option<f64>,
+    /// Why there is none, or what is special; empty if there is nothing to say.
+    pub remark: String,
+}
+
+/// A filtered column.
+pub struct Filtered {
+    /// The name of the raw column, without unit.
+    pub of: String,
+    /// The values, SI.
+    pub values: Vec<f64>,
+}
+
+/// What statistics say.
+pub struct Statistics {
+    /// By name.
+    pub values: BTreeMap<String, Statistic>,
+    /// Filtered columns.
+    pub filtered: Vec<Filtered>,
+    /// What could not be done.
+    pub remarks: Vec<String>,
+}
+
+/// Force, place of a row in time and in distance.
+struct Rows<'c> {
+    time: &'c [f64],
+    distance: &'c [f64],
+}
+
+/// Raw and filtered values of one quantity, from the settling time on.
+struct Pair {
+    raw: Vec<f64>,
+    filtered: Option<Vec<f64>>,
+}
+
+impl Pair {
+    fn each(&self) -> [Option<&[f64]>; 2] {
+        [Some(self.raw.as_slice()), self.filtered.as_deref()]
+    }
+
+    /// Combines values of several pairs row by row.
+    fn of<const N: usize>(pairs: [&Self; N], combine: impl Fn([f64; N]) -> f64) -> Self {
+        let rows = |each: [&[f64]; N]| -> Vec<f64> {
+            let count = each.iter().map(|own| own.len()).min().unwrap_or(0);
+            (0..count).map(|row| combine(each.map(|own| own[row]))).collect()
+        };
+        let raw = rows(pairs.map(|own| own.raw.as_slice()));
+        let filtered = pairs.iter().all(|own| own.filtered.is_some());
+        Self {
+            raw,
+            filtered: filtered.then(|| rows(pairs.map(|own| own.filtered.as_deref().unwrap_or_default()))),
+        }
+    }
+}
+
+impl Statistics {
+    /// Returns the statistics of a run.
+    #[must_use]
+    pub fn of(histories: &Histories<'_>, rules: &Rules, units: Units) -> Self {
+        let column = histories.column;
+        let all = column("time");
+        let from = all
+            .iter()
+            .position(|time| *time >= histories.begin * (1.0 - 1e-12));
+        let mut own = Self {
+            values: BTreeMap::new(),
+            filtered: Vec::new(),
+            remarks: Vec::new(),
+        };
+        // A last row may stand nearer to the one before it.
+        let even = match all {
+            [.., before, last] if last - before < histories.interval * (1.0 - 1e-6) => all.len() - 1,
+            _ => all.len(),
+        };
+        let Some(from) = from.filter(|from| from + 1 < even) else {
+            own.remarks.push(format!(
+                "the run does not reach beyond the settling time of {} s: there are no statistics",
+                histories.begin
+            ));
+            return own;
+        };
+        let rows = Rows {
+            time: &all[from..even],
+            distance: &column("distance")[from..even],
+        };
+        let [wheel, ride] = [rules.wheel_filter, rules.acceleration_filter].map(|cutoff| {
+            let filter = LowPass::new(histories.interval, cutoff);
+            filter
+                .map_err(|error| {
+                    own.remarks.push(format!(
+                        "{error}: nothing is filtered by it; shorten simulation.output_interval"
+                    ));
+                })
+                .ok()
+        });
+        own.wheels(&rows, histories, rules, wheel.as_ref(), (from, even), units);
+        own.body(&rows, histories, rules, ride.as_ref(), (from, even), units);
+        own
+    }
+
+    /// A column, raw and filtered; the filtered one is kept.
+    fn pair(
+        &mut self,
+        histories: &Histories<'_>,
+        name: &str,
+        filter: Option<&LowPass>,
+        (from, to): (usize, usize),
+    ) -> Pair {
+        let values = (histories.column)(name);
+        let filtered = filter.map(|filter| filter.apply(&values[..to]));
+        if let Some(values) = &filtered {
+            self.filtered.push(Filtered {
+                of: name.to_owned(),
+                values: values.clone(),
+            });
+        }
+        Pair {
+            raw: values[from..to].to_vec(),
+            filtered: filtered.map(|values| values[from..].to_vec()),
+        }
+    }
+
+    fn wheels(
+        &mut self,
+        rows: &Rows<'_>,
+        histories: &Histories<'_>,
+        rules: &Rules,
+        filter: Option<&LowPass>,
+        range: (usize, usize),
+        units: Units,
+    ) {
+        let curve: Vec<bool> = rows
+            .distance
+            .iter()
+            .map(|own| (histories.in_curve)(*own))
+            .collect();
+        let mut axles: Vec<[[Pair; 2]; 2]> = Vec::new();
+        for (axle, loads) in (1..).zip(histories.static_loads) {
+            let mut wheels = Vec::new();
+            for (side, load) in SIDES.into_iter().zip(loads) {
+                let stem = format!("axle_{axle}_{side}");
+                let [vertical, lateral] = ["vertical", "lateral"]
+                    .map(|what| self.pair(histories, &format!("{stem}_{what}"), filter, range));
+                let ratio = Pair::of([&lateral, &vertical], |[l, v]| ratio(l, v, load));
+                self.held(&format!("{stem}_l_over_v"), &ratio, rows, rules, units);
+                self.in_curves(&format!("{stem}_l_over_v"), &ratio, &curve, rules, units);
+                self.least_load(&stem, &vertical, load, rows, rules);
+                wheels.push([lateral, vertical]);
+            }
+            let (Some(right), Some(left)) = (wheels.pop(), wheels.pop()) else {
+                return;
+            };
+            let sum = Pair::of([&left[0], &left[1], &right[0], &right[1]], |[ll, lv, rl, rv]| {
+                ratio(ll, lv, loads[0]).abs() + ratio(rl, rv, loads[1]).abs()
+            });
+            let name = format!("axle_{axle}_sum_l_over_v");
+            self.set(
+                &format!("{name}_time"),
+                &sum,
+                rows,
+                Kind::Dimensionless,
+                units,
+                |values| sustained(rows.time, values, rules.hold_time),
+            );
+            self.in_curves(&name, &sum, &curve, rules, units);
+            axles.push([left, right]);
+        }
+        for (truck, pair) in (1..).zip(axles.chunks(2)) {
+            let [first, second] = pair else { continue };
+            for (side, name) in SIDES.into_iter().enumerate() {
+                let least: f64 = histories.static_loads[2 * truck - 2..2 * truck]
+                    .iter()
+                    .map(|own| own[side])
+                    .sum();
+                let own = Pair::of(
+                    [
+                        &first[side][0],
+                        &first[side][1],
+                        &second[side][0],
+                        &second[side][1],
+                    ],
+                    |[l1, v1, l2, v2]| ratio(l1 + l2, v1 + v2, least),
+                );
+                self.set(
+                    &format!("truck_{truck}_{name}_side_l_over_v"),
+                    &own,
+                    rows,
+                    Kind::Dimensionless,
+                    units,
+                    |values| over_distance(rows, values, rules.side_distance),
+                );
+            }
+        }
+    }
+
+    /// Wheel L/V that lasts, over time and distance.
+    fn held(&mut self, name: &str, ratio: &Pair, rows: &Rows<'_>, rules: &Rules, units: Units) {
+        self.set(
+            &format!("{name}_time"),
+            ratio,
+            rows,
+            Kind::Dimensionless,
+            units,
+            |values| sustained(rows.time, values, rules.hold_time),
+        );
+        self.set(
+            &format!("{name}_distance"),
+            ratio,
+            rows,
+            Kind::Dimensionless,
+            units,
+            |values| over_distance(rows, values, rules.hold_distance),
+        );
+    }
+
+    /// The percentile in full curves.
+    fn in_curves(&mut self, name: &str, own: &Pair, curve: &[bool], rules: &Rules, units: Units) {
+        let found = own.each().map(|values| {
+            let inside: Vec<f64> = values?
+                .iter()
+                .zip(curve)
+                .filter(|(_, inside)| **inside)
+                .map(|(v, _)| *v)
+                .collect();
+            percentile(&inside, rules.percentile)
+        });
+        if found[0].is_none() {
+            return;
+        }
+        let [raw, filtered] =
+            found.map(|own| own.map(|own| SummaryValue::new(own, Kind::Dimensionless, units)));
+        let statistic = Statistic {
+            raw,
+            filtered,
+            time: None,
+            remark: String::new(),
+        };
+        self.values.insert(format!("{name}_in_curves"), statistic);
+    }
+
+    /// The least load of a wheel, and the one that is not exceeded for the hold time, in % of the static one.
+    fn least_load(&mut self, stem: &str, vertical: &Pair, load: f64, rows: &Rows<'_>, rules: &Rules) {
+        if load <= 0.0 {
+            return;
+        }
+        let percent = |found: Found| SummaryValue {
+            value: -100.0 * found.value / load,
+            unit: "%".to_owned(),
+        };
+        let negative = |values: &[f64]| -> Vec<f64> { values.iter().map(|own| -own).collect() };
+        for (name, hold) in [("least_load", 0.0), ("least_load_time", rules.hold_time)] {
+            let found = vertical
+                .each()
+                .map(|values| sustained(rows.time, &negative(values?), hold));
+            let statistic = Statistic {
+                time: found[1].or(found[0]).map(|own| own.start),
+                raw: found[0].map(percent),
+                filtered: found[1].map(percent),
+                remark: String::new(),
+            };
+            self.values.insert(format!("{stem}_{name}"), statistic);
+        }
+    }
+
+    fn body(
+        &mut self,
+        rows: &Rows<'_>,
+        histories: &Histories<'_>,
+        rules: &Rules,
+        filter: Option<&LowPass>,
+        range: (usize, usize),
+        units: Units,
+    ) {
+        let roll = Pair {
+            raw: (histories.column)("body_roll")[range.0..range.1].to_vec(),
+            filtered: None,
+        };
+        self.set(
+            "body_roll_peak_to_peak",
+            &roll,
+            rows,
+            Kind::Angle,
+            units,
+            whole(rows),
+        );
+        for end in 1..=2 {
+            for direction in ["lateral", "vertical"] {
+                let name = format!("body_at_truck_{end}_{direction}_acceleration");
+                let own = self.pair(histories, &name, filter, range);
+                let kind = Kind::RideAcceleration;
+                self.set(
+                    &format!("{name}_peak_to_peak"),
+                    &own,
+                    rows,
+                    kind,
+                    units,
+                    whole(rows),
+                );
+                self.set(&format!("{name}_largest"), &own, rows, kind, units, |values| {
+                    let sizes: Vec<f64> = values.iter().map(|own| own.abs()).collect();
+                    sustained(rows.time, &sizes, 0.0)
+                });
+                let deviation = |values: &[f64]| {
+                    let found = largest_deviation(rows.distance, values, rules.deviation_distance)?;
+                    Some(timed(rows, found))
+                };
+                let statistic = format!("{name}_deviation");
+                self.set(&statistic, &own, rows, kind, units, deviation);
+                let run = rows.distance[rows.distance.len() - 1] - rows.distance[0];
+                if run < rules.deviation_distance
+                    && let Some(own) = self.values.get_mut(&statistic)
+                {
+                    own.remark = format!(
+                        "over the {:.0} ft of the run, not over {:.0} ft",
+                        run / FOOT,
+                        rules.deviation_distance / FOOT
+                    );
+                }
+                self.set(&format!("{name}_rms"), &own, rows, kind, units, |values| {
+                    largest_rms(rows.time, values, rules.rms_time)
+                });
+            }
+        }
+    }
+
+    /// Takes a number of raw and of filtered values.
+    fn set(
+        &mut self,
+        name: &str,
+        own: &Pair,
+        rows: &Rows<'_>,
+        kind: Kind,
+        units: Units,
+        take: impl Fn(&[f64]) -> Option<Found>,
+    ) {
+        let found = own.each().map(|values| take(values?));
+        let value = |found: Found| SummaryValue::new(found.value, kind, units);
+        let remark = match found[0] {
+            Some(_) => String::new(),
+            None => format!(
+                "the {:.3} s after settling are too short",
+                rows.time[rows.time.len() - 1] - rows.time[0]
+            ),
+        };
+        let statistic = Statistic {
+            time: found[1].or(found[0]).map(|own| own.start),
+            raw: found[0].map(value),
+            filtered: found[1].map(value),
+            remark,
+        };
+        self.values.insert(name.to_owned(), statistic);
+    }
+}
+
+/// Lateral over vertical force; zero where the wheel carries next to nothing.
+#[must_use]
+pub fn ratio(lateral: f64, vertical: f64, static_load: f64) -> f64 {
+    if vertical > LEAST_SHARE * static_load {
+        lateral / vertical
+    } else {
+        0.0
+    }
+}
+
+/// Greatest less least value of all rows.
+fn whole(rows: &Rows<'_>) -> impl Fn(&[f64]) -> Option<Found> {
+    let (start, length) = (rows.time[0], rows.time[rows.time.len() - 1] - rows.time[0]);
+    move |values| {
+        Some(Found {
+            value: peak_to_peak(values),
+            start,
+            length,
+        })
+    }
+}
+
+/// The largest value that lasts over a distance, with its time. Where the car stands or goes back there is none.
+fn over_distance(rows: &Rows<'_>, values: &[f64], distance: f64) -> Option<Found> {
+    if rows.distance.windows(2).any(|pair| pair[1] <= pair[0]) {
+        return None;
+    }
+    Some(timed(rows, sustained(rows.distance, values, distance)?))
+}
+
+/// What was found at a distance, told at its time.
+fn timed(rows: &Rows<'_>, found: Found) -> Found {
+    let row = rows.distance.partition_point(|own| *own < found.start);
+    Found {
+        start: rows.time[row.min(rows.time.len() - 1)],
+        ..found
+    }
+}
+
+/// A limit that rules set.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Limit {
+    /// What is limited.
+    pub quantity: String,
+    /// Regimes that it is set for.
+    pub regimes: String,
+    /// The statistic that is worst.
+    pub statistic: String,
+    /// Its value: filtered, or raw where nothing is filtered.
+    pub value: f64,
+    /// The limit.
+    pub limit: f64,
+    /// Their unit.
+    pub unit: String,
+    /// By how much the limit is kept, in parts of it: negative where it is not.
+    pub margin: f64,
+}
+
+/// A limit as rules state it: what it is, the regimes, the ending of its statistics, the limit, its unit, the limit in SI
+/// of that unit, and whether values must lie above.
+struct Stated {
+    quantity: &'static str,
+    regimes: &'static str,
+    ending: &'static str,
+    limit: f64,
+    unit: &'static str,
+    below: bool,
+}
+
+/// Remembered: AAR M-1001 chapter XI (1993; [later edition]).
+const STATED: [Stated; 7] = [
+    Stated {
+        quantity: "wheel L/V that lasts for the hold time",
+        regimes: "dynamic curving (0.8; later edition 1.0)",
+        ending: "_l_over_v_time",
+        limit: 1.0,
+        unit: "",
+        below: true,
+    },
+    Stated {
+        quantity: "wheel L/V in curves, percentile",
+        regimes: "constant curving (0.8)",
+        ending: "_l_over_v_in_curves",
+        limit: 0.8,
+        unit: "",
+        below: true,
+    },
+    Stated {
+        quantity: "axle sum L/V that lasts for the hold time",
+        regimes: "hunting, twist and roll, yaw and sway, dynamic curving (1.3; later edition 1.5)",
+        ending: "_sum_l_over_v_time",
+        limit: 1.5,
+        unit: "",
+        below: true,
+    },
+    Stated {
+        quantity: "truck side L/V",
+        regimes: "yaw and sway",
+        ending: "_side_l_over_v",
+        limit: 0.6,
+        unit: "",
+        below: true,
+    },
+    Stated {
+        quantity: "least wheel load that lasts for the hold time",
+        regimes: "twist and roll, pitch and bounce, dynamic curving, spiral",
+        ending: "_least_load_time",
+        limit: 10.0,
+        unit: "%",
+        below: false,
+    },
+    Stated {
+        quantity: "body roll, greatest less least",
+        regimes: "twist and roll, dynamic curving",
+        ending: "body_roll_peak_to_peak",
+        limit: 6.0,
+        unit: "deg",
+        below: true,
+    },
+    Stated {
+        quantity: "lateral acceleration at a truck center, standard deviation",
+        regimes: "hunting (later edition; 1993: 1.0 g, greatest less least)",
+        ending: "_lateral_acceleration_deviation",
+        limit: 0.13,
+        unit: "g",
+        below: true,
+    },
+];
+
+/// Returns the limits beside the worst value of each, in the order of the table of rules.
+#[must_use]
+pub fn limits(statistics: &BTreeMap<String, Statistic>) -> Vec<Limit> {
+    let mut limits = Vec::new();
+    for stated in &STATED {
+        let sum = stated.ending.contains("_sum_");
+        let own = statistics
+            .iter()
+            .filter(|(name, _)| name.ends_with(stated.ending) && (sum || !name.contains("_sum_")));
+        let values = own.filter_map(|(name, own)| {
+            let value = own.filtered.as_ref().or(own.raw.as_ref())?;
+            Some((name, in_unit(value, stated.unit)))
+        });
+        let worse = |a: f64, b: f64| if stated.below { a > b } else { a < b };
+        let worst = values.reduce(|worst, own| if worse(own.1, worst.1) { own } else { worst });
+        let Some((name, value)) = worst else { continue };
+        let margin = (stated.limit - value) / stated.limit;
+        limits.push(Limit {
+            quantity: stated.quantity.to_owned(),
+            regimes: stated.regimes.to_owned(),
+            statistic: name.clone(),
+            value,
+            limit: stated.limit,
+            unit: stated.unit.to_owned(),
+            margin: if stated.below { margin } else { -margin },
+        });
+    }
+    limits
+}
+
+/// A value of a summary in the unit of a limit.
+fn in_unit(value: &SummaryValue, unit: &str) -> f64 {
+    match (value.unit.as_str(), unit) {
+        ("rad", "deg") => value.value.to_degrees(),
+        ("m/s²", "g") => value.value / GRAVITY,
+        _ => value.value,
+    }
+}

@@ -1,0 +1,82 @@
+//! The summary of a car's run.
+
+use std::collections::BTreeMap;
+
+use integrate::Statistics as Counters;
+use quantity::System as Units;
+use serde::{Deserialize, Serialize};
+
+use super::statistics::{Limit, Statistic};
+use crate::metrics::Extremes;
+use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
+
+/// The schema's name and version.
+pub const SCHEMA: &str = "wedgelab.car/1";
+
+/// What a run says in numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CarSummary {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Version of the program that wrote it.
+    pub program: String,
+    /// The case's name.
+    pub name: String,
+    /// The case's title.
+    pub title: String,
+    /// Units of the numbers.
+    pub units: Units,
+    /// Whether the run came to its end.
+    pub complete: bool,
+    /// Why and when it stopped, if it did not.
+    pub stopped: Option<Stopped>,
+    /// Where a wheel left its rail, if one did: the run ends there, and is complete.
+    pub derailed: Option<Derailed>,
+    /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
+    pub failed: Option<String>,
+    /// What makes the numbers doubtful; empty for a sound run.
+    pub warnings: Vec<String>,
+    /// Number of rows.
+    pub rows: usize,
+    /// Distance along the track at the start and at the end.
+    pub distance: [SummaryValue; 2],
+    /// Speed at the start and at the end.
+    pub speed: [SummaryValue; 2],
+    /// Static load of each wheel by its name: `axle_1_left`.
+    pub static_loads: BTreeMap<String, SummaryValue>,
+    /// Statistics by name: see the table in docs/car.md.
+    pub statistics: BTreeMap<String, Statistic>,
+    /// Limits of rules beside the worst value of each; remembered.
+    pub limits: Vec<Limit>,
+    /// Energy that the friction of each wedge took, by its name: `truck_1_leading_left`.
+    pub wedge_losses: BTreeMap<String, SummaryValue>,
+    /// Least and greatest values of all columns, by their names with units.
+    pub extremes: BTreeMap<String, Extremes>,
+    /// The energy ledger at the end; losses by element.
+    pub ledger: LedgerSummary,
+    /// The integration method.
+    pub method: String,
+    /// Its relative tolerance.
+    pub relative_tolerance: f64,
+    /// What the integrator did.
+    pub solver: Counters,
+    /// What the numbers rest on.
+    pub assumptions: Vec<String>,
+}
+
+run_summary!(CarSummary, ledger.largest_relative_residual);
+
+/// Where a wheel left its rail.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Derailed {
+    /// Time, s.
+    pub time: f64,
+    /// Distance of the wheel along the track.
+    pub distance: SummaryValue,
+    /// Axle, from the front, 1 to 4.
+    pub axle: usize,
+    /// `left` or `right`.
+    pub side: String,
+    /// In words.
+    pub what: String,
+}

@@ -1,0 +1,106 @@
+//! The section `[track]`: what a track file says, or the name of one.
+
+use std::path::Path;
+
+use wheelrail::track::{CenterLine, Segment, Track};
+
+use crate::case::field::quoted;
+use crate::case::problem::{Problem, TomlSource};
+use crate::case::section::Section;
+use crate::case::text_of;
+use crate::case::tree::{self, Table, Value};
+use crate::track::{Support, of_section};
+use crate::truck::reader::Reader;
+
+/// Length of a track that is not given, ft.
+const USUAL: f64 = 5000.0;
+
+/// Returns a straight track without irregularities of a length (m).
+pub(super) fn tangent(length: f64) -> Option<Track> {
+    Some(Track {
+        center_line: CenterLine::new(&[Segment::Tangent(length)], 59.5 * 0.0254, &[]).ok()?,
+        irregularities: Vec::new(),
+    })
+}
+
+/// Reads the track.
+pub(super) fn track(r: &mut Reader<'_>) -> Option<(Track, Support)> {
+    r.section(
+        "track",
+        "The track: the keys of a track file, or file = \"my_track.toml\". Rails are at rest; what they lie on is track.support.",
+    );
+    let Some(section) = r.given() else {
+        let segments = format!("[{{ tangent = \"{USUAL} ft\" }}]");
+        r.write(
+            "segments",
+            [segments.clone(), segments],
+            "one after the other: tangent, spiral, curve",
+        );
+        return Some((tangent(USUAL * 0.3048)?, Support::usual()));
+    };
+    // Its keys are read by the reader of track files.
+    r.known_elsewhere();
+    if let Some(entry) = section.table.entry("file") {
+        section.allow_in(&["file"], &[], "a track that is a file", r.problems);
+        let Value::Text(file) = &entry.node.value else {
+            let message = format!(
+                "`track.file` is {}; a name is expected",
+                entry.node.value.describe()
+            );
+            r.problem("track.file", Problem::new(message).label("not text"));
+            return None;
+        };
+        let (table, found) = from_file(r, file)?;
+        r.write_typed("file", quoted(file), "a track file");
+        for own in &table.entries {
+            r.write_embedded(&own.key, own.node.value.to_toml());
+        }
+        return Some(found);
+    }
+    let found = of_section(&section, r.tables(), r.problems);
+    for own in &section.table.entries {
+        let toml = own.node.value.to_toml();
+        r.write(&own.key, [toml.clone(), toml], "");
+    }
+    found
+}
+
+/// Reads a track file; measured tables that it names are looked for from its folder.
+fn from_file(r: &mut Reader<'_>, file: &str) -> Option<(Table, (Track, Support))> {
+    let tables = r.tables();
+    let shown = tables.shown(file);
+    let refuse = |r: &mut Reader<'_>, reason: String, help: &str| {
+        let problem = Problem::new(format!("`track.file`: {shown} {reason}")).label("this file");
+        r.problem("track.file", problem.help(help));
+    };
+    let path = match tables.locate(file) {
+        Ok(path) => path,
+        Err(refused) => {
+            refuse(r, refused.reason, refused.help);
+            return None;
+        }
+    };
+    let text = match text_of(&path) {
+        Ok(text) => text,
+        Err(error) => {
+            r.problems.append(error.into_problems());
+            return None;
+        }
+    };
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let tree = match tree::parse(&TomlSource::new(&shown, text)) {
+        Ok(tree) => tree,
+        Err(problems) => {
+            r.problems.append(problems);
+            return None;
+        }
+    };
+    let top = Section {
+        path: String::new(),
+        table: &tree,
+        place: None,
+    };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let found = of_section(&top, tables.beside(folder), r.problems)?;
+    Some((tree, found))
+}

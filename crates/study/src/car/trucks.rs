@@ -1,0 +1,140 @@
+//! The sections of the trucks: `[truck]` for both, `[front_truck]` and `[rear_truck]` over it.
+//!
+//! The keys are those of a truck's case, in tables of the truck: `[truck.wedge]`, `[front_truck.friction]`. Where both
+//! trucks have the same values the complete case has `[truck]` alone, else both in full.
+
+use truck::{CarBody, Lading, Parameters, SideBearings};
+use wedge::parameters::Damping;
+
+use crate::case::problem::{Problem, Problems};
+use crate::case::tree::{Entry, Node, Table, Value};
+use crate::truck::reader::Reader;
+use crate::truck::sections::{self, Condition};
+use crate::truck::wedges;
+
+const BOTH: &str = "truck";
+const EACH: [&str; 2] = ["front_truck", "rear_truck"];
+
+/// Lays `[truck]` below `[front_truck]` and `[rear_truck]` where one of them is given: then both stand for themselves.
+/// Notes values for both trucks that each truck has its own of.
+pub(super) fn complete(tree: &mut Table, problems: &mut Problems) {
+    if EACH.iter().all(|name| tree.table(name).is_none()) {
+        return;
+    }
+    let own: Vec<Option<Table>> = EACH.iter().map(|name| tree.table(name).cloned()).collect();
+    let shared = match tree.entry(BOTH).map(|entry| &entry.node.value) {
+        Some(Value::Table(shared)) => shared.clone(),
+        // What is no table is told by the reader.
+        Some(_) => return,
+        None => Table::default(),
+    };
+    if let [Some(front), Some(rear)] = own.as_slice() {
+        unused(&shared, BOTH, [front, rear], problems);
+    }
+    let model = tree.entry(EACH[0]).or(tree.entry(EACH[1])).cloned();
+    for name in EACH {
+        match tree.entries.iter_mut().find(|entry| entry.key == name) {
+            Some(Entry {
+                node:
+                    Node {
+                        value: Value::Table(own),
+                        ..
+                    },
+                ..
+            }) => own.complete_from(&shared),
+            Some(_) => {}
+            None => {
+                if let Some(mut entry) = model.clone() {
+                    name.clone_into(&mut entry.key);
+                    entry.node.value = Value::Table(shared.clone());
+                    tree.entries.push(entry);
+                }
+            }
+        }
+    }
+    tree.entries.retain(|entry| entry.key != BOTH);
+}
+
+/// Notes the values of a table that both others have too.
+fn unused(shared: &Table, path: &str, [front, rear]: [&Table; 2], problems: &mut Problems) {
+    for entry in &shared.entries {
+        let (Some(front), Some(rear)) = (front.get(&entry.key), rear.get(&entry.key)) else {
+            continue;
+        };
+        let path = format!("{path}.{}", entry.key);
+        match (&entry.node.value, &front.value, &rear.value) {
+            (Value::Table(shared), Value::Table(front), Value::Table(rear)) => {
+                unused(shared, &path, [front, rear], problems);
+            }
+            _ => {
+                let problem = Problem::new(format!("`{path}` has no effect: both trucks have their own"));
+                let problem = problem.at(&entry.node.place).label("not used");
+                let help = format!(
+                    "set {0}.{2} and {1}.{2}",
+                    EACH[0],
+                    EACH[1],
+                    &path[BOTH.len() + 1..]
+                );
+                problems.push(problem.help(help));
+            }
+        }
+    }
+}
+
+/// Reads both trucks, front and rear.
+pub(super) fn trucks(r: &mut Reader<'_>, lading: Lading) -> [Parameters; 2] {
+    if EACH.iter().all(|name| !r.has(name)) {
+        let own = truck(
+            r,
+            BOTH,
+            "Both trucks; [front_truck] and [rear_truck] take the same keys.",
+            lading,
+        );
+        return [own.clone(), own];
+    }
+    [
+        truck(r, EACH[0], "The front truck.", lading),
+        truck(r, EACH[1], "The rear truck.", lading),
+    ]
+}
+
+/// One truck, or both.
+fn truck(r: &mut Reader<'_>, name: &'static str, about: &str, lading: Lading) -> Parameters {
+    r.within(name);
+    r.section("", about);
+    let (mut condition, mut damping) = (Condition::New, Damping::Variable);
+    let comment = "\"new\": wedges have a friction of 0.4; \"worn\": 0.25. Its [friction] wins over it";
+    r.choice("condition", sections::CONDITIONS, &mut condition, comment);
+    let comment = "\"variable\": control coils stand on the side frames; \"constant\": on the bolster";
+    r.choice("damping", sections::DAMPINGS, &mut damping, comment);
+    let mut own = Parameters::new(damping);
+    own.bolster.free = [true; 6];
+    let bearings = match lading {
+        Lading::Loaded => SideBearings::rollers(),
+        Lading::Empty => SideBearings::constant_contact(),
+    };
+    own.car_body = Some(CarBody::new(lading, bearings));
+    r.section("bolster", "The bolster.");
+    sections::rigid_body(r, &mut own.bolster.body);
+    let mut draft = wedges::all(r, &own, condition.friction());
+    r.section("side_frame", "Both side frames.");
+    wedges::toe_of_all(r, &mut draft);
+    let mut body = own.side_frames[0].body;
+    sections::rigid_body(r, &mut body);
+    for frame in &mut own.side_frames {
+        frame.body = body;
+    }
+    wedges::single(r, &mut own, &draft);
+    sections::load_springs(r, &mut own);
+    sections::stops(r, &mut own);
+    sections::warp_spring(r, &mut own);
+    if let Some(wheelsets) = &mut own.wheelsets {
+        sections::adapter(r, &mut wheelsets.adapter);
+    }
+    if let Some(car) = &mut own.car_body {
+        sections::center_plate(r, &mut car.center_plate);
+        sections::side_bearings(r, &mut car.side_bearings);
+    }
+    r.within("");
+    own
+}

@@ -1,0 +1,182 @@
+//! Bad input: every message says what was found and expected, and helps.
+
+use study::car::CarCase;
+use study::case::Tables;
+
+/// The messages of a case with `model = "car"` and these lines, with their help.
+fn refused(lines: &str) -> String {
+    let text = format!("model = \"car\"\n{lines}");
+    let error = CarCase::parse("case.toml", &text, Tables::nowhere(), &[]).unwrap_err();
+    let problems = error.problems().iter();
+    problems
+        .map(|problem| {
+            let help = miette::Diagnostic::help(problem).map(|help| help.to_string());
+            format!("{problem}\n{}\n", help.unwrap_or_default())
+        })
+        .collect()
+}
+
+#[test]
+fn input_messages_say_what_is_wrong_and_what_to_write() {
+    for (lines, parts) in [
+        (
+            "[front_truck.wedge]\nangel = \"30 deg\"",
+            &[
+                "there is no key `angel` in `front_truck.wedge`",
+                "did you mean `angle`",
+            ][..],
+        ),
+        (
+            "[trucks]\ncondition = \"new\"",
+            &["there is no key `trucks` in a car's case", "truck"],
+        ),
+        (
+            "[car]\nwieght = \"1 lbf\"",
+            &["there is no key `wieght` in `car`", "weight"],
+        ),
+        (
+            "[truck]\ncondition = \"worn\"\n[front_truck]\ncondition = \"new\"\n[rear_truck]\ncondition = \"new\"",
+            &[
+                "`truck.condition` has no effect: both trucks have their own",
+                "front_truck.condition",
+            ],
+        ),
+        (
+            "speed.value = \"0 mph\"",
+            &[
+                "`speed.value` is zero, but a car that is held at a speed rolls",
+                "coasting",
+            ],
+        ),
+        (
+            "speed.value = \"40 lbf\"",
+            &["this is a force", "a speed is expected"],
+        ),
+        (
+            "speed.kind = \"over_distance\"",
+            &["`speed.over_distance` is missing", "3000 ft"],
+        ),
+        (
+            "[[track.segments]]\ntangent = \"200 ft\"",
+            &[
+                "the track is 200 ft long",
+                "simulation.duration",
+                "make the track longer",
+            ],
+        ),
+        (
+            "[[track.segments]]\ntangent = \"40 ft\"\n[[track.segments]]\nspiral = \"200 ft\"\n\
+             [[track.segments]]\ncurve = \"5000 ft\"\ndegree = \"5 deg\"",
+            &["a run begins on tangent track", "first tangent"],
+        ),
+        (
+            "[[track.segments]]\ntangent = \"400 ft\"\n[[track.segments]]\nspiral = \"200 ft\"\n\
+             [[track.segments]]\ncurve = \"5000 ft\"\nradius = \"100 ft\"",
+            &[
+                "tighter than the 150 ft",
+                "side bearings would move",
+                "flanges press",
+            ],
+        ),
+        (
+            "start.distance = \"3 ft\"",
+            &["before the beginning of the track", "start.distance"],
+        ),
+        (
+            "[[track.segments]]\ntangent = \"4000 ft\"\nlenght = \"3 ft\"",
+            &["there is no key `lenght`", "track.segments[0]"],
+        ),
+        ("track.file = \"bend.toml\"", &["`track.file`", "is not read"]),
+        (
+            "lading.kind = \"masses\"",
+            &["`lading.kind` is \"masses\", but there are none", "weight = "],
+        ),
+        (
+            "lading.masses = [{ weight = \"1 kip\" }]",
+            &["`lading.masses` has no effect", "lading.kind = \"masses\""],
+        ),
+        (
+            "lading.kind = \"masses\"\nlading.masses = [{ weight = \"200 kip\", place = [\"0 in\", \"40 in\", \"80 in\"], \
+             inertia = [\"0 lbf in s^2\", \"0 lbf in s^2\", \"0 lbf in s^2\"] }]",
+            &[
+                "to the left of the middle, beyond the side bearings",
+                "tips over them",
+            ],
+        ),
+        (
+            "lading.kind = \"masses\"\nlading.masses = [{ weight = \"200 kip\", place = [\"400 in\", \"0 in\", \"80 in\"], \
+             inertia = [\"0 lbf in s^2\", \"0 lbf in s^2\", \"0 lbf in s^2\"] }]",
+            &["beyond the front truck", "the car tips"],
+        ),
+        (
+            "lading.kind = \"empty\"\ntruck.side_bearing.preload = \"15 kip\"",
+            &["more than the", "lift it off the center plate"],
+        ),
+        (
+            "wheels.geometry = \"linear\"",
+            &[
+                "linear wheels roll on rails that do not give way",
+                "track.support.kind = \"rigid\"",
+            ],
+        ),
+        ("wheels.profile = \"cone_x\"", &["which is no cone", "cone_1:20"]),
+        ("wheels.profile = \"worn.prw\"", &["`wheels.profile`", "worn.prw"]),
+        ("rails.gauge = \"50 in\"", &["gauge"]),
+        ("model_car = 3", &["there is no key `model_car`"]),
+        ("truck = 3", &["`truck` is a number; a table is expected"]),
+    ] {
+        let messages = refused(lines);
+        for part in parts {
+            assert!(messages.contains(part), "{lines}\nlacks: {part}\n{messages}");
+        }
+    }
+}
+
+/// A case of a car where another model is wanted, and the other way.
+#[test]
+fn input_models_are_told_apart() {
+    let text = "model = \"car\"";
+    let error = study::truck::TruckCase::parse("c.toml", text, Tables::nowhere(), &[]).unwrap_err();
+    assert!(
+        error.problems()[0]
+            .to_string()
+            .contains("is the case of a car; a truck's is expected")
+    );
+    let error = study::case::Case::parse("c.toml", text, Tables::nowhere(), &[]).unwrap_err();
+    assert!(
+        error.problems()[0]
+            .to_string()
+            .contains("is the case of a car; a single wedge's is expected")
+    );
+    let error = CarCase::parse("c.toml", "model = \"truck\"", Tables::nowhere(), &[]).unwrap_err();
+    assert!(error.problems()[0].to_string().contains("is no case of a car"));
+}
+
+/// What is doubtful but not wrong is kept for the summary.
+#[test]
+fn input_coils_that_would_go_solid_are_told() {
+    let text = "model = \"car\"\ntruck.load_springs.preload = \"2 kip\"";
+    let case = CarCase::parse("c.toml", text, Tables::nowhere(), &[]).unwrap();
+    assert!(
+        case.doubts.iter().any(|own| own.contains("go solid")),
+        "{:?}",
+        case.doubts
+    );
+    let usual = CarCase::parse("c.toml", "model = \"car\"", Tables::nowhere(), &[]).unwrap();
+    assert!(usual.doubts.is_empty(), "{:?}", usual.doubts);
+}
+
+/// A car that slows down comes less far than at its first speed.
+#[test]
+fn input_length_of_a_track_counts_the_speeds_over_distance() {
+    let slowing = |length: f64| {
+        let text = format!(
+            "model = \"car\"\nspeed.kind = \"over_distance\"\nspeed.over_distance = [[\"0 ft\", \"60 mph\"], [\"1000 ft\", \"20 mph\"]]\n\
+             simulation.duration = \"20 s\"\n[[track.segments]]\ntangent = \"{length} ft\""
+        );
+        CarCase::parse("c.toml", &text, Tables::nowhere(), &[])
+    };
+    // To 1,000 ft in 1000/40 mph · ln(60/20), at most; the rest at 20 mph: 1,101 ft, and 26 ft of car on either side.
+    assert!(slowing(1110.0).is_err());
+    assert!(slowing(1250.0).is_ok());
+}

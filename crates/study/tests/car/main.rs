@@ -1,0 +1,7 @@
+//! Freight cars on track: cases, statistics, messages.
+#![allow(clippy::unwrap_used)]
+
+mod case;
+mod input;
+mod run;
+mod statistics;

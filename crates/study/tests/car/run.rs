@@ -1,0 +1,173 @@
+//! Runs: columns, ledger, saved states, derailment.
+
+use std::ops::ControlFlow;
+
+use quantity::System;
+use study::car::CarCase;
+use study::car::run::CarResult;
+use study::case::Tables;
+use study::run::Run;
+
+fn case(lines: &str) -> CarCase {
+    let text = format!("model = \"car\"\nstart.settle = \"0 s\"\n{lines}");
+    CarCase::parse("case.toml", &text, Tables::nowhere(), &[]).unwrap()
+}
+
+fn run(case: &CarCase) -> CarResult {
+    Run::new(case).unwrap().finish(|_| ())
+}
+
+const JOINT: &str = "speed.value = \"40 mph\"\n[[track.segments]]\ntangent = \"500 ft\"\n[[track.irregularities]]\nshape = \"dip\"\n\
+                     rails = \"left\"\ndirection = \"vertical\"\ndepth = \"0.3 in\"\nlength = \"10 ft\"\nstart = \"48 ft\"\n";
+
+/// The fixed columns stand first, in their order and with their units.
+#[test]
+fn input_fixed_columns_have_their_names() {
+    let result = run(&case("simulation.duration = \"0.02 s\""));
+    let names: Vec<String> = result
+        .columns
+        .iter()
+        .map(|own| own.full_name(System::Us))
+        .collect();
+    let mut wanted: Vec<String> = ["time_s", "distance_ft", "speed_mph"].map(str::to_owned).to_vec();
+    for axle in 1..=4 {
+        for side in ["left", "right"] {
+            for what in ["vertical_lbf", "lateral_lbf", "l_over_v"] {
+                wanted.push(format!("axle_{axle}_{side}_{what}"));
+            }
+        }
+        wanted.push(format!("axle_{axle}_lateral_in"));
+        wanted.push(format!("axle_{axle}_yaw_rad"));
+    }
+    wanted.push("body_roll_rad".to_owned());
+    for truck in 1..=2 {
+        for direction in ["lateral", "vertical"] {
+            wanted.push(format!("body_at_truck_{truck}_{direction}_acceleration_g"));
+        }
+    }
+    wanted.extend([1, 2].map(|truck| format!("truck_{truck}_warp_angle_rad")));
+    wanted.push("truck_1_left_nest_vertical_force_lbf".to_owned());
+    wanted.push("truck_1_right_nest_vertical_force_lbf".to_owned());
+    wanted.push("truck_1_leading_left_column_normal_lbf".to_owned());
+    assert_eq!(&names[..wanted.len()], wanted.as_slice());
+    assert!(names.contains(&"truck_2_trailing_right_yaw_rad".to_owned()));
+    assert!(names.contains(&"axle_4_right_l_over_v_filtered".to_owned()));
+    let si: Vec<String> = result
+        .columns
+        .iter()
+        .map(|own| own.full_name(System::Si))
+        .collect();
+    assert!(si.contains(&"distance_m".to_owned()) && si.contains(&"speed_m_per_s".to_owned()));
+    // A run that is too short for statistics says so, and has none.
+    assert!(result.summary.complete);
+}
+
+/// On straight perfect track nothing happens: wheels carry their static loads, and the sum is the car's weight.
+#[test]
+fn analytic_static_loads_on_perfect_track() {
+    let own = case("speed.value = \"30 mph\"\nsimulation.duration = \"0.3 s\"");
+    let result = run(&own);
+    let mut sum = 0.0;
+    for axle in 1..=4 {
+        for side in ["left", "right"] {
+            let name = format!("axle_{axle}_{side}");
+            let wanted = result.summary.static_loads[&name].value * 4.448_221_615_260_5;
+            sum += wanted;
+            let column = result.column(&format!("{name}_vertical")).unwrap();
+            for load in column {
+                assert!((load / wanted - 1.0).abs() < 2e-3, "{name}: {load} {wanted}");
+            }
+        }
+    }
+    assert!((sum / own.parameters.weight() - 1.0).abs() < 1e-12);
+    let roll = result.column("body_roll").unwrap();
+    assert!(roll.iter().all(|own| own.abs() < 1e-6));
+    let distance = result.column("distance").unwrap();
+    let way = distance[distance.len() - 1] - distance[0];
+    assert!((way / (30.0 * 0.447_04 * 0.3) - 1.0).abs() < 1e-4, "{way}");
+    assert!(
+        result.summary.warnings.is_empty(),
+        "{:?}",
+        result.summary.warnings
+    );
+}
+
+/// Over a dip of one rail: the ledger closes, the left wheels feel it, and statistics agree with the columns.
+#[test]
+fn energy_the_ledger_closes_over_a_dip() {
+    let result = run(&case(&format!("{JOINT}[simulation]\nduration = \"0.6 s\"\n")));
+    let summary = &result.summary;
+    assert!(summary.complete && summary.failed.is_none());
+    let residual = summary.ledger.largest_relative_residual;
+    assert!(residual < 1e-3, "{residual}");
+    let vertical = result.column("axle_1_left_vertical").unwrap();
+    let least = vertical.iter().fold(f64::INFINITY, |least, own| least.min(*own));
+    let static_load = summary.static_loads["axle_1_left"].value * 4.448_221_615_260_5;
+    let told = summary.statistics["axle_1_left_least_load"]
+        .raw
+        .as_ref()
+        .unwrap()
+        .value;
+    assert!(
+        told < 99.0 && (told - 100.0 * least / static_load).abs() < 1e-6,
+        "{told}"
+    );
+    // Entries of the ledger as columns: what is put in is stored or lost.
+    let last = |name: &str| *result.column(name).unwrap().last().unwrap();
+    let losses = [
+        "creep_loss",
+        "friction_loss",
+        "contact_damping_loss",
+        "element_loss",
+    ]
+    .map(last);
+    let rest = last("drive_work") + last("contact_work")
+        - losses.iter().sum::<f64>()
+        - last("stored_energy_change")
+        - last("ledger_residual");
+    let scale = losses.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
+    assert!(rest.abs() < 1e-9 * scale, "{rest} {scale}");
+}
+
+/// A run that is saved and goes on gives the same bits from there on.
+#[test]
+fn reproducible_a_saved_run_goes_on_with_the_same_bits() {
+    let own = case(&format!("{JOINT}[simulation]\nduration = \"0.3 s\"\n"));
+    let whole = run(&own);
+    let mut first = Run::new(&own).unwrap();
+    while first.time() < 0.15 {
+        first.advance().unwrap();
+    }
+    let state = serde_json::from_str(&serde_json::to_string(&first.state()).unwrap()).unwrap();
+    let second = Run::resume(&own, state).unwrap().finish(|_| ());
+    let (rows, all) = (second.rows(), whole.rows());
+    assert!(rows > 10 && rows < all);
+    for name in [
+        "axle_1_left_vertical",
+        "body_roll",
+        "truck_2_leading_left_column_normal",
+        "ledger_residual",
+    ] {
+        let (a, b) = (whole.column(name).unwrap(), second.column(name).unwrap());
+        assert_eq!(&a[all - rows..], b, "{name}");
+    }
+    let warnings = &second.summary.warnings;
+    assert!(
+        warnings
+            .iter()
+            .any(|own| own.contains("went on from a state saved")),
+        "{warnings:?}"
+    );
+}
+
+/// A run that is stopped keeps what it has.
+#[test]
+fn limits_a_stopped_run_keeps_its_rows() {
+    let own = case("simulation.duration = \"2 s\"");
+    let result = Run::new(&own).unwrap().finish_while(|time| match time > 0.1 {
+        true => ControlFlow::Break("enough".to_owned()),
+        false => ControlFlow::Continue(()),
+    });
+    assert!(!result.summary.complete && result.rows() > 15);
+    assert_eq!(result.summary.stopped.as_ref().unwrap().reason, "enough");
+}

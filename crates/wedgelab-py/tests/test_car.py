@@ -1,0 +1,39 @@
+"""Freight cars on track from Python: cases, runs, many at a time, and what goes wrong."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import wedgelab as wl
+
+SHORT = {"simulation.duration": "0.3 s", "start.settle": "0 s", "truck.wedge.kind": "massless"}
+
+
+def test_values_are_laid_over_a_case() -> None:
+    case = wl.CarCase("car_tangent_loaded", {"speed.value": 10.0, "front_truck.friction.column": 0.1})
+    document = case.to_dict()
+    assert document["front_truck"]["friction"]["column"] == 0.1
+    assert document["rear_truck"]["friction"]["column"] == 0.4
+    assert document["speed"]["value"] == "10 m/s"
+    assert wl.CarCase.parse(case.to_toml()) == case
+    assert pickle.loads(pickle.dumps(case)) == case
+
+
+def test_reproducible_for_any_number_of_workers_and_through_pickle() -> None:
+    cases = [wl.CarCase("car_tangent_empty", SHORT | {"speed.value": speed}) for speed in ("20 mph", "30 mph")]
+    alone = [case.run() for case in cases]
+    for result, speed in zip(alone, (20, 30)):
+        assert abs(result.array("speed")[0][0] / 0.44704 / speed - 1) < 1e-6
+    together = wl.run_many(cases, workers=2)
+    for a, b in zip(alone, together):
+        assert isinstance(b, wl.CarResult)
+        assert np.array_equal(a["axle_1_left_vertical"], b["axle_1_left_vertical"])
+    again = pickle.loads(pickle.dumps(alone[0]))
+    assert np.array_equal(again["body_roll"], alone[0]["body_roll"])
+    assert alone[0].summary.assumptions[0].startswith("Out of scope")
+
+
+def test_input_mistakes_are_case_errors() -> None:
+    with pytest.raises(wl.CaseError, match="coasting"):
+        wl.CarCase("car_tangent_loaded", {"speed.value": "0 mph"})

@@ -1,0 +1,185 @@
+//! `wedgelab stability`: linear stability of a car over speed.
+
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use quantity::{Kind, Quantity, System as Units};
+use report::stability_files::{self, NAMES};
+use study::any_case::AnyCase;
+use study::car::stability::{FRICTION, Stability, stability};
+
+use super::run::read_any;
+use super::warp::draw;
+use crate::failure::{Failure, Message};
+use crate::folders;
+use crate::interrupt;
+use crate::progress::Progress;
+use crate::table::Table;
+
+/// Linear stability of a car over speed: growth and frequency of its vibrations, critical speeds
+///
+/// Linearizes the car about steady running on straight track without irregularities, at each speed, twice: with all
+/// friction of wedges, center plates, adapters and side bearings stuck (bristles are springs), and without it. Writes
+/// stability.csv (all vibrations of 0.05 to 30 Hz), stability.json (critical speeds), stability.svg and stability.png.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab stability car_hunting_empty
+  wedgelab stability my_car.toml --speeds \"30 mph\"..\"80 mph\" --steps 6
+  wedgelab stability car_hunting_empty --set wheels.profile=cone_1:10 --out cone")]
+pub struct Arguments {
+    /// Case file, or the name of a built-in case
+    #[arg(default_value = "car_hunting_empty")]
+    case: PathBuf,
+    /// The lowest and the highest speed
+    #[arg(long, value_name = "FROM..TO", default_value = "30 mph..80 mph", value_parser = range)]
+    speeds: [f64; 2],
+    /// Number of speeds, at least 2
+    #[arg(long, value_name = "N", default_value_t = 11, value_parser = clap::value_parser!(u32).range(2..=1000))]
+    steps: u32,
+    /// Set one value over those of the case
+    #[arg(long, value_name = "PATH.KEY=VALUE")]
+    set: Vec<String>,
+    /// Folder to write into [default: NAME_stability]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Overwrite existing results
+    #[arg(long)]
+    force: bool,
+    /// No progress
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// A range of speeds, m/s.
+fn range(text: &str) -> Result<[f64; 2], String> {
+    const HOW: &str = "write for example \"30 mph\"..\"80 mph\"";
+    let (from, to) = text.split_once("..").ok_or(HOW)?;
+    let speed = |text: &str| {
+        let quantity =
+            Quantity::parse_as(text.trim(), Kind::TravelSpeed).map_err(|error| error.to_string())?;
+        match quantity.to_si() {
+            own if own > 0.0 && own < 1e3 => Ok(own),
+            _ => Err("speeds must be positive, below 1000 m/s".to_owned()),
+        }
+    };
+    let speeds = [speed(from)?, speed(to)?];
+    match speeds[0] < speeds[1] {
+        true => Ok(speeds),
+        false => Err(format!("the second speed must be the higher one; {HOW}")),
+    }
+}
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    interrupt::listen();
+    let case = match read_any(&arguments.case, &arguments.set)? {
+        AnyCase::Car(case) => case,
+        other => {
+            let message = format!("{} is no car: hunting is what a car on track does", other.name());
+            let advice = "take car_hunting_empty, or a case with model = \"car\"";
+            return Err(Message::new(message, advice).into());
+        }
+    };
+    let path = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(format!("{}_stability", case.name)));
+    let folder = folders::check(path, &NAMES, arguments.force)?;
+    let [from, to] = arguments.speeds;
+    let last = arguments.steps - 1;
+    let speeds: Vec<f64> = (0..=last)
+        .map(|k| from + (to - from) * f64::from(k) / f64::from(last))
+        .collect();
+    let progress = Progress::new(1, arguments.quiet);
+    interrupt::stops_run();
+    let mut reached = progress.of_run(1.0);
+    let found = stability(&case, &speeds, |share| {
+        reached(share);
+        match interrupt::wanted() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    });
+    progress.finish();
+    let found = found.map_err(|error| {
+        let message = format!("{} cannot be linearized: {error}", case.name);
+        Message::new(
+            message,
+            "look at its speeds, lading and side bearings; `wedgelab run` shows how it runs",
+        )
+    })?;
+    let units = case.simulation.output_units;
+    let figure = stability_files::figure(&case.name, &found, units);
+    let png = draw(&figure)?;
+    folder.write(|files| {
+        files.add(stability_files::TABLE, |out| {
+            stability_files::write_table(&found, units, out)
+        })?;
+        files.add(stability_files::NUMBERS, |out| {
+            stability_files::write_numbers(&case.name, &found, units, out)
+        })?;
+        files.add(stability_files::FIGURE, |out| {
+            out.write_all(figure.to_svg().as_bytes())
+        })?;
+        files.add(stability_files::PICTURE, |out| out.write_all(&png))
+    })?;
+    let mut out = io::stdout().lock();
+    table(&found, units).write(&mut out)?;
+    writeln!(out)?;
+    for ((_, name), branch) in FRICTION.iter().zip(&found.branches) {
+        let factor = Kind::TravelSpeed.from_si(units);
+        let unit = Kind::TravelSpeed.label(units);
+        match branch.critical {
+            Some(own) => writeln!(
+                out,
+                "Friction {name}: a vibration of {:.2} Hz grows from {:.1} {unit} on.",
+                own.frequency,
+                own.speed * factor
+            )?,
+            None => writeln!(out, "Friction {name}: no vibration grows at these speeds.")?,
+        }
+    }
+    writeln!(
+        out,
+        "\nGrowth and frequency of the vibration that grows most, of 0.05 to 30 Hz; positive growth is hunting. Limits: small \
+         motions;\na car may hunt below these speeds once it has been disturbed.\n\nWritten into {}: {}.",
+        folder.path().display(),
+        NAMES.join(", ")
+    )?;
+    if found.complete {
+        Ok(ExitCode::SUCCESS)
+    } else {
+        let message = "interrupted: the speeds that were computed are written".to_owned();
+        Err(Failure::Interrupted(Message::new(message, "").into()))
+    }
+}
+
+/// The vibration that grows most at each speed.
+fn table(found: &Stability, units: Units) -> Table {
+    let unit = Kind::TravelSpeed.label(units);
+    let mut table = Table::new(
+        0,
+        &[
+            ("speed", unit),
+            ("friction stuck, growth", "1/s"),
+            ("frequency", "Hz"),
+            ("friction absent, growth", "1/s"),
+            ("frequency", "Hz"),
+        ],
+    );
+    for (row, speed) in found.speeds.iter().enumerate() {
+        let mut cells = vec![format!("{:.1}", speed * Kind::TravelSpeed.from_si(units))];
+        for branch in 0..2 {
+            let modes = found.branches.get(branch).and_then(|own| own.modes.get(row));
+            let mode = modes.and_then(|modes| modes.first());
+            cells.push(mode.map_or("-".to_owned(), |own| format!("{:.3}", own.growth)));
+            cells.push(mode.map_or("-".to_owned(), |own| format!("{:.3}", own.frequency)));
+        }
+        table.row(cells);
+    }
+    table
+}

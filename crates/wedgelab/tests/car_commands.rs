@@ -1,0 +1,122 @@
+//! The commands with freight cars, as a user calls them.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+struct Output {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+fn wedgelab(folder: &Path, arguments: &[&str]) -> Output {
+    let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
+        .current_dir(folder)
+        .args(arguments)
+        .env_remove("FORCE_COLOR")
+        .output()
+        .unwrap();
+    Output {
+        code: output.status.code(),
+        out: String::from_utf8(output.stdout).unwrap(),
+        err: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+/// A run writes its files, and what it prints and writes says the same; `compare` reads its table.
+#[test]
+fn input_a_run_of_a_car_writes_its_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    for out in ["a", "b"] {
+        let speed = if out == "a" {
+            "speed.value=30 mph"
+        } else {
+            "speed.value=40 mph"
+        };
+        let settings = ["simulation.duration=0.1 s", "start.settle=0 s", speed];
+        let set = settings.iter().flat_map(|own| ["--set", own]);
+        let arguments: Vec<&str> = ["run", "car_pitch_and_bounce_loaded", "-q", "--out", out]
+            .into_iter()
+            .chain(set)
+            .collect();
+        let done = wedgelab(at, &arguments);
+        assert_eq!(done.code, Some(0), "{}", done.err);
+        assert!(
+            done.out.contains("least wheel load") && done.out.contains("remembered"),
+            "{}",
+            done.out
+        );
+        for file in [
+            "result.csv",
+            "result.mat",
+            "case.toml",
+            "summary.json",
+            "index.html",
+        ] {
+            assert!(at.join(out).join(file).is_file(), "{file}");
+        }
+    }
+    let summary: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(at.join("a/summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["schema"], "wedgelab.car/1");
+    assert_eq!(summary["complete"], true);
+    assert!(
+        summary["assumptions"][0]
+            .as_str()
+            .unwrap()
+            .contains("flexible bodies, braking, coupler forces")
+    );
+    let csv = fs::read_to_string(at.join("a/result.csv")).unwrap();
+    assert!(csv.starts_with("time_s,distance_ft,speed_mph,axle_1_left_vertical_lbf,"));
+    let page = fs::read_to_string(at.join("a/index.html")).unwrap();
+    assert!(page.contains("check them against your edition") && page.contains("<svg"));
+    // The written case runs again to the same table.
+    let again = wedgelab(at, &["run", "a/case.toml", "-q", "--out", "c"]);
+    assert_eq!(again.code, Some(0), "{}", again.err);
+    assert_eq!(
+        fs::read(at.join("c/result.csv")).unwrap(),
+        fs::read(at.join("a/result.csv")).unwrap()
+    );
+    let compared = wedgelab(at, &["compare", "a", "b"]);
+    assert_eq!(compared.code, Some(0), "{}", compared.err);
+}
+
+/// Wrong use of commands: what is wrong and what to do.
+#[test]
+fn input_commands_say_what_they_take() {
+    let folder = tempfile::tempdir().unwrap();
+    for (arguments, parts) in [
+        (
+            &["stability", "truck_drop_variable"][..],
+            &["is no car", "car_hunting_empty"][..],
+        ),
+        (&["stability", "--speeds", "30 mph"], &["\"30 mph\"..\"80 mph\""]),
+        (
+            &["stability", "--speeds", "60 mph..30 mph"],
+            &["must be the higher one"],
+        ),
+        (&["warp", "car_tangent_empty"], &["is no truck"]),
+        (&["explore", "car_tangent_empty"], &["is a car", "wedgelab study"]),
+        (
+            &["run", "car_tangent_emty"],
+            &["did you mean the built-in case car_tangent_empty"],
+        ),
+        (
+            &["run", "car_tangent_empty", "--set", "speed.value=0 mph"],
+            &["speed.value", "coasting"],
+        ),
+    ] {
+        let output = wedgelab(folder.path(), arguments);
+        assert_eq!(output.code, Some(2), "{arguments:?}: {}", output.err);
+        for part in parts {
+            assert!(
+                output.err.contains(part),
+                "{arguments:?} lacks {part}: {}",
+                output.err
+            );
+        }
+    }
+}
