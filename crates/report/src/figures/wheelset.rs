@@ -2,7 +2,7 @@
 
 use ::study::wheelset::WheelsetCase;
 use ::study::wheelset::run::WheelsetResult;
-use quantity::Kind;
+use quantity::{Kind, System as Units};
 
 use super::{Exhibit, axis};
 use crate::csv::converted;
@@ -12,6 +12,22 @@ use crate::track_files::degree;
 const BLUE: (Colour, Line) = (Colour::Blue, Line::Solid);
 const RED: (Colour, Line) = (Colour::Vermillion, Line::Dashed);
 
+/// Distances (m) as figures have them: in feet or meters.
+fn distance(si: f64, units: Units) -> f64 {
+    match units {
+        Units::Us => si / 0.3048,
+        Units::Si => si,
+    }
+}
+
+/// The label of the axis of distances.
+fn along(units: Units) -> String {
+    match units {
+        Units::Us => "distance (ft)".to_owned(),
+        Units::Si => "distance (m)".to_owned(),
+    }
+}
+
 /// Curves of columns (with their labels) over the distance, in output units.
 fn curves(result: &WheelsetResult, columns: &[(&str, &str)], kind: Kind) -> Vec<Curve> {
     let units = result.summary.units;
@@ -19,12 +35,7 @@ fn curves(result: &WheelsetResult, columns: &[(&str, &str)], kind: Kind) -> Vec<
     let own = columns.iter().zip([BLUE, RED]);
     own.map(|((name, label), (colour, line))| {
         let values = result.column(name).unwrap_or_default();
-        let point = |(distance, value): (&f64, &f64)| {
-            (
-                converted(*distance, Kind::Length, units),
-                converted(*value, kind, units),
-            )
-        };
+        let point = |(at, value): (&f64, &f64)| (distance(*at, units), converted(*value, kind, units));
         Curve {
             label: (*label).to_owned(),
             colour,
@@ -39,7 +50,7 @@ fn panel(result: &WheelsetResult, title: &str, label: &str, kind: Kind, columns:
     let units = result.summary.units;
     Panel {
         title: title.to_owned(),
-        x_label: axis("distance", Kind::Length, units),
+        x_label: along(units),
         y_label: axis(label, kind, units),
         curves: curves(result, columns, kind),
         ..Panel::default()
@@ -68,13 +79,10 @@ pub fn exhibits(case: &WheelsetCase, result: &WheelsetResult) -> Vec<Exhibit> {
     let units = result.summary.units;
     let line = case.setup.lines.center_line();
     let curvature = result.column("distance").unwrap_or_default().iter();
-    let curvature = curvature.map(|distance| {
-        let degree = degree(line.at(*distance).curvature[0]);
-        (converted(*distance, Kind::Length, units), degree)
-    });
+    let curvature = curvature.map(|at| (distance(*at, units), degree(line.at(*at).curvature[0])));
     let track = Panel {
         title: "(a) curvature".to_owned(),
-        x_label: axis("distance", Kind::Length, units),
+        x_label: along(units),
         y_label: "degree of curve".to_owned(),
         curves: vec![Curve {
             label: String::new(),

@@ -25,7 +25,7 @@ pub fn setup(irregularities: Vec<Placed>, speed: f64, damping: f64) -> Setup {
         ..POLACH
     };
     let mut setup = on_rails(
-        &freight(),
+        &cones(0.05, 0.3),
         track(&[Segment::Tangent(200.0)], irregularities),
         law,
         speed,
@@ -133,7 +133,13 @@ pub fn meeting(velocity: f64) -> [[f64; 2]; 3] {
                 stiffness = patch.patch.ellipse.stiffness;
             }
         });
-        let mut x = rig.start.clone();
+        // At the start rails lie in their places; coned wheels spread them.
+        let mut integrator =
+            Integrator::new(rig.system.clone(), Options::default(), 0.0, &rig.start).unwrap();
+        while integrator.time() < 1.0 {
+            integrator.step_to(1.0).unwrap();
+        }
+        let mut x = integrator.x().to_vec();
         let down =
             rig.system.layout().speeds + rig.system.position_of(WHEELSET, coordinate::VERTICAL).unwrap();
         x[down] -= velocity;

@@ -75,7 +75,10 @@ impl Derailment {
             "rim_edge" => "stands on the outer edge of its rim and is about to fall between the rails",
             _ => "is off its rail",
         };
-        let SummaryValue { value, unit } = &self.distance;
+        let (value, unit) = match self.distance.unit.as_str() {
+            "in" => (self.distance.value / 12.0, "ft"),
+            unit => (self.distance.value, unit),
+        };
         format!(
             "the {} wheel {what} at {value:.2} {unit} along the track, {:.4} s after the start",
             self.wheel, self.time
