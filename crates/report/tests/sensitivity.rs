@@ -1,5 +1,5 @@
-//! The statements over what the thesis leaves open: which parameter decides, in which part of the space a statement holds, the
-//! rule for the contact stiffness, and points that survive.
+//! The statements over what the thesis leaves open: which parameter decides, in which part of the space a
+//! statement holds, the rule for the contact stiffness, and points that survive.
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
@@ -22,7 +22,8 @@ fn chance(point: u64, share: f64) -> bool {
     ((bits ^ (bits >> 31)) as f64) < share * u64::MAX as f64
 }
 
-/// A statement that holds on one side of one parameter, with exceptions here and there, is decided by that parameter.
+/// A statement that holds on one side of one parameter, with exceptions here and there, is decided by that
+/// parameter.
 #[test]
 fn analytic_the_parameter_that_decides_is_found() {
     let space = Space::default();

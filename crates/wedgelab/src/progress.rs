@@ -72,7 +72,8 @@ impl Progress {
 /// Lines on others than terminals are not closer than this.
 const PAUSE: Duration = Duration::from_secs(10);
 
-/// Progress of many things of one kind, with the time left: a bar on a terminal, a line now and then elsewhere.
+/// Progress of many things of one kind, with the time left: a bar on a terminal, a line now and then
+/// elsewhere.
 #[derive(Debug)]
 pub struct Steady {
     what: &'static str,

@@ -33,7 +33,7 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 25] = [
+pub const ALL: [Reader; 26] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,
@@ -45,6 +45,7 @@ pub const ALL: [Reader; 25] = [
     studies::STUDIES,
     studies::MANIFESTS,
     studies::RECORDS,
+    studies::POINTS,
     small::UNITS,
     small::FREE,
     small::OPTIONS,

@@ -1,8 +1,10 @@
-//! Studies: their files, the folder's `study.json`, and records of runs.
+//! Studies: their files, the folder's `study.json`, and records of runs; points of the sensitivity.
 
 use std::path::Path;
 use std::sync::LazyLock;
 
+use report::claims::{Verdict, claims};
+use report::sensitivity::{AXES, Found, Kept, POINTS_FILE, Place, Space};
 use report::study_folder::{STUDY_FILE, StudyFolder};
 use study::design::Study;
 use study::measures::{Measures, of_wedges};
@@ -71,6 +73,24 @@ pub const RECORDS: Reader = Reader {
     read: record_bytes,
 };
 
+/// Points of `reproduce --sensitivity`.
+pub const POINTS: Reader = Reader {
+    name: "points",
+    about: "points of the space of what the thesis leaves open",
+    corpus: point_corpus,
+    dictionary: &[
+        b"\"point\":\"space 3\"",
+        b"\"point\":\"friction 2 18446744073709551615\"",
+        b"\"verdicts\":\"hnu\"",
+        b"\"axes\":[true]",
+        b"\"set\":[]",
+        b"null",
+        b"\n",
+        b"\\ud800",
+    ],
+    read: points_file,
+};
+
 /// Some variants of a study, the first and the last among them.
 fn some(count: u64) -> Vec<u64> {
     let mut numbers = vec![0, 1, count / 2, count - 1];
@@ -136,6 +156,71 @@ fn manifest_file(input: &[u8]) -> Outcome {
         Ok(_) => Outcome::ACCEPTED,
         Err(error) => Outcome::refused(&error),
     }
+}
+
+/// A folder with points, and what it holds with a few.
+fn point_corpus() -> Vec<Vec<u8>> {
+    let space = Space::default();
+    let found = Found {
+        verdicts: claims().map(|_| Verdict::Holds).collect(),
+        axes: vec![true; AXES.len()],
+        unsound: vec!["vdrun_toe_0_psi_0: it stopped".to_owned()],
+    };
+    let Ok(folder) = tempfile::tempdir() else {
+        return Vec::new();
+    };
+    let kept = Kept::open(folder.path(), &space, false);
+    let places = [Place::Decided, Place::Space(3), Place::OtherFriction(1, 0)];
+    if let Ok(kept) = kept {
+        for place in places {
+            // A point that cannot be kept is missing in the corpus, no more.
+            let _ = kept.keep(&space, place, &found);
+        }
+    }
+    std::fs::read(folder.path().join(POINTS_FILE))
+        .into_iter()
+        .collect()
+}
+
+fn points_file(input: &[u8]) -> Outcome {
+    let space = Space::default();
+    let Ok(folder) = tempfile::tempdir() else {
+        return Outcome::NO_TEXT;
+    };
+    let open = || Kept::open(folder.path(), &space, false);
+    if open().is_err() || std::fs::write(folder.path().join(POINTS_FILE), input).is_err() {
+        return Outcome::NO_TEXT;
+    }
+    let places = space.places(16);
+    let missing = match open() {
+        Ok(kept) => kept.missing(&places),
+        Err(error) => return Outcome::refused(&error),
+    };
+    // One more is kept behind whatever is there, and found again with the others.
+    let found = Found {
+        verdicts: claims().map(|_| Verdict::DoesNot).collect(),
+        axes: vec![false; AXES.len()],
+        unsound: Vec::new(),
+    };
+    let Some(place) = missing.last() else {
+        return Outcome::ACCEPTED;
+    };
+    if open().is_ok_and(|kept| kept.keep(&space, *place, &found).is_ok())
+        && let Ok(kept) = open()
+    {
+        assert!(
+            kept.found(*place) == Some(&found),
+            "another point: {}",
+            place.key()
+        );
+        assert!(
+            kept.missing(&places) == missing[..missing.len() - 1],
+            "points were lost: {} of {}",
+            missing.len(),
+            places.len()
+        );
+    }
+    Outcome::ACCEPTED
 }
 
 const FINGERPRINT: u64 = 42;

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::claims::{Group, REQUIRED};
 use crate::figures::capital;
-use crate::sensitivity::{AXES, Extent, Sensitivity, Side, Split, Statement, Tally};
+use crate::sensitivity::{AXES, Extent, Mean, Sensitivity, Side, Split, Statement, Tally};
 
 /// A share in per cent; what is not all is never shown as all.
 fn percent(share: f64) -> String {
@@ -38,24 +38,55 @@ fn decides(split: &Split) -> String {
     format!("{} decides: {}, {}", split.parameter, side(one), side(other))
 }
 
+/// What was done.
+fn about(found: &Sensitivity) -> String {
+    format!(
+        "The thesis does not say how stiff the contacts are, where the coil's force acts, and more. The twelve \
+         runs were made at {points} points of the space of these parameters (Sobol' sequence), and every \
+         statement was decided at each. Always and never: at all and at none of the points that decide it; mostly \
+         and seldom: at half or more, and at fewer. Where {points} points show no exception, a share of {missed:.1} % \
+         of exceptions would be missed once in twenty times. The half-truck has nothing of what is open.",
+        points = found.points,
+        missed = 300.0 / found.points as f64
+    )
+}
+
+/// What is meant by a parameter that decides.
+const DECIDES: &str = "A parameter decides if one cut of it (a range at a quarter, half or three quarters; a choice \
+    against the others) tells best where the statement holds, and better than chance would: the cut whose \u{3c6}\u{b2} \
+    is largest, the square of the correlation of two yes-or-no quantities, if the number of points times \
+    \u{3c6}\u{b2} is above 12.";
+
+/// What the axes are.
+const AXES_OF_FIGURES: &str = "The thesis's curves stay within the axes of its figures, which begin at 0.1 to 0.5 s. \
+    Where these runs do, after 0.5 s:";
+
+/// How the other frictions were run.
+const FRICTION: &str = "The same points once more with another reference speed, and with bristles in place of tanh: how \
+    many statements hold at a point, on average, and how many hold at half of the points with one friction and not \
+    with the other.";
+
+/// The rule for the stiffness.
+fn rule(found: &Sensitivity) -> String {
+    format!(
+        "Required are {} statements (orders by toe without yaw, lift-off and its silence, stick at the reversal, no \
+         lateral force) and the {} axes: {} in all. The stiffness is the middle of that fifth of the range in which \
+         most of them hold over all else that is open, and of fifths that do not differ in that, most of all \
+         statements. Means differ if they do by more than two standard errors; without such a difference the middle \
+         fifth stays, whose middle is the stiffness of the comparison program's wedge.",
+        REQUIRED.len(),
+        AXES.len(),
+        found.stiffness.of_required
+    )
+}
+
 /// The section; the verdicts stand with the statements.
 pub(super) fn section(found: &Sensitivity) -> Markup {
     html! {
         section {
             h2 id="open" { "What the thesis leaves open" }
-            p {
-                "The thesis does not say how stiff the contacts are, where the coil's force acts, and more. The twelve runs were made at "
-                (found.points) " points of the space of these parameters (Sobol' sequence), and every statement was decided at each. "
-                em { "Always" } " and " em { "never" } ": at all and at none of the points that decide it; " em { "mostly" }
-                " and " em { "seldom" } ": at half or more, and at fewer. Of " (found.points) " points without an exception, a share of "
-                (format!("{:.1} %", 300.0 / found.points as f64)) " with one would be missed once in twenty times. The half-truck \
-                has nothing of what is open."
-            }
-            p {
-                "A parameter " em { "decides" } " if one cut of it (a range at a quarter, half or three quarters; a choice against the \
-                others) tells best where the statement holds, and better than chance would: the cut whose \u{3c6}\u{b2} is largest, the \
-                square of the correlation of two yes-or-no quantities, if the number of points times \u{3c6}\u{b2} is above 12."
-            }
+            p { (about(found)) }
+            p { (DECIDES) }
             (parameters(found))
             (groups(found))
             (axes(found))
@@ -138,7 +169,7 @@ fn groups(found: &Sensitivity) -> Markup {
 fn axes(found: &Sensitivity) -> Markup {
     html! {
         h3 { "The axes of the thesis's figures" }
-        p { "The thesis's curves stay within the axes of its figures, which begin at 0.1 to 0.5 s. So do these runs, after 0.5 s:" }
+        p { (AXES_OF_FIGURES) }
         div.wide {
             table {
                 tbody {
@@ -160,10 +191,7 @@ fn frictions(found: &Sensitivity) -> Markup {
     html! {
         @if !rows.is_empty() {
             h3 { "Other friction" }
-            p {
-                "The same points once more with another reference speed, and with bristles in place of tanh: how many statements hold at a \
-                point, on average, and how many hold at half of the points with one friction and not with the other."
-            }
+            p { (FRICTION) }
             div.wide {
                 table {
                     thead {
@@ -194,19 +222,16 @@ fn frictions(found: &Sensitivity) -> Markup {
     }
 }
 
+fn mean(mean: Mean, decimals: usize) -> String {
+    format!("{:.decimals$} \u{b1} {:.decimals$}", mean.mean, mean.error)
+}
+
 fn stiffness(found: &Sensitivity) -> Markup {
     let stiffness = &found.stiffness;
     html! {
         @if !stiffness.parts.is_empty() {
             h3 { "The contact stiffness, by rule" }
-            p {
-                "Required are " (REQUIRED.len()) " statements (orders by toe without yaw, lift-off and its silence, stick at the reversal, no \
-                lateral force) and the " (AXES.len()) " axes: " (stiffness.of_required) " in all. The stiffness is the middle of that fifth of \
-                the range in which most of them hold over all else that is open, and of fifths that do not differ in that, most of all \
-                statements. Means differ if they do by more \
-                than two standard errors; without such a difference the middle fifth stays, whose middle is the stiffness of the comparison \
-                program's wedge."
-            }
+            p { (rule(found)) }
             div.wide {
                 table {
                     thead {
@@ -221,10 +246,11 @@ fn stiffness(found: &Sensitivity) -> Markup {
                     tbody {
                         @for (number, part) in stiffness.parts.iter().enumerate() {
                             tr {
-                                th scope="row" { (format!("{:.1e}", part.stiffness[0])) " to " (format!("{:.1e}", part.stiffness[1])) }
+                                @let [from, to] = part.stiffness.map(|stiffness| format!("{stiffness:.1e}"));
+                                th scope="row" { (from) " to " (to) }
                                 td.number { (part.points) }
-                                td.number { (format!("{:.2} \u{b1} {:.2}", part.required.mean, part.required.error)) }
-                                td.number { (format!("{:.1} \u{b1} {:.1}", part.holds.mean, part.holds.error)) }
+                                td.number { (mean(part.required, 2)) }
+                                td.number { (mean(part.holds, 1)) }
                                 td { @if stiffness.chosen == Some(number) { "chosen" } }
                             }
                         }

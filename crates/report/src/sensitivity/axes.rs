@@ -1,6 +1,7 @@
 //! The axes of the thesis's figures: its curves stay within them.
 //!
-//! The figures begin at 0.1 to 0.5 s; looked at is what comes after 0.5 s. The runs of a figure are those that it draws.
+//! The figures begin at 0.1 to 0.5 s; looked at is what comes after 0.5 s. The runs of a figure are those
+//! that it draws.
 
 use quantity::{Kind, System as Units};
 use study::case::Case;

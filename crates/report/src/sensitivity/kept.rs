@@ -7,10 +7,12 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use input::file::{Expected, ReadError, Reason, read, read_text};
+use input::{FileType, limits};
 use miette::Diagnostic;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -23,9 +25,22 @@ use crate::claims::{Verdict, claims};
 /// The folder, beside the report.
 pub const FOLDER: &str = "sensitivity";
 const SPACE_FILE: &str = "space.json";
-const POINTS_FILE: &str = "points.jsonl";
+/// The file of the points.
+pub const POINTS_FILE: &str = "points.jsonl";
 /// Version of both files.
 const SCHEMA: &str = "wedgelab.sensitivity_points/1";
+
+const SPACE_EXPECTED: Expected = Expected {
+    what: "description of points",
+    types: &[FileType::Json],
+    most: limits::RECORD_FILE,
+};
+/// What the points must be. Damage at the beginning may look like anything.
+const POINTS_EXPECTED: Expected = Expected {
+    what: "file of points",
+    types: &FileType::ALL,
+    most: limits::RECORD_FILE,
+};
 
 /// Why points cannot be kept.
 #[derive(Debug, Error, Diagnostic)]
@@ -123,7 +138,7 @@ impl Kept {
         let description = describe(space);
         let manifest = folder.join(SPACE_FILE);
         let length = points.metadata().map_err(failed(&file))?.len();
-        let is_same = fs::read_to_string(&manifest).is_ok_and(|found| found == description);
+        let is_same = read_text(&manifest, &SPACE_EXPECTED).is_ok_and(|found| found == description);
         if !is_same {
             if length > 0 && !anew {
                 return Err(KeptError::Changed {
@@ -133,11 +148,7 @@ impl Kept {
             points.set_len(0).map_err(failed(&file))?;
             fs::write(&manifest, &description).map_err(failed(&manifest))?;
         }
-        let mut text = Vec::new();
-        points
-            .seek(SeekFrom::Start(0))
-            .and_then(|_| points.read_to_end(&mut text))
-            .map_err(failed(&file))?;
+        let text = read(&file, &POINTS_EXPECTED).map_err(|error| failed(&file)(reason(error)))?;
         if text.last().is_some_and(|last| *last != b'\n') {
             // The next line must not go on in one that was cut off.
             points.write_all(b"\n").map_err(failed(&file))?;
@@ -145,7 +156,7 @@ impl Kept {
         let lines = text.split(|byte| *byte == b'\n');
         Ok(Self {
             folder: folder.to_owned(),
-            found: lines.filter_map(|line| read(line, space)).collect(),
+            found: lines.filter_map(|line| point(line, space)).collect(),
             points: Mutex::new(points),
         })
     }
@@ -191,8 +202,15 @@ impl Kept {
     }
 }
 
+fn reason(error: ReadError) -> io::Error {
+    match error.reason {
+        Reason::System(reason) => reason,
+        _ => io::Error::other(error.to_string()),
+    }
+}
+
 /// A line's point with what was found; `None` if it is cut off or damaged.
-fn read(line: &[u8], space: &Space) -> Option<(String, Found)> {
+fn point(line: &[u8], space: &Space) -> Option<(String, Found)> {
     let line: Line = serde_json::from_slice(line).ok()?;
     let verdicts: Vec<Verdict> = line.verdicts.chars().map(verdict).collect::<Option<_>>()?;
     // What is set tells of a point that another version numbered otherwise.

@@ -1,12 +1,13 @@
 //! How far the verdicts on the thesis's statements hang on what the thesis leaves open.
 //!
 //! The twelve runs are made at many points of a space of open parameters ([`open_parameters`]), and each
-//! statement is decided at each of them: of the points that decide it, it holds at all of them (*always*), at half or more
-//! (*mostly*), at fewer (*seldom*), or at none (*never*). The parameter that decides is the one whose single cut
-//! tells best where it holds ([`deciding`]). Other laws and speeds of friction stand apart from the space.
+//! statement is decided at each of them: of the points that decide it, it holds at all of them (*always*), at
+//! half or more (*mostly*), at fewer (*seldom*), or at none (*never*). The parameter that decides is the one
+//! whose single cut tells best where it holds ([`deciding`]). Other laws and speeds of friction stand apart
+//! from the space.
 //!
-//! "Always" is said of the points that were run: of n points without an exception, a share of 3/n or more without it would have
-//! been met in 95 of 100 such samples.
+//! "Always" is said of the points that were run: of n points without an exception, a share of 3/n or more
+//! without it would have been met in 95 of 100 such samples.
 
 mod axes;
 mod kept;
@@ -17,7 +18,7 @@ mod split;
 mod stiffness;
 
 pub use axes::{AXES, Axis};
-pub use kept::{FOLDER, Kept, KeptError};
+pub use kept::{FOLDER, Kept, KeptError, POINTS_FILE};
 pub use outcome::{
     Extent, FILE_NAME, OfFriction, ParameterShown, SCHEMA, Sensitivity, Statement, Tally, UnderFriction,
 };

@@ -21,8 +21,8 @@ pub struct Found {
     pub unsound: Vec<String>,
 }
 
-/// Makes the twelve runs with these values over the cases', and decides. `trucks` are runs of the half-truck, which has nothing
-/// of what is open.
+/// Makes the twelve runs with these values over the cases', and decides. `trucks` are runs of the half-truck,
+/// which has nothing of what is open.
 #[must_use]
 pub fn compute(set: &[String], trucks: &[TruckOutcome]) -> Found {
     let (mut runs, mut unsound) = (Vec::new(), Vec::new());

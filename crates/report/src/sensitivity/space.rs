@@ -2,8 +2,8 @@
 //! made.
 //!
 //! Points of the space are those of the Sobol' sequence, by number: more points keep the earlier ones. Every
-//! point is a list of values as `--set` takes them, so that each can be run alone. Runs are integrated as the cases
-//! say: methods that damp the vibrations of contacts turn more verdicts
+//! point is a list of values as `--set` takes them, so that each can be run alone. Runs are integrated as the
+//! cases say: methods that damp the vibrations of contacts turn more verdicts
 //! ([0058](../../../../docs/decisions/0058-verdicts-over-what-is-open.md)).
 
 use quantity::Number;
@@ -150,7 +150,8 @@ pub fn open_parameters() -> Vec<OpenParameter> {
             },
             labels: &[],
             decided: "2.5e5 lbf/in",
-            reason: "a corner; the thesis gives none. A tenth to ten times a quarter of the comparison program's accumulator",
+            reason: "a corner; the thesis gives none. A tenth to ten times a quarter of the comparison program's \
+                     accumulator",
         },
         choices(
             "contact damping",
@@ -205,7 +206,8 @@ pub fn open_parameters() -> Vec<OpenParameter> {
                 "below the center of gravity",
                 "2.15 in towards the bolster",
             ],
-            "on the wedge's bottom, from the center of gravity, which is the prism's; the thesis does not say where the faces are from B",
+            "on the wedge's bottom, from the center of gravity, which stays that of the prism; the thesis does not say where \
+             the faces are from B",
         ),
     ]
 }

@@ -1,20 +1,21 @@
 //! Which parameter decides.
 //!
-//! Points are divided in two by one parameter: a range at a quarter, the half or three quarters of it, choices one against the
-//! others. With shares p₁, p₂ of the points on the two sides, shares s₁, s₂ of them where a statement holds, and s
-//! of all points, the cut *explains*
+//! Points are divided in two by one parameter: a range at a quarter, the half or three quarters of it,
+//! choices one against the others. With shares p₁, p₂ of the points on the two sides, shares s₁, s₂ of them
+//! where a statement holds, and s of all points, the cut *explains*
 //!
 //! ```text
 //! φ² = p₁ p₂ (s₁ - s₂)² / (s (1 - s))
 //! ```
 //!
-//! of the variance of holding (the square of the correlation of two yes-or-no quantities): 1 if the cut tells exactly
-//! where the statement holds, 0 if it says nothing. The cut that explains most decides, if it explains more than chance
-//! would: n φ² is about chi-squared of one degree of freedom for n points without any connection, and the
-//! best of some fifteen cuts passes 12 in fewer than one of a hundred such statements.
+//! of the variance of holding (the square of the correlation of two yes-or-no quantities): 1 if the cut tells
+//! exactly where the statement holds, 0 if it says nothing. The cut that explains most decides, if it
+//! explains more than chance would: n φ² is about chi-squared of one degree of freedom for n points without
+//! any connection, and the best of some fifteen cuts passes 12 in fewer than one of a hundred such
+//! statements.
 //!
-//! Defect: one cut of one parameter. A statement that hangs on two parameters together, or on the middle of a range, is
-//! said to hang on less than it does.
+//! Defect: one cut of one parameter. A statement that hangs on two parameters together, or on the middle of a
+//! range, is said to hang on less than it does.
 
 use serde::Serialize;
 
@@ -45,8 +46,8 @@ pub struct Split {
     pub explains: f64,
 }
 
-/// The cut that decides; `None` if the statement holds at all or at no points, or no cut explains more than chance.
-/// `holds` has for each point that decides the statement its number and whether it holds there.
+/// The cut that decides; `None` if the statement holds at all or at no points, or no cut explains more than
+/// chance. `holds` has for each point that decides the statement its number and whether it holds there.
 #[must_use]
 pub fn deciding(space: &Space, holds: &[(u64, bool)]) -> Option<Split> {
     let all = holds.len() as f64;

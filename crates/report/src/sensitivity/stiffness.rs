@@ -1,11 +1,12 @@
 //! How many statements hold over the contact stiffness, and the rule that chooses it.
 //!
-//! The thesis gives no contact stiffness. *Required* are the statements of [`REQUIRED`], and that runs stay within the axes of
-//! the thesis's figures ([`AXES`]). *The rule*: of five equal parts of the range (each a factor of 2.5), the default is the
-//! middle of the part in which most of what is required holds, over all else that is open; of parts
-//! that do not differ in that, the part in which most statements hold. *Differ* means by more than two standard
-//! errors of the difference of the means. The middle part, whose middle is the comparison program's
-//! stiffness, is left for another part only if that is better in this sense: it is the one stiffness with a source.
+//! The thesis gives no contact stiffness. *Required* are the statements of [`REQUIRED`], and that runs stay
+//! within the axes of the thesis's figures ([`AXES`]). *The rule*: of five equal parts of the range (each a
+//! factor of 2.5), the default is the middle of the part in which most of what is required holds, over all
+//! else that is open; of parts that do not differ in that, the part in which most statements hold. *Differ*
+//! means by more than two standard errors of the difference of the means. The middle part, whose middle is
+//! the comparison program's stiffness, is left for another part only if that is better in this sense: it is
+//! the one stiffness with a source.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

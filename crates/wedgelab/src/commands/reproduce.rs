@@ -64,7 +64,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", num_args = 1..)]
     only: Vec<String>,
     /// Decide the thesis's statements at N points of the space of what the thesis leaves open, too
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20_000))]
     sensitivity: Option<u32>,
     /// Overwrite existing results
     #[arg(long)]

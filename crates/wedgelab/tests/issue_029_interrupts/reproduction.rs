@@ -84,8 +84,8 @@ fn issue_029_an_interrupted_reproduction_tells_the_missing_half_trucks() {
     assert!(missing.iter().all(|name| !kept.iter().any(|kept| kept == name)));
 }
 
-/// Points of the space of what the thesis leaves open are kept; the same command goes on from there, and what comes out depends
-/// neither on that nor on the number of jobs.
+/// Points of the space of what the thesis leaves open are kept; the same command goes on from there, and what
+/// comes out depends neither on that nor on the number of jobs.
 #[test]
 fn limits_an_interrupted_sensitivity_goes_on_with_the_same_bytes() {
     let folder = tempdir().unwrap();

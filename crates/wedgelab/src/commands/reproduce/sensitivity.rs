@@ -26,7 +26,8 @@ impl From<KeptError> for Failure {
     }
 }
 
-/// Computes the points that are not kept yet, as many at a time as the pool has threads, and says what all of them say.
+/// Computes the points that are not kept yet, as many at a time as the pool has threads, and says what all of
+/// them say.
 ///
 /// Points come before the runs of the report, so that the same command goes on when it was stopped.
 pub fn explore(arguments: &Arguments, points: u64, pool: &rayon::ThreadPool) -> Result<Sensitivity, Failure> {
@@ -103,8 +104,8 @@ fn half_trucks() -> Result<Vec<TruckOutcome>, Failure> {
 pub fn in_short(found: &Sensitivity) -> String {
     let [always, mostly, seldom, never, open] = found.extents;
     let mut text = format!(
-        "Over {} points of what the thesis leaves open, {always} statements hold always, {mostly} mostly, {seldom} seldom, \
-         {never} never; {open} cannot be decided: {FILE_NAME}.",
+        "Over {} points of what the thesis leaves open, {always} statements hold always, {mostly} mostly, \
+         {seldom} seldom, {never} never; {open} cannot be decided: {FILE_NAME}.",
         found.points
     );
     if !found.unsound.is_empty() {
