@@ -7,6 +7,7 @@ pub mod any_case;
 pub mod assumptions;
 pub mod case;
 pub mod closed_form;
+pub mod contacts;
 pub mod cycles;
 pub mod design;
 pub mod energy;

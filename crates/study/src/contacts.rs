@@ -1,16 +1,13 @@
-//! What happens at each corner of the wedges of a run: taken along only where it is asked for, since a table of
-//! all corners has twice as many columns as the result.
+//! What happens at each corner of the wedges that are bodies in a run: taken along only where it is asked for, since a
+//! table of all corners has twice as many columns as the result.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 use mechanics::output::Column;
 use mechanics::system::{Observation, System};
 use quantity::Kind;
-use truck::{WEDGE_NAMES, WEDGES};
 
-use super::TruckCase;
-use super::run::TruckResult;
-use crate::run::{Run, RunError};
+use crate::run::{Recorder, Run, RunCase, RunError};
 
 /// A corner of a wedge at a face.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,14 +35,22 @@ pub struct ContactTable {
 /// Columns of a corner.
 const OF_CORNER: usize = 6;
 
-/// Returns the corners of all wedges of a truck's system that have faces.
+/// A recorder that can take the corners of wedges along.
+pub trait TakesCorners: Recorder {
+    /// Returns the numbers of the wedges' bodies.
+    fn wedges(&self) -> Range<usize>;
+    /// Returns the table that they are taken into, if it is wanted.
+    fn corners(&mut self) -> &mut Option<ContactTable>;
+}
+
+/// Returns the corners of all faces of the bodies with these numbers.
 #[must_use]
-pub fn corners(system: &System) -> Vec<Corner> {
+pub fn corners(system: &System, wedges: Range<usize>) -> Vec<Corner> {
     let mut all = Vec::new();
     let mut place = 0;
     for (number, mounted) in system.faces().iter().enumerate() {
         let points = &mounted.element.points;
-        if (WEDGES..WEDGES + WEDGE_NAMES.len()).contains(&mounted.body) {
+        if wedges.contains(&mounted.body) {
             let count = points.len() as f64;
             let mean = |k: usize| points.iter().map(|point| point.position.0[k]).sum::<f64>() / count;
             let middle = [mean(1), mean(2)];
@@ -68,8 +73,8 @@ pub fn corners(system: &System) -> Vec<Corner> {
 
 impl ContactTable {
     /// Returns an empty table.
-    fn new(system: &System) -> Self {
-        let corners = corners(system);
+    fn new(system: &System, wedges: Range<usize>) -> Self {
+        let corners = corners(system, wedges);
         let mut columns = Vec::new();
         for corner in &corners {
             let mut add = |what: &str, kind: Kind, text: &str| {
@@ -105,7 +110,7 @@ impl ContactTable {
     }
 
     /// Appends a row.
-    pub(super) fn take(&mut self, observation: &Observation, contact_states: &[u8]) {
+    pub(crate) fn take(&mut self, observation: &Observation, contact_states: &[u8]) {
         let columns = self.values.chunks_exact_mut(OF_CORNER);
         for (corner, columns) in self.corners.iter().zip(columns) {
             let face = &observation.faces[corner.face];
@@ -127,17 +132,20 @@ impl ContactTable {
     }
 }
 
-impl Run<TruckCase> {
+impl<C: RunCase> Run<C>
+where
+    C::Recorder: TakesCorners,
+{
     /// Returns a run at its start that takes the corners of its wedges along.
     ///
     /// # Errors
     /// As [`Run::new`].
-    pub fn with_contacts(case: &TruckCase) -> Result<Self, RunError> {
+    pub fn with_contacts(case: &C) -> Result<Self, RunError> {
         let mut run = Self::new(case)?;
-        let mut table = ContactTable::new(&run.system);
+        let mut table = ContactTable::new(&run.system, run.recorder.wedges());
         let observation = run.system.observe(run.integrator.time(), run.integrator.x());
         table.take(&observation, run.integrator.discrete_states());
-        run.recorder.contacts = Some(table);
+        *run.recorder.corners() = Some(table);
         Ok(run)
     }
 
@@ -146,9 +154,9 @@ impl Run<TruckCase> {
     pub fn finish_with_contacts(
         mut self,
         progress: impl FnMut(f64) -> ControlFlow<String>,
-    ) -> (TruckResult, Option<ContactTable>) {
+    ) -> (C::Output, Option<ContactTable>) {
         let stopped = self.go_on_while(progress);
-        let contacts = self.recorder.contacts.take();
+        let contacts = self.recorder.corners().take();
         (self.result(stopped), contacts)
     }
 }
