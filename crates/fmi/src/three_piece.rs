@@ -1,9 +1,7 @@
 //! A three-piece truck with wedge bodies, as data of [`crate::system`]: a case with `model = "truck"`.
 //!
-//! Bolster, side frames and wheelsets that are prescribed move as the inputs say, or as the case says. Outputs are
-//! the fixed columns of its results: warp angle and moment, loads of nests, forces and places of wedges.
-
-use std::collections::BTreeSet;
+//! Bolster, side frames and wheelsets that are prescribed move as the inputs say, or as the case says; bodies that are
+//! free are loaded by inputs. Outputs are the fixed columns of its results: warp angle and moment, loads of nests, forces and places of wedges.
 
 use mechanics::body::COORDINATES;
 use mechanics::motion::Motion;
@@ -15,14 +13,9 @@ use wedge::parameters::Start as CaseStart;
 use crate::Error;
 use crate::element::{Entries, Entry, Setting};
 use crate::system::{
-    MotionPort, Plant, Ports, Reading, Start, SystemElement, accumulated, deflection, kinds, ledger, motions,
-    unit,
+    MOTION, Plant, Ports, START, Start, SystemElement, accumulated, add_loads, add_motion, add_table,
+    contact, deflection, ledger, motions, options,
 };
-
-/// The place of the option that says who moves prescribed bodies.
-const MOTION: usize = 0;
-/// The place of the option that says how the truck starts.
-const START: usize = 1;
 
 /// Returns the truck of a case; its prescribed bodies move as the case says, or are `driven`.
 ///
@@ -35,7 +28,7 @@ pub fn plant(case: &TruckCase, driven: bool) -> Result<Plant, Error> {
         ));
     }
     let moved = if driven { drivable(case) } else { case.clone() };
-    let mut table = TruckTable::new(&moved).map_err(|error| Error::new(error.to_string()))?;
+    let table = TruckTable::new(&moved).map_err(|error| Error::new(error.to_string()))?;
     let system = table.system().clone();
     let (entries, ports) = all(case, &system, &table);
     let start = system
@@ -46,7 +39,9 @@ pub fn plant(case: &TruckCase, driven: bool) -> Result<Plant, Error> {
     Ok(Plant {
         entries,
         ports,
-        table: Some(Box::new(move |seen, row| table.read(seen, start, row))),
+        table: Some(Box::new(move |seen, row| {
+            table.read(seen, start, row);
+        })),
         numbers: [Vec::new(), Vec::new()],
         residual_of_stored: false,
         relative_tolerance: case.simulation.relative_tolerance,
@@ -68,7 +63,8 @@ pub fn element(case: &TruckCase, setting: &Setting) -> Result<SystemElement, Err
     SystemElement::new(plant(case, driven)?, setting, start, driven)
 }
 
-/// Returns the same case with prescribed bodies that can be moved: a system takes what is held for fixed.
+/// Returns the same case with prescribed bodies that can be moved, since a system takes what is held for fixed, and
+/// without loads of its own.
 fn drivable(case: &TruckCase) -> TruckCase {
     let mut case = case.clone();
     let parameters = &mut case.parameters;
@@ -87,119 +83,64 @@ fn drivable(case: &TruckCase) -> TruckCase {
         let [value, rate, _] = motion.evaluate(0.0, 0.0);
         *motion = Motion::line(0.0, [value, rate]);
     }
+    let side_frames = parameters.side_frames.iter_mut().map(|own| &mut own.applied);
+    let car_body = parameters.car_body.iter_mut().map(|car| &mut car.applied);
+    let loads = std::iter::once(&mut parameters.bolster.applied)
+        .chain(side_frames)
+        .chain(car_body);
+    loads.flatten().for_each(|load| *load = Motion::Constant(0.0));
     case
 }
 
 fn all(case: &TruckCase, system: &System, table: &TruckTable) -> (Entries, Ports) {
     let layout = system.layout();
-    let mut ports = Ports::default();
-    let mut inputs = Vec::new();
-    motion_inputs(case, system, &mut inputs, &mut ports.motions);
-    let states = states(system);
-    let (modes, indicators) = contacts(system);
-    let mut known: BTreeSet<String> = states.iter().map(|state| state.name.clone()).collect();
-    known.extend(modes.iter().map(|mode| mode.name.clone()));
-    known.extend(inputs.iter().map(|input| input.name.clone()));
-    known.extend(["time", "ledger_residual", "stored_energy_change"].map(str::to_owned));
-    let (mut outputs, mut columns) = (Vec::new(), Vec::new());
-    for (number, column) in table.columns().iter().enumerate() {
-        if !known.insert(column.name.clone()) {
-            continue;
-        }
-        let entry = Entry::real(
-            &column.name,
-            unit(column.kind),
-            None,
-            input::shortened(&column.text),
-        );
-        if number < table.fixed() {
-            outputs.push(entry);
-            ports.outputs.push(Reading::Table(number));
-        } else {
-            columns.push(entry);
-            ports.columns.push(number);
+    let (mut ports, mut inputs) = (Ports::default(), Vec::new());
+    for (body, own) in system.bodies().iter().enumerate() {
+        // Without adapters nothing stands on the wheelsets.
+        let is_used = case.parameters.wheelsets.is_some() || !own.name.ends_with("wheelset");
+        for coordinate in (0..6).filter(|_| own.is_prescribed() && is_used) {
+            let name = format!("{}_{}_motion", own.name, COORDINATES[coordinate]);
+            let text =
+                "displacement of the prescribed body from its nominal place, or angle; read if motion = 0";
+            add_motion((&mut inputs, &mut ports), (body, own), coordinate, (&name, text));
         }
     }
-    columns.extend(ledger(
-        "work of the prescribed bodies less stored energy and losses",
-    ));
-    let entries = Entries {
-        options: options(case),
+    for (body, own) in system.bodies().iter().enumerate() {
+        if !own.name.ends_with("wedge") {
+            let text = format!(
+                "the {} from outside, at its center of gravity",
+                own.name.replace('_', " ")
+            );
+            add_loads((&mut inputs, &mut ports), (body, own), (&own.name, &text));
+        }
+    }
+    let equilibrium = case.parameters.start == CaseStart::Equilibrium;
+    let points = points(system).into_iter();
+    let (modes, indicators) = points
+        .map(|(face, number)| contact(&point(system, face, number)))
+        .unzip();
+    let mut entries = Entries {
+        options: options(
+            "who moves prescribed bodies: 0 the inputs bolster_*, left_side_frame_*, ..., 1 the case, whose loads act too then",
+            (
+                i32::from(equilibrium),
+                "the truck at the start: 0 at rest in the nominal layout, 1 at rest in static equilibrium without friction",
+            ),
+        ),
         inputs,
-        outputs,
         outputs_of_states: false,
         accumulators: layout.quadratures + 1,
         kinematic: (0..layout.speeds).map(|q| (q, q + layout.speeds)).collect(),
-        states,
-        columns,
+        states: states(system),
+        columns: ledger("work of the prescribed bodies and of the loads less stored energy and losses"),
         modes,
         indicators,
         ..Entries::default()
     };
+    add_table((&mut entries, &mut ports), table.columns(), |number, _| {
+        number < table.fixed()
+    });
     (entries, ports)
-}
-
-fn options(case: &TruckCase) -> Vec<Entry> {
-    let equilibrium = case.parameters.start == CaseStart::Equilibrium;
-    vec![
-        Entry::integer(
-            "motion",
-            Some(0),
-            [0, 1],
-            "who moves prescribed bodies: 0 the inputs bolster_*, left_side_frame_*, ..., 1 the case",
-        ),
-        Entry::integer(
-            "start",
-            Some(i32::from(equilibrium)),
-            [0, 1],
-            "the truck at the start: 0 at rest in the nominal layout, 1 at rest in static equilibrium without friction",
-        ),
-        Entry::boolean(
-            "derive_rates",
-            false,
-            "co-simulation: rates of prescribed bodies are found from their positions, the inputs *_rate are not read",
-        ),
-        Entry::boolean(
-            "inputs_at_end",
-            false,
-            "co-simulation: inputs are those of the end of a communication step (else of its beginning, and continued)",
-        ),
-    ]
-}
-
-/// Value and rate of every coordinate of the prescribed bodies; they start where the case says.
-fn motion_inputs(case: &TruckCase, system: &System, inputs: &mut Vec<Entry>, ports: &mut Vec<MotionPort>) {
-    for (body, own) in system.bodies().iter().enumerate() {
-        // Without adapters nothing stands on the wheelsets.
-        let is_used = case.parameters.wheelsets.is_some() || !own.name.ends_with("wheelset");
-        if !own.is_prescribed() || !is_used {
-            continue;
-        }
-        for (coordinate, motion) in own.frame.motions.iter().enumerate() {
-            let [value, rate, _] = motion.evaluate(0.0, 0.0);
-            let name = format!("{}_{}_motion", own.name, COORDINATES[coordinate]);
-            let (kind, rate_kind) = kinds(coordinate);
-            let position = inputs.len();
-            let text =
-                "displacement of the prescribed body from its nominal place, or angle; read if motion = 0";
-            let mut entry = Entry::real(&name, unit(kind), Some(value), text);
-            entry.rate = Some(position + 1);
-            inputs.push(entry);
-            let text = format!("rate of {name}");
-            inputs.push(Entry::real(
-                format!("{name}_rate"),
-                unit(rate_kind),
-                Some(rate),
-                text,
-            ));
-            ports.push(MotionPort {
-                body,
-                coordinate,
-                position,
-                rate: position + 1,
-            });
-        }
-    }
 }
 
 /// Returns the name of a point of a face.
@@ -251,31 +192,7 @@ fn states(system: &System) -> Vec<Entry> {
     }
     states.push(accumulated(
         "load_work",
-        "work of loads from outside since the start: there are none",
+        "work of all loads from outside since the start",
     ));
     states
-}
-
-/// Contact states and event indicators of all contact points.
-fn contacts(system: &System) -> (Vec<Entry>, Vec<Entry>) {
-    let points = points(system).into_iter();
-    points
-        .map(|(face, number)| {
-            let name = point(system, face, number);
-            let words = name.replace('_', " ");
-            let state = Entry::integer(
-                &format!("{name}_state"),
-                None,
-                [0, 2],
-                format!("contact state of {words}: 0 open, 1 stick, 2 slip"),
-            );
-            let indicator = Entry::real(
-                format!("{name}_event_indicator"),
-                None,
-                None,
-                format!("event indicator: positive while the contact state of {words} lasts"),
-            );
-            (state, indicator)
-        })
-        .unzip()
 }

@@ -130,6 +130,47 @@ fn cross_code_inputs_that_move_as_the_case_give_the_columns_of_the_run() {
     assert!(work.abs() > 10.0, "{work} J");
 }
 
+/// A force on the half car as an input does what the same load of a case does; its work is in the ledger.
+#[test]
+fn cross_code_a_load_as_input_gives_the_columns_of_a_case_that_has_it() {
+    let name = "truck_drop_variable";
+    let [load, set @ ..] = [
+        "bolster.load.vertical=-20000 N",
+        "start.lift=0 in",
+        "simulation.duration=0.6 s",
+        "simulation.relative_tolerance=1e-8",
+    ];
+    let loaded = [&set[..], &[load]].concat();
+    let case = builtin::case_with(
+        name,
+        &loaded.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>(),
+    )
+    .unwrap();
+    let result = Run::new(&case).unwrap().finish(|_| ());
+    let mut part = Part::new(source(name, &set), Interface::CoSimulation);
+    part.set("force_on_bolster_z", -20_000.0);
+    part.begin();
+    let names = [
+        "bolster_z",
+        "leading_left_column_normal",
+        "left_nest_vertical_force",
+    ];
+    compare(&mut part, &result, &names, |_, _| {});
+    let [work, relative, way] =
+        ["load_work", "ledger_relative_residual", "bolster_z"].map(|name| part.get(name));
+    assert!(
+        (work + 20_000.0 * way).abs() < 1e-9 * work.abs() && work > 1.0,
+        "{work} J along {way} m"
+    );
+    assert!(relative < 1e-5, "{relative}");
+    // The case's own load is left out where inputs load, and acts where the case moves.
+    let mut case_moves = Part::new(source(name, &loaded), Interface::CoSimulation);
+    let reference = case_moves.reference("motion");
+    case_moves.instance.set_integer(reference, 1).unwrap();
+    case_moves.begin();
+    compare(&mut case_moves, &result, &names, |_, _| {});
+}
+
 #[test]
 fn reproducible_a_saved_truck_goes_on_with_the_same_bits() {
     let mut part = Part::new(source("truck_roll_variable", &SET), Interface::CoSimulation);

@@ -157,7 +157,7 @@ fn the_page_has_every_number_with_its_remark_and_every_rig() {
     for name in shown() {
         assert!(page.contains(&format!("id=\"run-{name}\"")), "{name}");
     }
-    assert_eq!(shown().len(), 16);
+    assert_eq!(shown().len(), 32);
     assert!(!page.contains("NaN") && !page.contains("<script"));
     let mut json = Vec::new();
     findings().write(&mut json).unwrap();

@@ -323,7 +323,7 @@ fn truck(name: &str, detail: Detail) -> (Value, HalfTruckResult) {
     let entry = catalog::entry(name).unwrap();
     let case = entry.case(&nucars::truck::Choices::default(), 2.0).unwrap();
     let result = run_truck::run(&case, |_| ()).unwrap();
-    let view = View::new(Units::Us, [Recording::of_truck(&case, &result, detail)], []);
+    let view = View::new(Units::Us, [Recording::of_truck(&case, &result, None, detail)], []);
     (serde_json::from_str(&view.to_json().unwrap()).unwrap(), result)
 }
 

@@ -6,12 +6,14 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use mechanics::vector::{Matrix, Vector};
+use nucars::truck::{Choices, Wedges};
 use quantity::System as Units;
 use report::figures::truck::{TruckRun, exhibits};
-use report::page::{Viewer, truck_run};
+use report::page::{Viewer, half_truck_run, truck_run};
 use report::view::View;
 use report::view::run::{Detail, Recording};
 use report::view::scene::{Scene, SceneBody};
+use study::half_truck::catalog;
 use study::run::Run;
 use study::truck::{WEDGE_NAMES, builtin};
 
@@ -84,48 +86,125 @@ fn the_scene_has_the_gaps_of_the_run() {
         ("truck_roll_variable", &["simulation.duration=1 s"]),
     ] {
         let run = ran(name, set);
-        let (columns, scene) = (columns(&run), scene_of(&run));
-        assert_eq!(
-            scene.contacts.len(),
-            32,
-            "four corners at two faces of four wedges"
-        );
-        let body = |id: &str| scene.bodies.iter().find(|body| body.id == id).unwrap();
-        let mut closed = 0;
-        for contact in &scene.contacts {
-            let gaps = columns[format!("{}_gap", contact.id).as_str()];
-            let solid = scene.solids.iter().find(|solid| solid.id == contact.on).unwrap();
-            let turn = |pitch: f64| {
-                let (s, c) = pitch.sin_cos();
-                Matrix([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+        check_gaps(name, &scene_of(&run), &columns(&run));
+    }
+}
+
+/// Checks the gaps of all corners of four wedges.
+fn check_gaps(name: &str, scene: &Scene, columns: &BTreeMap<&str, &[f64]>) {
+    assert_eq!(
+        scene.contacts.len(),
+        32,
+        "four corners at two faces of four wedges"
+    );
+    let body = |id: &str| scene.bodies.iter().find(|body| body.id == id).unwrap();
+    let mut closed = 0;
+    for contact in &scene.contacts {
+        let gaps = columns[format!("{}_gap", contact.id).as_str()];
+        let solid = scene.solids.iter().find(|solid| solid.id == contact.on).unwrap();
+        let turn = |pitch: f64| {
+            let (s, c) = pitch.sin_cos();
+            Matrix([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+        };
+        let mount = turn(solid.mount.angles[1]);
+        // The solid lies behind its surface.
+        let normal = Vector(contact.normal);
+        let surface = solid
+            .vertices
+            .iter()
+            .map(|vertex| normal.dot::<f64, f64>(Vector(*vertex)))
+            .fold(f64::NEG_INFINITY, f64::max);
+        for row in (0..gaps.len()).step_by(9) {
+            let (place, rotation) = pose(columns, body(&contact.body), row);
+            let arm: Vector<f64> = rotation.apply(Vector(contact.point));
+            let point = place + arm;
+            let (under, rotation) = pose(columns, body(&solid.body), row);
+            let from_mount: Vector<f64> = rotation.apply_transposed(point - under);
+            let local: Vector<f64> = mount.apply_transposed(from_mount - Vector(solid.mount.position));
+            let gap = normal.dot::<f64, f64>(local) - surface;
+            // Solids are rounded to a micrometer.
+            assert!(
+                (gap - gaps[row]).abs() < 2e-6,
+                "{name}, {}, row {row}: {gap} m is not {} m",
+                contact.id,
+                gaps[row]
+            );
+            closed += usize::from(gaps[row] < 0.0);
+        }
+    }
+    assert!(closed > 100, "{name}: {closed} corners in contact only");
+}
+
+/// A half-truck's wedges that are bodies are drawn as a truck's: where their corners are, and with their forces.
+#[test]
+fn a_half_trucks_wedge_bodies_have_the_gaps_and_forces_of_the_run() {
+    for name in ["nucars_69_variable_toe_out", "nucars_69_constant_toe_out"] {
+        let choices = Choices {
+            wedges: Wedges::Bodies,
+            ..Choices::default()
+        };
+        let case = catalog::entry(name).unwrap().case(&choices, 3.0).unwrap();
+        let run = Run::with_contacts(&case).unwrap();
+        let (result, contacts) = run.finish_with_contacts(|_| ControlFlow::Continue(()));
+        let contacts = contacts.unwrap();
+        let own = result.columns.iter().zip(&result.values);
+        let corners = contacts.columns.iter().zip(&contacts.values);
+        let columns: BTreeMap<&str, &[f64]> = own
+            .chain(corners)
+            .map(|(column, values)| (column.name.as_str(), values.as_slice()))
+            .collect();
+        let scene = report::view::half_truck::scene(&case).unwrap();
+        check_gaps(name, &scene, &columns);
+        // Eight springs and four control coils; connections that only measure are not drawn.
+        assert_eq!(scene.coils.len(), 12, "{name}");
+        // With variable damping the file's coils push only while the bolster is down.
+        for row in [200, 250, 290] {
+            let sum = |stem: &str, what: &str| -> f64 {
+                let own = scene.contacts.iter().filter(|own| own.id.starts_with(stem));
+                own.map(|own| columns[format!("{}_{what}", own.id).as_str()][row])
+                    .sum()
             };
-            let mount = turn(solid.mount.angles[1]);
-            // The solid lies behind its surface.
-            let normal = Vector(contact.normal);
-            let surface = solid
-                .vertices
-                .iter()
-                .map(|vertex| normal.dot::<f64, f64>(Vector(*vertex)))
-                .fold(f64::NEG_INFINITY, f64::max);
-            for row in (0..gaps.len()).step_by(9) {
-                let (place, rotation) = pose(&columns, body(&contact.body), row);
-                let arm: Vector<f64> = rotation.apply(Vector(contact.point));
-                let point = place + arm;
-                let (under, rotation) = pose(&columns, body(&solid.body), row);
-                let from_mount: Vector<f64> = rotation.apply_transposed(point - under);
-                let local: Vector<f64> = mount.apply_transposed(from_mount - Vector(solid.mount.position));
-                let gap = normal.dot::<f64, f64>(local) - surface;
-                // Solids are rounded to a micrometer.
-                assert!(
-                    (gap - gaps[row]).abs() < 2e-6,
-                    "{name}, {}, row {row}: {gap} m is not {} m",
-                    contact.id,
-                    gaps[row]
-                );
-                closed += usize::from(gaps[row] < 0.0);
+            for wedge in ["wedge_127", "wedge_130"] {
+                let told = |what: &str| columns[format!("{wedge}_{what}").as_str()][row];
+                for (corners, table) in [
+                    (
+                        sum(&format!("{wedge}_column"), "normal_force"),
+                        told("column_normal_force"),
+                    ),
+                    (
+                        sum(&format!("{wedge}_slope"), "normal_force"),
+                        told("slope_normal_force"),
+                    ),
+                    (
+                        -sum(&format!("{wedge}_column"), "friction_force_z"),
+                        told("column_friction"),
+                    ),
+                ] {
+                    assert!(
+                        (corners - table).abs() < 1e-6 * (1.0 + table.abs()),
+                        "{name}: {corners} N, {table} N"
+                    );
+                }
             }
         }
-        assert!(closed > 100, "{name}: {closed} corners in contact only");
+        let viewer = Viewer {
+            script: "start()",
+            style: ".a{}",
+        };
+        let page = half_truck_run::render(&case, &result, Some(&contacts), Some(viewer)).unwrap();
+        for text in [
+            "with wedges that are bodies",
+            "Wedges as bodies",
+            "wedge_127_column_lower_left_normal_force",
+            "the wedges&#39; masses",
+        ] {
+            assert!(
+                page.contains(text) || page.contains(&text.replace("&#39;", "'")),
+                "{text}"
+            );
+        }
+        let without = Run::new(&case).unwrap().finish(|_| ());
+        assert_eq!(without.values, result.values, "corners change nothing of a run");
     }
 }
 

@@ -8,6 +8,7 @@ pub mod assumptions;
 pub mod car;
 pub mod case;
 pub mod closed_form;
+pub mod contacts;
 pub mod cycles;
 pub mod design;
 pub mod energy;

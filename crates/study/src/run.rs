@@ -56,14 +56,16 @@ pub enum RunError {
     },
     /// A force is so large that it would tear the model apart.
     #[error(
-        "the normal force of `{element}` is {force:.3e} N at {time} s, which would tear the truck apart: lower the motion \
-         that presses its parts together, or give them more clearance"
+        "the force of `{element}` is {force:.3e} lbf at {time} s, above the limit of {limit:.1e} lbf at which a run is taken \
+         for a truck torn apart: lower the motion that presses its parts together, or give them more clearance"
     )]
     TornApart {
         /// The element.
         element: String,
-        /// Its force, N.
+        /// Its force, lbf.
         force: f64,
+        /// The limit, lbf.
+        limit: f64,
         /// The time, s.
         time: f64,
     },

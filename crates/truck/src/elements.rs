@@ -463,6 +463,11 @@ impl Builder<'_> {
         for (axle, end, end_name) in [(0, 1.0, "leading"), (1, -1.0, "trailing")] {
             let name = format!("{end_name}_{side}_adapter");
             let place = [parameters.distances[2] * end, y, ADAPTER_HEIGHT];
+            let ends = [SIDE_FRAMES + number, WHEELSETS + axle].map(|body| self.mount.bodies[body]);
+            // As with springs and stops, nothing is joined between two prescribed bodies.
+            if ends.iter().all(|body| self.model.bodies[*body].is_prescribed()) {
+                continue;
+            }
             match &wheelsets.adapter {
                 Adapter::Friction(adapter) => self.friction_adapter(&name, [number, axle], place, adapter),
                 Adapter::Pad(pad) => self.adapter_pad(&name, [number, axle], place, pad),

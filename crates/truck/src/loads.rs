@@ -88,6 +88,8 @@ pub struct Loads {
     pub wedges: [WedgeLoads; 4],
     /// The center plate; zero without a car body.
     pub center_plate: CenterPlateLoads,
+    /// The coil or stop with the largest force, as [`Truck::suspension_name`] knows it, and its force, N.
+    pub largest: (usize, f64),
 }
 
 impl Truck {
@@ -96,6 +98,18 @@ impl Truck {
     pub fn loads(&self, observation: &Observation) -> Loads {
         self.mounted
             .loads_of(&View::new(&self.mounted, observation, None))
+    }
+
+    /// Returns the name of a coil or stop; empty if there is none of this number.
+    #[must_use]
+    pub fn suspension_name(&self, number: usize) -> &str {
+        self.mounted.suspension_name(number)
+    }
+
+    /// Returns the stops that have no clearance left at an observation, with how far their parts are beyond it, m.
+    #[must_use]
+    pub fn closed_stops(&self, observation: &Observation) -> Vec<(&str, f64)> {
+        self.mounted.closed_stops(observation)
     }
 }
 
@@ -150,8 +164,11 @@ impl MountedTruck {
                 loads.roll_moment -= about_x(place - bolster, force);
             }
         }
-        for element in &self.added.suspension {
-            self.add(&mut loads, element, view, bolster);
+        for (number, element) in self.added.suspension.iter().enumerate() {
+            let size = self.add(&mut loads, element, view, bolster);
+            if size > loads.largest.1 {
+                loads.largest = (number, size);
+            }
         }
         if let Some(moment) = &self.warp_spring {
             for side_frame in [SIDE_FRAMES, SIDE_FRAMES + 1] {
@@ -208,11 +225,53 @@ impl MountedTruck {
         }
     }
 
-    /// Adds what one element of the suspension does.
-    fn add(&self, loads: &mut Loads, element: &Suspended, view: &View<'_>, bolster: Vector<f64>) {
-        let [(a, marker_a), (b, marker_b)] = &element.ends;
-        let (bodies, numbers) = (&view.seen.bodies, &self.mount.bodies);
-        let (place, force) = at_marker((&bodies[*a], marker_a), (&bodies[*b], marker_b), &element.law);
+    /// Returns the name of a coil or stop; empty if there is none of this number.
+    #[must_use]
+    pub fn suspension_name(&self, number: usize) -> &str {
+        self.added
+            .suspension
+            .get(number)
+            .map_or("", |element| match &element.law {
+                Law::Spring(spring) => &spring.name,
+                Law::Table(spring) => &spring.name,
+                Law::Stop(stop) => &stop.name,
+                Law::Rim(rim) => &rim.name,
+            })
+    }
+
+    /// Returns the stops that have no clearance left at an observation, with how far their parts are beyond it, m.
+    #[must_use]
+    pub fn closed_stops(&self, observation: &Observation) -> Vec<(&str, f64)> {
+        let depth = |element: &Suspended| {
+            let motion = relative_motion(&element.ends, &observation.bodies).2;
+            match &element.law {
+                Law::Stop(stop) => {
+                    let ([lower, upper], d) = (stop.clearances, motion.position.0[0]);
+                    (d - upper).max(-d - lower)
+                }
+                Law::Rim(rim) => motion.position.0[0].hypot(motion.position.0[1]) - rim.clearance,
+                Law::Spring(_) | Law::Table(_) => f64::NEG_INFINITY,
+            }
+        };
+        let all = self.added.suspension.iter().enumerate();
+        all.map(|(number, element)| (self.suspension_name(number), depth(element)))
+            .filter(|(_, depth)| *depth >= 0.0)
+            .collect()
+    }
+
+    /// Adds what one element of the suspension does; returns the size of its force.
+    fn add(&self, loads: &mut Loads, element: &Suspended, view: &View<'_>, bolster: Vector<f64>) -> f64 {
+        let [(a, _), (b, _)] = &element.ends;
+        let numbers = &self.mount.bodies;
+        let (place, axes, motion) = relative_motion(&element.ends, &view.seen.bodies);
+        let wrench: Wrench<f64> = match &element.law {
+            Law::Spring(spring) => spring.evaluate(&motion),
+            Law::Table(spring) => spring.evaluate(&motion),
+            Law::Stop(stop) => stop.evaluate(&motion),
+            Law::Rim(rim) => rim.evaluate(&motion),
+        };
+        let force: Vector<f64> = axes.apply(wrench.force);
+        let size = force.dot::<f64, f64>(force).sqrt();
         let (place, force) = (view.place(place), view.vector(force));
         // On the bolster, and on the side frame of that side, N.
         let sign = match (*a == numbers[BOLSTER], *b == numbers[BOLSTER]) {
@@ -229,10 +288,10 @@ impl MountedTruck {
             Role::PocketSide => &mut parts.pocket_sides,
             Role::Land => &mut parts.lands,
             Role::Gib => &mut parts.gibs,
-            Role::CarBody => return,
+            Role::CarBody => return size,
             Role::Adapter(axle) => {
                 loads.interaxle_shear_moment += [self.axle, -self.axle][axle] * force.0[1];
-                return;
+                return size;
             }
         };
         *part += moment;
@@ -241,15 +300,16 @@ impl MountedTruck {
         if let Some(side) = (0..2).find(|side| *b == numbers[SIDE_FRAMES + side]) {
             loads.nest_vertical[side] += force.0[2];
         }
+        size
     }
 }
 
-/// Returns the place of marker A and the force on it, in fixed axes.
-fn at_marker(
-    (a, marker_a): (&BodyState, &Marker),
-    (b, marker_b): (&BodyState, &Marker),
-    law: &Law,
-) -> (Vector<f64>, Vector<f64>) {
+/// Returns the place of marker A and the axes of marker B in fixed axes, and the motion of A against B.
+fn relative_motion(
+    [(a, marker_a), (b, marker_b)]: &[(usize, Marker); 2],
+    bodies: &[BodyState],
+) -> (Vector<f64>, Matrix<f64>, RelativeMotion<f64>) {
+    let (a, b) = (&bodies[*a], &bodies[*b]);
     let axes: Matrix<f64> = b.rotation.times(marker_b.rotation);
     let arm: Vector<f64> = a.rotation.apply(marker_a.origin);
     let seat: Vector<f64> = b.rotation.apply(marker_b.origin);
@@ -264,13 +324,7 @@ fn at_marker(
         velocity: axes.apply_transposed(a.velocity + own - b.velocity - carried),
         angular_velocity: axes.apply_transposed(a.angular_velocity - b.angular_velocity),
     };
-    let wrench: Wrench<f64> = match law {
-        Law::Spring(spring) => spring.evaluate(&motion),
-        Law::Table(spring) => spring.evaluate(&motion),
-        Law::Stop(stop) => stop.evaluate(&motion),
-        Law::Rim(rim) => rim.evaluate(&motion),
-    };
-    (place, axes.apply(wrench.force))
+    (place, axes, motion)
 }
 
 fn total(forces: &[Vector<f64>]) -> Vector<f64> {

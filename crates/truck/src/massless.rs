@@ -95,6 +95,7 @@ fn coil(coil: &ControlCoil) -> Curve {
             solid.unwrap_or_else(|| Curve::linear(spring.stiffness))
         }
         ControlCoil::Table(spring) => spring.table().scaled(-1.0, spring.load(0.0)),
+        ControlCoil::Nothing => Curve::linear(0.0),
         ControlCoil::Thesis(coil, _) => {
             let force = |extension: f64| coil.law.force(coil.free_length - coil.nominal_length - extension);
             let points = (-8..=8).map(|i| f64::from(i) * 0.5 * INCH);

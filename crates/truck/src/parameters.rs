@@ -205,6 +205,8 @@ pub enum ControlCoil {
     Thesis(ThesisCoil, [f64; 3]),
     /// A spring whose load is a table, below the wedge's center of gravity. Its name is given where it is mounted.
     Table(TableSpring),
+    /// None: it is broken or missing.
+    Nothing,
 }
 
 /// Whether a car carries its load.
@@ -429,7 +431,7 @@ impl Wedge {
     /// which the wedge of Steets (2007) turns about where y is locked.
     pub(crate) fn origin_to_center(&self, end: f64) -> [f64; 3] {
         match self.control_coil {
-            ControlCoil::Shear(_) | ControlCoil::Table(_) => [0.0; 3],
+            ControlCoil::Shear(_) | ControlCoil::Table(_) | ControlCoil::Nothing => [0.0; 3],
             // Wedges at the leading end are turned by half a turn about z.
             ControlCoil::Thesis(_, [x, y, z]) => [-end * x, -end * y, z],
         }
@@ -443,6 +445,7 @@ impl ControlCoil {
         match self {
             Self::Shear(spring) => spring.preload,
             Self::Table(spring) => spring.load(0.0),
+            Self::Nothing => 0.0,
             Self::Thesis(coil, _) => coil.law.force(coil.free_length - coil.nominal_length),
         }
     }

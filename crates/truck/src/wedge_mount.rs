@@ -48,7 +48,7 @@ pub struct WedgeMount<'n> {
 pub struct WedgeElements {
     /// Column and slope, among the faces.
     pub faces: [usize; 2],
-    /// The control coil among the elements; `None` for a coil of the thesis, which is among the coils.
+    /// The control coil among the elements; `None` without one, and for a coil of the thesis, which is among the coils.
     pub coil: Option<usize>,
     /// The sides of the pocket, among the elements.
     pub pocket_sides: usize,
@@ -134,6 +134,7 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> V
             thesis_coil(model, at, seat, wedge.origin_to_center(end), coil);
             None
         }
+        ControlCoil::Nothing => None,
     };
     let coil = law.map(|law| Suspended {
         role: Role::ControlCoil,

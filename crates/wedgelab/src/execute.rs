@@ -5,13 +5,12 @@ use std::time::{Duration, Instant};
 
 use quantity::Number;
 use report::files::Folder;
+use report::page::{self, Viewer};
 use report::run_files::RunFiles;
+use study::contacts::{ContactTable, TakesCorners};
 use study::result::RunResult;
-use study::run::{Run, RunCase};
+use study::run::{Run, RunCase, RunError};
 use study::summary::{RunSummary, Stopped, Summary, SummaryValue};
-use study::truck::TruckCase;
-use study::truck::contacts::ContactTable;
-use study::truck::run::TruckResult;
 
 use crate::failure::{Failure, Message, say};
 use crate::interrupt;
@@ -30,11 +29,7 @@ pub struct Done<R = RunResult> {
 /// Runs a case of any model until it ends or is interrupted.
 pub fn compute<C: RunCase>(case: &C, progress: &Progress) -> Result<Done<C::Output>, Failure> {
     let start = Instant::now();
-    // Where nothing can be computed at all, the input is at fault.
-    let run = Run::new(case).map_err(|error| {
-        let message = format!("the run {} cannot begin: {error}", case.name());
-        Message::new(message, C::WHERE_TO_LOOK)
-    })?;
+    let run = begun(case, Run::new(case))?;
     let [duration, _] = case.duration_and_interval();
     let mut reached = progress.of_run(duration);
     let result = run.finish_while(|time| {
@@ -47,23 +42,33 @@ pub fn compute<C: RunCase>(case: &C, progress: &Progress) -> Result<Done<C::Outp
     })
 }
 
-/// As [`compute`], of a truck, with the corners of its wedges.
-pub fn compute_truck(
-    case: &TruckCase,
+/// As [`compute`], with the corners of wedges that are bodies.
+pub fn compute_with_contacts<C>(
+    case: &C,
     progress: &Progress,
-) -> Result<(Done<TruckResult>, Option<ContactTable>), Failure> {
+) -> Result<(Done<C::Output>, Option<ContactTable>), Failure>
+where
+    C: RunCase,
+    C::Recorder: TakesCorners,
+{
     let start = Instant::now();
-    let run = Run::with_contacts(case).map_err(|error| {
-        let message = format!("the run {} cannot begin: {error}", case.name);
-        Message::new(message, TruckCase::WHERE_TO_LOOK)
-    })?;
-    let mut reached = progress.of_run(case.simulation.duration);
+    let run = begun(case, Run::with_contacts(case))?;
+    let [duration, _] = case.duration_and_interval();
+    let mut reached = progress.of_run(duration);
     let (result, contacts) = run.finish_with_contacts(|time| {
         reached(time);
         interrupt::go_on()
     });
     let wall = start.elapsed();
     Ok((Done { result, wall }, contacts))
+}
+
+/// A run that has begun; where nothing can be computed at all, the input is at fault.
+fn begun<C: RunCase>(case: &C, run: Result<Run<C>, RunError>) -> Result<Run<C>, Message> {
+    run.map_err(|error| {
+        let message = format!("the run {} cannot begin: {error}", case.name());
+        Message::new(message, C::WHERE_TO_LOOK)
+    })
 }
 
 /// Writes the files of a run, and says what makes its numbers doubtful.
@@ -94,6 +99,19 @@ pub fn write_quietly<C: RunFiles>(
     };
     progress.done(case.name(), &how);
     Ok(())
+}
+
+/// Writes the page of a run beside its files.
+pub fn write_page(
+    folder: &Folder,
+    render: impl FnOnce(Option<Viewer>) -> Result<String, serde_json::Error>,
+) -> Result<(), Failure> {
+    let html = render(Viewer::embedded()).map_err(|error| {
+        let message = format!("cannot write the page's data: {error}");
+        Failure::Failed(Message::new(message, "").into())
+    })?;
+    let folder = Folder::check(folder.path(), &[page::FILE_NAME], true)?;
+    Ok(folder.write(|files| files.add(page::FILE_NAME, |out| out.write_all(html.as_bytes())))?)
 }
 
 /// Runs a case and writes its files; `None` if it was interrupted, of which nothing is written then.

@@ -274,7 +274,7 @@ fn a_run_file_is_run() {
         &[
             "energy per cycle",
             "130",
-            &format!("Written into {name}: result.csv, result.mat, summary.json."),
+            &format!("Written into {name}: result.csv, result.mat, summary.json, index.html"),
         ],
     );
     contains(

@@ -154,7 +154,7 @@ fn warp_writes_what_industry_programs_take() {
     }
     for (arguments, text) in [
         (&["warp", "truck_vertical_variable"][..], "stays below 0.5 mrad"),
-        (&["warp", "vdrun_toe_0_psi_0"], "is no truck"),
+        (&["warp", "vdrun_toe_0_psi_0"], "the case of a single wedge"),
         (&["curves", "truck_warp_nest_variable_rising"], "no whole cycle"),
     ] {
         let refused = wedgelab(at, arguments);

@@ -18,7 +18,7 @@ use study::half_truck::{HalfTruckCase, HalfTruckStart, catalog};
 
 use crate::Error;
 use crate::element::Setting;
-use crate::system::{Plant, Start, SystemElement};
+use crate::system::{MOTION, Plant, START, Start, SystemElement};
 
 /// The file with the run.
 pub const RESOURCE: &str = "run.json";
@@ -167,8 +167,8 @@ impl HalfTruck {
     /// Values that are not finite, no equilibrium, or the integrator refuses the start.
     pub fn element(&self, setting: &Setting) -> Result<SystemElement, Error> {
         let option = |place: usize| setting.options.get(place).copied().unwrap_or(0);
-        let driven = option(entries::MOTION) == 0;
-        let start = match option(entries::START) {
+        let driven = option(MOTION) == 0;
+        let start = match option(START) {
             0 => Start::Initial,
             _ => Start::Equilibrium,
         };

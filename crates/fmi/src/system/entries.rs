@@ -1,11 +1,14 @@
 //! Quantities that systems have in common.
 
-use mechanics::body::COORDINATES;
+use std::collections::BTreeSet;
+
+use mechanics::body::{Body, COORDINATES};
+use mechanics::output::Column;
 use mechanics::system::{System, scales};
 use quantity::Kind;
 
-use super::ports::coordinates;
-use crate::element::Entry;
+use super::ports::{Direction, LoadPort, MotionPort, Ports, Reading, coordinates};
+use crate::element::{Entries, Entry};
 use crate::unit::Unit;
 
 /// Returns the unit of a kind.
@@ -37,6 +40,116 @@ pub(crate) fn load(prefix: &str, on: &str, coordinate: usize, text: &str) -> Ent
         Some(0.0),
         format!("{load} on {text}, {axis} axis"),
     )
+}
+
+/// Adds inputs for value and rate of a coordinate of a prescribed body; they start where its own motion does.
+pub(crate) fn add_motion(
+    (inputs, ports): (&mut Vec<Entry>, &mut Ports),
+    (body, own): (usize, &Body),
+    coordinate: usize,
+    (name, text): (&str, &str),
+) {
+    let [value, rate, _] = own.frame.motions[coordinate].evaluate(0.0, 0.0);
+    let (kind, rate_kind) = kinds(coordinate);
+    let position = inputs.len();
+    let mut entry = Entry::real(name, unit(kind), Some(value), text);
+    entry.rate = Some(position + 1);
+    inputs.push(entry);
+    inputs.push(Entry::real(
+        format!("{name}_rate"),
+        unit(rate_kind),
+        Some(rate),
+        format!("rate of {name}"),
+    ));
+    ports.motions.push(MotionPort {
+        body,
+        coordinate,
+        position,
+        rate: position + 1,
+    });
+}
+
+/// Adds inputs for force and moment along every free coordinate of a body.
+pub(crate) fn add_loads(
+    (inputs, ports): (&mut Vec<Entry>, &mut Ports),
+    (body, own): (usize, &Body),
+    (name, text): (&str, &str),
+) {
+    for coordinate in (0..6).filter(|k| own.free[*k]) {
+        ports.loads.push(LoadPort {
+            input: inputs.len(),
+            direction: Direction::coordinate(body, coordinate),
+        });
+        inputs.push(load("", name, coordinate, text));
+    }
+}
+
+/// Puts what a table has, and no state, mode or input of that name is, among outputs or columns.
+pub(crate) fn add_table(
+    (entries, ports): (&mut Entries, &mut Ports),
+    table: &[Column],
+    is_output: impl Fn(usize, &Column) -> bool,
+) {
+    let own = [&entries.states, &entries.modes, &entries.inputs]
+        .into_iter()
+        .flatten();
+    let mut known: BTreeSet<String> = own.map(|entry| entry.name.clone()).collect();
+    known.insert("time".to_owned());
+    // The ledger is another one here: it counts the work of the loads too.
+    known.extend(entries.columns.iter().map(|entry| entry.name.clone()));
+    let mut columns = Vec::new();
+    for (number, column) in table.iter().enumerate() {
+        if !known.insert(column.name.clone()) {
+            continue;
+        }
+        let text = input::shortened(&column.text);
+        let entry = Entry::real(&column.name, unit(column.kind), None, text);
+        if is_output(number, column) {
+            entries.outputs.push(entry);
+            ports.outputs.push(Reading::Table(number));
+        } else {
+            columns.push(entry);
+            ports.columns.push(number);
+        }
+    }
+    entries.columns.splice(0..0, columns);
+}
+
+/// Returns the options of a system whose prescribed bodies inputs may move; `motion` and `start` are their texts, and
+/// how it starts if nothing is said.
+pub(crate) fn options(motion: &str, (start, text): (i32, &str)) -> Vec<Entry> {
+    vec![
+        Entry::integer("motion", Some(0), [0, 1], motion),
+        Entry::integer("start", Some(start), [0, 1], text),
+        Entry::boolean(
+            "derive_rates",
+            false,
+            "co-simulation: rates of prescribed bodies are found from their positions, the inputs *_rate are not read",
+        ),
+        Entry::boolean(
+            "inputs_at_end",
+            false,
+            "co-simulation: inputs are those of the end of a communication step (else of its beginning, and continued)",
+        ),
+    ]
+}
+
+/// Returns contact state and event indicator of a contact.
+pub(crate) fn contact(name: &str) -> (Entry, Entry) {
+    let words = name.replace('_', " ");
+    let state = Entry::integer(
+        &format!("{name}_state"),
+        None,
+        [0, 2],
+        format!("contact state of {words}: 0 open, 1 stick, 2 slip"),
+    );
+    let indicator = Entry::real(
+        format!("{name}_event_indicator"),
+        None,
+        None,
+        format!("event indicator: positive while the contact state of {words} lasts"),
+    );
+    (state, indicator)
 }
 
 /// Returns the positions of all free bodies, then their rates, each with the name of its body and coordinate.

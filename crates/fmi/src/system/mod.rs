@@ -17,10 +17,18 @@ use study::progress::{self, Pace};
 
 use crate::Error;
 use crate::element::{Element, ElementState, Interface, Setting, Slopes};
-pub(crate) use entries::{accumulated, deflection, kinds, ledger, load, motions, unit};
+pub(crate) use entries::{
+    accumulated, add_loads, add_motion, add_table, contact, deflection, kinds, ledger, load, motions,
+    options, unit,
+};
 use inputs::{Loads, lead, place};
 pub use ports::{Direction, LoadPort, MotionPort, Plant, Ports, Reading, Six, StartPort, Table};
 pub use state::SystemState;
+
+/// The place of the option that says who moves prescribed bodies, in [`options`].
+pub(crate) const MOTION: usize = 0;
+/// The place of the option that says how a system starts.
+pub(crate) const START: usize = 1;
 
 /// Tolerances that an importer may ask for.
 const TOLERANCES: [f64; 2] = [1e-12, 1e-3];

@@ -33,7 +33,7 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 26] = [
+pub const ALL: [Reader; 27] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,

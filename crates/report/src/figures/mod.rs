@@ -22,6 +22,7 @@ pub mod wheelset;
 
 use ::study::case::Case;
 use ::study::result::RunResult;
+use ::study::summary::RunSummary;
 use mechanics::motion::Motion;
 use quantity::{Kind, System as Units};
 
@@ -66,11 +67,11 @@ pub fn toe_style(toe: f64) -> (String, Colour, Line) {
 
 /// The points of one column over another, in the result's units.
 #[must_use]
-pub fn points(result: &RunResult, x: &str, y: &str) -> Vec<(f64, f64)> {
+pub fn points<S: RunSummary>(result: &RunResult<S>, x: &str, y: &str) -> Vec<(f64, f64)> {
     let (Some((x, x_kind)), Some((y, y_kind))) = (column(result, x), column(result, y)) else {
         return Vec::new();
     };
-    let units = result.summary.units;
+    let units = result.summary.units();
     x.iter()
         .zip(y)
         .map(|(x, y)| (converted(*x, x_kind, units), converted(*y, y_kind, units)))
@@ -78,14 +79,19 @@ pub fn points(result: &RunResult, x: &str, y: &str) -> Vec<(f64, f64)> {
 }
 
 /// A column's values (SI) and kind.
-fn column<'r>(result: &'r RunResult, name: &str) -> Option<(&'r [f64], Kind)> {
+fn column<'r, S>(result: &'r RunResult<S>, name: &str) -> Option<(&'r [f64], Kind)> {
     let index = result.columns.iter().position(|column| column.name == name)?;
     Some((&result.values[index], result.columns[index].kind))
 }
 
 /// A curve of one column over another; none if a column is missing.
 #[must_use]
-pub fn curve(result: &RunResult, x: &str, y: &str, (label, colour, line): (&str, Colour, Line)) -> Curve {
+pub fn curve<S: RunSummary>(
+    result: &RunResult<S>,
+    x: &str,
+    y: &str,
+    (label, colour, line): (&str, Colour, Line),
+) -> Curve {
     Curve {
         label: label.to_owned(),
         colour,

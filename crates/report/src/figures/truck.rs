@@ -1,15 +1,14 @@
 //! Figures of one run of a truck: its loop, its warp, the states of its wedges' corners, its energies.
 
+use ::study::contacts::ContactTable;
 use ::study::truck::TruckCase;
 use ::study::truck::WEDGE_NAMES;
-use ::study::truck::contacts::ContactTable;
 use ::study::truck::loop_curve::LoopCurve;
-use ::study::truck::run::{TruckResult, period};
+use ::study::truck::run::TruckResult;
 use ::study::truck::warp::WarpCurve;
 use quantity::Kind;
 
-use super::{Exhibit, axis};
-use crate::csv::converted;
+use super::{Exhibit, axis, curve};
 use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
 use crate::warp_files::Tested;
 use crate::{curves_files, warp_files};
@@ -26,22 +25,10 @@ pub struct TruckRun {
 }
 
 impl TruckRun {
-    /// A column over time, in output units.
-    fn over_time(&self, name: &str, kind: Kind) -> Vec<(f64, f64)> {
-        let units = self.result.summary.units;
-        let times = self.result.column("time").unwrap_or_default();
-        let values = self.result.column(name).unwrap_or_default();
-        let pairs = times.iter().zip(values);
-        pairs
-            .map(|(t, value)| (*t, converted(*value, kind, units)))
-            .collect()
-    }
-
     /// What its warp says, if it warps.
     #[must_use]
     pub fn warp(&self) -> Option<WarpCurve> {
-        let period = period(&self.case.parameters).map(|[period, _]| period);
-        WarpCurve::of(&self.result, period)
+        WarpCurve::of(&self.case, &self.result)
     }
 
     /// Its vertical or roll loop, if it has one.
@@ -103,12 +90,8 @@ fn wedges(run: &TruckRun) -> Figure {
     let panel = |letter: char, title: &str, what: &str| {
         let curves = WEDGE_NAMES.into_iter().enumerate().map(|(number, wedge)| {
             let (colour, line) = distinct(number);
-            Curve {
-                label: wedge.replace('_', " "),
-                colour,
-                line,
-                points: run.over_time(&format!("{wedge}_{what}"), Kind::Force),
-            }
+            let (label, name) = (wedge.replace('_', " "), format!("{wedge}_{what}"));
+            curve(&run.result, "time", &name, (&label, colour, line))
         });
         Panel {
             title: format!("({letter}) {title}"),
@@ -212,12 +195,7 @@ fn ledger(run: &TruckRun) -> Figure {
     let units = run.result.summary.units;
     let curve = |number: usize, name: &str, label: &str| {
         let (colour, line) = distinct(number);
-        Curve {
-            label: label.to_owned(),
-            colour,
-            line,
-            points: run.over_time(name, Kind::Energy),
-        }
+        curve(&run.result, "time", name, (label, colour, line))
     };
     let panel = |title: &str, curves: Vec<Curve>| Panel {
         title: title.to_owned(),
@@ -266,19 +244,13 @@ pub fn of_rigs(runs: &[TruckRun], worn: Option<&TruckRun>) -> Vec<Exhibit> {
             ..figure
         },
     };
-    let short = |run: &TruckRun, stem: &str| {
-        let name = run
-            .case
-            .name
-            .trim_start_matches("truck_")
-            .trim_start_matches(stem);
-        name.trim_start_matches('_').replace('_', " ")
-    };
-    let loops = |stem: &str| -> Vec<(String, LoopCurve)> {
-        let own = runs
-            .iter()
-            .filter(|run| run.case.name.starts_with(&format!("truck_{stem}")));
-        own.filter_map(|run| Some((short(run, stem), run.hysteresis()?)))
+    let loops = |stem: &str, empty: bool| -> Vec<(String, LoopCurve)> {
+        let own = runs.iter().filter_map(|run| {
+            let rest = run.case.name.strip_prefix(&format!("truck_{stem}_"))?;
+            let short = rest.strip_suffix("_empty");
+            (short.is_some() == empty).then(|| (short.unwrap_or(rest).replace('_', " "), run))
+        });
+        own.filter_map(|(short, run)| Some((short, run.hysteresis()?)))
             .collect()
     };
     let tested = |run: &TruckRun, label: String| {
@@ -293,6 +265,8 @@ pub fn of_rigs(runs: &[TruckRun], worn: Option<&TruckRun>) -> Vec<Exhibit> {
     for (name, label) in [
         ("truck_warp_nest_constant_rising", "constant, new"),
         ("truck_warp_nest_variable_rising", "variable, new"),
+        ("truck_warp_nest_constant_rising_empty", "constant, new, empty"),
+        ("truck_warp_nest_variable_rising_empty", "variable, new, empty"),
     ] {
         warps.extend(named(name).and_then(|run| tested(run, label.to_owned())));
     }
@@ -302,13 +276,14 @@ pub fn of_rigs(runs: &[TruckRun], worn: Option<&TruckRun>) -> Vec<Exhibit> {
         ("vertical", "Up and down: both nests"),
         ("roll", "Roll: both nests"),
     ] {
-        let own = loops(stem);
-        if !own.is_empty() {
-            exhibits.push(exhibit(
-                &format!("{stem}_loops"),
-                title,
-                curves_files::figure(&own),
-            ));
+        for (empty, name, title) in [
+            (false, format!("{stem}_loops"), title.to_owned()),
+            (true, format!("{stem}_loops_empty"), format!("{title}, empty car")),
+        ] {
+            let own = loops(stem, empty);
+            if !own.is_empty() {
+                exhibits.push(exhibit(&name, &title, curves_files::figure(&own)));
+            }
         }
     }
     if !warps.is_empty() {

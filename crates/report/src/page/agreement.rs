@@ -145,7 +145,7 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
             @let warnings = &result.summary.warnings;
             @for warning in energy::among(warnings).chain(plausibility::among(warnings)) { p.warning { (entry.name()) ": " (warning) } }
             @if result.summary.failed.is_some() {
-                p.warning { (entry.name()) (super::runs::FAILED) }
+                p.warning { (entry.name()) (super::FAILED) }
             }
         }
     }

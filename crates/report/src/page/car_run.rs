@@ -41,11 +41,7 @@ fn doubts(summary: &CarSummary) -> Markup {
         @if let Some(own) = &summary.derailed {
             p.warning { (summary.name) " derails at " (digits(own.time)) " s: " (own.what) }
         }
-        @if let Some(stopped) = &summary.stopped {
-            p.warning { (summary.name) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
-        }
-        @for warning in &summary.warnings { p.warning { (summary.name) ": " (warning) } }
-        @if summary.failed.is_some() { p.warning { (summary.name) (super::runs::FAILED) } }
+        (super::doubts(summary))
     }
 }
 

@@ -4,6 +4,7 @@ mod agreement;
 pub mod car_run;
 mod claims;
 pub mod explorer;
+pub mod half_truck_run;
 mod runs;
 mod sensitivity;
 pub mod study;
@@ -12,6 +13,7 @@ pub mod truck_run;
 mod viewer;
 pub mod wheelset;
 
+use ::study::summary::RunSummary;
 use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
 
 pub use agreement::Comparison;
@@ -183,6 +185,28 @@ fn shown_in(exhibit: &Exhibit, svg: &str, folder: Option<&str>) -> Markup {
                 }
             }
         }
+    }
+}
+
+/// What is said of a run that has failed, behind its name.
+const FAILED: &str = " has failed: do not use its numbers";
+
+/// What makes the numbers of a run doubtful.
+fn doubts(summary: &impl RunSummary) -> Markup {
+    let name = summary.name();
+    html! {
+        @if let Some(stopped) = summary.stopped() {
+            p.warning { (name) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
+        }
+        @for warning in summary.warnings() { p.warning { (name) ": " (warning) } }
+        @if summary.failed().is_some() { p.warning { (name) (FAILED) } }
+    }
+}
+
+/// The fold in which a run is seen moving.
+fn moving(name: &str) -> Markup {
+    html! {
+        details id={ "run-" (anchor(name)) } data-run=(name) open { summary { "Moving" } }
     }
 }
 

@@ -64,19 +64,10 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
                     }
                 }
             }
-            @for (case, result) in outcomes {
-                @if let Some(stopped) = &result.summary.stopped {
-                    p.warning { (case.name) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
-                }
-                @for warning in &result.summary.warnings { p.warning { (case.name) ": " (warning) } }
-                @if result.summary.failed.is_some() { p.warning { (case.name) (FAILED) } }
-            }
+            @for (_, result) in outcomes { (super::doubts(&result.summary)) }
         }
     }
 }
-
-/// What is said of a run that has failed, behind its name.
-pub(super) const FAILED: &str = " has failed: do not use its numbers";
 
 fn up(summary: &Summary) -> Option<&SummaryValue> {
     summary.averages.up.get("vertical_wedge_force")

@@ -5,8 +5,8 @@ use quantity::Kind;
 use study::truck::WEDGE_NAMES;
 use study::truck::run::TruckResult;
 
-use super::truck_run::{doubts, loss};
-use super::{Drawn, Viewer, anchor, document, shown};
+use super::truck_run::loss;
+use super::{Drawn, Viewer, anchor, document, doubts, shown};
 use crate::figures::{capital, digits};
 use crate::run_files;
 use crate::three_piece::{Basis, Check, Findings, Sensitivity};
@@ -282,7 +282,7 @@ fn runs(contents: &TruckContents<'_>) -> Markup {
                     }
                 }
             }
-            p { "Trucks of empty cars, and rigs that reach lands, gibs and solid coils: " code { "wedgelab run NAME" } ", each with a page of its own." }
+            p { "Rigs that reach lands, gibs, solid coils, pocket sides and adapter stops: " code { "wedgelab run NAME" } ", each with a page of its own." }
         }
     }
 }

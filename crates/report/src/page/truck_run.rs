@@ -5,9 +5,9 @@ use quantity::Kind;
 use study::truck::WEDGE_NAMES;
 use study::truck::summary::TruckSummary;
 
-use super::{Viewer, document, shown_in};
+use super::{Viewer, document, doubts, moving, shown_in};
+use crate::figures::capital;
 use crate::figures::truck::{TruckRun, exhibits};
-use crate::figures::{Exhibit, capital};
 use crate::view::View;
 use crate::view::run::{Detail, Recording};
 
@@ -38,36 +38,16 @@ pub fn render(run: &TruckRun, viewer: Option<Viewer>) -> Result<String, serde_js
     );
     let main = html! {
         (doubts(summary))
-        @if data.is_some() {
-            details id={ "run-" (super::anchor(&summary.name)) } data-run=(summary.name) open {
-                summary { "Moving" }
-            }
-        }
+        @if data.is_some() { (moving(&summary.name)) }
         section { h2 { "Wedges" } (wedges(summary)) }
         section {
             h2 { "Figures" }
-            @for exhibit in &exhibits { (figure(exhibit)) }
+            @for exhibit in &exhibits { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
         }
         section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
     };
     let data = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
     Ok(document(&capital(heading), &lead, None, &main, data))
-}
-
-/// A figure without files of its own.
-fn figure(exhibit: &Exhibit) -> Markup {
-    shown_in(exhibit, &exhibit.figure.to_svg(), None)
-}
-
-/// What makes the numbers of a run doubtful.
-pub(super) fn doubts(summary: &TruckSummary) -> Markup {
-    html! {
-        @if let Some(stopped) = &summary.stopped {
-            p.warning { (summary.name) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
-        }
-        @for warning in &summary.warnings { p.warning { (summary.name) ": " (warning) } }
-        @if summary.failed.is_some() { p.warning { (summary.name) (super::runs::FAILED) } }
-    }
 }
 
 /// The energy (output units) that the friction of a wedge's face takes in a cycle.

@@ -62,11 +62,7 @@ pub fn render(
 fn state(summary: &WheelsetSummary) -> Markup {
     html! {
         @if let Some(derailment) = &summary.derailment { p.warning { "Derailed: " (derailment.words()) "." } }
-        @if let Some(stopped) = &summary.stopped {
-            p.warning { (summary.name) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
-        }
-        @for warning in &summary.warnings { p.warning { (warning) } }
-        @if summary.failed.is_some() { p.warning { (summary.name) (super::runs::FAILED) } }
+        (super::doubts(summary))
     }
 }
 

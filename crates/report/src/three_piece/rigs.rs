@@ -1,4 +1,4 @@
-//! The runs that are told of: the loaded truck's rigs, which the page shows, and variants for comparison.
+//! The runs that are told of: the rigs of loaded and empty trucks, which the page shows, and variants for comparison.
 
 use std::collections::BTreeMap;
 
@@ -13,11 +13,13 @@ pub(super) const INCH: f64 = 0.0254;
 /// kip·in, in N·m.
 pub(super) const KIP_INCH: f64 = 1e3 * POUND * INCH;
 
-/// The names of the rigs that the page shows: those of the loaded truck.
+/// The names of the rigs that the page shows: those of the loaded and of the empty truck.
 #[must_use]
 pub fn shown() -> Vec<&'static str> {
-    let loaded = builtin::groups().iter().find(|group| group.name == "truck");
-    let cases = loaded.into_iter().flat_map(|group| &group.cases);
+    let groups = builtin::groups().iter();
+    let cases = groups
+        .filter(|group| ["truck", "truck_empty"].contains(&group.name))
+        .flat_map(|group| &group.cases);
     cases.map(|case| case.name.as_str()).collect()
 }
 

@@ -5,6 +5,9 @@
 
 use std::collections::BTreeMap;
 
+use mechanics::system::System;
+use study::contacts::Corner;
+
 use super::scene::{
     End, FACTOR, Look, Role, Scene, SceneBody, SceneCoil, SceneContact, Solid, SolidPose, extruded,
 };
@@ -16,6 +19,9 @@ const SPRING: f64 = 8.0 * INCH;
 const SPRING_RADIUS: f64 = 1.6 * INCH;
 /// Width of a side frame as drawn, m.
 const FRAME: f64 = 8.0 * INCH;
+
+/// Arrows of a face with four corners, over those of a face with one contact.
+pub(super) const CORNER_ARROW: f64 = 0.6;
 
 /// Bolster or side frame.
 #[derive(Clone, Debug)]
@@ -59,7 +65,9 @@ pub(super) struct DrawnWedge {
     pub bolster: usize,
     /// The side frame of its column: a place in [`Carriage::side_frames`].
     pub side_frame: usize,
-    /// Whether its coil stands in the bolster's pocket.
+    /// Whether it has a coil.
+    pub has_coil: bool,
+    /// Whether that stands in the bolster's pocket.
     pub coil_in_bolster: bool,
     /// The column of its coil's force.
     pub coil_force: Option<String>,
@@ -195,6 +203,43 @@ impl Carriage {
         Some(scene)
     }
 
+    /// Corners of wedges at column and slope; `wedge_of` finds the wedge of a body.
+    pub fn corners<'w>(
+        &self,
+        system: &System,
+        corners: Vec<Corner>,
+        wedge_of: impl Fn(usize) -> Option<&'w DrawnWedge>,
+    ) -> Vec<SceneContact> {
+        let contact = |corner: Corner| {
+            let mounted = &system.faces()[corner.face];
+            let wedge = wedge_of(mounted.body)?;
+            let body = &system.bodies()[mounted.body];
+            // Columns are those of the center of gravity; points count from the body's origin.
+            let point = less(
+                mounted.element.points[corner.point].position.0,
+                body.center_of_gravity,
+            );
+            let (on, normal) = if mounted.element.name.ends_with("column") {
+                (wedge.column(), [-wedge.ahead, 0.0, 0.0])
+            } else {
+                (self.bolsters[wedge.bolster].id.clone(), wedge.slope_normal())
+            };
+            Some(SceneContact {
+                name: corner.name.replace('_', " "),
+                body: wedge.body.id.clone(),
+                point,
+                on,
+                normal,
+                normal_force: format!("{}_normal_force", corner.name),
+                friction: ["x", "y", "z"].map(|axis| format!("{}_friction_force_{axis}", corner.name)),
+                state: format!("{}_state", corner.name),
+                gap: None,
+                id: corner.name,
+            })
+        };
+        corners.into_iter().filter_map(contact).collect()
+    }
+
     /// The wedge in its pocket and its coil.
     fn add_wedge(&self, scene: &mut Scene, wedge: &DrawnWedge, seat: f64) {
         let [height, width] = wedge.size;
@@ -214,6 +259,9 @@ impl Carriage {
             ..extruded((id, &wedge.name, Role::Wedge, id), &outline, width)
         });
 
+        if !wedge.has_coil {
+            return;
+        }
         let at = wedge.point[0] - 0.5 * ahead * length;
         let (on, foot) = if wedge.coil_in_bolster {
             // A seat in the pocket.

@@ -1,84 +1,117 @@
 //! What a half-truck's run looks like: bolster, side frames, wedges with their coils, springs.
 //!
-//! The comparison program's files have places, wedge angles and toes, but no sizes of bodies: the wedges are as
-//! large as the stand-alone one, all else is for the eye. Its wedges are massless and have no angles of
+//! The comparison program's files have places, wedge angles and toes, but no sizes of bodies: its wedges are as
+//! large as the stand-alone one, all else is for the eye. They are massless and have no angles of
 //! their own: they are drawn in the bolster's pocket, where they rise as the law says. The law has one state
 //! a wedge, that of the friction at the column; the slope's friction follows it, and is shown with the same
-//! state while it is pressed.
+//! state while it is pressed. Wedges that are bodies are as large as they are, at their places, with the forces of
+//! their corners.
 
-use mechanics::connection::{ColumnFace as Face, Law, Wedge};
+use mechanics::connection::{ColumnFace as Face, Law, SpringDamper};
 use mechanics::output::Column;
+use mechanics::system::System;
 use nucars::truck::Truck;
 use quantity::Kind;
-use study::half_truck::HalfTruckResult;
+use study::contacts::corners;
+use study::half_truck::{HalfTruckCase, HalfTruckResult};
 use wedge::parameters::Damping;
 
-use super::carriage::{Carriage, DrawnSpring, DrawnWedge, Part, less};
+use super::carriage::{CORNER_ARROW, Carriage, DrawnSpring, DrawnWedge, Part, less};
 use super::run::Plot;
 use super::scene::{Scene, SceneBody, SceneContact};
 
 /// A wedge with what is drawn of it.
-struct Seen<'t> {
+struct Seen {
     number: u32,
-    law: &'t Wedge,
+    angle: f64,
+    /// The column's inclination against the vertical: a turn about y, rad.
+    toe: f64,
+    /// How far its column lies behind its vertical face, m.
+    wear: f64,
+    /// Height and width as drawn, m.
+    size: [f64; 2],
+    coil_in_bolster: bool,
     bolster: usize,
     side_frame: usize,
-    point: [f64; 3],
+    /// The place of its connection in the drawn layout, m.
+    place: [f64; 3],
+    /// From there to the middle of its vertical face, m.
+    offset: [f64; 3],
     /// +1: the column lies ahead of it (+x), -1: behind.
     ahead: f64,
+    is_body: bool,
 }
 
-impl Seen<'_> {
+impl Seen {
     fn id(&self) -> String {
         format!("wedge_{}", self.number)
-    }
-
-    /// The column's inclination against the vertical: a turn about y.
-    fn toe(&self) -> f64 {
-        match &self.law.column {
-            Face::Plain { .. } => 0.0,
-            Face::Profile { depth, .. } => {
-                self.ahead * libm::atan(depth.slopes().get(depth.piece(0.0)).copied().unwrap_or(0.0))
-            }
-        }
     }
 }
 
 /// All wedges, by their places.
-fn wedges(truck: &Truck) -> Vec<Seen<'_>> {
-    let all: Vec<usize> = truck.wedges().collect();
-    let connection = |place: &usize| &truck.model.connections[*place];
-    let middle = all.iter().map(|place| connection(place).point[0]).sum::<f64>() / all.len().max(1) as f64;
-    let seen = |place: &usize| {
-        let own = connection(place);
+fn wedges(case: &HalfTruckCase) -> Vec<Seen> {
+    let truck = &case.truck;
+    let all = case.wedges();
+    let connection = |place: usize| &truck.model.connections[place];
+    let middle = all.iter().map(|place| connection(*place).point[0]).sum::<f64>() / all.len().max(1) as f64;
+    let size = wedge::thesis::parameters(Damping::Variable, 0.0, 0.0).wedge;
+    let seen = |place: usize| {
+        let (own, number) = (connection(place), truck.connections[place]);
+        if let Some(body) = case.wedge_body(place) {
+            let wedge = &body.wedge;
+            let third = wedge.height * libm::tan(wedge.angle) / 3.0;
+            return Some(Seen {
+                number,
+                angle: wedge.angle,
+                toe: -body.end * wedge.toe,
+                wear: wedge.wear.column,
+                size: [wedge.height, wedge.width],
+                coil_in_bolster: body.damping == Damping::Constant,
+                bolster: body.bolster,
+                side_frame: body.side_frame,
+                place: body.center,
+                offset: [body.end * third, 0.0, wedge.height / 6.0],
+                ahead: body.end,
+                is_body: true,
+            });
+        }
         let Law::Wedge(law) = &own.law else { return None };
-        let ahead = match &law.column {
-            Face::Profile { direction, .. } => *direction,
-            Face::Plain { .. } => f64::copysign(1.0, own.point[0] - middle),
+        let (ahead, toe) = match &law.column {
+            Face::Profile { direction, depth } => {
+                let slope = depth.slopes().get(depth.piece(0.0)).copied().unwrap_or(0.0);
+                (*direction, direction * libm::atan(slope))
+            }
+            Face::Plain { .. } => (f64::copysign(1.0, own.point[0] - middle), 0.0),
         };
         Some(Seen {
-            number: truck.connections[*place],
-            law,
+            number,
+            angle: law.angle,
+            toe,
+            wear: 0.0,
+            size: [size.height, 0.7 * size.width],
+            coil_in_bolster: law.coil_in_bolster,
             bolster: own.a,
             side_frame: own.b,
-            point: own.point,
+            place: own.point,
+            offset: [0.0; 3],
             ahead,
+            is_body: false,
         })
     };
-    all.iter().filter_map(seen).collect()
+    all.into_iter().filter_map(seen).collect()
 }
 
-/// Columns that the scene needs and the table does not have: parts of forces in the fixed axes, states of
-/// slopes, the wedges' shift.
+/// Columns that the scene needs of massless wedges and the table does not have: parts of forces in the fixed axes,
+/// states of slopes, the wedges' shift.
 #[must_use]
-pub fn drawn(truck: &Truck, result: &HalfTruckResult) -> (Vec<Column>, Vec<Vec<f64>>) {
+pub fn drawn(case: &HalfTruckCase, result: &HalfTruckResult) -> (Vec<Column>, Vec<Vec<f64>>) {
     let (mut columns, mut values) = (Vec::new(), Vec::new());
-    for wedge in wedges(truck) {
+    for wedge in wedges(case).iter().filter(|wedge| !wedge.is_body) {
         let id = wedge.id();
         let of = |what: &str| result.column(&format!("{id}_{what}")).unwrap_or_default();
         let scaled =
             |what: &str, factor: f64| of(what).iter().map(|value| factor * value).collect::<Vec<f64>>();
-        let (sine, cosine) = libm::sincos(wedge.law.angle);
+        let (sine, cosine) = libm::sincos(wedge.angle);
         let state = of("state").iter().zip(of("slope_normal_force"));
         let drawn = [
             (
@@ -146,25 +179,25 @@ fn body_id(truck: &Truck, body: usize) -> String {
 
 /// The scene; none without wedges.
 #[must_use]
-pub fn scene(truck: &Truck) -> Option<Scene> {
-    let wedges = wedges(truck);
-    let size = wedge::thesis::parameters(Damping::Variable, 0.0, 0.0).wedge;
+pub fn scene(case: &HalfTruckCase) -> Option<Scene> {
+    let truck = &case.truck;
+    let wedges = wedges(case);
+    let [height, _] = wedges.first()?.size;
     let model = &truck.model;
     let bolsters = distinct(wedges.iter().map(|wedge| wedge.bolster));
     let side_frames = distinct(wedges.iter().map(|wedge| wedge.side_frame));
-    let part = |place: &usize| {
-        let body = &model.bodies[*place];
-        let id = body_id(truck, *place);
-        let names = mechanics::body::COORDINATES;
-        let column = |k: usize| body.free[k].then(|| format!("{id}_{}", names[k]));
-        Part {
-            name: body.name.clone(),
-            center: body.frame.origin,
-            coordinates: std::array::from_fn(column),
-            // The bolster goes up and down to scale.
-            steady: [None, None, column(2).filter(|_| bolsters.contains(place))],
-            id,
-        }
+    let names = mechanics::body::COORDINATES;
+    let column = |body: usize, k: usize| {
+        let id = body_id(truck, body);
+        model.bodies[body].free[k].then(|| format!("{id}_{}", names[k]))
+    };
+    let part = |place: &usize| Part {
+        id: body_id(truck, *place),
+        name: model.bodies[*place].name.clone(),
+        center: model.bodies[*place].frame.origin,
+        coordinates: std::array::from_fn(|k| column(*place, k)),
+        // The bolster goes up and down to scale.
+        steady: [None, None, column(*place, 2).filter(|_| bolsters.contains(place))],
     };
     let place_in = |list: &[usize], body: usize| list.iter().position(|own| *own == body);
     let springs = model
@@ -172,13 +205,15 @@ pub fn scene(truck: &Truck) -> Option<Scene> {
         .iter()
         .enumerate()
         .filter_map(|(place, connection)| {
+            // Where wedges are bodies, connections that only measure are left.
             let Law::Springs(springs) = &connection.law else {
                 return None;
             };
             let carries = wedges
                 .iter()
                 .any(|wedge| (wedge.bolster, wedge.side_frame) == (connection.a, connection.b));
-            if !carries || !springs.iter().any(|(coordinate, _)| *coordinate == 2) {
+            let pushes = |(coordinate, own): &(usize, SpringDamper)| *coordinate == 2 && own.spring.is_some();
+            if !carries || !springs.iter().any(pushes) {
                 return None;
             }
             let [x, y, _] = connection.point;
@@ -196,30 +231,45 @@ pub fn scene(truck: &Truck) -> Option<Scene> {
     });
     let drawn = wedges.iter().filter_map(|wedge| {
         let id = wedge.id();
-        let column = |what: &str| Some(format!("{id}_{what}"));
-        Some(DrawnWedge {
-            key: wedge.number.to_string(),
-            name: format!("wedge {}", wedge.number),
-            body: SceneBody {
+        let own = |what: &str| Some(format!("{id}_{what}"));
+        let body = if wedge.is_body {
+            SceneBody {
+                on: None,
+                along: None,
+                spin: None,
+                position: wedge.place,
+                coordinates: names.map(own),
+                // It goes with its pocket.
+                steady: [None, None, column(wedge.bolster, 2)],
+                id: id.clone(),
+            }
+        } else {
+            SceneBody {
                 on: Some(body_id(truck, wedge.bolster)),
                 along: None,
                 spin: None,
-                position: less(wedge.point, model.bodies[wedge.bolster].frame.origin),
-                coordinates: [column("shift"), None, column("rise"), None, None, None],
+                position: less(wedge.place, model.bodies[wedge.bolster].frame.origin),
+                coordinates: [own("shift"), None, own("rise"), None, None, None],
                 steady: [None, None, None],
                 id: id.clone(),
-            },
-            offset: [0.0; 3],
-            point: wedge.point,
+            }
+        };
+        Some(DrawnWedge {
+            key: wedge.number.to_string(),
+            name: format!("wedge {}", wedge.number),
+            body,
+            offset: wedge.offset,
+            point: std::array::from_fn(|k| wedge.place[k] + wedge.offset[k]),
             ahead: wedge.ahead,
-            angle: wedge.law.angle,
-            toe: wedge.toe(),
-            wear: 0.0,
-            size: [size.height, 0.7 * size.width],
+            angle: wedge.angle,
+            toe: wedge.toe,
+            wear: wedge.wear,
+            size: wedge.size,
             bolster: place_in(&bolsters, wedge.bolster)?,
             side_frame: place_in(&side_frames, wedge.side_frame)?,
-            coil_in_bolster: wedge.law.coil_in_bolster,
-            coil_force: column("coil_force"),
+            has_coil: true,
+            coil_in_bolster: wedge.coil_in_bolster,
+            coil_force: own("coil_force"),
         })
     });
     let carriage = Carriage {
@@ -228,44 +278,68 @@ pub fn scene(truck: &Truck) -> Option<Scene> {
         side_frames: side_frames.iter().map(part).collect(),
         springs: springs.collect(),
         axles: axles.collect(),
-        limit: 0.15 * size.height,
+        limit: 0.15 * height,
     };
-    let contacts = carriage.wedges.iter().flat_map(|wedge| {
-        let id = &wedge.body.id;
-        let bolster = &carriage.bolsters[wedge.bolster].id;
-        let contact = |face: &str, point, on: String, normal| SceneContact {
-            id: format!("{id}_{face}"),
-            name: format!("{}, {face}", wedge.name),
-            body: id.clone(),
-            point,
-            on,
-            normal,
-            normal_force: format!("{id}_{face}_normal_force"),
-            friction: match face {
-                "column" => ["x", "y", "z"].map(|axis| format!("{id}_column_friction_{axis}")),
-                _ => [
-                    format!("{id}_slope_friction_x"),
-                    format!("{id}_column_friction_x"),
-                    format!("{id}_slope_friction_z"),
-                ],
-            },
-            state: match face {
-                "column" => format!("{id}_state"),
-                _ => format!("{id}_slope_state"),
-            },
-            gap: None,
+    let massless = wedges
+        .iter()
+        .zip(&carriage.wedges)
+        .filter(|(own, _)| !own.is_body);
+    let mut contacts: Vec<SceneContact> = massless
+        .flat_map(|(_, wedge)| of_massless(&carriage, wedge))
+        .collect();
+    let corners_start = contacts.len();
+    if !case.wedge_bodies.is_empty() {
+        let system = System::new(model.clone()).ok()?;
+        let own = corners(&system, truck.bodies.len()..model.bodies.len());
+        let wedge_of = |body: usize| {
+            let number = case
+                .wedge_bodies
+                .iter()
+                .find(|wedge| wedge.body == body)?
+                .connection;
+            let key = truck.connections[number].to_string();
+            carriage.wedges.iter().find(|wedge| wedge.key == key)
         };
-        [
-            contact("column", [0.0; 3], wedge.column(), [-wedge.ahead, 0.0, 0.0]),
-            contact(
-                "slope",
-                wedge.middle_of_slope(),
-                bolster.clone(),
-                wedge.slope_normal(),
-            ),
-        ]
-    });
-    carriage.scene(contacts.collect())
+        contacts.extend(carriage.corners(&system, own, wedge_of));
+    }
+    let mut scene = carriage.scene(contacts)?;
+    if scene.contacts.len() > corners_start {
+        // There are four corners to a face, not one contact.
+        scene.arrow *= CORNER_ARROW;
+    }
+    Some(scene)
+}
+
+/// Column and slope of a massless wedge, each with one contact.
+fn of_massless(carriage: &Carriage, wedge: &DrawnWedge) -> [SceneContact; 2] {
+    let id = &wedge.body.id;
+    let contact = |face: &str, point, on: String, normal| SceneContact {
+        id: format!("{id}_{face}"),
+        name: format!("{}, {face}", wedge.name),
+        body: id.clone(),
+        point,
+        on,
+        normal,
+        normal_force: format!("{id}_{face}_normal_force"),
+        friction: match face {
+            "column" => ["x", "y", "z"].map(|axis| format!("{id}_column_friction_{axis}")),
+            _ => [
+                format!("{id}_slope_friction_x"),
+                format!("{id}_column_friction_x"),
+                format!("{id}_slope_friction_z"),
+            ],
+        },
+        state: match face {
+            "column" => format!("{id}_state"),
+            _ => format!("{id}_slope_state"),
+        },
+        gap: None,
+    };
+    let bolster = carriage.bolsters[wedge.bolster].id.clone();
+    [
+        contact("column", [0.0; 3], wedge.column(), [-wedge.ahead, 0.0, 0.0]),
+        contact("slope", wedge.middle_of_slope(), bolster, wedge.slope_normal()),
+    ]
 }
 
 fn distinct(all: impl Iterator<Item = usize>) -> Vec<usize> {
@@ -280,8 +354,9 @@ fn distinct(all: impl Iterator<Item = usize>) -> Vec<usize> {
 
 /// What its plots may show.
 #[must_use]
-pub fn plots(truck: &Truck) -> Vec<Plot> {
-    let wedges = wedges(truck);
+pub fn plots(case: &HalfTruckCase, result: &HalfTruckResult) -> Vec<Plot> {
+    let truck = &case.truck;
+    let wedges = wedges(case);
     let labels: Vec<String> = wedges
         .iter()
         .map(|wedge| format!("wedge {}", wedge.number))
@@ -294,7 +369,8 @@ pub fn plots(truck: &Truck) -> Vec<Plot> {
         let curves = names
             .iter()
             .map(String::as_str)
-            .zip(labels.iter().map(String::as_str));
+            .zip(labels.iter().map(String::as_str))
+            .filter(|(name, _)| result.column(name).is_some());
         Plot::new(title, curves)
     };
     let mut plots = vec![
@@ -308,6 +384,12 @@ pub fn plots(truck: &Truck) -> Vec<Plot> {
         of_all("Rises of the wedges", "rise"),
         of_all("Jammed", "jammed"),
         of_all("States: 0 open, 1 stick, 2 slip", "state"),
+        of_all("Wedges, lateral", "y"),
+        of_all("Wedges, roll", "roll"),
+        of_all("Wedges, pitch", "pitch"),
+        of_all("Wedges, yaw", "yaw"),
+        of_all("Energy lost at the columns", "column_friction_loss"),
+        of_all("Energy lost at the slopes", "slope_friction_loss"),
     ];
     let mut bodies: Vec<usize> = distinct(wedges.iter().map(|wedge| wedge.bolster));
     bodies.extend(distinct(wedges.iter().map(|wedge| wedge.side_frame)));

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use mechanics::output::Column;
 use serde::Serialize;
+use study::contacts::ContactTable;
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
 use study::truck::TruckCase;
-use study::truck::contacts::ContactTable;
 use study::truck::run::TruckResult;
 use study::wheelset::WheelsetCase;
 use study::wheelset::run::WheelsetResult;
@@ -119,14 +119,25 @@ impl Recording {
         Self::new((name, title), &table, wheelset::plots(), Some(scene), detail)
     }
 
-    /// Of a half-truck.
+    /// Of a half-truck, with the corners of its wedges if they are bodies and the run took them along.
     #[must_use]
-    pub fn of_truck(case: &HalfTruckCase, result: &HalfTruckResult, detail: Detail) -> Self {
-        let (columns, values) = half_truck::drawn(&case.truck, result);
+    pub fn of_truck(
+        case: &HalfTruckCase,
+        result: &HalfTruckResult,
+        contacts: Option<&ContactTable>,
+        detail: Detail,
+    ) -> Self {
+        let (columns, values) = half_truck::drawn(case, result);
         let mut all = table(&result.columns, &result.values);
         all.extend(table(&columns, &values));
-        let scene = half_truck::scene(&case.truck);
-        let plots = half_truck::plots(&case.truck);
+        let mut scene = half_truck::scene(case);
+        match (contacts, &mut scene) {
+            (Some(contacts), _) => all.extend(table(&contacts.columns, &contacts.values)),
+            // Corners have no columns then.
+            (None, Some(scene)) if !case.wedge_bodies.is_empty() => scene.contacts.clear(),
+            (None, _) => {}
+        }
+        let plots = half_truck::plots(case, result);
         Self::new((&case.name, &case.title), &all, plots, scene, detail)
     }
 

@@ -5,17 +5,17 @@
 
 use std::f64::consts::PI;
 
-use ::truck::{BOLSTER, CAR_BODY, SIDE_FRAMES, Truck, WEDGE_NAMES, WEDGES, WHEELSETS};
+use ::truck::{BOLSTER, CAR_BODY, ControlCoil, SIDE_FRAMES, Truck, WEDGE_NAMES, WEDGES, WHEELSETS};
 use mechanics::body::Body;
+use study::contacts::corners;
 use study::truck::TruckCase;
-use study::truck::contacts::corners;
 use study::truck::run::TruckResult;
 use study::truck::warp::PARTS;
 use wedge::parameters::Damping;
 
-use super::carriage::{Carriage, DrawnSpring, DrawnWedge, Part, less};
+use super::carriage::{CORNER_ARROW, Carriage, DrawnSpring, DrawnWedge, Part};
 use super::run::Plot;
-use super::scene::{Role, Scene, SceneBody, SceneContact, Solid, SolidPose, extruded};
+use super::scene::{Role, Scene, SceneBody, Solid, SolidPose, extruded};
 
 const INCH: f64 = 0.0254;
 /// How much displacements are exaggerated at first: a warp of 20 mrad is then as large as the eye takes for small.
@@ -95,6 +95,7 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
             size: [own.height, own.width],
             bolster: 0,
             side_frame: number % 2,
+            has_coil: own.control_coil != ControlCoil::Nothing,
             coil_in_bolster: parameters.damping == Damping::Constant,
             coil_force: None,
         }
@@ -125,11 +126,13 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
         axles: axles.collect(),
         limit: LIMIT,
     };
-    let contacts = contacts(&truck, &carriage);
+    let own = corners(system, WEDGES..WEDGES + WEDGE_NAMES.len());
+    let wedge_of = |body: usize| carriage.wedges.get(body.checked_sub(WEDGES)?);
+    let contacts = carriage.corners(system, own, wedge_of);
     let mut scene = carriage.scene(contacts)?;
     scene.factor = FACTOR;
     // There are four corners to a face, not one contact.
-    scene.arrow *= 0.6;
+    scene.arrow *= CORNER_ARROW;
     let mut add_body = |id: &str, body: usize| {
         scene.bodies.push(SceneBody {
             id: id.to_owned(),
@@ -164,39 +167,6 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
     }
     scene.round();
     Some(scene)
-}
-
-/// Each corner of each wedge at column and slope.
-fn contacts(truck: &Truck, carriage: &Carriage) -> Vec<SceneContact> {
-    let system = &truck.system;
-    let of_corner = |corner: study::truck::contacts::Corner| {
-        let mounted = &system.faces()[corner.face];
-        let wedge = carriage.wedges.get(mounted.body.checked_sub(WEDGES)?)?;
-        let body = &system.bodies()[mounted.body];
-        // Columns are those of the center of gravity; points count from the body's origin.
-        let point = less(
-            mounted.element.points[corner.point].position.0,
-            body.center_of_gravity,
-        );
-        let (on, normal) = if mounted.element.name.ends_with(FACES[0]) {
-            (wedge.column(), [-wedge.ahead, 0.0, 0.0])
-        } else {
-            (carriage.bolsters[0].id.clone(), wedge.slope_normal())
-        };
-        Some(SceneContact {
-            name: words(&corner.name),
-            body: wedge.body.id.clone(),
-            point,
-            on,
-            normal,
-            normal_force: format!("{}_normal_force", corner.name),
-            friction: ["x", "y", "z"].map(|axis| format!("{}_friction_force_{axis}", corner.name)),
-            state: format!("{}_state", corner.name),
-            gap: None,
-            id: corner.name,
-        })
-    };
-    corners(system).into_iter().filter_map(of_corner).collect()
 }
 
 /// A prism about y: a cylinder as drawn.

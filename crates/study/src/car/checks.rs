@@ -12,7 +12,7 @@ use crate::truck::reader::Reader;
 
 const FOOT: f64 = 0.3048;
 const INCH: f64 = 0.0254;
-const POUND_FORCE: f64 = 4.448_221_615_260_5;
+pub(super) const POUND_FORCE: f64 = 4.448_221_615_260_5;
 /// Coils that rise or sink by less are not spoken of, m.
 const SMALL_RISE: f64 = 0.05 * INCH;
 /// The curve below whose radius no truck of this kind runs, m: 150 ft, the least that rules for the design of cars

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use truck::WEDGE_NAMES;
 
 use super::CarCase;
+use super::checks::POUND_FORCE;
 use super::columns::{Columns, Seen, losses_of_wedge};
 use super::derailment;
 use super::statistics::{self, Histories, SIDES, Statistics};
@@ -30,7 +31,7 @@ use crate::summary::{LedgerSummary, Stopped, SummaryValue};
 pub type CarResult = RunResult<CarSummary>;
 
 /// Normal forces above this tear a truck apart, N: 5 million lbf.
-const MOST_FORCE: f64 = 5e6 * 4.448_221_615_260_5;
+const MOST_FORCE: f64 = 5e6 * POUND_FORCE;
 
 /// Records a car's run: its table, and where it derails.
 pub struct CarRecorder {
@@ -142,7 +143,8 @@ impl Recorder for CarRecorder {
             if force > MOST_FORCE {
                 return Err(RunError::TornApart {
                     element: mounted.element.name.clone(),
-                    force,
+                    force: force / POUND_FORCE,
+                    limit: MOST_FORCE / POUND_FORCE,
                     time: row.time,
                 });
             }

@@ -26,7 +26,7 @@ impl Value {
     pub fn to_toml(&self, path: &str) -> String {
         match self {
             Self::Number { value, unit } if unit.is_empty() => Number(*value).to_string(),
-            Self::Number { value, unit } if path == TOE => {
+            Self::Number { value, unit } if is_toe(path) => {
                 let direction = match value {
                     value if *value > 0.0 => " out",
                     value if *value < 0.0 => " in",
@@ -53,15 +53,14 @@ impl Value {
     #[must_use]
     pub fn of_text(path: &str, text: &str) -> Self {
         let quoted = || Self::Toml(toml::Value::from(text).to_string());
-        let (magnitude, sign) = match (path == TOE).then(|| text.trim_end().rsplit_once(char::is_whitespace))
-        {
+        let (magnitude, sign) = match is_toe(path).then(|| text.trim_end().rsplit_once(char::is_whitespace)) {
             Some(Some((angle, "out"))) => (angle, 1.0),
             Some(Some((angle, "in"))) => (angle, -1.0),
             _ => (text, 1.0),
         };
         match Quantity::parse(magnitude.trim()) {
             // A toe is said in words; what has a sign is refused with them.
-            Ok(toe) if path == TOE && (toe.value() < 0.0 || toe.value().is_nan()) => quoted(),
+            Ok(toe) if is_toe(path) && (toe.value() < 0.0 || toe.value().is_nan()) => quoted(),
             // Zero has one sign only.
             Ok(quantity) => Self::Number {
                 value: sign * quantity.value() + 0.0,
@@ -97,8 +96,10 @@ impl Value {
     }
 }
 
-/// The path of the toe, whose direction is said in words.
-const TOE: &str = "side_frame.toe";
+/// Whether a path is that of a toe, of all columns or of one wedge's, whose direction is said in words.
+fn is_toe(path: &str) -> bool {
+    path.rsplit('.').next() == Some("toe")
+}
 
 /// The values that a parameter takes.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -18,6 +18,7 @@ use wedge::parameters::Damping;
 use super::table::{Table, input_motion, ledger_name};
 use super::wedge_seen::friction_loss;
 use super::{HalfTruckCase, HalfTruckResult, HalfTruckStart, HalfTruckSummary, SCHEMA, WedgeSummary};
+use crate::contacts::{ContactTable, TakesCorners};
 use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::metrics::{Cycle, mean};
@@ -72,6 +73,10 @@ pub struct HalfTruckRecorder {
     frictional: Vec<u32>,
     numbers: [Vec<u32>; 2],
     row: Vec<f64>,
+    /// The corners of wedges' bodies, where they are asked for.
+    contacts: Option<ContactTable>,
+    /// The numbers of these bodies.
+    wedges: std::ops::Range<usize>,
 }
 
 impl RunCase for HalfTruckCase {
@@ -125,6 +130,8 @@ impl RunCase for HalfTruckCase {
                 points: points.collect(),
                 frictional: frictional.map(|place| self.truck.connections[*place]).collect(),
                 numbers: [self.truck.bodies.clone(), self.truck.connections.clone()],
+                contacts: None,
+                wedges: self.truck.bodies.len()..self.truck.model.bodies.len(),
                 table,
             },
             system,
@@ -179,6 +186,9 @@ impl Recorder for HalfTruckRecorder {
         self.row.clear();
         self.table.read(&seen, row.start_energy, &mut self.row);
         append(&mut self.values, &self.table.columns, &self.row, row.time)?;
+        if let Some(contacts) = &mut self.contacts {
+            contacts.take(&seen, row.contact_states);
+        }
         Ok(system.ledger_entries(&seen, row.start_energy))
     }
 
@@ -197,6 +207,16 @@ impl Recorder for HalfTruckRecorder {
 
     fn numbers(&self) -> [&[u32]; 2] {
         [&self.numbers[0], &self.numbers[1]]
+    }
+}
+
+impl TakesCorners for HalfTruckRecorder {
+    fn wedges(&self) -> std::ops::Range<usize> {
+        self.wedges.clone()
+    }
+
+    fn corners(&mut self) -> &mut Option<ContactTable> {
+        &mut self.contacts
     }
 }
 

@@ -107,6 +107,8 @@ fn body(seen: &Observation, wedge: &MountedWedge) -> SeenWedge {
     if wedge.damping == Damping::Variable {
         force = force - coil;
     }
+    let (sine, cosine) = libm::sincos(wedge.wedge.angle);
+    let up_slope = Vector([wedge.end * sine, 0.0, cosine]);
     // The rise against the pocket, at the wedge's place in the drawn layout.
     let bolster = &seen.bodies[wedge.bolster];
     let arm = Vector(wedge.center) - (bolster.origin - bolster.travel);
@@ -115,7 +117,7 @@ fn body(seen: &Observation, wedge: &MountedWedge) -> SeenWedge {
         column_friction: -friction.0[2],
         column_normal: normal(column),
         slope_normal: normal(slope),
-        slope_friction: total(&slope.friction_forces).dot::<f64, f64>(Vector(wedge.up_slope)),
+        slope_friction: total(&slope.friction_forces).dot::<f64, f64>(up_slope),
         coil: coil.0[2],
         force: force.0,
         friction_power: column.friction_power,

@@ -11,10 +11,10 @@ use truck::{
 use super::TruckCase;
 
 /// What values are taken from: an observation, its loads, and the stored energy at the start, J.
-pub(super) struct Seen<'s> {
-    pub observation: &'s Observation,
-    pub loads: &'s Loads,
-    pub start_energy: f64,
+struct Seen<'s> {
+    observation: &'s Observation,
+    loads: &'s Loads,
+    start_energy: f64,
 }
 
 /// The table of a truck's results, for any observation of its system.
@@ -32,6 +32,12 @@ impl TruckTable {
         let truck = Truck::new(&case.parameters)?;
         let columns = Columns::new(&truck, &case.parameters);
         Ok(Self { truck, columns })
+    }
+
+    /// Returns the truck.
+    #[must_use]
+    pub fn truck(&self) -> &Truck {
+        &self.truck
     }
 
     /// Returns the equations of motion.
@@ -53,22 +59,24 @@ impl TruckTable {
     }
 
     /// Appends the values of all columns (SI) at an observation; `start_energy` (J) is the stored energy at the start.
-    pub fn read(&mut self, observation: &Observation, start_energy: f64, out: &mut Vec<f64>) {
+    /// Returns the loads.
+    pub fn read(&self, observation: &Observation, start_energy: f64, out: &mut Vec<f64>) -> Loads {
         let loads = self.truck.loads(observation);
         let seen = Seen {
             observation,
             loads: &loads,
             start_energy,
         };
-        self.columns.read(&seen, out);
+        out.extend(self.columns.values.iter().map(|value| value(&seen)));
+        loads
     }
 }
 
 type Value = Box<dyn Fn(&Seen<'_>) -> f64 + Send + Sync>;
 
 /// The table: what its columns are, and how their values are taken.
-pub(super) struct Columns {
-    pub columns: Vec<Column>,
+struct Columns {
+    columns: Vec<Column>,
     /// How many at the beginning have fixed names.
     fixed: usize,
     values: Vec<Value>,
@@ -94,7 +102,7 @@ pub const PARTS: [Part; 7] = [
 ];
 
 impl Columns {
-    pub fn new(truck: &Truck, parameters: &Parameters) -> Self {
+    fn new(truck: &Truck, parameters: &Parameters) -> Self {
         let mut own = Self {
             columns: Vec::new(),
             fixed: 0,
@@ -160,11 +168,6 @@ impl Columns {
         own.losses_of_wedges(&truck.system);
         own.energies(&truck.system);
         own
-    }
-
-    /// Appends the values of all columns, SI.
-    pub fn read(&self, seen: &Seen<'_>, out: &mut Vec<f64>) {
-        out.extend(self.values.iter().map(|value| value(seen)));
     }
 
     fn add(

@@ -85,17 +85,13 @@ impl LoopCurve {
     #[must_use]
     pub fn of(case: &TruckCase, result: &TruckResult) -> Option<Self> {
         let motions = &case.parameters.bolster.motion.coordinates;
-        let (kind, [period, start]) = match [2, 3].map(|k: usize| period_of(&motions[k])) {
+        let (kind, period) = match [2, 3].map(|k: usize| period_of(&motions[k])) {
             [Some(period), _] => (LoopKind::Vertical, period),
             [None, Some(period)] => (LoopKind::Roll, period),
             [None, None] => return None,
         };
         let times = result.column("time")?;
-        let last = *times.last()?;
-        if last - period < start - 1e-9 {
-            return None;
-        }
-        let rows = times.partition_point(|time| *time < last - period - 1e-9)..times.len();
+        let rows = last_cycle(times, period)?;
         let motion = result.column(kind.motion())?[rows.clone()].to_vec();
         let resistance = kind.resistance(result)[rows.clone()].to_vec();
         let end = |better: fn(f64, f64) -> bool| {
@@ -111,10 +107,7 @@ impl LoopCurve {
         let [low, high] = [end(|a, b| a < b), end(|a, b| a > b)];
         let amplitude = 0.5 * (motion[high] - motion[low]);
         let stiffness = (resistance[high] - resistance[low]) / (2.0 * amplitude);
-        let pairs = 0..motion.len() - 1;
-        let energy: f64 = pairs
-            .map(|i| 0.5 * (resistance[i] + resistance[i + 1]) * (motion[i + 1] - motion[i]))
-            .sum();
+        let energy = work(&resistance, &motion);
         let middle = 0.5 * (motion[high] + motion[low]);
         let crossings: Vec<f64> = (0..motion.len() - 1)
             .filter(|i| {
@@ -139,4 +132,19 @@ impl LoopCurve {
             resistance,
         })
     }
+}
+
+/// Returns the rows of the last whole cycle of a motion with this period and beginning (s); `None` if there is none.
+pub(super) fn last_cycle(times: &[f64], [period, start]: [f64; 2]) -> Option<Range<usize>> {
+    // Output times are multiples of the interval but for rounding.
+    const SLACK: f64 = 1e-9;
+    let first = times.last()? - period;
+    (first >= start - SLACK).then(|| times.partition_point(|time| *time < first - SLACK)..times.len())
+}
+
+/// Returns the work of a force along a way, J: straight lines between rows.
+pub(super) fn work(force: &[f64], way: &[f64]) -> f64 {
+    let rows = force.windows(2).zip(way.windows(2));
+    rows.map(|(force, way)| 0.5 * (force[0] + force[1]) * (way[1] - way[0]))
+        .sum()
 }

@@ -5,7 +5,6 @@
 mod assumptions;
 pub mod builtin;
 pub mod columns;
-pub mod contacts;
 pub mod loop_curve;
 pub(crate) mod reader;
 pub mod run;

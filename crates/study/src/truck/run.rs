@@ -10,13 +10,13 @@ use mechanics::plausibility::Finding;
 use mechanics::system::{ContactState, EnergyTermKind, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
-use truck::{Parameters, Truck, held};
+use truck::{ControlCoil, Parameters, Truck, WEDGE_NAMES, WEDGES, Wedge, held};
 use wedge::parameters::Start;
 
 use super::TruckCase;
-use super::columns::{Columns, Seen};
-use super::contacts::ContactTable;
+use super::columns::TruckTable;
 use super::summary::{Cycles, SCHEMA, TruckSummary, warp_stiffnesses};
+use crate::contacts::{ContactTable, TakesCorners};
 use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::metrics::Extremes;
@@ -29,20 +29,23 @@ use crate::summary::{LedgerSummary, Stopped, SummaryValue};
 /// What came out of a run.
 pub type TruckResult = RunResult<TruckSummary>;
 
-/// Normal forces above this tear a truck apart, N: 5 million lbf, forty times the weight of a loaded half car.
-const MOST_FORCE: f64 = 5e6 * 4.448_221_615_260_5;
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
+/// Forces of faces, coils and stops above this tear a truck apart, N: 5 million lbf, forty times the weight of a
+/// loaded half car.
+const MOST_FORCE: f64 = 5e6 * POUND_FORCE;
 
 /// Records a truck's run: its table, and the energies at both ends of the whole cycles.
 pub struct TruckRecorder {
-    truck: Truck,
-    columns: Columns,
+    table: TruckTable,
     values: Vec<Vec<f64>>,
     /// The ends of the whole cycles, s, and their number.
     window: Option<([f64; 2], u32)>,
     counts: TruckCounts,
     row: Vec<f64>,
     /// The corners of the wedges, where they are asked for.
-    pub(super) contacts: Option<ContactTable>,
+    contacts: Option<ContactTable>,
+    /// The areas of column and slope of each wedge, m².
+    face_areas: [[f64; 2]; 4],
 }
 
 /// What is counted along a truck's run.
@@ -135,19 +138,19 @@ impl RunCase for TruckCase {
     }
 
     fn begin(&self) -> Result<Beginning<TruckRecorder>, RunError> {
-        let truck = Truck::new(&self.parameters)?;
-        let columns = Columns::new(&truck, &self.parameters);
+        let table = TruckTable::new(self)?;
+        let columns = table.columns().len();
         Ok(Beginning {
-            system: truck.system.clone(),
-            x: self.settled(&truck)?,
+            system: table.system().clone(),
+            x: self.settled(table.truck())?,
             recorder: TruckRecorder {
-                values: vec![Vec::new(); columns.columns.len()],
-                row: Vec::with_capacity(columns.columns.len()),
+                values: vec![Vec::new(); columns],
+                row: Vec::with_capacity(columns),
                 window: window(self),
                 counts: TruckCounts::default(),
                 contacts: None,
-                columns,
-                truck,
+                face_areas: self.parameters.wedges.each_ref().map(Wedge::face_areas),
+                table,
             },
         })
     }
@@ -184,7 +187,7 @@ impl Run<TruckCase> {
     /// Returns the columns of the result.
     #[must_use]
     pub fn columns(&self) -> &[Column] {
-        &self.recorder.columns.columns
+        self.recorder.table.columns()
     }
 }
 
@@ -199,7 +202,7 @@ impl Recorder for TruckRecorder {
         let ends = self.window.iter().flat_map(|(ends, _)| ends);
         let passed = ends.filter(|end| **end <= time).count();
         check_length("counts.quadratures", counts.quadratures.len(), passed)?;
-        let terms = self.truck.system.energy_terms().len();
+        let terms = self.table.system().energy_terms().len();
         for quadratures in &counts.quadratures {
             check_length("counts.quadratures", quadratures.len(), terms)?;
             quadratures
@@ -224,25 +227,25 @@ impl Recorder for TruckRecorder {
 
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
         let observation = system.observe(row.time, row.x);
-        let loads = self.truck.loads(&observation);
+        self.row.clear();
+        let loads = self.table.read(&observation, row.start_energy, &mut self.row);
+        let (number, force) = loads.largest;
+        let mut largest = (self.table.truck().suspension_name(number), force);
         for (face, mounted) in observation.faces.iter().zip(system.faces()) {
             let force: f64 = face.points.iter().map(|point| point.normal).sum();
-            if force > MOST_FORCE {
-                return Err(RunError::TornApart {
-                    element: mounted.element.name.clone(),
-                    force,
-                    time: row.time,
-                });
+            if force > largest.1 {
+                largest = (&mounted.element.name, force);
             }
         }
-        let seen = Seen {
-            observation: &observation,
-            loads: &loads,
-            start_energy: row.start_energy,
-        };
-        self.row.clear();
-        self.columns.read(&seen, &mut self.row);
-        append(&mut self.values, &self.columns.columns, &self.row, row.time)?;
+        if largest.1 > MOST_FORCE {
+            return Err(RunError::TornApart {
+                element: largest.0.to_owned(),
+                force: largest.1 / POUND_FORCE,
+                limit: MOST_FORCE / POUND_FORCE,
+                time: row.time,
+            });
+        }
+        append(&mut self.values, self.table.columns(), &self.row, row.time)?;
         if let Some(contacts) = &mut self.contacts {
             contacts.take(&observation, row.contact_states);
         }
@@ -258,7 +261,7 @@ impl Recorder for TruckRecorder {
         let mut states = contact_states
             .iter()
             .map(|state| ContactState::from_number(*state));
-        let faces = self.truck.system.faces().iter();
+        let faces = self.table.system().faces().iter();
         faces
             .map(|mounted| {
                 let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
@@ -275,9 +278,23 @@ impl Recorder for TruckRecorder {
     }
 }
 
+impl TakesCorners for TruckRecorder {
+    fn wedges(&self) -> std::ops::Range<usize> {
+        WEDGES..WEDGES + WEDGE_NAMES.len()
+    }
+
+    fn face_areas(&self) -> Vec<[f64; 2]> {
+        self.face_areas.to_vec()
+    }
+
+    fn corners(&mut self) -> &mut Option<ContactTable> {
+        &mut self.contacts
+    }
+}
+
 fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     let units = run.case.simulation.output_units;
-    let columns = run.recorder.columns.columns.clone();
+    let columns = run.recorder.table.columns().to_vec();
     let values = std::mem::take(&mut run.recorder.values);
     let balance = run.energy_balance;
     let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
@@ -285,6 +302,8 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         .collect();
     warnings.extend(plausibility::warnings_by_kind(&run));
     warnings.extend(surplus(&run.case, units));
+    warnings.extend(without_coil(&run.case));
+    warnings.extend(closed(run.recorder.table.truck(), units));
     let column = |name: &str| {
         let place = columns.iter().position(|column| column.name == name);
         place.map_or(&[][..], |place| values[place].as_slice())
@@ -341,9 +360,9 @@ const SMALL_RISE: f64 = 0.05 * 0.0254;
 fn surplus(case: &TruckCase, units: Units) -> Option<String> {
     let surplus = case.parameters.surplus()?;
     let rise = surplus / case.parameters.load_stiffness();
-    // A truck that starts at a height of its own, or settles first, is meant so.
-    let meant =
-        case.parameters.lift != 0.0 || case.parameters.start == Start::Equilibrium || case.settle > 0.0;
+    // A truck that settles first, or falls from a height down to where its coils carry it, is meant so.
+    let falls = case.parameters.lift > 0.0 && rise > -SMALL_RISE && rise < case.parameters.lift;
+    let meant = falls || case.parameters.start == Start::Equilibrium || case.settle > 0.0;
     if meant || rise.abs() < SMALL_RISE {
         return None;
     }
@@ -351,15 +370,67 @@ fn surplus(case: &TruckCase, units: Units) -> Option<String> {
         let value = SummaryValue::new(value.abs(), kind, units);
         format!("{:.4} {}", value.value, value.unit)
     });
+    let coils = case.parameters.load_coils.iter().flatten();
+    let solid = coils
+        .filter_map(|coil| coil.spring.solid)
+        .map(|[travel, _]| travel);
+    let solid = if solid.fold(f64::INFINITY, f64::min) < -rise {
+        ", where its load coils are solid"
+    } else {
+        ""
+    };
     let (more, way) = if surplus > 0.0 {
         ("more", "rises")
     } else {
         ("less", "sinks")
     };
     Some(format!(
-        "the coils carry {force} {more} than stands on them in the nominal layout: the truck {way} by about {length}; set \
+        "the coils carry {force} {more} than stands on them in the nominal layout: the truck {way} by about {length}{solid}; set \
          start.kind = \"equilibrium\" or start.lift, or mend the preloads"
     ))
+}
+
+/// The warning about wedges that no coil presses.
+fn without_coil(case: &TruckCase) -> Option<String> {
+    let wedges = WEDGE_NAMES.iter().zip(&case.parameters.wedges);
+    let names: Vec<&str> = wedges
+        .filter(|(_, wedge)| match &wedge.control_coil {
+            ControlCoil::Shear(coil) => coil.preload <= 0.0,
+            // The thesis's truck has coils that begin at their free lengths.
+            ControlCoil::Table(_) | ControlCoil::Thesis(..) => false,
+            ControlCoil::Nothing => true,
+        })
+        .map(|(name, _)| *name)
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "no coil presses the wedges {} in the nominal layout: they lie loose between column and slope; give \
+             control_coil.preload, unless their coils are meant to be broken",
+            names.join(", ")
+        )
+    })
+}
+
+/// The warning about stops that have no clearance left at the start.
+fn closed(truck: &Truck, units: Units) -> Option<String> {
+    let observation = truck.system.clone().observe(0.0, &truck.initial_state);
+    let stops = truck.closed_stops(&observation);
+    let words = |(name, depth): &(&str, f64)| {
+        let depth = SummaryValue::new(*depth, Kind::Length, units);
+        format!("{name} ({:.3} {})", depth.value, depth.unit)
+    };
+    let list: Vec<String> = stops.iter().take(4).map(words).collect();
+    let more = match stops.len().saturating_sub(list.len()) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    (!stops.is_empty()).then(|| {
+        format!(
+            "gaps that are closed at the start, with how far their parts are pressed in: {}{more}; give more clearance, or \
+             begin with motions at zero",
+            list.join(", ")
+        )
+    })
 }
 
 fn cycles(run: &Run<TruckCase>) -> Cycles {

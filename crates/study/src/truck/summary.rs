@@ -91,12 +91,12 @@ impl Cycles {
 /// The angles at which warp stiffness is told, mrad.
 pub const WARP_ANGLES: [f64; 6] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0];
 
-/// Returns warp moment over warp angle (N·m/rad) at an angle (rad) where the rows reach it first, in either
-/// sense; straight between two rows, from the values at the row before the warp begins. `None` if they do not
-/// reach it.
+/// Returns how a moment, or a part of it (N·m), grows until the rows reach a warp angle (rad) first, in either sense;
+/// positive where it resists, for on the bolster it has the sign of the warp angle then. Straight between two rows, from
+/// the values at the row before the warp begins: what is there before any warp is no part of its stiffness. `None` if
+/// the rows do not reach it.
 #[must_use]
-pub fn warp_stiffness(angles: &[f64], moments: &[f64], angle: f64) -> Option<f64> {
-    // The moment that is there before any warp is no part of its stiffness.
+pub fn growth(angles: &[f64], moments: &[f64], angle: f64) -> Option<f64> {
     let first = angles.iter().position(|own| own.abs() > 1e-9)?.saturating_sub(1);
     let rest = moments[first];
     let rows = angles[first..].windows(2).zip(moments[first..].windows(2));
@@ -104,10 +104,16 @@ pub fn warp_stiffness(angles: &[f64], moments: &[f64], angle: f64) -> Option<f64
         if angles[1].abs() >= angle {
             let share = (angle - angles[0].abs()) / (angles[1].abs() - angles[0].abs());
             let moment = moments[0] + share * (moments[1] - moments[0]) - rest;
-            return Some(moment.abs() / angle);
+            return Some(moment * angles[1].signum());
         }
     }
     None
+}
+
+/// Returns warp moment over warp angle (N·m/rad) at an angle (rad), from its [`growth`].
+#[must_use]
+pub fn warp_stiffness(angles: &[f64], moments: &[f64], angle: f64) -> Option<f64> {
+    Some(growth(angles, moments, angle)?.abs() / angle)
 }
 
 /// Returns the warp stiffnesses by the angle in mrad; those of angles that are not reached are left out.

@@ -1,8 +1,10 @@
 //! What a warp test says: warp moment over warp angle, its parts, its stiffness, whether the nest locks.
 
+use super::TruckCase;
 pub use super::columns::PARTS;
-use super::run::TruckResult;
-use super::summary::{WARP_ANGLES, warp_stiffness};
+use super::loop_curve::{last_cycle, work};
+use super::run::{TruckResult, period};
+use super::summary::{self, WARP_ANGLES, warp_stiffness};
 
 /// NUCARS's empirical warp stiffnesses of a truck (both nests), N·m/rad: worn and new. In its input files they
 /// stand for the missing effects of wedging action.
@@ -56,10 +58,10 @@ pub struct WarpCurve {
 }
 
 impl WarpCurve {
-    /// Returns what a run says of warp; `period` (s) is that of its motion. `None` if the warp angle stays below
-    /// 0.5 mrad.
+    /// Returns what a run of a case says of warp. `None` if the warp angle stays below 0.5 mrad.
     #[must_use]
-    pub fn of(result: &TruckResult, period: Option<f64>) -> Option<Self> {
+    pub fn of(case: &TruckCase, result: &TruckResult) -> Option<Self> {
+        let period = period(&case.parameters);
         let column = |name: &str| result.column(name).unwrap_or_default();
         let (angles, moments, times) = (column("warp_angle"), column("warp_moment"), column("time"));
         let stiffness: Vec<(f64, f64)> = WARP_ANGLES
@@ -72,7 +74,7 @@ impl WarpCurve {
         let parts = PARTS.map(|(name, ..)| column(&format!("warp_moment_{name}")));
         let parts = stiffness
             .iter()
-            .map(|(angle, _)| parts.map(|part| signed_growth(angles, part, *angle)))
+            .map(|(angle, _)| parts.map(|part| summary::growth(angles, part, *angle).unwrap_or_default()))
             .collect();
         let moment_at = |wanted: f64| {
             let found = stiffness.iter().find(|(angle, _)| *angle == wanted);
@@ -84,17 +86,9 @@ impl WarpCurve {
             (Some(_), Some(_)) => Growth::Rising,
             _ => Growth::Unknown,
         };
-        let last = times.last().copied().unwrap_or_default();
-        let first = period.map(|period| last - period).filter(|first| *first >= 0.0);
-        // Output times are multiples of the interval but for rounding.
-        let rows = times.partition_point(|time| *time < first.unwrap_or(0.0) - 1e-9)..times.len();
-        let loop_area = first.map(|_| {
-            let pairs = rows.clone().zip(rows.clone().skip(1));
-            pairs
-                .map(|(a, b)| 0.5 * (moments[a] + moments[b]) * (angles[b] - angles[a]))
-                .sum::<f64>()
-                .abs()
-        });
+        let cycle = period.and_then(|period| last_cycle(times, period));
+        let rows = cycle.clone().unwrap_or(0..times.len());
+        let loop_area = cycle.map(|rows| work(&moments[rows.clone()], &angles[rows]).abs());
         Some(Self {
             stiffness,
             parts,
@@ -103,17 +97,4 @@ impl WarpCurve {
             rows,
         })
     }
-}
-
-/// How a part of the moment (N·m) grows until the angle (rad) is reached first; positive where it resists.
-fn signed_growth(angles: &[f64], part: &[f64], angle: f64) -> f64 {
-    let Some(first) = angles.iter().position(|own| own.abs() > 1e-9) else {
-        return 0.0;
-    };
-    let Some(reached) = angles.iter().position(|own| own.abs() >= angle) else {
-        return 0.0;
-    };
-    let before = first.saturating_sub(1);
-    // The moment on the bolster has the sign of the warp angle where it resists.
-    (part[reached] - part[before]) * angles[reached].signum()
 }

@@ -35,9 +35,14 @@ pub(crate) struct Draft {
 enum CoilKind {
     Shear,
     Thesis,
+    Nothing,
 }
 
-const COIL_KINDS: Names<CoilKind> = &[("shear", CoilKind::Shear), ("thesis", CoilKind::Thesis)];
+const COIL_KINDS: Names<CoilKind> = &[
+    ("shear", CoilKind::Shear),
+    ("thesis", CoilKind::Thesis),
+    ("nothing", CoilKind::Nothing),
+];
 const LINES: Names<CoilLine> = &[
     ("center_of_gravity", CoilLine::CenterOfGravity),
     ("seat", CoilLine::Seat),
@@ -52,6 +57,8 @@ const OF_THESIS: [&str; 5] = [
 ];
 /// Keys that only a coil with shear stiffness has.
 const OF_SHEAR: [&str; 4] = ["preload", "shear_stiffness", "solid_travel", "solid_stiffness"];
+/// Keys of both.
+const OF_COILS: [&str; 2] = ["stiffness", "damping"];
 
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
@@ -85,7 +92,7 @@ impl Draft {
         let (thesis, to_center) = thesis_coil(parameters.damping);
         let spring = match wedge.control_coil {
             ControlCoil::Shear(spring) => spring,
-            ControlCoil::Thesis(..) | ControlCoil::Table(_) => Spring::default(),
+            ControlCoil::Thesis(..) | ControlCoil::Table(_) | ControlCoil::Nothing => Spring::default(),
         };
         let bristle = match wedge.column_friction.law {
             FrictionLaw::Bristle { stiffness, damping } => [stiffness, damping],
@@ -122,6 +129,7 @@ impl Draft {
         wedge.control_coil = match self.kind {
             CoilKind::Shear => ControlCoil::Shear(self.spring),
             CoilKind::Thesis => ControlCoil::Thesis(self.thesis, self.to_center),
+            CoilKind::Nothing => ControlCoil::Nothing,
         };
         wedge
     }
@@ -239,21 +247,26 @@ impl Draft {
     }
 
     fn coil(&mut self, r: &mut Reader<'_>, path: &str) {
-        let comment =
-            "\"shear\": a coil with shear stiffness; \"thesis\": a line from seat to wedge (Steets 2007)";
+        let comment = "\"shear\": a coil with shear stiffness; \"thesis\": a line from seat to wedge (Steets 2007); \"nothing\": broken";
         r.choice("kind", COIL_KINDS, &mut self.kind, comment);
-        let (others, other) = match self.kind {
-            CoilKind::Shear => (&OF_THESIS[..], "thesis"),
-            CoilKind::Thesis => (&OF_SHEAR[..], "shear"),
+        let others: &[(&[&'static str], &str)] = match self.kind {
+            CoilKind::Shear => &[(&OF_THESIS, "thesis")],
+            CoilKind::Thesis => &[(&OF_SHEAR, "shear")],
+            CoilKind::Nothing => &[(&OF_THESIS, "thesis"), (&OF_SHEAR, "shear"), (&OF_COILS, "shear")],
         };
-        for key in others {
-            let full = format!("{path}.{key}");
-            if r.has(&full) {
-                let problem = Problem::new(format!("`{full}` is a key of the coil of kind \"{other}\""));
-                let help = format!("leave it out, or write {path}.kind = \"{other}\"");
-                r.problem(&full, problem.label("of another kind").help(help));
-                r.expect(path, others);
+        for (keys, kind) in others {
+            for key in *keys {
+                let full = format!("{path}.{key}");
+                if r.has(&full) {
+                    let problem = Problem::new(format!("`{full}` is a key of the coil of kind \"{kind}\""));
+                    let help = format!("leave it out, or write {path}.kind = \"{kind}\"");
+                    r.problem(&full, problem.label("of another kind").help(help));
+                    r.expect(path, keys);
+                }
             }
+        }
+        if self.kind == CoilKind::Nothing {
+            return;
         }
         if self.kind == CoilKind::Shear {
             r.quantity(

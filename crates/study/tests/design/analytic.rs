@@ -1,5 +1,6 @@
 //! Which variants a study has, against what the methods' papers and others' programs say.
 
+use study::any_case::AnyCase;
 use study::design::{DIMENSIONS, LatinHypercube, Sobol, Value};
 
 use super::common::{HEAD, study};
@@ -111,6 +112,34 @@ fn analytic_dimensions_of_a_latin_hypercube_are_not_correlated() {
             (0..RUNS).any(|n| hypercube.stratum(n, 0) != LatinHypercube::new(RUNS, seed + 1).stratum(n, 0))
         );
     }
+}
+
+/// Keys of a truck's single wedges are varied as those of all; their toes too go through zero.
+#[test]
+fn analytic_a_toe_of_one_wedge_is_varied_through_zero() {
+    let study = study(
+        "case = \"truck_vertical_variable\"\nsampling = \"full_factorial\"\n[vary]\n\
+         wedge.trailing_right.toe = { from = \"0.3 deg in\", to = \"0.3 deg out\", count = 3 }\n\
+         wedge.leading_left.friction.column = [0.2, 0.3]\n",
+    );
+    let toes = [0, 2, 4].map(|number| study.overrides(number)[0].clone());
+    assert_eq!(
+        toes,
+        ["0.3 deg in", "0 deg", "0.3 deg out"].map(|toe| format!("wedge.trailing_right.toe=\"{toe}\""))
+    );
+    let AnyCase::Truck(case) = study.case(5).unwrap() else {
+        unreachable!("a truck's study")
+    };
+    let wedges = &case.parameters.wedges;
+    assert!((wedges[3].toe - 0.3_f64.to_radians()).abs() < 1e-15);
+    assert_eq!(
+        [
+            wedges[0].column_friction.coefficient,
+            wedges[1].column_friction.coefficient
+        ],
+        [0.3, 0.4]
+    );
+    assert_eq!(wedges[0].toe, 0.0);
 }
 
 #[test]

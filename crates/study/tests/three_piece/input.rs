@@ -196,9 +196,68 @@ fn input_what_only_a_run_can_tell() {
     let result = Run::new(&torn).unwrap().finish(|_| ());
     let stopped = result.summary.stopped.unwrap();
     assert!(
-        stopped.reason.contains("would tear the truck apart"),
+        stopped.reason.contains("taken for a truck torn apart") && stopped.reason.contains("lbf"),
         "{}",
         stopped.reason
     );
     assert!(stopped.time > 0.0 && !result.values[0].is_empty());
+}
+
+/// A stop tears the truck apart as a face does, also between two bodies that are prescribed; the run is kept until then.
+#[test]
+fn input_a_gib_that_is_pressed_too_hard_stops_the_run() {
+    let set = [
+        "bolster.lateral={ shape = \"ramp\", amplitude = \"2 in\", duration = \"1 s\" }".to_owned(),
+        "simulation.duration=2 s".to_owned(),
+    ];
+    let torn = builtin::case_with("truck_warp_nest_constant_rising", &set).unwrap();
+    let result = Run::new(&torn).unwrap().finish(|_| ());
+    let stopped = result.summary.stopped.unwrap();
+    assert!(
+        stopped.reason.contains("_gib`") && stopped.reason.contains("5.0e6 lbf"),
+        "{}",
+        stopped.reason
+    );
+    assert!(stopped.time > 0.0 && !result.values[0].is_empty());
+}
+
+/// What starts closed, loose or too low is told; sound rigs are not warned about.
+#[test]
+fn input_what_is_doubtful_at_the_start_is_told() {
+    let warnings = |name: &str, set: &[&str]| {
+        let mut set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
+        set.push("simulation.duration=0.02 s".to_owned());
+        let case = builtin::case_with(name, &set).unwrap();
+        Run::new(&case).unwrap().finish(|_| ()).summary.warnings.concat()
+    };
+    let vertical = "truck_vertical_variable";
+    for (name, set, expected) in [
+        (vertical, &["lands.clearance=0 in"][..], "closed at the start"),
+        (vertical, &["bolster.lateral=0.6 in"], "left_gib (0.100 in)"),
+        (
+            vertical,
+            &["wedge.leading_left.control_coil.preload=0 lbf"],
+            "no coil presses the wedges leading_left in",
+        ),
+        (
+            vertical,
+            &["wedge.trailing_right.control_coil.kind=nothing"],
+            "no coil presses the wedges trailing_right in",
+        ),
+        (
+            "truck_drop_variable",
+            &["load_springs.preload=1000 lbf"],
+            "where its load coils are solid",
+        ),
+    ] {
+        let found = warnings(name, set);
+        assert!(found.contains(expected), "{set:?}: {found}");
+    }
+    for name in [
+        "truck_lateral_variable_empty",
+        "truck_drop_variable_empty",
+        "truck_solid_constant",
+    ] {
+        assert_eq!(warnings(name, &[]), "", "{name}");
+    }
 }

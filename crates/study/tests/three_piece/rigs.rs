@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use study::truck::loop_curve::{LoopCurve, LoopKind};
+use study::truck::warp::WarpCurve;
 use study::truck::{WEDGE_NAMES, builtin};
 
 use super::common::{INCH, KIP_INCH, POUND_FORCE, at, case, column, run};
@@ -24,6 +25,53 @@ fn energy_of_every_rig_is_accounted_for() {
             assert!(
                 warning.contains("penetrates its surface too deep"),
                 "{name}: {warning}"
+            );
+        }
+    }
+}
+
+/// Bolster, side frames and wheelsets are prescribed in every coordinate, one side frame beside a free one too.
+#[test]
+fn energy_of_prescribed_motions_in_every_coordinate_is_accounted_for() {
+    for key in ["longitudinal", "lateral", "vertical", "roll", "pitch", "yaw"] {
+        let amplitude = match key {
+            "roll" | "pitch" | "yaw" => "0.001 rad",
+            _ => "0.01 in",
+        };
+        for body in ["bolster", "side_frame", "left_side_frame", "trailing_wheelset"] {
+            let motion = format!(
+                "{body}.{key}={{ shape = \"sine\", amplitude = \"{amplitude}\", frequency = \"2 Hz\" }}"
+            );
+            let held = format!("{body}.free_coordinates=[]");
+            let mut set = vec!["bolster.vertical=0 in", "simulation.duration=0.2 s", &motion];
+            if body.ends_with("side_frame") {
+                set.push(&held);
+            }
+            let result = run("truck_vertical_variable", &set);
+            let residual = result.summary.ledger.largest_relative_residual;
+            assert!(residual < 1e-5, "{body}.{key}: residual {residual}");
+            let work = result.summary.ledger.entries["motion_work"].value;
+            assert!(work != 0.0, "{body}.{key} does nothing");
+        }
+    }
+}
+
+/// The parts of the warp moment add up to it at every angle that is told, with wedges that have mass and without.
+#[test]
+fn analytic_parts_of_the_warp_moment_add_up() {
+    for set in [
+        &[][..],
+        &["wedge.trailing_left.kind=massless", "warp_spring.kind=worn"],
+    ] {
+        let set = [&["simulation.duration=4.6 s"], set].concat();
+        let name = "truck_warp_nest_variable_rising";
+        let curve = WarpCurve::of(&case(name, &set), &run(name, &set)).unwrap();
+        assert_eq!(curve.stiffness.len(), 6);
+        for ((angle, stiffness), parts) in curve.stiffness.iter().zip(&curve.parts) {
+            let (moment, sum) = (angle * stiffness, parts.iter().sum::<f64>());
+            assert!(
+                (moment - sum).abs() < 1e-9 * moment,
+                "{angle} rad: {sum} of {moment} N·m"
             );
         }
     }

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Union
 
-from ._wedgelab import NativeCase, built_in_groups
+from ._wedgelab import NativeCase, NativeResult, NativeTruckCase, built_in_groups
 from .errors import CaseError
 from .result import Result, checked
 from .sections import (
@@ -72,7 +72,54 @@ def _nested(changes: Mapping[str, Any]) -> dict[str, Any]:
     return nested
 
 
-class Case:
+class CompleteCase:
+    """What cases of wedges and of trucks have in common: complete, checked, immutable."""
+
+    __slots__ = ("_native",)
+
+    _native: NativeCase | NativeTruckCase
+
+    @property
+    def name(self) -> str:
+        """A name that can be the name of a folder."""
+        return self._native.name
+
+    @property
+    def title(self) -> str:
+        """One line for people; may be empty."""
+        return self._native.title
+
+    @property
+    def duration(self) -> float:
+        """End of the run, s."""
+        return self._native.duration
+
+    def to_dict(self) -> dict[str, Any]:
+        """The complete case as nested dicts, as in its case file."""
+        return self._native.document()
+
+    def to_toml(self) -> str:
+        """The complete case as a commented case file; `parse` reads it back to the same case."""
+        return self._native.to_toml()
+
+    def _run(
+        self, columns: Iterable[str] | None, progress: Callable[[float], object] | None
+    ) -> NativeResult:
+        interruptible = threading.current_thread() is threading.main_thread()
+        return self._native.run(_names(columns), progress, interruptible)
+
+    def __eq__(self, other: object) -> bool:
+        return self.to_toml() == other.to_toml() if isinstance(other, type(self)) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.to_toml())
+
+    def __repr__(self) -> str:
+        kind = type(self).__name__
+        return f"<{kind} {self.name}: {self.title}>" if self.title else f"<{kind} {self.name}>"
+
+
+class Case(CompleteCase):
     """A case that is ready to run: complete, checked, immutable.
 
     ``base`` is the name of a built-in case, the path of a case file (TOML), or another case; without it, the values of
@@ -86,7 +133,7 @@ class Case:
     Raises `CaseError`, with all mistakes at once.
     """
 
-    __slots__ = ("_document", "_native")
+    __slots__ = ("_document",)
 
     _native: NativeCase
     _document: dict[str, Any] | None
@@ -173,21 +220,6 @@ class Case:
         return type(self)._of(self._native.replace(given))
 
     @property
-    def name(self) -> str:
-        """A name that can be the name of a folder."""
-        return self._native.name
-
-    @property
-    def title(self) -> str:
-        """One line for people; may be empty."""
-        return self._native.title
-
-    @property
-    def duration(self) -> float:
-        """End of the run, s."""
-        return self._native.duration
-
-    @property
     def wedge(self) -> WedgeSection:
         """``[wedge]``, complete."""
         return self._section("wedge")  # type: ignore[no-any-return]
@@ -245,14 +277,6 @@ class Case:
             self._document = self._native.document()
         return self._document
 
-    def to_dict(self) -> dict[str, Any]:
-        """The complete case as nested dicts, as in its case file."""
-        return self._native.document()
-
-    def to_toml(self) -> str:
-        """The complete case as a commented case file; `parse` reads it back to the same case."""
-        return self._native.to_toml()
-
     @property
     def assumptions(self) -> list[str]:
         """What the numbers of a run rest on."""
@@ -272,19 +296,8 @@ class Case:
         1e-2, raises `RunError`, which has what was computed as ``result``; with ``incomplete="keep"`` it is returned instead. An
         `EnergyWarning` tells of a ledger that does not close to 1e-3, a `PlausibilityWarning` of what is implausible.
         """
-        interruptible = threading.current_thread() is threading.main_thread()
-        native = self._native.run(_names(columns), progress, interruptible)
-        result: Result = checked(Result(native), incomplete)
+        result: Result = checked(Result(self._run(columns, progress)), incomplete)
         return result
-
-    def __eq__(self, other: object) -> bool:
-        return self.to_toml() == other.to_toml() if isinstance(other, Case) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self.to_toml())
-
-    def __repr__(self) -> str:
-        return f"<Case {self.name}: {self.title}>" if self.title else f"<Case {self.name}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (Case.parse, (self.to_toml(),))

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import os
-import threading
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from ._wedgelab import NativeTruckCase
-from .case import _names, _nested
+from .case import CompleteCase, _nested
 from .errors import CaseError
 from .result import TruckResult, checked
 
 __all__ = ["TruckCase"]
 
 
-class TruckCase:
+class TruckCase(CompleteCase):
     """A truck's case that is ready to run: complete, checked, immutable.
 
     ``base`` is the name of a built-in truck (``wedgelab case`` lists them), the path of a case file with ``model = "truck"``, or another
@@ -28,7 +27,7 @@ class TruckCase:
     Raises `CaseError`, with all mistakes at once.
     """
 
-    __slots__ = ("_native",)
+    __slots__ = ()
 
     _native: NativeTruckCase
 
@@ -64,29 +63,6 @@ class TruckCase:
         """This case with other values by their paths, as in ``{"friction.column": 0.3}``."""
         return TruckCase(self, values)
 
-    @property
-    def name(self) -> str:
-        """A name that can be the name of a folder."""
-        return self._native.name
-
-    @property
-    def title(self) -> str:
-        """One line for people; may be empty."""
-        return self._native.title
-
-    @property
-    def duration(self) -> float:
-        """End of the run, s."""
-        return self._native.duration
-
-    def to_dict(self) -> dict[str, Any]:
-        """The complete case as nested dicts, as in its case file."""
-        return self._native.document()
-
-    def to_toml(self) -> str:
-        """The complete case as a commented case file; `parse` reads it back to the same case."""
-        return self._native.to_toml()
-
     def run(
         self,
         *,
@@ -95,19 +71,8 @@ class TruckCase:
         incomplete: str = "raise",
     ) -> TruckResult:
         """Runs it to its end; see `Case.run`."""
-        interruptible = threading.current_thread() is threading.main_thread()
-        native = self._native.run(_names(columns), progress, interruptible)
-        result: TruckResult = checked(TruckResult(native), incomplete)
+        result: TruckResult = checked(TruckResult(self._run(columns, progress)), incomplete)
         return result
-
-    def __eq__(self, other: object) -> bool:
-        return self.to_toml() == other.to_toml() if isinstance(other, TruckCase) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self.to_toml())
-
-    def __repr__(self) -> str:
-        return f"<TruckCase {self.name}: {self.title}>" if self.title else f"<TruckCase {self.name}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (TruckCase.parse, (self.to_toml(),))

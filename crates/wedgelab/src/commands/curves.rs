@@ -63,6 +63,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     for (label, case) in &cases {
         let result = run(label, case, &progress, folder.path())?;
         let Some(curve) = LoopCurve::of(case, &result) else {
+            progress.finish();
             let message = format!(
                 "in {} the bolster makes no whole cycle up and down, or in roll",
                 case.name

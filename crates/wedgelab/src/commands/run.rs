@@ -9,7 +9,6 @@ use clap::Args;
 use quantity::{Kind, nearest};
 use report::figures::car::CarRun;
 use report::figures::truck::TruckRun;
-use report::files::Folder;
 use report::page::{self, Viewer};
 use report::run_files::RunFiles;
 use study::any_case::AnyCase;
@@ -19,7 +18,7 @@ use study::case::{Case, builtin};
 use study::truck::run::TruckResult;
 use study::truck::{self, TruckCase, WEDGE_NAMES};
 
-use crate::execute::{Done, TABLE_NOTE, compute, compute_truck, table, unsound, write};
+use crate::execute::{Done, TABLE_NOTE, compute, compute_with_contacts, table, unsound, write, write_page};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -115,7 +114,7 @@ fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failur
     let folder = folders::check(path, &names, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
-    let done = compute_truck(case, &progress)
+    let done = compute_with_contacts(case, &progress)
         .and_then(|(done, contacts)| write(&done, case, &folder, &progress).map(|()| (done, contacts)));
     progress.finish();
     let (done, contacts) = done?;
@@ -124,12 +123,7 @@ fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failur
         result: done.result,
         contacts,
     };
-    let html = page::truck_run::render(&run, Viewer::embedded()).map_err(|error| {
-        let message = format!("cannot write the page's data: {error}");
-        Failure::Failed(Message::new(message, "").into())
-    })?;
-    Folder::check(folder.path(), &[page::FILE_NAME], true)?
-        .write(|files| files.add(page::FILE_NAME, |out| out.write_all(html.as_bytes())))?;
+    write_page(&folder, |viewer| page::truck_run::render(&run, viewer))?;
     let mut out = io::stdout().lock();
     truck_table(&run.result).write(&mut out)?;
     writeln!(
@@ -161,9 +155,7 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
         case: case.clone(),
         result: done?.result,
     };
-    let html = page::car_run::render(&run);
-    Folder::check(folder.path(), &[page::FILE_NAME], true)?
-        .write(|files| files.add(page::FILE_NAME, |out| out.write_all(html.as_bytes())))?;
+    write_page(&folder, |_| Ok(page::car_run::render(&run)))?;
     let summary = &run.result.summary;
     let mut out = io::stdout().lock();
     if summary.limits.is_empty() {

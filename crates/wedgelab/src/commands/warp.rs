@@ -9,7 +9,7 @@ use report::drawing::Figure;
 use report::warp_files::{self, KIP_INCH, NAMES, Tested};
 use study::any_case::AnyCase;
 use study::truck::TruckCase;
-use study::truck::run::{TruckResult, period};
+use study::truck::run::TruckResult;
 use study::truck::warp::{NUCARS_STIFFNESS, WarpCurve};
 
 use super::run::read_any;
@@ -84,8 +84,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut tests = Vec::new();
     for (label, case) in &cases {
         let result = run(label, case, &progress, folder.path())?;
-        let period = period(&case.parameters).map(|[period, _]| period);
-        let Some(curve) = WarpCurve::of(&result, period) else {
+        let Some(curve) = WarpCurve::of(case, &result) else {
+            progress.finish();
             let message = format!("in {} the warp angle stays below 0.5 mrad", case.name);
             let advice = "take truck_warp_nest_constant_rising, or move the side frames' yaw or the wheelsets against each other";
             return Err(Message::new(message, advice).into());
@@ -154,9 +154,11 @@ impl Varied {
                     let case = match read_any(case, &set)? {
                         AnyCase::Truck(case) => *case,
                         other => {
-                            let message = format!("{} is no truck: warp is what a truck does", other.name());
-                            let advice =
-                                "take truck_warp_nest_constant_rising, or a case with model = \"truck\"";
+                            let message = format!(
+                                "{} is the case of a single wedge; a truck's is expected",
+                                other.name()
+                            );
+                            let advice = "take a built-in truck (`wedgelab case` lists them), or a case with model = \"truck\"";
                             return Err(Message::new(message, advice).into());
                         }
                     };

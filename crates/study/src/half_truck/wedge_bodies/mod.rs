@@ -40,6 +40,8 @@ pub struct MountedWedge {
     pub body: usize,
     /// The body with the pocket.
     pub bolster: usize,
+    /// The body with the column.
+    pub side_frame: usize,
     /// Column and slope among the faces.
     pub faces: [usize; 2],
     /// Its coil among the elements.
@@ -48,8 +50,10 @@ pub struct MountedWedge {
     pub damping: Damping,
     /// Its center of gravity in the drawn layout, m.
     pub center: [f64; 3],
-    /// The direction up the slope.
-    pub up_slope: [f64; 3],
+    /// +1: its column lies ahead of it (+x), -1: behind.
+    pub end: f64,
+    /// Its size, faces and coil; its column is as deep as it is at the start.
+    pub wedge: Wedge,
     /// The components of its connection, as coordinates.
     pub components: Vec<usize>,
 }
@@ -238,9 +242,9 @@ impl Made {
         own.law = Law::Springs(measured.collect());
         let (bolster, side_frame, center) = (own.a, own.b, own.point);
         let (name, body) = (format!("wedge_{number}"), model.bodies.len());
-        model
-            .bodies
-            .push(wedge_body(&name, &self.wedge, center, self.end));
+        let mut wedge = self.wedge.clone();
+        wedge.wear.column += self.gap();
+        model.bodies.push(wedge_body(&name, &wedge, center, self.end));
         let at = WedgeMount {
             name: &name,
             body,
@@ -250,19 +254,20 @@ impl Made {
             end: self.end,
             center,
             from: [0.0; 3],
-            gaps: [self.gap(), 0.0],
+            gaps: [0.0; 2],
         };
-        let elements = add_wedge(model, &self.wedge, &at);
-        let (sine, cosine) = libm::sincos(self.wedge.angle);
+        let elements = add_wedge(model, &wedge, &at);
         MountedWedge {
             connection: place,
             body,
             bolster,
+            side_frame,
             faces: elements.faces,
             coil: elements.coil.unwrap_or_default(),
             damping: self.damping,
             center,
-            up_slope: [self.end * sine, 0.0, cosine],
+            end: self.end,
+            wedge,
             components,
         }
     }

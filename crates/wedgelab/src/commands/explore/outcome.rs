@@ -10,10 +10,10 @@ use report::{csv, mat, summary};
 use serde::Serialize;
 use study::any_case::AnyCase;
 use study::case::{Case, FieldSection};
+use study::contacts::ContactTable;
 use study::result::RunResult;
 use study::run::{Run, RunCase};
 use study::summary::{RunSummary, Summary};
-use study::truck::contacts::ContactTable;
 use study::truck::run::TruckResult;
 use study::truck::summary::TruckSummary;
 use study::truck::{TruckCase, WEDGE_NAMES};
@@ -79,7 +79,7 @@ pub fn compute(case: AnyCase, wanted: impl Fn() -> bool) -> Result<Outcome, Refu
             Outcome::Wedge(Box::new((*case, result)))
         }
         AnyCase::Truck(case) => {
-            let run = begun(Run::with_contacts(&case))?;
+            let run = begun(Run::with_contacts(&*case))?;
             let (result, contacts) = run.finish_with_contacts(&mut goes_on);
             Outcome::Truck(Box::new((*case, result, contacts)))
         }

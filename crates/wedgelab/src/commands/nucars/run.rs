@@ -10,13 +10,14 @@ use nucars::file_sets::{self, RunFiles, find, kind, load};
 use nucars::truck::{Choices, Wedges, Yaw};
 use quantity::{Kind, Quantity, System as Units, nearest};
 use report::half_truck_files;
+use report::page::{self, Viewer};
 use study::half_truck::catalog::{self, Entry, YawCase};
 use study::half_truck::files::{Settings, case_of_run};
 use study::half_truck::{HalfTruckCase, HalfTruckStart, HalfTruckSummary, options};
 
 use super::files::Instead;
 use super::load::tell;
-use crate::execute::{compute, unsound, write};
+use crate::execute::{compute_with_contacts, unsound, write, write_page};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -26,9 +27,9 @@ use crate::table::Table;
 /// Run a half-truck from its files
 ///
 /// Reads a run file with the files it names, and writes result.csv (the columns that the data file asks for,
-/// wedges, bodies, energies), result.mat (the same, and the array that the thesis's scripts load) and
-/// summary.json (averages of each wedge, energy ledger, yaw, assumptions) into a folder named as the run
-/// file. The run ends when the run file's stepping constants say. The runs of the thesis's table 4-1 are
+/// wedges, bodies, energies), result.mat (the same, and the array that the thesis's scripts load),
+/// summary.json (averages of each wedge, energy ledger, yaw, assumptions) and index.html (the half-truck moving
+/// in 3D, loops) into a folder named as the run file. The run ends when the run file's stepping constants say. The runs of the thesis's table 4-1 are
 /// built in; --list names them.
 ///
 /// What no public text says of the elements is an --option, with a default that the summary lists: bend
@@ -148,13 +149,18 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         None => arguments.of_files(file, &settings)?,
     };
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
-    let folder = folders::check(path, &half_truck_files::NAMES, arguments.force)?;
+    let names = [&half_truck_files::NAMES[..], &[page::FILE_NAME]].concat();
+    let folder = folders::check(path, &names, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
-    let done =
-        compute(&case, &progress).and_then(|done| write(&done, &case, &folder, &progress).map(|()| done));
+    let done = compute_with_contacts(&case, &progress)
+        .and_then(|(done, contacts)| write(&done, &case, &folder, &progress).map(|()| (done, contacts)));
     progress.finish();
-    let summary = &done?.result.summary;
+    let (done, contacts) = done?;
+    write_page(&folder, |viewer| {
+        page::half_truck_run::render(&case, &done.result, contacts.as_ref(), viewer)
+    })?;
+    let summary = &done.result.summary;
     if summary.yaw.as_ref().is_some_and(|yaw| yaw.is_missed()) {
         say("  --yaw drop leaves out the springs that hold it, --yaw drive moves their input bodies along");
     }
@@ -170,11 +176,14 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     writeln!(
         out,
         "\n{TABLE_NOTE}\nRelative residual of the energy ledger: {:.1e}, the largest at any output time over the largest of work, losses and\n\
-         change of stored energy.\n\nWritten into {}: {}.",
+         change of stored energy.\n\nWritten into {}: {} (open it in a browser).",
         summary.largest_relative_residual,
         folder.path().display(),
-        half_truck_files::NAMES.join(", ")
+        names.join(", ")
     )?;
+    if Viewer::embedded().is_none() {
+        writeln!(out, "{}", page::MISSING)?;
+    }
     match unsound::<HalfTruckCase>(summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),

@@ -90,6 +90,6 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<ReproducedTruck>,
     for warning in energy::among(warnings).chain(plausibility::among(warnings)) {
         say(&format!("warning: {}: {warning}", case.name));
     }
-    let recording = Viewer::embedded().map(|_| Recording::of_truck(&case, &result, Detail::Thinned));
+    let recording = Viewer::embedded().map(|_| Recording::of_truck(&case, &result, None, Detail::Thinned));
     Ok(Some(((entry, result), recording)))
 }

@@ -1,19 +1,16 @@
-//! What happens at each corner, or each point of a grid, of the wedges of a run: taken along only where it is asked for, since a table of
-//! all corners has twice as many columns as the result.
+//! What happens at each corner, or each point of a grid, of the wedges that are bodies in a run: taken along only
+//! where it is asked for, since a table of all corners has twice as many columns as the result.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 use mechanics::contact::ContactPoint;
 use mechanics::output::Column;
 use mechanics::system::{Observation, System};
 use quantity::Kind;
-use truck::{WEDGE_NAMES, WEDGES, Wedge};
 use wedge::face::Grid;
 use wedge::outputs::CORNERS;
 
-use super::TruckCase;
-use super::run::TruckResult;
-use crate::run::{Run, RunError};
+use crate::run::{Recorder, Run, RunCase, RunError};
 
 /// A corner of a wedge at a face, or another point of its grid.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,14 +40,26 @@ pub struct ContactTable {
     areas: Vec<Option<f64>>,
 }
 
-/// Returns the corners and other points of all wedges of a truck's system that have faces.
+/// A recorder that can take the corners of wedges along.
+pub trait TakesCorners: Recorder {
+    /// Returns the numbers of the wedges' bodies.
+    fn wedges(&self) -> Range<usize>;
+    /// Returns the areas of column and slope of each, m²; empty: their faces have four corners alone.
+    fn face_areas(&self) -> Vec<[f64; 2]> {
+        Vec::new()
+    }
+    /// Returns the table that they are taken into, if it is wanted.
+    fn corners(&mut self) -> &mut Option<ContactTable>;
+}
+
+/// Returns the corners and other points of all faces of the bodies with these numbers.
 #[must_use]
-pub fn corners(system: &System) -> Vec<Corner> {
+pub fn corners(system: &System, wedges: Range<usize>) -> Vec<Corner> {
     let mut all = Vec::new();
     let mut place = 0;
     for (number, mounted) in system.faces().iter().enumerate() {
         let points = &mounted.element.points;
-        if (WEDGES..WEDGES + WEDGE_NAMES.len()).contains(&mounted.body) {
+        if wedges.contains(&mounted.body) {
             let name = &mounted.element.name;
             let own = point_names(points).into_iter().enumerate();
             all.extend(own.map(|(i, (point, weight))| Corner {
@@ -105,12 +114,12 @@ fn point_names(points: &[ContactPoint]) -> Vec<(String, Option<f64>)> {
 
 impl ContactTable {
     /// Returns an empty table.
-    fn new(system: &System, wedges: &[Wedge; 4]) -> Self {
-        let corners = corners(system);
+    fn new(system: &System, wedges: Range<usize>, areas: &[[f64; 2]]) -> Self {
+        let first = wedges.start;
+        let corners = corners(system, wedges);
         let area = |corner: &Corner| {
             let mounted = &system.faces()[corner.face];
-            let wedge = wedges.get(mounted.body.checked_sub(WEDGES)?)?;
-            let [column, slope] = wedge.face_areas();
+            let [column, slope] = areas.get(mounted.body - first)?;
             let face = if mounted.element.name.ends_with("column") {
                 column
             } else {
@@ -159,7 +168,7 @@ impl ContactTable {
     }
 
     /// Appends a row.
-    pub(super) fn take(&mut self, observation: &Observation, contact_states: &[u8]) {
+    pub(crate) fn take(&mut self, observation: &Observation, contact_states: &[u8]) {
         let mut columns = self.values.iter_mut();
         for (corner, area) in self.corners.iter().zip(&self.areas) {
             let face = &observation.faces[corner.face];
@@ -184,17 +193,21 @@ impl ContactTable {
     }
 }
 
-impl Run<TruckCase> {
+impl<C: RunCase> Run<C>
+where
+    C::Recorder: TakesCorners,
+{
     /// Returns a run at its start that takes the corners of its wedges along.
     ///
     /// # Errors
     /// As [`Run::new`].
-    pub fn with_contacts(case: &TruckCase) -> Result<Self, RunError> {
+    pub fn with_contacts(case: &C) -> Result<Self, RunError> {
         let mut run = Self::new(case)?;
-        let mut table = ContactTable::new(&run.system, &case.parameters.wedges);
+        let (wedges, areas) = (run.recorder.wedges(), run.recorder.face_areas());
+        let mut table = ContactTable::new(&run.system, wedges, &areas);
         let observation = run.system.observe(run.integrator.time(), run.integrator.x());
         table.take(&observation, run.integrator.discrete_states());
-        run.recorder.contacts = Some(table);
+        *run.recorder.corners() = Some(table);
         Ok(run)
     }
 
@@ -203,9 +216,9 @@ impl Run<TruckCase> {
     pub fn finish_with_contacts(
         mut self,
         progress: impl FnMut(f64) -> ControlFlow<String>,
-    ) -> (TruckResult, Option<ContactTable>) {
+    ) -> (C::Output, Option<ContactTable>) {
         let stopped = self.go_on_while(progress);
-        let contacts = self.recorder.contacts.take();
+        let contacts = self.recorder.corners().take();
         (self.result(stopped), contacts)
     }
 }

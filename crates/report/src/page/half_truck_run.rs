@@ -1,0 +1,142 @@
+//! The page of one run of a half-truck: what it looks like, its wedges and their loops, its assumptions.
+
+use maud::{Markup, html};
+use quantity::Kind;
+use study::contacts::ContactTable;
+use study::half_truck::{HalfTruckCase, HalfTruckResult, HalfTruckSummary};
+use study::summary::SummaryValue;
+
+use super::{Viewer, document, doubts, moving, shown_in};
+use crate::drawing::{Figure, Panel, distinct};
+use crate::figures::{Exhibit, axis, capital, curve};
+use crate::view::View;
+use crate::view::run::{Detail, Recording};
+
+/// The page as HTML; it needs nothing else to be shown. `contacts` are the corners of wedges that are bodies.
+///
+/// # Errors
+/// What the writer of JSON says.
+pub fn render(
+    case: &HalfTruckCase,
+    result: &HalfTruckResult,
+    contacts: Option<&ContactTable>,
+    viewer: Option<Viewer>,
+) -> Result<String, serde_json::Error> {
+    let summary = &result.summary;
+    let exhibit = loops(case, result);
+    let data = viewer
+        .map(|viewer| {
+            let recording = Recording::of_truck(case, result, contacts, Detail::Thinned);
+            let view = View::new(summary.units, [recording], std::slice::from_ref(&exhibit)).to_json();
+            view.map(|view| (viewer, view))
+        })
+        .transpose()?;
+    let kind = if case.wedge_bodies.is_empty() {
+        "massless wedges"
+    } else {
+        "wedges that are bodies"
+    };
+    let heading = if summary.title.is_empty() {
+        &summary.name
+    } else {
+        &summary.title
+    };
+    let lead = format!(
+        "The run {} of a half-truck from files of NUCARS, with {kind}. Computed by {}.",
+        summary.name, summary.program
+    );
+    let list = |texts: &[String]| html! { ul { @for text in texts { li { (text) } } } };
+    let main = html! {
+        (doubts(summary))
+        @if data.is_some() { (moving(&summary.name)) }
+        section { h2 { "Wedges" } (wedges(summary)) }
+        section { h2 { "Loops" } (shown_in(&exhibit, &exhibit.figure.to_svg(), None)) }
+        @if !case.wedge_notes.is_empty() {
+            section { h2 { "Wedges as bodies" } (list(&case.wedge_notes)) }
+        }
+        section { h2 { "Assumptions" } (list(&summary.assumptions)) }
+    };
+    let data = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
+    Ok(document(&capital(heading), &lead, None, &main, data))
+}
+
+/// Friction and normal force of each wedge's column over its stroke.
+fn loops(case: &HalfTruckCase, result: &HalfTruckResult) -> Exhibit {
+    let units = result.summary.units;
+    let panel = |title: &str, what: &str| Panel {
+        title: title.to_owned(),
+        x_label: axis("stroke", Kind::Length, units),
+        y_label: axis("force", Kind::Force, units),
+        curves: case
+            .wedges()
+            .into_iter()
+            .enumerate()
+            .map(|(number, place)| {
+                let (colour, line) = distinct(number);
+                let wedge = case.truck.connections[place];
+                let [x, y] = ["stroke", what].map(|what| format!("wedge_{wedge}_{what}"));
+                curve(result, &x, &y, (&format!("wedge {wedge}"), colour, line))
+            })
+            .collect(),
+        ..Panel::default()
+    };
+    Exhibit {
+        name: format!("{}_loops", case.name),
+        thesis: String::new(),
+        figure: Figure {
+            title: format!("{}: forces of the columns", case.name),
+            caption: "Wedge by wedge, over the vertical stroke of the bolster against the side frame: friction of the column \
+                      on the side frame, positive up, and the column's normal force."
+                .to_owned(),
+            panels: vec![
+                panel("(a) friction", "column_friction"),
+                panel("(b) normal force", "column_normal_force"),
+            ],
+            ..Figure::default()
+        },
+    }
+}
+
+/// The table of a run's wedges.
+fn wedges(summary: &HalfTruckSummary) -> Markup {
+    let [force, energy] = [Kind::Force, Kind::Energy].map(|kind| kind.label(summary.units));
+    let cell = |value: &Option<SummaryValue>| {
+        let value = value.as_ref().map(|value| format!("{:.1}", value.value));
+        value.unwrap_or_else(|| "–".to_owned()).replace('-', "\u{2212}")
+    };
+    html! {
+        p {
+            "Column friction on the side frame, positive up: its mean while the input goes up, and while it goes down; what it \
+             takes in a cycle."
+        }
+        div.wide {
+            table {
+                thead {
+                    tr {
+                        th scope="col" { "wedge" }
+                        th.number scope="col" { "friction, up" br; span.unit { (force) } }
+                        th.number scope="col" { "friction, down" br; span.unit { (force) } }
+                        th.number scope="col" { "largest normal force" br; span.unit { (force) } }
+                        th.number scope="col" { "lost in a cycle" br; span.unit { (energy) } }
+                    }
+                }
+                tbody {
+                    @for (number, wedge) in &summary.wedges {
+                        tr {
+                            th scope="row" { (number) }
+                            td.number { (cell(&wedge.up)) }
+                            td.number { (cell(&wedge.down)) }
+                            td.number { (cell(&wedge.largest_normal_force)) }
+                            td.number { (cell(&wedge.energy_per_cycle)) }
+                        }
+                    }
+                }
+            }
+        }
+        p {
+            "Energy ledger: its largest residual at any output time is "
+            (format!("{:.1e}", summary.largest_relative_residual))
+            " of the largest of work, losses and change of stored energy. " (summary.statistics.steps) " steps."
+        }
+    }
+}
