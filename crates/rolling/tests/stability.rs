@@ -5,7 +5,7 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use common::suspended::{START, SUSPENDED, critical_speed, growth_by_steps, hunting};
+use common::suspended::{SUSPENDED, critical_speed, growth_by_steps, hunting};
 use common::{POLACH, cones, linear, on_rails, track};
 use integrate::{Integrator, Options};
 use rolling::rig::{Rig, Start};
