@@ -213,9 +213,10 @@ impl Nominal {
                 let place = own.frame.origin;
                 if number < truck::BOLSTER {
                     wheelsets[2 * t + number] = bodies.len();
-                    let mut wheelset = parameters
-                        .wheelset
-                        .body(&format!("wheelset_{}", 2 * t + number + 1), &WheelsetPlace::default());
+                    let mut wheelset = parameters.wheelset.body(
+                        &format!("wheelset_{}", 2 * t + number + 1),
+                        &WheelsetPlace::default(),
+                    );
                     wheelset.frame.origin = place;
                     groups.push((bodies.len(), t));
                     bodies.push(wheelset);
@@ -254,7 +255,8 @@ impl Nominal {
             mounts[w / 2].bodies[truck::WHEELSETS + w % 2] = carriers[w];
         }
         // The plates carry half of the body each, whatever its place.
-        let trucks = [0, 1].map(|t| truck::mounted(&mut model, &with_half_body(&parts[t], carried), &mounts[t]));
+        let trucks =
+            [0, 1].map(|t| truck::mounted(&mut model, &with_half_body(&parts[t], carried), &mounts[t]));
         let wheels = wheels(&mut model, parameters, searches, lines, (wheelsets, rails, track));
         let control = match &parameters.drive {
             Drive::Coasting => None,
@@ -315,7 +317,11 @@ fn free(own: &truck::Parameters) -> truck::Parameters {
     for side_frame in &mut own.side_frames {
         side_frame.free = [true; 6];
     }
-    for wedge in own.wedges.iter_mut().filter(|wedge| wedge.kind == WedgeKind::Body) {
+    for wedge in own
+        .wedges
+        .iter_mut()
+        .filter(|wedge| wedge.kind == WedgeKind::Body)
+    {
         wedge.free = [true; 6];
     }
     own.lift = 0.0;
@@ -372,7 +378,11 @@ fn wheels(
                         law: own.law,
                     };
                     let on = rails.map_or(0, |rails| rails[w][i]);
-                    model.add(wheel.clone(), (wheelsets[w], marker([half, -half][i])), (on, track));
+                    model.add(
+                        wheel.clone(),
+                        (wheelsets[w], marker([half, -half][i])),
+                        (on, track),
+                    );
                     wheel
                 })
             });
@@ -438,7 +448,10 @@ fn at_rest(
     let rest = system.equilibrium(0.0, &system.initial_state(), StaticFriction::Following)?;
     let seen: Observation = system.observe(0.0, &rest);
     // Nothing holds the car along the track.
-    let rolled = nominal.numbers.wheelsets.map(|number| seen.bodies[number].travel.0[0]);
+    let rolled = nominal
+        .numbers
+        .wheelsets
+        .map(|number| seen.bodies[number].travel.0[0]);
     let middle = middle + 0.25 * rolled.iter().sum::<f64>();
     let poses = seen.bodies.iter().zip(system.bodies()).map(|(state, body)| {
         let moved = if body.free[3] { middle } else { 0.0 };
@@ -555,7 +568,11 @@ impl Placement {
             speeds.push((number, rates));
         }
         if let Some(rails) = nominal.numbers.rails {
-            for (w, number) in rails.into_iter().enumerate().flat_map(|(w, pair)| pair.map(|own| (w, own))) {
+            for (w, number) in rails
+                .into_iter()
+                .enumerate()
+                .flat_map(|(w, pair)| pair.map(|own| (w, own)))
+            {
                 let moved: Vector<f64> = self.groups[w / 2].rotation.apply(poses[number].place);
                 nominal.model.bodies[number].initial = [moved.0[0], moved.0[1], moved.0[2], 0.0, 0.0, 0.0];
             }

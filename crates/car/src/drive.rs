@@ -26,7 +26,10 @@ impl SpeedControl {
     #[inline(always)]
     fn wanted<S: Real>(&self, distance: S) -> S {
         let at = self.speeds.partition_point(|[from, _]| *from <= distance.value());
-        match (at.checked_sub(1).map(|before| self.speeds[before]), self.speeds.get(at)) {
+        match (
+            at.checked_sub(1).map(|before| self.speeds[before]),
+            self.speeds.get(at),
+        ) {
             (Some([from, slow]), Some([to, fast])) => {
                 (distance - from) * ((fast - slow) / (to - from)) + slow
             }

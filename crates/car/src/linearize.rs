@@ -64,7 +64,9 @@ pub enum LinearizeError {
     #[error("the speed is {0} m/s; it must be positive: a car that stands has no steady running")]
     Speed(f64),
     /// Speeds make no range.
-    #[error("speeds from {low} to {high} m/s in steps of {step} m/s make no search: they must be positive and rise")]
+    #[error(
+        "speeds from {low} to {high} m/s in steps of {step} m/s make no search: they must be positive and rise"
+    )]
     Range {
         /// The lowest, m/s.
         low: f64,
@@ -173,7 +175,9 @@ impl Parameters {
                 growth: f64::NEG_INFINITY,
                 frequency: 0.0,
             };
-            let own = modes.into_iter().find(|mode| (SLOWEST..FASTEST).contains(&mode.frequency));
+            let own = modes
+                .into_iter()
+                .find(|mode| (SLOWEST..FASTEST).contains(&mode.frequency));
             Ok(own.map_or(none, |mode| Mode {
                 growth: mode.growth - NONE,
                 ..mode
@@ -199,7 +203,11 @@ impl Parameters {
                 let share = -before.1.growth / (after.1.growth - before.1.growth);
                 let speed = before.0 + share.clamp(0.1, 0.9) * (after.0 - before.0);
                 let own = (speed, worst(speed)?);
-                *(if own.1.growth > 0.0 { &mut after } else { &mut before }) = own;
+                *(if own.1.growth > 0.0 {
+                    &mut after
+                } else {
+                    &mut before
+                }) = own;
             }
             let share = -before.1.growth / (after.1.growth - before.1.growth);
             return Ok(Some(CriticalSpeed {

@@ -154,7 +154,9 @@ impl Car {
     #[must_use]
     pub fn frame_at(&self, place: Vector<f64>) -> TruckFrame {
         let section = self.section(place);
-        let columns = section.axes.map(|axis| self.axes.apply::<f64, f64>(Vector(axis)).0);
+        let columns = section
+            .axes
+            .map(|axis| self.axes.apply::<f64, f64>(Vector(axis)).0);
         TruckFrame {
             origin: self.axes.apply(Vector(section.origin)),
             axes: Matrix(columns).transpose(),
@@ -182,7 +184,10 @@ impl Car {
     }
 
     fn wheel_motion(&self, seen: &Observation, w: usize, i: usize, half: f64) -> RelativeMotion<f64> {
-        let on = self.numbers.rails.map_or(self.numbers.ground, |rails| rails[w][i]);
+        let on = self
+            .numbers
+            .rails
+            .map_or(self.numbers.ground, |rails| rails[w][i]);
         let wheelset = &seen.bodies[self.numbers.wheelsets[w]];
         motion_of(wheelset, [half, -half][i], &seen.bodies[on], self.axes)
     }
@@ -198,9 +203,7 @@ impl Car {
                 let mut creep = 0.0;
                 wheels[w][i].patches(&motion, |patch| {
                     let (own, slip) = (&patch.forces.creep, &patch.forces.creepage);
-                    let lost = own.x * slip.longitudinal
-                        + own.y * slip.lateral
-                        + own.spin_moment * slip.spin;
+                    let lost = own.x * slip.longitudinal + own.y * slip.lateral + own.spin_moment * slip.spin;
                     creep -= lost * patch.patch.share;
                 });
                 WheelLoads {

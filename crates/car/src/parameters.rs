@@ -183,7 +183,10 @@ impl Parameters {
         for value in self.body.inertia {
             positive("a moment of inertia of the car body (kg·m²)", value)?;
         }
-        positive("the height of the car body's center of gravity (m)", self.body.height)?;
+        positive(
+            "the height of the car body's center of gravity (m)",
+            self.body.height,
+        )?;
         for own in &self.lading {
             positive(&format!("the mass of {} (kg)", own.name), own.mass)?;
             for value in own.place {
@@ -198,11 +201,19 @@ impl Parameters {
         }
         positive("the distance between the trucks (m)", self.truck_distance)?;
         positive("the mass of a wheelset (kg)", self.wheelset.mass)?;
-        positive("a wheelset's moment of inertia about the axle (kg·m²)", self.wheelset.about_axle)?;
-        positive("a wheelset's moment of inertia about a diameter (kg·m²)", self.wheelset.about_diameter)?;
+        positive(
+            "a wheelset's moment of inertia about the axle (kg·m²)",
+            self.wheelset.about_axle,
+        )?;
+        positive(
+            "a wheelset's moment of inertia about a diameter (kg·m²)",
+            self.wheelset.about_diameter,
+        )?;
         for (own, which) in self.trucks.iter().zip(["front", "rear"]) {
             if own.wheelsets.is_none() {
-                return Err(InvalidParameter::missing(&format!("the {which} truck has no wheelsets")));
+                return Err(InvalidParameter::missing(&format!(
+                    "the {which} truck has no wheelsets"
+                )));
             }
             if own.car_body.is_none() {
                 return Err(InvalidParameter::missing(&format!(
@@ -219,7 +230,10 @@ impl Parameters {
         } = self.start;
         finite("the distance of the start (m)", distance)?;
         finite("the heading (rad)", heading)?;
-        for (what, value) in [("the speed of the start (m/s)", speed), ("the settling time (s)", settle)] {
+        for (what, value) in [
+            ("the speed of the start (m/s)", speed),
+            ("the settling time (s)", settle),
+        ] {
             if !(value >= 0.0 && value.is_finite()) {
                 return Err(InvalidParameter::new(what, value, "zero or positive"));
             }
@@ -230,7 +244,10 @@ impl Parameters {
             return Err(InvalidParameter::new(
                 "the distance of the start (m)",
                 distance,
-                &format!("between {reach:.2} and {:.2} m, so that all wheels are on the track", length - reach),
+                &format!(
+                    "between {reach:.2} and {:.2} m, so that all wheels are on the track",
+                    length - reach
+                ),
             ));
         }
         match &self.drive {
@@ -239,11 +256,17 @@ impl Parameters {
             Drive::Over { gain, speeds } => {
                 positive("the gain of the drive (N·s/m)", *gain)?;
                 if speeds.is_empty() {
-                    return Err(InvalidParameter::missing("the speeds over distance are an empty list"));
+                    return Err(InvalidParameter::missing(
+                        "the speeds over distance are an empty list",
+                    ));
                 }
                 if let Some(pair) = speeds.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
                     let what = "a distance of the speeds over distance (m)";
-                    return Err(InvalidParameter::new(what, pair[1][0], "more than the one before it"));
+                    return Err(InvalidParameter::new(
+                        what,
+                        pair[1][0],
+                        "more than the one before it",
+                    ));
                 }
                 for [distance, speed] in speeds {
                     finite("a distance of the speeds over distance (m)", *distance)?;
@@ -257,7 +280,9 @@ impl Parameters {
         if self.trucks.iter().any(has_connections) {
             let line = &self.track.center_line;
             let count = line.length().ceil() as usize;
-            let bent = (0..=count).map(|k| k as f64).find(|at| line.at(*at).curvature[0] != 0.0);
+            let bent = (0..=count)
+                .map(|k| k as f64)
+                .find(|at| line.at(*at).curvature[0] != 0.0);
             if let Some(at) = bent {
                 return Err(InvalidParameter::new(
                     "the distance (m) of a curve under trucks with massless wedges or empirical warp springs",

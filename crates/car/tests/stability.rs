@@ -5,8 +5,8 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use common::{INCH, MPH, POUND_FORCE, empty, loaded, tangent};
 use car::{FrictionState, Mode, Parameters, Wheels};
+use common::{INCH, MPH, POUND_FORCE, empty, loaded, tangent};
 use truck::{Adapter, AdapterPad, ControlCoil, SideBearing, Spring, WedgeKind, empirical_warp};
 use wedge::parameters::{Contact, Damping, FaceFriction};
 use wheelrail::conicity::LinearGeometry;
@@ -121,13 +121,18 @@ fn reproduction_critical_speeds_of_the_empty_car() {
             .unwrap();
         let speed = found.speed / MPH;
         println!("{conicity}: {speed} mph, {} Hz", found.frequency);
-        assert!((speed / expected - 1.0).abs() < 0.03, "{conicity}: {speed} mph, {expected} expected");
+        assert!(
+            (speed / expected - 1.0).abs() < 0.03,
+            "{conicity}: {speed} mph, {expected} expected"
+        );
     }
 }
 
 /// Vibrations with a frequency (Hz) near this one.
 fn near(modes: &[Mode], frequency: f64, within: f64) -> Vec<Mode> {
-    let own = modes.iter().filter(|mode| (mode.frequency / frequency - 1.0).abs() < within);
+    let own = modes
+        .iter()
+        .filter(|mode| (mode.frequency / frequency - 1.0).abs() < within);
     own.copied().collect()
 }
 
@@ -136,7 +141,10 @@ fn near(modes: &[Mode], frequency: f64, within: f64) -> Vec<Mode> {
 #[test]
 fn analytic_wavelengths_of_trucks_that_warp_and_of_rigid_ones() {
     let speed = 2.0;
-    for (rigid, factor) in [(false, 1.0), (true, (1.0_f64 + 6.21 / 6.69 * (35.0_f64 / 29.75).powi(2)).sqrt())] {
+    for (rigid, factor) in [
+        (false, 1.0),
+        (true, (1.0_f64 + 6.21 / 6.69 * (35.0_f64 / 29.75).powi(2)).sqrt()),
+    ] {
         let mut parameters = reduced(0.05, None);
         if let Wheels::Linear { wheelset, .. } = &mut parameters.wheels {
             wheelset.axle_load = 0.0;
@@ -152,7 +160,11 @@ fn analytic_wavelengths_of_trucks_that_warp_and_of_rigid_ones() {
         let modes = parameters.modes(speed, FrictionState::Stuck).unwrap();
         let wavelength = TAU * (RADIUS * HALF / 0.05).sqrt() * factor;
         let found = near(&modes, speed / wavelength, 0.01);
-        assert!(found.len() >= 2, "{wavelength} m expected of {:?}", near(&modes, speed / wavelength, 0.6));
+        assert!(
+            found.len() >= 2,
+            "{wavelength} m expected of {:?}",
+            near(&modes, speed / wavelength, 0.6)
+        );
         for mode in found {
             assert!(mode.growth.abs() < 0.02, "{mode:?}");
         }
@@ -183,9 +195,17 @@ fn analytic_frequencies_of_the_loaded_car_on_its_wheels() {
         *support = [1e11, 1e11];
     }
     let modes = parameters.modes(0.5, FrictionState::Stuck).unwrap();
-    for (name, frequency, within) in [("bounce", 2.027, 0.01), ("lower sway", 0.762, 0.02), ("upper sway", 2.996, 0.03)] {
+    for (name, frequency, within) in [
+        ("bounce", 2.027, 0.01),
+        ("lower sway", 0.762, 0.02),
+        ("upper sway", 2.996, 0.03),
+    ] {
         let found = near(&modes, frequency, within);
-        let slow: Vec<f64> = modes.iter().map(|mode| mode.frequency).filter(|own| (0.3..5.0).contains(own)).collect();
+        let slow: Vec<f64> = modes
+            .iter()
+            .map(|mode| mode.frequency)
+            .filter(|own| (0.3..5.0).contains(own))
+            .collect();
         assert!(!found.is_empty(), "{name}: {frequency} Hz expected of {slow:?}");
     }
 }

@@ -10,8 +10,8 @@
 //! the slow ones, are found best.
 
 use integrate::Problem;
-use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
 use nalgebra::DMatrix;
+use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
 
 use super::{NoVibration, System};
 

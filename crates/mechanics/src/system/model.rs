@@ -64,7 +64,10 @@ impl Model {
     /// wrench acts on the body's coordinates but for the last angle, by virtual work: what moment about that axis is
     /// left, nothing takes. It has no mass.
     pub fn add_carrier(&mut self, name: &str, of: usize) -> usize {
-        let frame = self.bodies.get(of).map_or(Frame::fixed([0.0; 3], [0.0; 3]), |body| body.frame.clone());
+        let frame = self
+            .bodies
+            .get(of)
+            .map_or(Frame::fixed([0.0; 3], [0.0; 3]), |body| body.frame.clone());
         let initial = self.bodies.get(of).map_or([0.0; 6], |body| body.initial);
         let mut body = Body::prescribed(name, frame);
         body.initial = [initial[0], initial[1], initial[2], 0.0, initial[4], initial[5]];
@@ -142,7 +145,9 @@ pub enum ModelError {
         coordinate: &'static str,
     },
     /// A carrier goes with a body that has linearized kinematics or is a carrier itself, or a connection acts on it.
-    #[error("{carrier} cannot go with body {body} without its last angle: a carrier goes with a body of finite kinematics, and no connections act on it")]
+    #[error(
+        "{carrier} cannot go with body {body} without its last angle: a carrier goes with a body of finite kinematics, and no connections act on it"
+    )]
     Carrier {
         /// The carrier's name.
         carrier: String,
@@ -250,7 +255,12 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         }
         touched[of] |= touched[carrier];
     }
-    let carrier_of = |body: usize| carriers.iter().find(|[_, of]| *of == body).map(|[carrier, _]| *carrier);
+    let carrier_of = |body: usize| {
+        carriers
+            .iter()
+            .find(|[_, of]| *of == body)
+            .map(|[carrier, _]| *carrier)
+    };
     let mut free = Vec::new();
     let mut slots = vec![[None; 6]; bodies.len()];
     let mut free_number = vec![None; bodies.len()];
