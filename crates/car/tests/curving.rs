@@ -35,8 +35,8 @@ fn analytic_the_rails_turn_the_car() {
         let turning = last.speed * last.speed * curvature;
         let falling = parameters.gravity * roll.sin();
         let expected = mass * (turning * roll.cos() - falling);
-        // On the rails, to the outside: to the right in a curve to the left. What is left of the car's swaying is averaged
-        // over some periods.
+        // On the rails, to the outside: to the right in a curve to the left. What is left of the car's
+        // swaying is averaged over some periods.
         let late: Vec<&Loads> = ran.loads.iter().rev().take(80).map(|(_, own)| own).collect();
         let found = -late.iter().map(|own| lateral(own)).sum::<f64>() / late.len() as f64;
         let scale = mass * turning.max(falling);

@@ -22,8 +22,8 @@ pub fn tangent(length: f64) -> Track {
     track(&[Segment::Tangent(length)])
 }
 
-/// A curve of a degree, to the left or to the right, with a superelevation (m) of its outer rail, behind 30 m of tangent
-/// and a spiral of 60 m.
+/// A curve of a degree, to the left or to the right, with a superelevation (m) of its outer rail, behind 30
+/// m of tangent and a spiral of 60 m.
 pub fn curve(degree: f64, turn: f64, superelevation: f64, length: f64) -> Track {
     let own = CurveElements::of_degree(degree.to_radians(), superelevation);
     let own = CurveElements {
