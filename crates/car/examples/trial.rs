@@ -9,9 +9,7 @@ use integrate::{Integrator, Method, Options, Problem};
 use mechanics::energy_balance::EnergyBalance;
 use truck::Lading;
 use wheelrail::track::spectrum::{Realization, Spectrum};
-use wheelrail::track::{
-    CenterLine, CurveElements, Direction, Irregularity, Placed, Rails, Segment, Track,
-};
+use wheelrail::track::{CenterLine, CurveElements, Direction, Irregularity, Placed, Rails, Segment, Track};
 
 const INCH: f64 = 0.0254;
 
@@ -165,7 +163,10 @@ fn main() -> Result<(), Failure> {
 }
 
 fn show(loads: &car::Loads) {
-    println!("  {:.2} m, {:.3} m/s, angles {:?}", loads.distance, loads.speed, loads.body_angles);
+    println!(
+        "  {:.2} m, {:.3} m/s, angles {:?}",
+        loads.distance, loads.speed, loads.body_angles
+    );
     for (axle, wheels) in loads.axles.iter().zip(&loads.wheels) {
         println!(
             "  y {:8.3} mm, yaw {:8.3} mrad, V {:8.0} {:8.0}, L {:8.0} {:8.0} N",

@@ -12,8 +12,8 @@ pub(crate) struct Carried {
     pub mass: f64,
     /// Center of gravity: forward, to the left, above the top of rail, m.
     pub center: [f64; 3],
-    /// Principal moments of inertia, kg·m², about the axes that are the columns of `axes`: the principal axes that are
-    /// nearest to forward, left, up.
+    /// Principal moments of inertia, kg·m², about the axes that are the columns of `axes`: the principal
+    /// axes that are nearest to forward, left, up.
     pub inertia: [f64; 3],
     /// See `inertia`.
     pub axes: Matrix<f64>,
@@ -24,7 +24,12 @@ impl Carried {
         let (mass, center) = (parameters.carried_mass(), parameters.center_of_gravity());
         let own = &parameters.body;
         let mut parts = vec![(own.mass, [0.0, 0.0, own.height], own.inertia)];
-        parts.extend(parameters.lading.iter().map(|own| (own.mass, own.place, own.inertia)));
+        parts.extend(
+            parameters
+                .lading
+                .iter()
+                .map(|own| (own.mass, own.place, own.inertia)),
+        );
         let mut tensor = Matrix3::zeros();
         for (mass, place, inertia) in parts {
             let arm = Vector3::from_fn(|k, _| place[k] - center[k]);
@@ -47,7 +52,9 @@ impl Carried {
         let nearest = |axis: usize, but: Option<usize>| {
             let others = (0..3).filter(|k| Some(*k) != but);
             let part = |k: usize| column(k)[axis].abs();
-            others.max_by(|a, b| part(*a).total_cmp(&part(*b))).unwrap_or(axis)
+            others
+                .max_by(|a, b| part(*a).total_cmp(&part(*b)))
+                .unwrap_or(axis)
         };
         let forward = nearest(0, None);
         let left = nearest(1, Some(forward));

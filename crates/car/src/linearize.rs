@@ -1,11 +1,12 @@
-//! Linearization about steady running on straight track: growth and frequency of all motions, and the speed from which
-//! one grows.
+//! Linearization about steady running on straight track: growth and frequency of all motions, and the speed
+//! from which one grows.
 //!
-//! A car whose friction sticks runs on its wheels for a second, so that creep forces and loads agree; others are taken as
-//! they start, since nothing would damp what remains of the start. There its whole Jacobian matrix is taken
-//! (`System::eigenvalues`). Distance and spin stand in no force and give eigenvalues of zero. What friction does in wedges,
-//! plates, adapters and side bearings is a choice, since it decides: bristles that stick are springs; without friction
-//! these parts are free where nothing else holds them, and a car may buckle slowly, which is no vibration.
+//! A car whose friction sticks runs on its wheels for a second, so that creep forces and loads agree;
+//! others are taken as they start, since nothing would damp what remains of the start. There its whole
+//! Jacobian matrix is taken (`System::eigenvalues`). Distance and spin stand in no force and give
+//! eigenvalues of zero. What friction does in wedges, plates, adapters and side bearings is a choice, since
+//! it decides: bristles that stick are springs; without friction these parts are free where nothing else
+//! holds them, and a car may buckle slowly, which is no vibration.
 
 use integrate::{Integrator, Method, Options, SetupError, StepError};
 use mechanics::friction::FrictionLaw;
@@ -64,7 +65,9 @@ pub enum LinearizeError {
     #[error("the speed is {0} m/s; it must be positive: a car that stands has no steady running")]
     Speed(f64),
     /// Speeds make no range.
-    #[error("speeds from {low} to {high} m/s in steps of {step} m/s make no search: they must be positive and rise")]
+    #[error(
+        "speeds from {low} to {high} m/s in steps of {step} m/s make no search: all must be positive and rise"
+    )]
     Range {
         /// The lowest, m/s.
         low: f64,
@@ -86,7 +89,8 @@ const SETTLED: f64 = 1.0;
 const SHIFT: f64 = 20.0;
 
 impl Parameters {
-    /// Returns the same car without friction in wedges, plates, adapters and side bearings; wheels keep theirs.
+    /// Returns the same car without friction in wedges, plates, adapters and side bearings; wheels keep
+    /// theirs.
     #[must_use]
     pub fn without_friction(&self) -> Self {
         let none = FaceFriction {
@@ -113,9 +117,8 @@ impl Parameters {
         free
     }
 
-    /// Returns all motions about steady running at a speed (m/s), by falling growth; the car starts where its start says,
-    /// which must be on straight track
-    /// without irregularities for a second of running.
+    /// Returns all motions about steady running at a speed (m/s), by falling growth; the car starts where
+    /// its start says, which must be on straight track without irregularities for a second of running.
     ///
     /// # Errors
     /// [`LinearizeError`].
@@ -153,8 +156,9 @@ impl Parameters {
         Ok(modes.collect())
     }
 
-    /// Returns the lowest speed (m/s) within a range from which on a vibration grows; speeds are tried in steps (m/s), the
-    /// one between two steps is found by linear search within a thousandth. None: none grows at the speeds tried.
+    /// Returns the lowest speed (m/s) within a range from which on a vibration grows; speeds are tried in
+    /// steps (m/s), the one between two steps is found by linear search within a thousandth. None: none
+    /// grows at the speeds tried.
     ///
     /// # Errors
     /// [`LinearizeError`].
@@ -173,7 +177,9 @@ impl Parameters {
                 growth: f64::NEG_INFINITY,
                 frequency: 0.0,
             };
-            let own = modes.into_iter().find(|mode| (SLOWEST..FASTEST).contains(&mode.frequency));
+            let own = modes
+                .into_iter()
+                .find(|mode| (SLOWEST..FASTEST).contains(&mode.frequency));
             Ok(own.map_or(none, |mode| Mode {
                 growth: mode.growth - NONE,
                 ..mode
@@ -199,7 +205,11 @@ impl Parameters {
                 let share = -before.1.growth / (after.1.growth - before.1.growth);
                 let speed = before.0 + share.clamp(0.1, 0.9) * (after.0 - before.0);
                 let own = (speed, worst(speed)?);
-                *(if own.1.growth > 0.0 { &mut after } else { &mut before }) = own;
+                *(if own.1.growth > 0.0 {
+                    &mut after
+                } else {
+                    &mut before
+                }) = own;
             }
             let share = -before.1.growth / (after.1.growth - before.1.growth);
             return Ok(Some(CriticalSpeed {

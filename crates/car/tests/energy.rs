@@ -3,8 +3,8 @@
 
 mod common;
 
-use common::{INCH, curve, loaded, run, tangent};
 use car::{Car, StartKind, Wheels};
+use common::{INCH, curve, loaded, run, tangent};
 use integrate::Problem;
 use rolling::wheelset::coordinate;
 use wheelrail::contact::CreepLaw;
@@ -36,8 +36,8 @@ fn energy_closes_on_rough_track_and_in_curves() {
     }
 }
 
-/// A wheelset that spins and turns with the track has the gyroscopic moment `I Ω ψ'` about its forward axis. Without
-/// creep nothing else knows of the spin.
+/// A wheelset that spins and turns with the track has the gyroscopic moment `I Ω ψ'` about its forward
+/// axis. Without creep nothing else knows of the spin.
 #[test]
 fn analytic_gyroscopic_moment_of_the_wheelsets() {
     let mut parameters = loaded(curve(5.0, 1.0, 0.0, 200.0), 13.0);
@@ -58,12 +58,18 @@ fn analytic_gyroscopic_moment_of_the_wheelsets() {
     system.derivative(0.0, &still, &mut without);
     for wheelset in car.numbers.wheelsets {
         let at = |k: usize| speeds + system.position_of(wheelset, k).unwrap();
-        let (spin, turning) = (car.initial_state[at(coordinate::SPIN)], car.initial_state[at(coordinate::HEADING)]);
+        let (spin, turning) = (
+            car.initial_state[at(coordinate::SPIN)],
+            car.initial_state[at(coordinate::HEADING)],
+        );
         let change = with[at(coordinate::ROLL)] - without[at(coordinate::ROLL)];
         let own = &parameters.wheelset;
         // The spin leads the axle's left end down where it turns to the left.
         let expected = own.about_axle * spin * turning / own.about_diameter;
         assert!(spin > 20.0 && turning > 0.01, "{spin} {turning}");
-        assert!((change.abs() / expected - 1.0).abs() < 1e-3, "{change} and {expected} rad/s²");
+        assert!(
+            (change.abs() / expected - 1.0).abs() < 1e-3,
+            "{change} and {expected} rad/s²"
+        );
     }
 }

@@ -5,8 +5,8 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use common::{INCH, MPH, POUND_FORCE, empty, loaded, tangent};
 use car::{FrictionState, Mode, Parameters, Wheels};
+use common::{INCH, MPH, POUND_FORCE, empty, loaded, tangent};
 use truck::{Adapter, AdapterPad, ControlCoil, SideBearing, Spring, WedgeKind, empirical_warp};
 use wedge::parameters::{Contact, Damping, FaceFriction};
 use wheelrail::conicity::LinearGeometry;
@@ -18,8 +18,8 @@ const RADIUS: f64 = 18.0 * INCH;
 /// Stiffness of a nest across, N/m.
 const NEST: f64 = 17_800.0 * POUND_FORCE / INCH;
 
-/// The empty car on linear wheels that do not roll about x, reduced: center plates turn freely, adapters are pins,
-/// nothing damps, wedges do nothing but for an empirical warp stiffness of the truck (N·m/rad).
+/// The empty car on linear wheels that do not roll about x, reduced: center plates turn freely, adapters
+/// are pins, nothing damps, wedges do nothing but for an empirical warp stiffness of the truck (N·m/rad).
 fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
     let mut parameters = empty(tangent(300.0), 10.0);
     parameters.support = None;
@@ -96,8 +96,8 @@ fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
         }
         own.gib.clearance = 1.0;
         own.lands.clearance = 1.0;
-        // The coils' shear along the track, which holds the bolster square to the axles, is in series with the warp
-        // spring.
+        // The coils' shear along the track, which holds the bolster square to the axles, is in series with
+        // the warp spring.
         let square = 2.0 * NEST * own.distances[0] * own.distances[0];
         own.warp_spring = warp.map(|warp| {
             let nest = 0.5 / (1.0 / warp - 1.0 / square);
@@ -107,8 +107,8 @@ fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
     parameters
 }
 
-/// 65, 45 and 32 mph at conicities of 0.05, 0.1 and 0.2 with 17 kip·in/mrad of warp stiffness: from a separate linear
-/// model with nine coordinates.
+/// 65, 45 and 32 mph at conicities of 0.05, 0.1 and 0.2 with 17 kip·in/mrad of warp stiffness: from a
+/// separate linear model with nine coordinates.
 #[test]
 fn reproduction_critical_speeds_of_the_empty_car() {
     let warp = 17e6 * POUND_FORCE * INCH;
@@ -121,22 +121,30 @@ fn reproduction_critical_speeds_of_the_empty_car() {
             .unwrap();
         let speed = found.speed / MPH;
         println!("{conicity}: {speed} mph, {} Hz", found.frequency);
-        assert!((speed / expected - 1.0).abs() < 0.03, "{conicity}: {speed} mph, {expected} expected");
+        assert!(
+            (speed / expected - 1.0).abs() < 0.03,
+            "{conicity}: {speed} mph, {expected} expected"
+        );
     }
 }
 
 /// Vibrations with a frequency (Hz) near this one.
 fn near(modes: &[Mode], frequency: f64, within: f64) -> Vec<Mode> {
-    let own = modes.iter().filter(|mode| (mode.frequency / frequency - 1.0).abs() < within);
+    let own = modes
+        .iter()
+        .filter(|mode| (mode.frequency / frequency - 1.0).abs() < within);
     own.copied().collect()
 }
 
-/// Wheelsets of trucks that warp freely run like single ones, with the wavelength of Klingel; those of a rigid truck with
-/// `√(1 + f22 b²/(f11 l²))` times it, b being half the wheelbase.
+/// Wheelsets of trucks that warp freely run like single ones, with the wavelength of Klingel; those of a
+/// rigid truck with `√(1 + f22 b²/(f11 l²))` times it, b being half the wheelbase.
 #[test]
 fn analytic_wavelengths_of_trucks_that_warp_and_of_rigid_ones() {
     let speed = 2.0;
-    for (rigid, factor) in [(false, 1.0), (true, (1.0_f64 + 6.21 / 6.69 * (35.0_f64 / 29.75).powi(2)).sqrt())] {
+    for (rigid, factor) in [
+        (false, 1.0),
+        (true, (1.0_f64 + 6.21 / 6.69 * (35.0_f64 / 29.75).powi(2)).sqrt()),
+    ] {
         let mut parameters = reduced(0.05, None);
         if let Wheels::Linear { wheelset, .. } = &mut parameters.wheels {
             wheelset.axle_load = 0.0;
@@ -152,15 +160,20 @@ fn analytic_wavelengths_of_trucks_that_warp_and_of_rigid_ones() {
         let modes = parameters.modes(speed, FrictionState::Stuck).unwrap();
         let wavelength = TAU * (RADIUS * HALF / 0.05).sqrt() * factor;
         let found = near(&modes, speed / wavelength, 0.01);
-        assert!(found.len() >= 2, "{wavelength} m expected of {:?}", near(&modes, speed / wavelength, 0.6));
+        assert!(
+            found.len() >= 2,
+            "{wavelength} m expected of {:?}",
+            near(&modes, speed / wavelength, 0.6)
+        );
         for mode in found {
             assert!(mode.growth.abs() < 0.02, "{mode:?}");
         }
     }
 }
 
-/// With plates and adapters that hold, on wheels that creep holds: bounce and upper sway are those of the car on fixed
-/// side frames (2.027 and 2.996 Hz), the lower sway that with the give of the center plates (0.762 Hz).
+/// With plates and adapters that hold, on wheels that creep holds: bounce and upper sway are those of the
+/// car on fixed side frames (2.027 and 2.996 Hz), the lower sway that with the give of the center plates
+/// (0.762 Hz).
 #[test]
 fn analytic_frequencies_of_the_loaded_car_on_its_wheels() {
     let mut parameters = reduced(0.05, None);
@@ -183,9 +196,17 @@ fn analytic_frequencies_of_the_loaded_car_on_its_wheels() {
         *support = [1e11, 1e11];
     }
     let modes = parameters.modes(0.5, FrictionState::Stuck).unwrap();
-    for (name, frequency, within) in [("bounce", 2.027, 0.01), ("lower sway", 0.762, 0.02), ("upper sway", 2.996, 0.03)] {
+    for (name, frequency, within) in [
+        ("bounce", 2.027, 0.01),
+        ("lower sway", 0.762, 0.02),
+        ("upper sway", 2.996, 0.03),
+    ] {
         let found = near(&modes, frequency, within);
-        let slow: Vec<f64> = modes.iter().map(|mode| mode.frequency).filter(|own| (0.3..5.0).contains(own)).collect();
+        let slow: Vec<f64> = modes
+            .iter()
+            .map(|mode| mode.frequency)
+            .filter(|own| (0.3..5.0).contains(own))
+            .collect();
         assert!(!found.is_empty(), "{name}: {frequency} Hz expected of {slow:?}");
     }
 }

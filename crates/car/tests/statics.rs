@@ -3,8 +3,8 @@
 
 mod common;
 
-use common::{POUND_FORCE, at_start, empty, loaded, run, tangent};
 use car::{Car, Loads, Mass, Parameters};
+use common::{POUND_FORCE, at_start, empty, loaded, run, tangent};
 use mechanics::vector::Vector;
 
 /// The vertical force of all wheels, N.
@@ -27,7 +27,10 @@ fn analytic_wheels_carry_the_weight() {
             let found = sum(&loads);
             assert!((found / parameters.weight() - 1.0).abs() < 1e-7, "{found} N");
             for wheel in loads.wheels.iter().flatten() {
-                assert!((wheel.vertical / (parameters.weight() / 8.0) - 1.0).abs() < 1e-4, "{wheel:?}");
+                assert!(
+                    (wheel.vertical / (parameters.weight() / 8.0) - 1.0).abs() < 1e-4,
+                    "{wheel:?}"
+                );
             }
         }
     }
@@ -82,13 +85,18 @@ fn analytic_lading_off_the_center_loads_what_is_below_it() {
         .map(|(axle, [left, right])| (axle.distance - middle) * (left.vertical + right.vertical))
         .sum();
     let expected = 0.36 * mass * parameters.gravity;
-    assert!((along / expected - 1.0).abs() < 0.01, "{along} and {expected} N·m");
+    assert!(
+        (along / expected - 1.0).abs() < 0.01,
+        "{along} and {expected} N·m"
+    );
     let [left, right] = [0, 1].map(|i| loads.wheels.iter().map(|pair| pair[i].vertical).sum::<f64>());
     assert!(left > 1.01 * right, "{left} {right}");
 }
 
 fn largest(loads: &[(f64, Loads)], of: impl Fn(&Loads) -> f64) -> f64 {
-    loads.iter().fold(0.0, |most: f64, (_, own)| most.max(of(own).abs()))
+    loads
+        .iter()
+        .fold(0.0, |most: f64, (_, own)| most.max(of(own).abs()))
 }
 
 /// Nothing moves sideways or rolls on perfect track, below the critical speed.
@@ -109,8 +117,16 @@ fn limits_a_car_on_perfect_track_stays_straight() {
         assert!(roll < 1e-6 && end < 1e-6, "{name}: {roll} rad, {end} m");
         let weight = parameters.weight();
         let last = ran.last();
-        assert!((sum(last) / weight - 1.0).abs() < 2e-3, "{name}: {} of {weight} N", sum(last));
-        assert!((last.speed - parameters.start.speed).abs() < 0.02, "{name}: {} m/s", last.speed);
+        assert!(
+            (sum(last) / weight - 1.0).abs() < 2e-3,
+            "{name}: {} of {weight} N",
+            sum(last)
+        );
+        assert!(
+            (last.speed - parameters.start.speed).abs() < 0.02,
+            "{name}: {} m/s",
+            last.speed
+        );
     }
 }
 
@@ -123,7 +139,10 @@ fn message(change: impl Fn(&mut Parameters)) -> String {
 #[test]
 fn input_what_makes_no_car_is_named() {
     let said = message(|own| own.start.distance = 1.0);
-    assert!(said.contains("the distance of the start") && said.contains("between 7.06 and 52.94 m"), "{said}");
+    assert!(
+        said.contains("the distance of the start") && said.contains("between 7.06 and 52.94 m"),
+        "{said}"
+    );
     let said = message(|own| own.lading[0].mass = -1.0);
     assert!(said.contains("the mass of lading (kg) is -1"), "{said}");
     let said = message(|own| own.trucks[1].car_body = None);

@@ -1,4 +1,5 @@
-//! Carriers: what goes with a body but does not turn with its last angle, as bearings do with an axle that spins.
+//! Carriers: what goes with a body but does not turn with its last angle, as bearings do with an axle that
+//! spins.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use integrate::{Integrator, Method, Options, Problem};
@@ -13,13 +14,19 @@ use mechanics::surface::Plane;
 use mechanics::system::{Model, ModelError, System};
 use mechanics::vector::Vector;
 
-/// A rotor (body 0) that spins about its x axis on springs to the ground (1); on its carrier (3) rests a frame (2) by two
-/// points with friction and a spring; the rotor's own springs to the ground stand on the carrier, too.
+/// A rotor (body 0) that spins about its x axis on springs to the ground (1); on its carrier (3) rests a
+/// frame (2) by two points with friction and a spring; the rotor's own springs to the ground stand on the
+/// carrier, too.
 fn model(spin: f64) -> Model {
     let mut rotor = Body::free("rotor", 100.0, [8.0, 5.0, 5.0], [0.1, -0.2, 0.05, 0.3, 0.4, 0.06]);
     rotor.frame = Frame::fixed([0.5, 0.0, 0.2], [0.2, -0.4, 0.3]);
     rotor.initial[3] = spin;
-    let frame = Body::free("frame", 40.0, [2.0, 3.0, 4.0], [0.6, -0.25, 0.62, 0.01, -0.02, 0.03]);
+    let frame = Body::free(
+        "frame",
+        40.0,
+        [2.0, 3.0, 4.0],
+        [0.6, -0.25, 0.62, 0.01, -0.02, 0.03],
+    );
     let ground = Body::prescribed("ground", Frame::fixed([0.0; 3], [0.0; 3]));
     let mut model = Model::new(vec![rotor, ground, frame], [0.0, 0.0, -9.81]);
     let carrier = model.add_carrier("bearings", 0);
@@ -33,11 +40,18 @@ fn model(spin: f64) -> Model {
         solid: None,
     };
     for (i, x) in [0.4, -0.4].into_iter().enumerate() {
-        let (own, ground) = (Marker::new([x, 0.1, -0.2], [0.0; 3]), Marker::new([x, 0.0, 0.0], [0.0; 3]));
+        let (own, ground) = (
+            Marker::new([x, 0.1, -0.2], [0.0; 3]),
+            Marker::new([x, 0.0, 0.0], [0.0; 3]),
+        );
         model.add(spring(&format!("spring_{i}")), (carrier, own), (1, ground));
     }
     let upper = (2, Marker::new([0.0, 0.0, -0.2], [0.0; 3]));
-    model.add(spring("upper"), upper, (carrier, Marker::new([0.0, 0.0, 0.2], [0.1, 0.2, 0.0])));
+    model.add(
+        spring("upper"),
+        upper,
+        (carrier, Marker::new([0.0, 0.0, 0.2], [0.1, 0.2, 0.0])),
+    );
     let point = |x: f64| ContactPoint {
         position: Vector([x, 0.0, -0.3]),
         stiffness: 1e5,
@@ -100,13 +114,16 @@ fn convergence_the_jacobian_matrix_of_elements_on_a_carrier() {
         system.solve(&mut column);
         for (i, value) in column.iter().enumerate() {
             let exact = if i == j { 1.0 } else { 0.0 };
-            assert!((value - exact).abs() < 3e-9 * size, "({i}, {j}): {value}, column of size {size}");
+            assert!(
+                (value - exact).abs() < 3e-9 * size,
+                "({i}, {j}): {value}, column of size {size}"
+            );
         }
     }
 }
 
-/// The last angle stands in no force, and nothing acts on it: its rate changes by the gyroscopic terms of the other
-/// angles alone, which vanish where they rest.
+/// The last angle stands in no force, and nothing acts on it: its rate changes by the gyroscopic terms of
+/// the other angles alone, which vanish where they rest.
 #[test]
 fn analytic_nothing_acts_on_the_spin() {
     let mut system = System::new(model(0.3)).unwrap();
@@ -119,7 +136,10 @@ fn analytic_nothing_acts_on_the_spin() {
     system.derivative(0.0, &b, &mut later);
     let largest = at_zero.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
     for (i, (zero, later)) in at_zero.iter().zip(&later).enumerate() {
-        assert!((zero - later).abs() < 1e-12 * largest, "rate {i}: {zero} and {later}");
+        assert!(
+            (zero - later).abs() < 1e-12 * largest,
+            "rate {i}: {zero} and {later}"
+        );
     }
     // Symmetric about its axis: the angular velocity about it is constant.
     let mut resting = a.clone();
@@ -130,7 +150,10 @@ fn analytic_nothing_acts_on_the_spin() {
     let yaw = resting[system.position_of(0, 5).unwrap()];
     let heading = at_zero[speeds + system.position_of(0, 4).unwrap()];
     let spin = at_zero[speeds + place];
-    assert!((spin + yaw.sin() * heading).abs() < 1e-10 * largest, "{spin} {heading}");
+    assert!(
+        (spin + yaw.sin() * heading).abs() < 1e-10 * largest,
+        "{spin} {heading}"
+    );
 }
 
 #[test]
@@ -157,5 +180,8 @@ fn energy_closes_with_elements_on_a_carrier() {
 fn input_a_carrier_of_a_carrier_is_refused() {
     let mut model = model(0.0);
     model.add_carrier("second", 3);
-    assert!(matches!(System::new(model), Err(ModelError::Carrier { body: 3, .. })));
+    assert!(matches!(
+        System::new(model),
+        Err(ModelError::Carrier { body: 3, .. })
+    ));
 }

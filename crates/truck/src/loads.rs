@@ -94,7 +94,8 @@ impl Truck {
     /// Returns the loads at an observation of [`Truck::system`].
     #[must_use]
     pub fn loads(&self, observation: &Observation) -> Loads {
-        self.mounted.loads_of(&View::new(&self.mounted, observation, None))
+        self.mounted
+            .loads_of(&View::new(&self.mounted, observation, None))
     }
 }
 
@@ -196,9 +197,7 @@ impl MountedTruck {
             return WedgeLoads::default();
         };
         let place = self.wedge_places[number];
-        let moved = |body: usize| {
-            view.moved(view.body(body), place)
-        };
+        let moved = |body: usize| view.moved(view.body(body), place);
         let (bolster, side_frame) = (moved(BOLSTER), moved(SIDE_FRAMES + number % 2));
         WedgeLoads {
             column_normal: inside.column_normal,
