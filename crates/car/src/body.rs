@@ -12,8 +12,8 @@ pub(crate) struct Carried {
     pub mass: f64,
     /// Center of gravity: forward, to the left, above the top of rail, m.
     pub center: [f64; 3],
-    /// Principal moments of inertia, kg·m², about the axes that are the columns of `axes`: the principal axes that are
-    /// nearest to forward, left, up.
+    /// Principal moments of inertia, kg·m², about the axes that are the columns of `axes`: the principal
+    /// axes that are nearest to forward, left, up.
     pub inertia: [f64; 3],
     /// See `inertia`.
     pub axes: Matrix<f64>,

@@ -27,8 +27,8 @@ const LOADED: (f64, f64, [f64; 3]) = (243_460.0, 83.75, [1.81e6, 1.624e7, 1.624e
 const EMPTY: (f64, f64, [f64; 3]) = (43_060.0, 65.0, [3.75e5, 3.61e6, 3.61e6]);
 
 impl Mass {
-    /// Returns the lading of a car of 263,000 lbf: what its loaded body has more than the empty one (200,400 lbf, its
-    /// center of gravity 87.8 in above the top of rail).
+    /// Returns the lading of a car of 263,000 lbf: what its loaded body has more than the empty one
+    /// (200,400 lbf, its center of gravity 87.8 in above the top of rail).
     #[must_use]
     pub fn usual() -> Self {
         let (whole, whole_height, whole_inertia) = LOADED;
@@ -53,8 +53,9 @@ impl Mass {
 }
 
 impl ProfiledWheels {
-    /// Returns new wheels of 36 in with the nominal profile AAR-1B on nominal rails 136RE inclined by 1:40, gauge 56.5 in,
-    /// friction 0.4 by Polach's law; `sprung` tells whether the rails give way, for the contacts' damping.
+    /// Returns new wheels of 36 in with the nominal profile AAR-1B on nominal rails 136RE inclined by 1:40,
+    /// gauge 56.5 in, friction 0.4 by Polach's law; `sprung` tells whether the rails give way, for the
+    /// contacts' damping.
     ///
     /// # Errors
     /// None of these values is at fault; the profiles' checks can only fail for others.
@@ -102,9 +103,10 @@ impl Start {
 }
 
 impl Parameters {
-    /// Returns a car on this track, loaded with 200,400 lbf or empty, that holds the speed (m/s): trucks with variable
-    /// damping, rollers as side bearings of the loaded car and constant contact of the empty one, sprung rails. It starts
-    /// as near to the beginning of the track as its length allows, with 1 m to spare.
+    /// Returns a car on this track, loaded with 200,400 lbf or empty, that holds the speed (m/s): trucks
+    /// with variable damping, rollers as side bearings of the loaded car and constant contact of the empty
+    /// one, sprung rails. It starts as near to the beginning of the track as its length allows, with 1 m to
+    /// spare.
     ///
     /// # Errors
     /// See [`ProfiledWheels::usual`].

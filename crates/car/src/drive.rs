@@ -1,8 +1,8 @@
 //! What keeps a car moving: a force on the car body along the track, proportional to what lacks in speed.
 //!
-//! Marker A is on the car body at the height of the couplers, marker B the origin of the track's fixed axes. With the
-//! velocity v of A along the track where A is, and the speed V that is wanted there, `F = gain (V - v)` along the
-//! track; its work is the element's.
+//! Marker A is on the car body at the height of the couplers, marker B the origin of the track's fixed
+//! axes. With the velocity v of A along the track where A is, and the speed V that is wanted there, `F =
+//! gain (V - v)` along the track; its work is the element's.
 
 use std::sync::Arc;
 

@@ -1,9 +1,9 @@
 //! A freight car on track, as data for the multibody core.
 //!
-//! A car body with its lading stands with center plates and side bearings on two three-piece trucks ([`truck`]), whose
-//! wheelsets roll on rails ([`rolling`]). All bodies have absolute coordinates; the track is a curve in space. Axes: x
-//! forward, y to the left, z up from the top of rail. Wheelsets 1 to 4 and trucks count from the front; wheels, side frames
-//! and nests left before right. SI units.
+//! A car body with its lading stands with center plates and side bearings on two three-piece trucks
+//! ([`truck`]), whose wheelsets roll on rails ([`rolling`]). All bodies have absolute coordinates; the
+//! track is a curve in space. Axes: x forward, y to the left, z up from the top of rail. Wheelsets 1 to 4
+//! and trucks count from the front; wheels, side frames and nests left before right. SI units.
 //!
 //! | what | where |
 //! |---|---|
@@ -24,6 +24,7 @@ mod error;
 mod linearize;
 mod loads;
 mod parameters;
+mod start;
 
 pub use assemble::{Car, Numbers};
 pub use error::{BuildError, InvalidParameter};

@@ -1,11 +1,12 @@
-//! Linearization about steady running on straight track: growth and frequency of all motions, and the speed from which
-//! one grows.
+//! Linearization about steady running on straight track: growth and frequency of all motions, and the speed
+//! from which one grows.
 //!
-//! A car whose friction sticks runs on its wheels for a second, so that creep forces and loads agree; others are taken as
-//! they start, since nothing would damp what remains of the start. There its whole Jacobian matrix is taken
-//! (`System::eigenvalues`). Distance and spin stand in no force and give eigenvalues of zero. What friction does in wedges,
-//! plates, adapters and side bearings is a choice, since it decides: bristles that stick are springs; without friction
-//! these parts are free where nothing else holds them, and a car may buckle slowly, which is no vibration.
+//! A car whose friction sticks runs on its wheels for a second, so that creep forces and loads agree;
+//! others are taken as they start, since nothing would damp what remains of the start. There its whole
+//! Jacobian matrix is taken (`System::eigenvalues`). Distance and spin stand in no force and give
+//! eigenvalues of zero. What friction does in wedges, plates, adapters and side bearings is a choice, since
+//! it decides: bristles that stick are springs; without friction these parts are free where nothing else
+//! holds them, and a car may buckle slowly, which is no vibration.
 
 use integrate::{Integrator, Method, Options, SetupError, StepError};
 use mechanics::friction::FrictionLaw;
@@ -65,7 +66,7 @@ pub enum LinearizeError {
     Speed(f64),
     /// Speeds make no range.
     #[error(
-        "speeds from {low} to {high} m/s in steps of {step} m/s make no search: they must be positive and rise"
+        "speeds from {low} to {high} m/s in steps of {step} m/s make no search: all must be positive and rise"
     )]
     Range {
         /// The lowest, m/s.
@@ -88,7 +89,8 @@ const SETTLED: f64 = 1.0;
 const SHIFT: f64 = 20.0;
 
 impl Parameters {
-    /// Returns the same car without friction in wedges, plates, adapters and side bearings; wheels keep theirs.
+    /// Returns the same car without friction in wedges, plates, adapters and side bearings; wheels keep
+    /// theirs.
     #[must_use]
     pub fn without_friction(&self) -> Self {
         let none = FaceFriction {
@@ -115,9 +117,8 @@ impl Parameters {
         free
     }
 
-    /// Returns all motions about steady running at a speed (m/s), by falling growth; the car starts where its start says,
-    /// which must be on straight track
-    /// without irregularities for a second of running.
+    /// Returns all motions about steady running at a speed (m/s), by falling growth; the car starts where
+    /// its start says, which must be on straight track without irregularities for a second of running.
     ///
     /// # Errors
     /// [`LinearizeError`].
@@ -155,8 +156,9 @@ impl Parameters {
         Ok(modes.collect())
     }
 
-    /// Returns the lowest speed (m/s) within a range from which on a vibration grows; speeds are tried in steps (m/s), the
-    /// one between two steps is found by linear search within a thousandth. None: none grows at the speeds tried.
+    /// Returns the lowest speed (m/s) within a range from which on a vibration grows; speeds are tried in
+    /// steps (m/s), the one between two steps is found by linear search within a thousandth. None: none
+    /// grows at the speeds tried.
     ///
     /// # Errors
     /// [`LinearizeError`].

@@ -1,11 +1,13 @@
-//! What one sees of a car at a state: forces of the wheels, places on the track, accelerations, and its trucks.
+//! What one sees of a car at a state: forces of the wheels, places on the track, accelerations, and its
+//! trucks.
 //!
-//! Signs: the *vertical* force of a wheel is that on the rail, along the normal of the track's plane, positive down; the
-//! *lateral* one lies in that plane, positive where it spreads the gauge; the *longitudinal* one is positive where the wheel
-//! pushes the rail forward. Places are relative to the center line without irregularities: positive to the left; yaw is
-//! positive to the left, roll with the left side up. The track's plane is that of the center line's section at the body in
-//! question. *Accelerations* of the body are what accelerometers on it show, less gravity along its up: along its own left
-//! and up.
+//! Signs: the *vertical* force of a wheel is that on the rail, along the normal of the track's plane,
+//! positive down; the *lateral* one lies in that plane, positive where it spreads the gauge; the
+//! *longitudinal* one is positive where the wheel pushes the rail forward. Places are relative to the
+//! center line without irregularities: positive to the left; yaw is positive to the left, roll with the
+//! left side up. The track's plane is that of the center line's section at the body in question.
+//! *Accelerations* of the body are what accelerometers on it show, less gravity along its up: along its own
+//! left and up.
 
 use mechanics::body::Kinematics;
 use mechanics::element::Element;
@@ -52,8 +54,8 @@ pub struct AxleLoads {
     pub lateral: f64,
     /// Its center above the plane of the rails' nominal tops, m.
     pub height: f64,
-    /// Yaw relative to the track, rad: minus the angle of attack of a wheelset in a curve to the left that steers
-    /// outwards.
+    /// Yaw relative to the track, rad: minus the angle of attack of a wheelset in a curve to the left that
+    /// steers outwards.
     pub yaw: f64,
     /// Roll relative to the track's plane, rad.
     pub roll: f64,
@@ -135,8 +137,9 @@ impl Car {
         loads
     }
 
-    /// Gives the patches of all wheels to `see`, with the number of the wheelset and of the side (left 0, right 1); places
-    /// and normals are in the track's own axes (those of [`Car::lines`]). None of linear wheels.
+    /// Gives the patches of all wheels to `see`, with the number of the wheelset and of the side (left 0,
+    /// right 1); places and normals are in the track's own axes (those of [`Car::lines`]). None of linear
+    /// wheels.
     pub fn patches(&self, seen: &Observation, mut see: impl FnMut(usize, usize, PatchState)) {
         let WheelElements::OnRails(wheels, half) = &self.wheels else {
             return;
@@ -149,8 +152,8 @@ impl Car {
         }
     }
 
-    /// Returns the track's axes at the foot of a place (fixed axes, m) on the center line: origin, and axes forward, left, up
-    /// as columns.
+    /// Returns the track's axes at the foot of a place (fixed axes, m) on the center line: origin, and axes
+    /// forward, left, up as columns.
     #[must_use]
     pub fn frame_at(&self, place: Vector<f64>) -> TruckFrame {
         let section = self.section(place);

@@ -1,7 +1,8 @@
 //! Parameters of a car on track, SI units.
 //!
-//! Default values are one consistent set: a car of 263,000 lbf with all that it carries, on two of the trucks of
-//! [`truck::Parameters`], truck centers 486 in apart. Weights of wheelsets are what these leave of the car's weight.
+//! Default values are one consistent set: a car of 263,000 lbf with all that it carries, on two of the
+//! trucks of [`truck::Parameters`], truck centers 486 in apart. Weights of wheelsets are what these leave
+//! of the car's weight.
 
 use std::sync::Arc;
 
@@ -22,8 +23,8 @@ pub struct Mass {
     pub name: String,
     /// Mass, kg.
     pub mass: f64,
-    /// Where its center of gravity is: forward of the middle between the trucks, to the left of the middle, above the
-    /// top of rail, m, in the nominal layout of the trucks.
+    /// Where its center of gravity is: forward of the middle between the trucks, to the left of the middle,
+    /// above the top of rail, m, in the nominal layout of the trucks.
     pub place: [f64; 3],
     /// Moments of inertia about its center of gravity (roll, pitch, yaw), kg·m².
     pub inertia: [f64; 3],
@@ -34,8 +35,8 @@ pub struct Mass {
 pub enum Wheels {
     /// Profiles of wheels on profiles of rails.
     OnRails(ProfiledWheels),
-    /// Linear geometry and creep, for stability on straight or gently curved track without irregularities, whose
-    /// rails do not give way.
+    /// Linear geometry and creep, for stability on straight or gently curved track without irregularities,
+    /// whose rails do not give way.
     Linear {
         /// Geometry and coefficients.
         wheelset: LinearWheelset,
@@ -65,8 +66,8 @@ pub enum Drive {
         /// Force by speed, N·s/m.
         gain: f64,
     },
-    /// As `Held`, to a speed that depends on the distance along the track: pairs of distance (m, rising) and speed (m/s),
-    /// linear between them, constant before and after.
+    /// As `Held`, to a speed that depends on the distance along the track: pairs of distance (m, rising)
+    /// and speed (m/s), linear between them, constant before and after.
     Over {
         /// Force by speed, N·s/m.
         gain: f64,
@@ -86,12 +87,13 @@ pub struct Start {
     pub speed: f64,
     /// Heading of the track's own axes in the fixed frame, rad: of no consequence.
     pub heading: f64,
-    /// How far each wheelset, front to rear, is moved to the left from the middle of the track, m: a disturbance.
+    /// How far each wheelset, front to rear, is moved to the left from the middle of the track, m: a
+    /// disturbance.
     pub wheelset_shifts: [f64; 4],
     /// How far the body is moved to the left from the middle of the track, m: a disturbance.
     pub body_shift: f64,
-    /// Whether coils, plates and wheels start in the equilibrium of the car at rest without friction, or in the nominal
-    /// layout.
+    /// Whether coils, plates and wheels start in the equilibrium of the car at rest without friction, or in
+    /// the nominal layout.
     pub kind: StartKind,
     /// How long the car settles after the start, s: statistics leave this out.
     pub settle: f64,
@@ -112,16 +114,16 @@ pub enum StartKind {
 pub struct Parameters {
     /// Gravity, m/s².
     pub gravity: f64,
-    /// The car body without lading; its height is that of the center of gravity above the top of rail in the nominal
-    /// layout, which is that of the loaded car.
+    /// The car body without lading; its height is that of the center of gravity above the top of rail in
+    /// the nominal layout, which is that of the loaded car.
     pub body: RigidBody,
     /// What it carries.
     pub lading: Vec<Mass>,
     /// From the center of one truck to that of the other, m.
     pub truck_distance: f64,
-    /// Front and rear truck. Each has wheelsets and a car body, of which the center plate and the side bearings count:
-    /// mass, freedom and loads of the half body and of the wheelsets' motions are not used. Bolsters, side frames and wedge
-    /// bodies are free in all six coordinates.
+    /// Front and rear truck. Each has wheelsets and a car body, of which the center plate and the side
+    /// bearings count: mass, freedom and loads of the half body and of the wheelsets' motions are not used.
+    /// Bolsters, side frames and wedge bodies are free in all six coordinates.
     pub trucks: [truck::Parameters; 2],
     /// Each of the four wheelsets.
     pub wheelset: WheelsetBody,
@@ -154,7 +156,8 @@ impl Parameters {
         (self.carried_mass() + trucks.sum::<f64>() + 4.0 * self.wheelset.mass) * self.gravity
     }
 
-    /// Returns the place of the center of gravity of body and lading: forward, to the left, above the top of rail, m.
+    /// Returns the place of the center of gravity of body and lading: forward, to the left, above the top
+    /// of rail, m.
     #[must_use]
     pub fn center_of_gravity(&self) -> [f64; 3] {
         let mut moment = [0.0, 0.0, self.body.mass * self.body.height];
@@ -287,8 +290,8 @@ impl Parameters {
                 return Err(InvalidParameter::new(
                     "the distance (m) of a curve under trucks with massless wedges or empirical warp springs",
                     at,
-                    "beyond the track: these elements know displacements from straight track only; take wedge bodies, or \
-                     a track without curves",
+                    "beyond the track: these elements know displacements from straight track only; take wedge \
+                     bodies, or a track without curves",
                 ));
             }
             if heading != 0.0 {

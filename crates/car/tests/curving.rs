@@ -3,10 +3,8 @@
 
 mod common;
 
-use std::f64::consts::PI;
-
-use car::Loads;
-use common::{INCH, Ran, curve, loaded, run};
+use car::{Car, Loads};
+use common::{INCH, Ran, at_start, curve, loaded, run};
 
 /// The force of all wheels on the rails along the track's plane, positive to the left, N.
 fn lateral(loads: &Loads) -> f64 {
@@ -37,8 +35,8 @@ fn analytic_the_rails_turn_the_car() {
         let turning = last.speed * last.speed * curvature;
         let falling = parameters.gravity * roll.sin();
         let expected = mass * (turning * roll.cos() - falling);
-        // On the rails, to the outside: to the right in a curve to the left. What is left of the car's swaying is averaged
-        // over some periods.
+        // On the rails, to the outside: to the right in a curve to the left. What is left of the car's
+        // swaying is averaged over some periods.
         let late: Vec<&Loads> = ran.loads.iter().rev().take(80).map(|(_, own)| own).collect();
         let found = -late.iter().map(|own| lateral(own)).sum::<f64>() / late.len() as f64;
         let scale = mass * turning.max(falling);
@@ -89,9 +87,16 @@ fn limits_curves_to_the_left_and_to_the_right_mirror_each_other() {
     }
 }
 
+/// The car turns past 90 deg, where the order of angles of rigs is singular, and past 180 deg.
 #[test]
 fn limits_forces_do_not_know_the_heading() {
-    let [here, there] = [0.0, 2.3].map(|heading| steady(5.0, 1.0, 0.0, 13.0, heading));
+    for heading in [1.4, 3.0] {
+        same_as_at(heading);
+    }
+}
+
+fn same_as_at(heading: f64) {
+    let [here, there] = [0.0, heading].map(|heading| steady(5.0, 1.0, 0.0, 13.0, heading));
     let (here, there) = (here.last(), there.last());
     for (a, b) in here.wheels.iter().flatten().zip(there.wheels.iter().flatten()) {
         assert!((a.vertical - b.vertical).abs() < 1.5e2, "{a:?} {b:?}");
@@ -99,25 +104,30 @@ fn limits_forces_do_not_know_the_heading() {
     }
 }
 
-/// Round more than a full circle of 12 deg all forces stay as they are.
+/// In a curve with superelevation, at once.
 #[test]
-fn limits_a_full_circle() {
-    let length = 2.0 * PI * 145.0 + 150.0;
-    let speed = 12.0;
-    let mut parameters = loaded(curve(12.0, 1.0, 4.0 * INCH, length), speed);
-    parameters.start.heading = 1.0;
-    parameters.start.distance = 110.0;
-    let ran = run(&parameters, (length - 40.0) / speed, 1.0, 1e-4);
-    let turned = |own: &Loads| ran.car.lines.center_line().at(own.distance).heading;
-    let last = ran.last();
-    let before = ran
-        .loads
-        .iter()
-        .find(|(_, own)| turned(own) > turned(last) - 2.0 * PI)
-        .unwrap();
-    assert!(turned(last) > 2.0 * PI + 0.3, "{}", turned(last));
-    for (a, b) in last.wheels.iter().flatten().zip(before.1.wheels.iter().flatten()) {
-        assert!((a.vertical - b.vertical).abs() < 2e3, "{a:?} {b:?}");
-        assert!((a.lateral - b.lateral).abs() < 2e3, "{a:?} {b:?}");
+fn analytic_wheel_forces_at_any_heading_are_the_same() {
+    let at = |heading: f64| {
+        let mut parameters = loaded(curve(7.5, 1.0, 4.0 * INCH, 200.0), 11.0);
+        (parameters.start.heading, parameters.start.distance) = (heading, 150.0);
+        at_start(&Car::new(&parameters).unwrap())
+    };
+    let here = at(0.0);
+    for heading in [1.0, std::f64::consts::FRAC_PI_2, 3.0, -2.0] {
+        let there = at(heading);
+        for (a, b) in here.wheels.iter().flatten().zip(there.wheels.iter().flatten()) {
+            assert!(
+                (a.vertical - b.vertical).abs() < 1e-6 * 146e3,
+                "{heading}: {a:?} {b:?}"
+            );
+            assert!(
+                (a.lateral - b.lateral).abs() < 1e-6 * 146e3,
+                "{heading}: {a:?} {b:?}"
+            );
+        }
+        for (a, b) in here.trucks.iter().zip(&there.trucks) {
+            assert!((a.nest_vertical[0] - b.nest_vertical[0]).abs() < 0.1, "{heading}");
+            assert!((a.warp_angle - b.warp_angle).abs() < 1e-9, "{heading}");
+        }
     }
 }

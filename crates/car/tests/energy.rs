@@ -36,8 +36,8 @@ fn energy_closes_on_rough_track_and_in_curves() {
     }
 }
 
-/// A wheelset that spins and turns with the track has the gyroscopic moment `I Ω ψ'` about its forward axis. Without
-/// creep nothing else knows of the spin.
+/// A wheelset that spins and turns with the track has the gyroscopic moment `I Ω ψ'` about its forward
+/// axis. Without creep nothing else knows of the spin.
 #[test]
 fn analytic_gyroscopic_moment_of_the_wheelsets() {
     let mut parameters = loaded(curve(5.0, 1.0, 0.0, 200.0), 13.0);

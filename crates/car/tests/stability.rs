@@ -18,8 +18,8 @@ const RADIUS: f64 = 18.0 * INCH;
 /// Stiffness of a nest across, N/m.
 const NEST: f64 = 17_800.0 * POUND_FORCE / INCH;
 
-/// The empty car on linear wheels that do not roll about x, reduced: center plates turn freely, adapters are pins,
-/// nothing damps, wedges do nothing but for an empirical warp stiffness of the truck (N·m/rad).
+/// The empty car on linear wheels that do not roll about x, reduced: center plates turn freely, adapters
+/// are pins, nothing damps, wedges do nothing but for an empirical warp stiffness of the truck (N·m/rad).
 fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
     let mut parameters = empty(tangent(300.0), 10.0);
     parameters.support = None;
@@ -96,8 +96,8 @@ fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
         }
         own.gib.clearance = 1.0;
         own.lands.clearance = 1.0;
-        // The coils' shear along the track, which holds the bolster square to the axles, is in series with the warp
-        // spring.
+        // The coils' shear along the track, which holds the bolster square to the axles, is in series with
+        // the warp spring.
         let square = 2.0 * NEST * own.distances[0] * own.distances[0];
         own.warp_spring = warp.map(|warp| {
             let nest = 0.5 / (1.0 / warp - 1.0 / square);
@@ -107,8 +107,8 @@ fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
     parameters
 }
 
-/// 65, 45 and 32 mph at conicities of 0.05, 0.1 and 0.2 with 17 kip·in/mrad of warp stiffness: from a separate linear
-/// model with nine coordinates.
+/// 65, 45 and 32 mph at conicities of 0.05, 0.1 and 0.2 with 17 kip·in/mrad of warp stiffness: from a
+/// separate linear model with nine coordinates.
 #[test]
 fn reproduction_critical_speeds_of_the_empty_car() {
     let warp = 17e6 * POUND_FORCE * INCH;
@@ -136,8 +136,8 @@ fn near(modes: &[Mode], frequency: f64, within: f64) -> Vec<Mode> {
     own.copied().collect()
 }
 
-/// Wheelsets of trucks that warp freely run like single ones, with the wavelength of Klingel; those of a rigid truck with
-/// `√(1 + f22 b²/(f11 l²))` times it, b being half the wheelbase.
+/// Wheelsets of trucks that warp freely run like single ones, with the wavelength of Klingel; those of a
+/// rigid truck with `√(1 + f22 b²/(f11 l²))` times it, b being half the wheelbase.
 #[test]
 fn analytic_wavelengths_of_trucks_that_warp_and_of_rigid_ones() {
     let speed = 2.0;
@@ -171,8 +171,9 @@ fn analytic_wavelengths_of_trucks_that_warp_and_of_rigid_ones() {
     }
 }
 
-/// With plates and adapters that hold, on wheels that creep holds: bounce and upper sway are those of the car on fixed
-/// side frames (2.027 and 2.996 Hz), the lower sway that with the give of the center plates (0.762 Hz).
+/// With plates and adapters that hold, on wheels that creep holds: bounce and upper sway are those of the
+/// car on fixed side frames (2.027 and 2.996 Hz), the lower sway that with the give of the center plates
+/// (0.762 Hz).
 #[test]
 fn analytic_frequencies_of_the_loaded_car_on_its_wheels() {
     let mut parameters = reduced(0.05, None);

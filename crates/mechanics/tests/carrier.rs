@@ -1,4 +1,5 @@
-//! Carriers: what goes with a body but does not turn with its last angle, as bearings do with an axle that spins.
+//! Carriers: what goes with a body but does not turn with its last angle, as bearings do with an axle that
+//! spins.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use integrate::{Integrator, Method, Options, Problem};
@@ -13,8 +14,9 @@ use mechanics::surface::Plane;
 use mechanics::system::{Model, ModelError, System};
 use mechanics::vector::Vector;
 
-/// A rotor (body 0) that spins about its x axis on springs to the ground (1); on its carrier (3) rests a frame (2) by two
-/// points with friction and a spring; the rotor's own springs to the ground stand on the carrier, too.
+/// A rotor (body 0) that spins about its x axis on springs to the ground (1); on its carrier (3) rests a
+/// frame (2) by two points with friction and a spring; the rotor's own springs to the ground stand on the
+/// carrier, too.
 fn model(spin: f64) -> Model {
     let mut rotor = Body::free("rotor", 100.0, [8.0, 5.0, 5.0], [0.1, -0.2, 0.05, 0.3, 0.4, 0.06]);
     rotor.frame = Frame::fixed([0.5, 0.0, 0.2], [0.2, -0.4, 0.3]);
@@ -120,8 +122,8 @@ fn convergence_the_jacobian_matrix_of_elements_on_a_carrier() {
     }
 }
 
-/// The last angle stands in no force, and nothing acts on it: its rate changes by the gyroscopic terms of the other
-/// angles alone, which vanish where they rest.
+/// The last angle stands in no force, and nothing acts on it: its rate changes by the gyroscopic terms of
+/// the other angles alone, which vanish where they rest.
 #[test]
 fn analytic_nothing_acts_on_the_spin() {
     let mut system = System::new(model(0.3)).unwrap();

@@ -102,8 +102,9 @@ impl Default for WedgePlace {
 /// Where a truck stands in a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mount {
-    /// The numbers of its bodies there, in the order of [`WHEELSETS`] to [`CAR_BODY`]. Two may be one: the bolster and
-    /// a car that is rigid with it. Of wheelsets that spin it is their carriers (`Model::add_carrier`).
+    /// The numbers of its bodies there, in the order of [`WHEELSETS`] to [`CAR_BODY`]. Two may be one: the
+    /// bolster and a car that is rigid with it. Of wheelsets that spin it is their carriers
+    /// (`Model::add_carrier`).
     pub bodies: [usize; 10],
     /// Its center, m.
     pub center: [f64; 3],
@@ -127,9 +128,9 @@ pub fn add_elements(model: &mut Model, parameters: &Parameters, mount: &Mount) {
     model.faces.retain(|(carried, on, ..)| carried != on);
 }
 
-/// Adds the elements of a truck to a model whose bodies are there, each a body of its own, at rest in their nominal
-/// places along the fixed axes; their reference frames may be turned. Returns the truck, for its loads. Afterwards the
-/// bodies may be moved to where they start.
+/// Adds the elements of a truck to a model whose bodies are there, each a body of its own, at rest in their
+/// nominal places along the fixed axes; their reference frames may be turned. Returns the truck, for its
+/// loads. Afterwards the bodies may be moved to where they start.
 #[must_use]
 pub fn mounted(model: &mut Model, parameters: &Parameters, mount: &Mount) -> MountedTruck {
     let axes = mount.bodies.map(|body| match model.bodies.get(body) {

@@ -27,8 +27,8 @@ pub struct MountedTruck {
     pub(crate) toes: [f64; 4],
 }
 
-/// Where the axes are in which the loads of a truck are told: origin (m) at the truck's center at the top of rail, and
-/// the rotation from axes forward, left, up to fixed axes.
+/// Where the axes are in which the loads of a truck are told: origin (m) at the truck's center at the top
+/// of rail, and the rotation from axes forward, left, up to fixed axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruckFrame {
     /// Origin, m.
@@ -106,8 +106,8 @@ impl<'o> View<'o> {
         }
     }
 
-    /// Returns how far a point of a body, whose axes were the fixed ones in the nominal layout, is from its place (from the
-    /// truck's center, m) there.
+    /// Returns how far a point of a body, whose axes were the fixed ones in the nominal layout, is from its
+    /// place (from the truck's center, m) there.
     pub fn moved(&self, body: &BodyState, place: Vector<f64>) -> Vector<f64> {
         let nominal = body.origin - body.travel;
         match &self.frame {

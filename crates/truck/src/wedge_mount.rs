@@ -167,8 +167,8 @@ impl WedgeMount<'_> {
     }
 }
 
-/// Returns the marker of a body in its nominal place at a point (m), turned by roll, pitch, yaw (rad), both along the
-/// fixed axes, in the axes of the body, which may have a reference frame that is turned.
+/// Returns the marker of a body in its nominal place at a point (m), turned by roll, pitch, yaw (rad), both along
+/// the fixed axes, in the axes of the body, which may have a reference frame that is turned.
 pub(crate) fn marker_on(body: &Body, place: [f64; 3], angles: [f64; 3]) -> Marker {
     let origin = body.frame.origin;
     let along = Marker::new(std::array::from_fn(|k| place[k] - origin[k]), angles);

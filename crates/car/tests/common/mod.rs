@@ -22,8 +22,8 @@ pub fn tangent(length: f64) -> Track {
     track(&[Segment::Tangent(length)])
 }
 
-/// A curve of a degree, to the left or to the right, with a superelevation (m) of its outer rail, behind 30 m of tangent
-/// and a spiral of 60 m.
+/// A curve of a degree, to the left or to the right, with a superelevation (m) of its outer rail, behind 30
+/// m of tangent and a spiral of 60 m.
 pub fn curve(degree: f64, turn: f64, superelevation: f64, length: f64) -> Track {
     let own = CurveElements::of_degree(degree.to_radians(), superelevation);
     let own = CurveElements {
@@ -63,12 +63,16 @@ impl Ran {
 
 /// Runs a car; loads are seen each `every` (s).
 pub fn run(parameters: &Parameters, duration: f64, every: f64, tolerance: f64) -> Ran {
+    run_by(Method::Esdirk3, parameters, duration, every, tolerance)
+}
+
+pub fn run_by(method: Method, parameters: &Parameters, duration: f64, every: f64, tolerance: f64) -> Ran {
     let car = Car::new(parameters).unwrap();
     let mut system = car.system.clone();
     let start = system.observe(0.0, &car.initial_state).energies.total();
     let options = Options {
         relative_tolerance: tolerance,
-        ..Options::of(Method::Esdirk3)
+        ..Options::of(method)
     };
     let mut integrator = Integrator::new(car.system.clone(), options, 0.0, &car.initial_state).unwrap();
     let mut balance = EnergyBalance::new(start);

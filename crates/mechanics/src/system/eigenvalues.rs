@@ -77,8 +77,8 @@ impl System {
         }
         // Lengths, angles and their rates, deflections: of very different sizes.
         balance_parlett_reinsch(&mut inverse);
-        // Where the sizes of eigenvalues differ by many orders, sub-diagonal entries stay a little above the smallest
-        // bound for being zero.
+        // Where the sizes of eigenvalues differ by many orders, sub-diagonal entries stay a little above
+        // the smallest bound for being zero.
         let bounds = [1.0, 10.0, 100.0, 1000.0].map(|times| times * f64::EPSILON);
         let found = bounds
             .into_iter()

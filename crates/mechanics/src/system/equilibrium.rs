@@ -42,9 +42,9 @@ const REST: f64 = 1e-7;
 /// The time by which rates of the deflections (m/s) are compared with accelerations, s.
 const SETTLING: f64 = 1e-3;
 const ITERATIONS: usize = 2000;
-/// Accelerations that rounding can leave, m/s² or rad/s²: a light body on stiff contacts far from the origin of
-/// the fixed frame (1e-15 m on 1e8 N/m at 0.04 kg·m²). They count as rest where so many iterations do not halve
-/// them.
+/// Accelerations that rounding can leave, m/s² or rad/s²: a light body on stiff contacts far from the
+/// origin of the fixed frame (1e-15 m on 1e8 N/m at 0.04 kg·m²). They count as rest where so many
+/// iterations do not halve them.
 const ROUNDING: f64 = 1e-5;
 const STAGNANT: usize = 60;
 

@@ -53,8 +53,8 @@ fn dual(value: f64, change: f64) -> Dual<1> {
 
 impl System {
     /// Returns the derivatives along a direction at `time` and state `x`; `None` if the direction does not
-    /// have the state's length, or if there are bodies with linearized kinematics, carriers or connections, which are not
-    /// supported.
+    /// have the state's length, or if there are bodies with linearized kinematics, carriers or connections,
+    /// which are not supported.
     ///
     /// At a discontinuity of the derivative (a corner that just touches, a bristle at its limit) they are
     /// one-sided, on the side to which the state is assigned.

@@ -59,10 +59,10 @@ impl Model {
         }
     }
 
-    /// Adds the carrier of a body and returns its number: what goes along with the body but does not turn with its
-    /// last angle (roll), as bearings do with an axle that spins. Elements act on it as on a body of its own; their
-    /// wrench acts on the body's coordinates but for the last angle, by virtual work: what moment about that axis is
-    /// left, nothing takes. It has no mass.
+    /// Adds the carrier of a body and returns its number: what goes along with the body but does not turn
+    /// with its last angle (roll), as bearings do with an axle that spins. Elements act on it as on a body
+    /// of its own; their wrench acts on the body's coordinates but for the last angle, by virtual work:
+    /// what moment about that axis is left, nothing takes. It has no mass.
     pub fn add_carrier(&mut self, name: &str, of: usize) -> usize {
         let frame = self
             .bodies
@@ -144,9 +144,11 @@ pub enum ModelError {
         /// The coordinate that needs it.
         coordinate: &'static str,
     },
-    /// A carrier goes with a body that has linearized kinematics or is a carrier itself, or a connection acts on it.
+    /// A carrier goes with a body that has linearized kinematics or is a carrier itself, or a connection
+    /// acts on it.
     #[error(
-        "{carrier} cannot go with body {body} without its last angle: a carrier goes with a body of finite kinematics, and no connections act on it"
+        "{carrier} cannot go with body {body} without its last angle: a carrier goes with a body of finite kinematics, and \
+         no connections act on it"
     )]
     Carrier {
         /// The carrier's name.
@@ -524,7 +526,8 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     })
 }
 
-/// Returns where the derivatives of each body are gathered: first those of free bodies, then those of carriers.
+/// Returns where the derivatives of each body are gathered: first those of free bodies, then those of
+/// carriers.
 fn gathered_at(free_number: &[Option<usize>], carriers: &[[usize; 2]], free: usize) -> Vec<usize> {
     let mut places: Vec<usize> = free_number.iter().map(|number| number.unwrap_or(0)).collect();
     for (i, [carrier, _]) in carriers.iter().enumerate() {

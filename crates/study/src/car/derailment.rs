@@ -1,8 +1,9 @@
 //! Static wheel loads, and when a wheel has left its rail.
 
 use car::{Loads, Parameters, Wheels};
+use wheelrail::track::Track;
 
-/// A wheelset this far from the center line has a wheel with its flange on top of the rail or beyond, m: the flange's
+/// A wheelset this far from the middle of the rails has a wheel with its flange on top of the rail or beyond, m: the flange's
 /// clearance of 3/8 in, and from its face to its tip 7/8 in; 1 1/4 in with nominal profiles.
 const ON_TOP: f64 = 1.25 * 0.0254;
 /// A wheelset this far below its height on the rails has fallen between them, m.
@@ -21,17 +22,24 @@ pub(super) struct Left {
 }
 
 /// Returns the first wheel from the front that has left its rail; `heights` are those of the axles at the start, m.
-pub(super) fn of(loads: &Loads, heights: [f64; 4]) -> Option<Left> {
+pub(super) fn of(loads: &Loads, track: &Track, heights: [f64; 4]) -> Option<Left> {
     loads.axles.iter().enumerate().find_map(|(axle, own)| {
-        let side = usize::from(own.lateral < 0.0);
-        let inches = own.lateral.abs() / 0.0254;
-        let what = if own.lateral.abs() > ON_TOP {
-            format!("the axle is {inches:.2} in from the middle, so that the flange is on top of the rail")
-        } else if heights[axle] - own.height > FALLEN {
+        let sunk = heights[axle] - own.height;
+        // Most axles are nowhere near: where the rails lie takes a sum over the waves of their spectra.
+        if own.lateral.abs() < 0.8 * ON_TOP && sunk < 0.8 * FALLEN {
+            return None;
+        }
+        let [left, right] = track.rails(own.distance);
+        let (to_left, to_right) = (own.lateral - left.lateral[0], right.lateral[0] - own.lateral);
+        let sunk = sunk + 0.5 * (left.vertical[0] + right.vertical[0]);
+        let (side, beyond) = if to_left > to_right { (0, to_left) } else { (1, to_right) };
+        let what = if beyond > ON_TOP {
             format!(
-                "the axle has fallen by {:.2} in",
-                (heights[axle] - own.height) / 0.0254
+                "the axle is {:.2} in from the middle of that rail's track, so that the flange is on top of the rail",
+                beyond / 0.0254
             )
+        } else if sunk > FALLEN {
+            format!("the axle has fallen by {:.2} in", sunk / 0.0254)
         } else {
             return None;
         };

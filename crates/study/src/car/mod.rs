@@ -1,7 +1,7 @@
 //! Freight cars on track: cases, runs, statistics, results.
 //!
 //! [`CarCase`] is what a user writes, completed and in SI; [`builtin`] has cases after the regimes of the field;
-//! [`statistics`] says what rules for the assessment of cars ask; [`run`] records a run; [`stability`] linearizes.
+//! [`statistics`] says what rules for the assessment of cars ask, [`limits`] beside what they allow; [`run`] records a run; [`stability`] linearizes.
 
 mod assumptions;
 pub mod builtin;
@@ -9,6 +9,7 @@ mod checks;
 mod columns;
 mod derailment;
 mod lading;
+pub mod limits;
 pub mod run;
 mod sections;
 pub mod stability;

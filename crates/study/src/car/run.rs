@@ -11,13 +11,14 @@ use mechanics::system::{ContactState, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 use truck::WEDGE_NAMES;
+use wheelrail::track::Track;
 
 use super::CarCase;
 use super::checks::POUND_FORCE;
 use super::columns::{Columns, Seen, losses_of_wedge};
-use super::derailment;
 use super::statistics::{self, Histories, SIDES, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
+use super::{derailment, limits};
 use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::metrics::Extremes;
@@ -46,6 +47,7 @@ pub struct CarRecorder {
     row: Vec<f64>,
     /// Rates of the state.
     rates: Vec<f64>,
+    track: Track,
     /// Heights of the axles at the first row, m.
     heights: Option<[f64; 4]>,
 }
@@ -99,6 +101,7 @@ impl RunCase for CarCase {
                 row: Vec::with_capacity(columns.columns.len()),
                 rates: vec![0.0; car.initial_state.len()],
                 heights: None,
+                track: self.parameters.track.clone(),
                 static_loads,
                 derailed: None,
                 units: self.simulation.output_units,
@@ -160,7 +163,7 @@ impl Recorder for CarRecorder {
         self.row.clear();
         self.columns.read(&seen, &mut self.row);
         append(&mut self.values, &self.columns.columns, &self.row, row.time)?;
-        if let Some(own) = derailment::of(&loads, heights) {
+        if let Some(own) = derailment::of(&loads, &self.track, heights) {
             let distance = SummaryValue::new(own.distance, Kind::Distance, self.units);
             let what = format!(
                 "the {} wheel of axle {} left its rail at {:.1} {}: {}",
@@ -273,7 +276,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         distance,
         speed,
         static_loads,
-        limits: statistics::limits(&told.values),
+        limits: limits::of(&told.values),
         statistics: told.values,
         wedge_losses,
         extremes,

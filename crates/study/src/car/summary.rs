@@ -6,7 +6,8 @@ use integrate::Statistics as Counters;
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
-use super::statistics::{Limit, Statistic};
+use super::limits::Limit;
+use super::statistics::Statistic;
 use crate::metrics::Extremes;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
 

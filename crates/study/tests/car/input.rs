@@ -176,7 +176,7 @@ fn input_length_of_a_track_counts_the_speeds_over_distance() {
         );
         CarCase::parse("c.toml", &text, Tables::nowhere(), &[])
     };
-    // To 1,000 ft in 1000/40 mph · ln(60/20), at most; the rest at 20 mph: 1,101 ft, and 26 ft of car on either side.
-    assert!(slowing(1110.0).is_err());
-    assert!(slowing(1250.0).is_ok());
+    // From 26.4 ft to 1,000 ft in 18.4 s (a logarithm), then 46 ft at 20 mph; the front axle is 23.2 ft ahead: 1,069 ft.
+    assert!(slowing(1060.0).is_err());
+    assert!(slowing(1080.0).is_ok());
 }

@@ -171,3 +171,27 @@ fn limits_a_stopped_run_keeps_its_rows() {
     assert!(!result.summary.complete && result.rows() > 15);
     assert_eq!(result.summary.stopped.as_ref().unwrap().reason, "enough");
 }
+
+/// Rails that jump sideways under a wheel: it leaves its rail, which is a result with its place; a track that only
+/// leads to the side is followed.
+#[test]
+fn limits_a_derailment_is_a_result() {
+    let jog = |length: f64| {
+        case(&format!(
+            "lading.kind = \"empty\"\nspeed.value = \"60 mph\"\n[[track.segments]]\ntangent = \"600 ft\"\n[[track.irregularities]]\n\
+             shape = \"jog\"\nrails = \"both\"\ndirection = \"lateral\"\noffset = \"5 in\"\nlength = \"{length} ft\"\n\
+             start = \"50 ft\"\n[simulation]\nduration = \"0.4 s\"\n"
+        ))
+    };
+    let result = run(&jog(3.0));
+    let summary = &result.summary;
+    let derailed = summary.derailed.as_ref().unwrap();
+    assert!(summary.complete && summary.stopped.is_none());
+    assert_eq!((derailed.axle, derailed.distance.unit.as_str()), (1, "ft"));
+    assert!((50.0..60.0).contains(&derailed.distance.value), "{derailed:?}");
+    assert!(summary.warnings.iter().any(|own| own.contains("left its rail")));
+    // The row that shows it is kept.
+    assert_eq!(result.column("time").unwrap().last(), Some(&derailed.time));
+    let followed = run(&jog(400.0));
+    assert!(followed.summary.derailed.is_none() && followed.summary.complete);
+}

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, SQRT_2};
 
 use quantity::System;
-use study::car::statistics::{Histories, Rules, Statistics, limits};
+use study::car::limits;
+use study::car::statistics::{Histories, Rules, Statistics};
 
 const FOOT: f64 = 0.3048;
 const GRAVITY: f64 = 9.806_65;
@@ -191,7 +192,7 @@ fn analytic_limits_name_the_worst_statistic() {
     set(&mut columns, "axle_2_right_lateral", |_| 40e3);
     set(&mut columns, "axle_3_left_vertical", |_| 60e3);
     let told = told(&columns, &Rules::default());
-    let limits = limits(&told.values);
+    let limits = limits::of(&told.values);
     let of = |quantity: &str| {
         limits
             .iter()

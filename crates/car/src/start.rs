@@ -1,0 +1,207 @@
+//! Where a car starts: the equilibrium at rest on straight track, moved along the track.
+
+use std::sync::Arc;
+
+use mechanics::friction::FrictionLaw;
+use mechanics::orientation::fixed;
+use mechanics::system::{Observation, StaticFriction, System};
+use mechanics::vector::{Matrix, Vector};
+use rolling::wheel::Search;
+use wheelrail::track::{CenterLine, Line, RailLines, Segment, Track};
+
+use crate::assemble::Nominal;
+use crate::body::{Carried, Pose, angles};
+use crate::error::BuildError;
+use crate::parameters::{Drive, Parameters, Wheels};
+
+/// Returns the poses of all bodies in the equilibrium at rest on straight track, without friction, from the
+/// middle between the trucks.
+pub(crate) fn at_rest(
+    parameters: &Parameters,
+    carried: &Carried,
+    searches: &[Search],
+    offsets: [f64; 2],
+) -> Result<Vec<Pose>, BuildError> {
+    let middle = parameters.reach() + 10.0;
+    let straight = CenterLine::new(
+        &[Segment::Tangent(2.0 * middle)],
+        parameters.track.center_line.rail_distance(),
+        &[],
+    );
+    let track = Track {
+        center_line: straight?,
+        irregularities: Vec::new(),
+    };
+    let lines = Arc::new(RailLines::new(track, offsets));
+    let still = Parameters {
+        drive: Drive::Coasting,
+        ..parameters.clone()
+    };
+    let mut nominal = Nominal::new(&still, carried, searches, &lines, 0.0);
+    for body in &mut nominal.model.bodies {
+        if !body.is_prescribed() && body.free[3] {
+            body.frame.origin[0] += middle;
+        }
+    }
+    for [carrier, of] in &nominal.model.carriers {
+        nominal.model.bodies[*carrier].frame = nominal.model.bodies[*of].frame.clone();
+    }
+    // Wedges are without friction; plates and adapters hold, since nothing else does.
+    for (carried, .., face) in &mut nominal.model.faces {
+        if nominal.numbers.wedges.iter().flatten().any(|own| own == carried) {
+            face.coefficient = 0.0;
+            face.law = FrictionLaw::Tanh { reference_speed: 1.0 };
+        }
+    }
+    let mut system = System::new(nominal.model)?;
+    let rest = system.equilibrium(0.0, &system.initial_state(), StaticFriction::Following)?;
+    let seen: Observation = system.observe(0.0, &rest);
+    // Nothing holds the car along the track.
+    let rolled = nominal
+        .numbers
+        .wheelsets
+        .map(|number| seen.bodies[number].travel.0[0]);
+    let middle = middle + 0.25 * rolled.iter().sum::<f64>();
+    let poses = seen.bodies.iter().zip(system.bodies()).map(|(state, body)| {
+        let moved = if body.free[3] { middle } else { 0.0 };
+        Pose {
+            place: state.origin - Vector([moved, 0.0, 0.0]),
+            rotation: state.rotation,
+        }
+    });
+    Ok(poses.collect())
+}
+
+/// Where trucks and body stand on the track at the start, in fixed axes.
+pub(crate) struct Placement {
+    /// Of front truck, rear truck and body: the pose of the axes that are forward, left, up in the nominal
+    /// layout, from the middle between the trucks.
+    groups: [Pose; 3],
+    /// Their angular velocities about the vertical, and velocities of their centers.
+    turning: [Vector<f64>; 3],
+    moving: [Vector<f64>; 3],
+}
+
+impl Placement {
+    pub fn new(parameters: &Parameters, lines: &RailLines, axes: Matrix<f64>) -> Self {
+        let (start, half) = (&parameters.start, 0.5 * parameters.truck_distance);
+        let of = |v: [f64; 3]| -> Vector<f64> { axes.apply(Vector(v)) };
+        // Axes along a chord between two sections, upright as their mean is.
+        let between = |[front, rear]: [(Vector<f64>, Vector<f64>); 2]| -> Pose {
+            let along = front.0 - rear.0;
+            let x = along.scale::<f64, f64>(1.0 / length(along));
+            let up = front.1 + rear.1;
+            let left: Vector<f64> = up.cross(x);
+            let y = left.scale::<f64, f64>(1.0 / length(left));
+            let z: Vector<f64> = x.cross(y);
+            let sum = front.0 + rear.0;
+            Pose {
+                place: sum.scale(0.5),
+                rotation: Matrix([0, 1, 2].map(|row| [x.0[row], y.0[row], z.0[row]])),
+            }
+        };
+        // The middle between the actual rails, and up there.
+        let section = |distance: f64| {
+            let [left, right] = [Line::Left, Line::Right].map(|line| lines.section_at(line, distance));
+            let [a, b] = [of(left.origin), of(right.origin)];
+            let up: Vector<f64> = of(left.axes[0]).cross(a - b);
+            ((a + b).scale(0.5), up.scale::<f64, f64>(1.0 / length(up)))
+        };
+        let mut trucks = [0, 1].map(|t| {
+            let center = start.distance + [half, -half][t];
+            let axle = parameters.trucks[t].distances[2];
+            between([section(center + axle), section(center - axle)])
+        });
+        let ends = trucks.map(|pose| (pose.place, pose.rotation.column(2)));
+        let mut body = between(ends);
+        let along = |distance: f64| {
+            let section = lines.section_at(Line::Center, distance);
+            let turning = Vector([0.0, 0.0, section.curvature * start.speed]);
+            (turning, section.curvature)
+        };
+        let turning = [start.distance + half, start.distance - half, start.distance].map(|at| along(at).0);
+        let moving = [trucks[0], trucks[1], body].map(|pose| {
+            let ahead: Vector<f64> = pose.rotation.column(0);
+            ahead.scale(start.speed)
+        });
+        // Poses of the nominal layout's origin, the middle between the trucks.
+        for (pose, center) in trucks.iter_mut().zip([half, -half]) {
+            pose.place = pose.place - pose.rotation.column(0).scale::<f64, f64>(center);
+        }
+        let aside: Vector<f64> = body.rotation.column(1);
+        body.place += aside.scale(start.body_shift);
+        Self {
+            groups: [trucks[0], trucks[1], body],
+            turning,
+            moving,
+        }
+    }
+
+    /// Moves all bodies to where they start; returns the rates of their coordinates.
+    pub fn put(
+        &self,
+        nominal: &mut Nominal,
+        poses: &[Pose],
+        parameters: &Parameters,
+    ) -> Vec<(usize, [f64; 6])> {
+        let radius = match &parameters.wheels {
+            Wheels::OnRails(own) => own.geometry.pairs()[0].nominal_radius(),
+            Wheels::Linear { wheelset, .. } => wheelset.geometry.radius,
+        };
+        let half = 0.5 * parameters.truck_distance;
+        let mut speeds = Vec::new();
+        for &(number, group) in &nominal.groups {
+            let base = &self.groups[group];
+            let mut pose = poses[number].after(base);
+            let wheelset = nominal.numbers.wheelsets.iter().position(|own| *own == number);
+            if let Some(w) = wheelset {
+                let axle: Vector<f64> = base.rotation.column(1);
+                pose.place += axle.scale(parameters.start.wheelset_shifts[w]);
+            }
+            let body = &mut nominal.model.bodies[number];
+            let frame = fixed(body.frame.orientation);
+            let own: Matrix<f64> = frame.transpose().times(pose.rotation);
+            let turn = angles(&own);
+            let place: Vector<f64> = frame.apply_transposed(pose.place - Vector(body.frame.origin));
+            body.initial = [place.0[0], place.0[1], place.0[2], turn[0], turn[1], turn[2]];
+            let center = match group {
+                2 => base.place,
+                _ => {
+                    let ahead: Vector<f64> = base.rotation.column(0);
+                    base.place + ahead.scale::<f64, f64>([half, -half][group])
+                }
+            };
+            let swing: Vector<f64> = self.turning[group].cross(pose.place - center);
+            let velocity: Vector<f64> = frame.apply_transposed(self.moving[group] + swing);
+            let mut rates = [velocity.0[0], velocity.0[1], velocity.0[2], 0.0, 0.0, 0.0];
+            // Both kinds of bodies have the heading as their first angle.
+            rates[4] = self.turning[group].0[2];
+            if wheelset.is_some() {
+                rates[3] = parameters.start.speed / radius;
+            }
+            speeds.push((number, rates));
+        }
+        if let Some(rails) = nominal.numbers.rails {
+            for (w, number) in rails
+                .into_iter()
+                .enumerate()
+                .flat_map(|(w, pair)| pair.map(|own| (w, own)))
+            {
+                let moved: Vector<f64> = self.groups[w / 2].rotation.apply(poses[number].place);
+                nominal.model.bodies[number].initial = [moved.0[0], moved.0[1], moved.0[2], 0.0, 0.0, 0.0];
+            }
+        }
+        for [carrier, of] in nominal.model.carriers.clone() {
+            let body = nominal.model.bodies[of].clone();
+            let carrier = &mut nominal.model.bodies[carrier];
+            carrier.frame = body.frame;
+            let [x, y, z, _, pitch, yaw] = body.initial;
+            carrier.initial = [x, y, z, 0.0, pitch, yaw];
+        }
+        speeds
+    }
+}
+
+fn length(v: Vector<f64>) -> f64 {
+    v.dot::<f64, f64>(v).sqrt()
+}
