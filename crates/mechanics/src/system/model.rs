@@ -15,7 +15,7 @@ use super::{
 use crate::body::{Body, COORDINATES, Kinematics};
 use crate::coil::Coil;
 use crate::connection::{self, Connection, ConnectionError, Options};
-use crate::contact::{ContactFace, Points};
+use crate::contact::{ContactFace, Interface, Points};
 use crate::element::{Element, Placement};
 use crate::frame::Frame;
 use crate::link::{Marker, RelativeFrame, Translation};
@@ -34,6 +34,9 @@ pub struct Model {
     /// Contact faces: number of the body that carries the points (free), number of the body that carries the
     /// surface, marker of the surface.
     pub faces: Vec<(usize, usize, Marker, ContactFace<Plane>)>,
+    /// Refinements of faces, by the number of the face: curved surfaces, friction by speed, load and place,
+    /// pads.
+    pub interfaces: Vec<(usize, Interface)>,
     /// Coils: number of the carried body (free), number of the body with the seat, marker of the seat.
     pub coils: Vec<(usize, usize, Marker, Coil)>,
     /// Other force elements.
@@ -86,6 +89,20 @@ pub enum ModelError {
     Itself {
         /// The body's name.
         body: String,
+    },
+    /// An interface does not fit its face.
+    #[error(
+        "an interface is for face {face} of {faces} (counted from 0); it has {factors} factors of friction for {points} points"
+    )]
+    Interface {
+        /// The number of the face that it names.
+        face: usize,
+        /// How many faces there are.
+        faces: usize,
+        /// How many factors it has; none stand for 1 at all points.
+        factors: usize,
+        /// How many points the face has.
+        points: usize,
     },
     /// No coordinate at all is free.
     #[error("no body has a free coordinate: nothing can move")]
@@ -192,6 +209,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         bodies,
         gravity,
         faces,
+        interfaces,
         coils,
         elements,
         connections,
@@ -199,6 +217,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         options,
     } = model;
     options.check()?;
+    let interfaces = by_face(interfaces, &faces)?;
     if bodies.iter().all(Body::is_prescribed) {
         return Err(ModelError::NothingFree);
     }
@@ -284,7 +303,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         parts: &mut parts,
     };
     let mut mounted_faces = Vec::new();
-    for (body, on, marker, face) in faces {
+    for ((body, on, marker, face), interface) in faces.into_iter().zip(interfaces) {
         let damped = face.points.iter().any(|point| point.damping > 0.0);
         let kinds = [
             Some(EnergyTermKind::FrictionLoss),
@@ -296,7 +315,8 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             0
         };
         let name = face.name.clone();
-        let points = Points::new(&face.points);
+        let face = face.refined(interface);
+        let points = Points::new(&face);
         let mounted = assembler.attach(face, &name, body, on, marker, kinds, pairs)?;
         mounted_faces.push(Mounted { points, ..mounted });
     }
@@ -406,7 +426,9 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     let none = connections.is_empty() && mounted_elements.is_empty();
     let plain = none && mounted_faces.iter().all(|m| m.plain) && mounted_coils.iter().all(|m| m.plain);
     let discontinuities_complete = none && mounted_faces.iter().all(|face| face.internal_count == 0);
-    let bounded = plain && free.iter().all(|free| frames[free.body].fixed) && discontinuities_complete;
+    let refined = mounted_faces.iter().any(|face| face.element.surface.is_refined());
+    let bounded =
+        plain && !refined && free.iter().all(|free| frames[free.body].fixed) && discontinuities_complete;
     for face in &mut mounted_faces {
         let body = &bodies[face.body];
         face.mobilities = face
@@ -472,6 +494,32 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         current_face: (0, f64::NAN),
         points_updated: false,
     })
+}
+
+/// Returns the interface of each face.
+fn by_face(
+    interfaces: Vec<(usize, Interface)>,
+    faces: &[(usize, usize, Marker, ContactFace<Plane>)],
+) -> Result<Vec<Interface>, ModelError> {
+    let mut all = vec![Interface::default(); faces.len()];
+    for (face, interface) in interfaces {
+        let (factors, points) = (
+            interface.friction_factors.len(),
+            faces.get(face).map(|own| own.3.points.len()),
+        );
+        match (points, all.get_mut(face)) {
+            (Some(points), Some(place)) if factors == 0 || factors == points => *place = interface,
+            _ => {
+                return Err(ModelError::Interface {
+                    face,
+                    faces: faces.len(),
+                    factors,
+                    points: points.unwrap_or_default(),
+                });
+            }
+        }
+    }
+    Ok(all)
 }
 
 /// Returns the inertia and weight of a body with linearized kinematics.

@@ -19,6 +19,7 @@ pub mod truck;
 use ::study::case::Case;
 use ::study::result::RunResult;
 use mechanics::motion::Motion;
+pub use pressure::figure as pressure_figure;
 use quantity::{Kind, System as Units};
 
 use crate::csv::converted;
