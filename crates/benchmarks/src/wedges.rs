@@ -94,7 +94,7 @@ fn uncoupled(one: &Wedge, count: usize) -> Model {
         let first = number * each;
         model.bodies.extend_from_slice(system.bodies());
         for face in system.faces() {
-            let element = face.element.clone();
+            let element = face.element.plain();
             model
                 .faces
                 .push((first + face.body, first + face.on, face.marker, element));
@@ -170,7 +170,7 @@ fn chained(one: &Wedge, count: usize, with_wedges: bool) -> Model {
             let on = on(face.on);
             let (from, to) = (bodies[face.on].frame.origin, model.bodies[on].frame.origin);
             let marker = pose.marker(&face.marker, from, to);
-            model.faces.push((wedge, on, marker, face.element.clone()));
+            model.faces.push((wedge, on, marker, face.element.plain()));
         }
         for coil in system.coils() {
             let on = on(coil.on);

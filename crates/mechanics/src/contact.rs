@@ -4,20 +4,28 @@
 //! `g < 0`, else 0. Friction acts against the tangential velocity of the point relative to the surface, which
 //! includes ω × r of both bodies. Units: N, m, s.
 //!
+//! Curved surfaces, friction by speed, load and place, and pads that harden: [`Interface`].
+//!
 //! Defects: with `c > 0` the force jumps at an impact; the stiffness per point is a model parameter that
 //! stands for the elasticity of the faces, not a property of a point. Four corners are the 2 × 2 case of a
 //! face.
 
 mod blocks;
+mod curved;
+mod interface;
+mod motion;
 mod tangent;
 
 use numerics::scalar::{Number, Real};
 
-pub(crate) use blocks::{PlaneMotion, Points};
+pub(crate) use blocks::Points;
+pub(crate) use curved::CurvedMotion;
+pub use interface::{Interface, Sliding};
+pub(crate) use motion::PlaneMotion;
 
 use crate::friction::{Friction, FrictionLaw, bristle, dot, tanh};
 use crate::link::RelativeMotion;
-use crate::surface::Surface;
+use crate::surface::Plane;
 use crate::vector::Vector;
 
 /// A point of a contact face.
@@ -40,7 +48,7 @@ pub struct ContactFace<F> {
     pub name: String,
     /// Its points.
     pub points: Vec<ContactPoint>,
-    /// The surface that they touch.
+    /// The surface that they touch: a [`Plane`], or an [`Interface`] in an assembled system.
     pub surface: F,
     /// Coefficient of friction μ.
     pub coefficient: f64,
@@ -77,6 +85,8 @@ pub(crate) struct PointProperties<P> {
     /// Whether there is any damping.
     pub damped: bool,
     pub share: P,
+    /// Factor of the coefficient of friction.
+    pub factor: P,
 }
 
 /// Contact kinematics of a point (or of four), on which the law depends.
@@ -108,11 +118,39 @@ pub struct FaceResultant<S> {
     pub damping_loss: S,
 }
 
-impl<F: Surface> ContactFace<F> {
+impl ContactFace<Plane> {
+    /// Returns the same face with refinements.
+    #[must_use]
+    pub fn refined(self, interface: Interface) -> ContactFace<Interface> {
+        ContactFace {
+            name: self.name,
+            points: self.points,
+            surface: interface,
+            coefficient: self.coefficient,
+            law: self.law,
+        }
+    }
+}
+
+impl<F> ContactFace<F> {
     /// Returns how many internal states the face has.
     #[must_use]
     pub fn state_count(&self) -> usize {
         self.points.len() * self.law.states_per_point()
+    }
+}
+
+impl ContactFace<Interface> {
+    /// Returns the same face without its refinements.
+    #[must_use]
+    pub fn plain(&self) -> ContactFace<Plane> {
+        ContactFace {
+            name: self.name.clone(),
+            points: self.points.clone(),
+            surface: Plane,
+            coefficient: self.coefficient,
+            law: self.law,
+        }
     }
 
     /// Returns the resultant of all points; `each` is called for every closed point and every point with
@@ -134,7 +172,7 @@ impl<F: Surface> ContactFace<F> {
         };
         let (position, rotation) = (relative.position.value(), relative.rotation.value());
         for (i, point) in self.points.iter().enumerate() {
-            let closed = self.surface.gap(position + rotation.apply(point.position)) < 0.0;
+            let closed = self.surface.shape.gap(position + rotation.apply(point.position)) < 0.0;
             // An open point with a bristle: the bristle relaxes.
             if !closed && deflections.is_empty() {
                 continue;
@@ -144,14 +182,18 @@ impl<F: Surface> ContactFace<F> {
                 None => [S::zero(); 2],
             };
             let mut contact = self.geometry(point, relative);
-            let forces = self.point_force(&point.properties(), closed, &contact.kinematics(), deflection);
+            let properties = self.properties(i);
+            let forces = self.point_force::<S, true>(&properties, closed, &contact.kinematics(), deflection);
             contact.normal = forces.normal;
             contact.friction = forces.friction;
             contact.damping_loss = forces.damping_loss;
             sum.friction_loss += contact.friction.loss;
             if closed {
                 let [t1, t2] = contact.friction.force;
-                let force = self.surface.compose(contact.position, [contact.normal, t1, t2]);
+                let force = self
+                    .surface
+                    .shape
+                    .compose(contact.position, [contact.normal, t1, t2]);
                 sum.force += force;
                 sum.moment += contact.arm.cross(force);
                 sum.damping_loss += contact.damping_loss;
@@ -165,7 +207,7 @@ impl<F: Surface> ContactFace<F> {
     /// face's stiffness, J.
     pub(crate) fn stored(&self, point: &ContactPoint, gap: f64, deflection: Option<&[f64]>) -> [f64; 2] {
         let pressed = if gap < 0.0 {
-            0.5 * point.stiffness * gap * gap
+            self.surface.pressed(point.stiffness, gap)
         } else {
             0.0
         };
@@ -184,11 +226,11 @@ impl<F: Surface> ContactFace<F> {
         let arm: Vector<S> = relative.rotation.apply(point.position);
         let position = relative.position + arm;
         let velocity: Vector<S> = relative.velocity + relative.angular_velocity.cross::<S, S>(arm);
-        let [gap_rate, s1, s2] = self.surface.resolve(position, velocity);
+        let [gap_rate, s1, s2] = self.surface.shape.resolve(position, velocity);
         PointContact {
             position,
             arm,
-            gap: self.surface.gap(position),
+            gap: self.surface.shape.gap(position),
             gap_rate,
             slip: [s1, s2],
             normal: S::zero(),
@@ -197,16 +239,33 @@ impl<F: Surface> ContactFace<F> {
         }
     }
 
-    /// Returns the forces at a point: no normal force if it is open.
+    /// Returns the properties of a point.
+    fn properties(&self, point: usize) -> PointProperties<f64> {
+        let own = &self.points[point];
+        PointProperties {
+            stiffness: own.stiffness,
+            damping: own.damping,
+            damped: own.damping > 0.0,
+            share: own.share,
+            factor: self.surface.friction_factors.get(point).copied().unwrap_or(1.0),
+        }
+    }
+
+    /// Returns the forces at a point: no normal force if it is open. The refinements of the interface count
+    /// with `REFINED` alone; without any, both give the same bits.
     #[inline(always)]
-    pub(crate) fn point_force<S: Number>(
+    pub(crate) fn point_force<S: Number, const REFINED: bool>(
         &self,
         properties: &PointProperties<S::Plain>,
         closed: S::Mask,
         at: &PointKinematics<S>,
         deflection: [S; 2],
     ) -> PointForce<S> {
-        let elastic = S::blend(closed, at.gap.by(-properties.stiffness), S::zero());
+        let mut elastic = at.gap.by(-properties.stiffness);
+        if REFINED {
+            elastic = self.surface.elastic(elastic, at.gap);
+        }
+        let elastic = S::blend(closed, elastic, S::zero());
         let (mut normal, mut damping_loss) = (elastic, S::zero());
         if properties.damped {
             let damped = elastic - at.gap_rate.by(properties.damping);
@@ -216,7 +275,7 @@ impl<F: Surface> ContactFace<F> {
         }
         PointForce {
             normal,
-            friction: self.friction(properties.share, normal, at.slip, deflection),
+            friction: self.friction::<S, REFINED>(properties, normal, at.slip, deflection),
             damping_loss,
         }
     }
@@ -224,7 +283,7 @@ impl<F: Surface> ContactFace<F> {
     /// Returns the load of the friction law, see [`Friction::load`]. It has no meaning with a bristle if the
     /// point is open.
     #[inline(always)]
-    fn load<S: Number>(
+    fn load<S: Number, const REFINED: bool>(
         &self,
         properties: &PointProperties<S::Plain>,
         closed: S::Mask,
@@ -236,20 +295,28 @@ impl<F: Surface> ContactFace<F> {
                 let slip = at.slip.map(S::plain);
                 dot::<S::Plain>(slip, slip).sqrt() * (1.0 / reference_speed)
             }
-            FrictionLaw::Bristle { .. } => self.point_force(properties, closed, at, deflection).friction.load,
+            FrictionLaw::Bristle { .. } => {
+                self.point_force::<S, REFINED>(properties, closed, at, deflection)
+                    .friction
+                    .load
+            }
         }
     }
 
-    /// Returns the friction of a point that carries `share` of the face's tangential stiffness.
+    /// Returns the friction of a point.
     #[inline(always)]
-    pub fn friction<S: Number>(
+    fn friction<S: Number, const REFINED: bool>(
         &self,
-        share: S::Plain,
+        properties: &PointProperties<S::Plain>,
         normal: S,
         slip: [S; 2],
         deflection: [S; 2],
     ) -> Friction<S> {
-        let limit = normal * self.coefficient;
+        let mut limit = normal * self.coefficient;
+        if REFINED {
+            limit = self.surface.limit(limit, properties, normal, slip);
+        }
+        let share = properties.share;
         match self.law {
             FrictionLaw::Tanh { reference_speed } => tanh::friction(limit, reference_speed, slip),
             FrictionLaw::Bristle { stiffness, damping } => {
@@ -266,17 +333,6 @@ impl<S: Number> PointContact<S> {
             gap: self.gap,
             gap_rate: self.gap_rate,
             slip: self.slip,
-        }
-    }
-}
-
-impl ContactPoint {
-    pub(crate) fn properties(&self) -> PointProperties<f64> {
-        PointProperties {
-            stiffness: self.stiffness,
-            damping: self.damping,
-            damped: self.damping > 0.0,
-            share: self.share,
         }
     }
 }

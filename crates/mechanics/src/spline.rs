@@ -128,6 +128,17 @@ impl Spline {
         }
     }
 
+    /// Returns the spline of the abscissae with the other sign.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let reversed = |values: &[f64]| values.iter().rev().copied().collect();
+        Self {
+            abscissae: self.abscissae.iter().rev().map(|abscissa| -abscissa).collect(),
+            ordinates: reversed(&self.ordinates),
+            curvatures: reversed(&self.curvatures),
+        }
+    }
+
     /// Returns the value, first and second derivative.
     #[must_use]
     pub fn evaluate<S: Real>(&self, x: S) -> [S; 3] {

@@ -9,11 +9,13 @@ use integrate::Problem;
 use mechanics::body::Body;
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::CoilLaw;
+use mechanics::contact::{Interface, Sliding};
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
 use mechanics::motion::{Motion, RampProfile};
 use mechanics::spline::Spline;
+use mechanics::surface::{Direction, Profile, Shape};
 use mechanics::system::{Model, System};
 use nalgebra::DMatrix;
 
@@ -553,4 +555,63 @@ fn a_fast_turning_body_without_elements() {
     compare(&model, 31, 10, [0.6, 6.0, 0.0]);
     model.bodies[0].frame = moving(true);
     compare(&model, 32, 10, [0.6, 6.0, 0.0]);
+}
+
+/// A crown and a hollow, along either tangent, and a table of one cubic.
+fn curved() -> [Shape; 4] {
+    let table = Spline::new(vec![-3.0, -1.0, 1.0, 3.0], vec![0.5, 0.1, 0.05, 0.6]).unwrap();
+    let arc = |curvature: f64| Profile::Arc { curvature };
+    [
+        (arc(0.7), Direction::Z),
+        (arc(-0.4), Direction::Y),
+        (Profile::Table(table.clone()), Direction::Y),
+        (Profile::Table(table), Direction::Z),
+    ]
+    .map(|(profile, direction)| Shape { profile, direction })
+}
+
+#[test]
+fn on_curved_surfaces() {
+    for (seed, shape) in curved().into_iter().enumerate() {
+        for (law, damping, turning) in [(TANH, 0.0, true), (BRISTLE, 20.0, true), (TANH, 30.0, false)] {
+            let mut model = one_on_prescribed(ALL, law, damping, moving(turning), [0.0; 6]);
+            for face in 0..2 {
+                let interface = Interface {
+                    shape: shape.clone(),
+                    ..Interface::default()
+                };
+                model.interfaces.push((face, interface));
+            }
+            let counts = compare(&model, 700 + seed as u64, 5, SPREAD);
+            assert!(counts.open > 2 && counts.closed > 2);
+        }
+    }
+}
+
+#[test]
+fn with_refined_laws() {
+    let refined = |factors: Vec<f64>, shape: Shape| Interface {
+        shape,
+        sliding: Sliding {
+            ratio: 0.6,
+            stribeck_speed: 0.9,
+            half_load: 150.0,
+        },
+        friction_factors: factors,
+        hardening: Some(0.4),
+    };
+    for (law, shape) in [
+        (TANH, Shape::default()),
+        (BRISTLE, Shape::default()),
+        (BRISTLE, curved()[0].clone()),
+    ] {
+        let mut model = one_on_prescribed(ALL, law, 10.0, moving(true), [0.0; 6]);
+        model
+            .interfaces
+            .push((0, refined(vec![1.0, 0.7, 1.3, 0.4], shape.clone())));
+        model.interfaces.push((1, refined(Vec::new(), shape)));
+        let counts = compare(&model, 800, 8, [0.25, 0.6, 0.05]);
+        assert!(counts.open > 5 && counts.closed > 5);
+        assert!(law == TANH || counts.slip > 1);
+    }
 }

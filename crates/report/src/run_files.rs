@@ -11,7 +11,9 @@ use study::truck::TruckCase;
 use study::truck::run::TruckResult;
 use study::wheelset::WheelsetCase;
 use study::wheelset::run::WheelsetResult;
+use wedge::face::Grid;
 
+use crate::figures::pressure_figure;
 use crate::files::{FileError, Folder};
 use crate::{csv, half_truck_files, mat, summary};
 
@@ -20,12 +22,20 @@ pub const CASE_FILE_NAME: &str = "case.toml";
 /// The files of a run.
 pub const NAMES: [&str; 4] = [csv::FILE_NAME, mat::FILE_NAME, CASE_FILE_NAME, summary::FILE_NAME];
 
+/// The name of the figure of the pressure over faces with grids of points.
+pub const PRESSURE_FILE_NAME: &str = "pressure.svg";
+
 /// A case whose runs are written as files.
 pub trait RunFiles: RunCase<Output = RunResult<Self::Summary>> {
     /// The summary of its runs.
     type Summary: RunSummary;
     /// The files of a run.
     const FILES: &'static [&'static str];
+
+    /// The files that [`RunFiles::write`] writes of this case.
+    fn names(&self) -> Vec<&'static str> {
+        Self::FILES.to_vec()
+    }
 
     /// Writes the files of a run, all of them or none.
     ///
@@ -37,6 +47,13 @@ pub trait RunFiles: RunCase<Output = RunResult<Self::Summary>> {
 impl RunFiles for Case {
     type Summary = study::summary::Summary;
     const FILES: &'static [&'static str] = &NAMES;
+
+    fn names(&self) -> Vec<&'static str> {
+        let faces = [&self.parameters.column_face, &self.parameters.slope_face];
+        let pressure = faces.iter().any(|face| face.grid != Grid::default());
+        let more = pressure.then_some(PRESSURE_FILE_NAME);
+        NAMES.into_iter().chain(more).collect()
+    }
 
     fn write(&self, folder: &Folder, result: &RunResult) -> Result<(), FileError> {
         write(folder, self, result)
@@ -126,6 +143,12 @@ pub fn write(folder: &Folder, case: &Case, result: &RunResult) -> Result<(), Fil
             let document = case.document.clone().with_tables_embedded();
             out.write_all(document.to_toml().as_bytes())
         })?;
-        files.add(summary::FILE_NAME, |out| summary::write(&result.summary, out))
+        files.add(summary::FILE_NAME, |out| summary::write(&result.summary, out))?;
+        if let Some(figure) = pressure_figure(case, result) {
+            files.add(PRESSURE_FILE_NAME, |out| {
+                out.write_all(figure.to_svg().as_bytes())
+            })?;
+        }
+        Ok(())
     })
 }

@@ -2,7 +2,9 @@
 
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
+use mechanics::surface::Profile;
 use wedge::Wedge;
+use wedge::face::{FaceDirection, FaceProperties, Grid};
 use wedge::parameters::{Damping, FaceFriction, STANDARD_GRAVITY, Start, Wear};
 
 const INCH: f64 = 0.0254;
@@ -44,8 +46,13 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
             CoilLaw::Given { .. } => "The coil's force is given from outside.".to_owned(),
         });
     }
-    for (face, friction) in [("column", &p.column_friction), ("slope", &p.slope_friction)] {
-        list.push(friction_assumption(face, friction));
+    let faces = [
+        ("column", &p.column_friction, &p.column_face),
+        ("slope", &p.slope_friction, &p.slope_face),
+    ];
+    for (name, friction, face) in faces {
+        list.push(friction_assumption(name, &face.friction(friction)));
+        list.extend(of_face(name, face));
     }
     list.push(match p.start {
         Start::Rest => "The run starts at rest in the nominal position, whatever penetrates: with toe or yaw the first \
@@ -90,6 +97,60 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
         list.push(format!("Gravity is {} m/s².", p.gravity));
     }
     list
+}
+
+/// Returns what a face has beyond four corners, flat surfaces and one coefficient of friction; `None` if
+/// nothing.
+pub(crate) fn of_face(name: &str, face: &FaceProperties) -> Option<String> {
+    let mut parts = Vec::new();
+    if face.grid != Grid::default() {
+        parts.push(format!(
+            "{} x {} points with the weights of the trapezoidal rule, so that it resists tilting less than four corners",
+            face.grid.up, face.grid.across
+        ));
+    }
+    for (own, whose) in [
+        (&face.wedge_surface, "the wedge's"),
+        (&face.counterface, "the opposite"),
+    ] {
+        let way = match own.direction {
+            FaceDirection::Up => "up",
+            FaceDirection::Across => "across",
+        };
+        match &own.profile {
+            Profile::Flat => {}
+            Profile::Arc { curvature } => {
+                let kind = if *curvature < 0.0 { "hollow" } else { "crowned" };
+                parts.push(format!(
+                    "{whose} surface {kind} {way} the face by a radius of {:.4} in",
+                    1.0 / (curvature.abs() * INCH)
+                ));
+            }
+            Profile::Table(_) => parts.push(format!("{whose} surface by a table of depths {way} the face")),
+        }
+    }
+    if let Some(sliding) = face.sliding_friction {
+        parts.push(format!(
+            "a coefficient of sliding of {sliding}, half way there at {:.3e} in/s",
+            face.stribeck_speed / INCH
+        ));
+    }
+    if let Some(load) = face.friction_half_load {
+        parts.push(format!(
+            "half of its friction coefficient at {:.4e} lbf",
+            load / POUND_FORCE
+        ));
+    }
+    if !face.friction_map.is_empty() {
+        parts.push("friction by a map over the face".to_owned());
+    }
+    if let Some(pad) = &face.pad {
+        parts.push(format!(
+            "a pad of {:.4e} lbf/in, which is no steel on steel and stands for all of the contact's stiffness",
+            pad.stiffness * INCH / POUND_FORCE
+        ));
+    }
+    (!parts.is_empty()).then(|| format!("The {name} has {}.", parts.join("; ")))
 }
 
 fn friction_assumption(face: &str, friction: &FaceFriction) -> String {

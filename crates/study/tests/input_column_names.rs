@@ -152,15 +152,18 @@ impl Rule {
     }
 }
 
-/// The columns of both dampings.
+/// The columns of both dampings, and of faces with grids of points.
 fn wedge_columns() -> Vec<Column> {
-    ["vdrun_toe_-0.2_psi_0.012", "cdrun_toe_0.2_psi_0"]
-        .iter()
-        .flat_map(|name| {
-            let case = builtin::case(name).unwrap();
-            Outputs::new(&case.parameters).columns().to_vec()
-        })
-        .collect()
+    [
+        ("vdrun_toe_-0.2_psi_0.012", "[2, 2]"),
+        ("cdrun_toe_0.2_psi_0", "[3, 4]"),
+    ]
+    .iter()
+    .flat_map(|(name, grid)| {
+        let case = builtin::case_with(name, &[format!("slope_face.grid={grid}")]).unwrap();
+        Outputs::new(&case.parameters).columns().to_vec()
+    })
+    .collect()
 }
 
 /// The columns of half-trucks with all that their data files ask for.

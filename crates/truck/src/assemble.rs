@@ -55,17 +55,25 @@ impl Truck {
         match parameters.start {
             Start::Rest => Ok(truck),
             Start::Touching => {
-                let mut system = truck.system;
-                let observation = system.observe(0.0, &system.initial_state());
-                let depth = |face: usize| {
-                    let points = observation.faces[face].points.iter();
-                    points.fold(0.0, |depth: f64, point| depth.max(-point.gap))
+                let (mut truck, mut gaps) = (truck, [[0.0; 2]; 4]);
+                let mut faces = parameters
+                    .wedges
+                    .iter()
+                    .flat_map(|own| [&own.column_face, &own.slope_face]);
+                // Over a plane a shift opens all gaps by as much; over a curved counterface the next one
+                // corrects it.
+                let passes = match faces.any(|face| !face.counterface.profile.is_flat()) {
+                    false => 1,
+                    true => 5,
                 };
-                let gaps = truck.mounted.added.wedges.map(|place| match place {
-                    WedgePlace::Body { column } => [column, column + 1].map(depth),
-                    WedgePlace::Massless { .. } => [0.0; 2],
-                });
-                Ok(Self::with_gaps(parameters, gaps)?)
+                for _ in 0..passes {
+                    let depths = truck.depths();
+                    for (gaps, depths) in gaps.as_flattened_mut().iter_mut().zip(depths.as_flattened()) {
+                        *gaps += depths;
+                    }
+                    truck = Self::with_gaps(parameters, gaps)?;
+                }
+                Ok(truck)
             }
             Start::Equilibrium => {
                 let mut truck = truck;
@@ -76,6 +84,19 @@ impl Truck {
                 Ok(truck)
             }
         }
+    }
+
+    /// Returns how deep column and slope of each wedge are inside at the start, m.
+    fn depths(&mut self) -> [[f64; 2]; 4] {
+        let observation = self.system.observe(0.0, &self.system.initial_state());
+        let depth = |face: usize| {
+            let points = observation.faces[face].points.iter();
+            points.fold(0.0, |depth: f64, point| depth.max(-point.gap))
+        };
+        self.mounted.added.wedges.map(|place| match place {
+            WedgePlace::Body { column } => [column, column + 1].map(depth),
+            WedgePlace::Massless { .. } => [0.0; 2],
+        })
     }
 
     /// Returns the truck with column and slope of each wedge moved away by so much (m) along their normals.
@@ -127,6 +148,12 @@ fn without_friction(parameters: &Parameters) -> Parameters {
     for wedge in &mut parameters.wedges {
         wedge.column_friction = none;
         wedge.slope_friction = none;
+        for pad in [&mut wedge.column_face.pad, &mut wedge.slope_face.pad]
+            .into_iter()
+            .flatten()
+        {
+            (pad.friction, pad.shear) = (0.0, None);
+        }
     }
     if let Some(wheelsets) = &mut parameters.wheelsets
         && let Adapter::Friction(adapter) = &mut wheelsets.adapter

@@ -125,6 +125,19 @@ impl Mount {
 /// two prescribed bodies, or between two that are one, are left out: nothing depends on their forces.)
 pub fn add_elements(model: &mut Model, parameters: &Parameters, mount: &Mount) {
     add(model, parameters, mount, [[0.0; 2]; 4]);
+    let joins = |face: usize| {
+        model
+            .faces
+            .get(face)
+            .is_some_and(|(carried, on, ..)| carried != on)
+    };
+    // The numbers of the faces that stay.
+    let interfaces = std::mem::take(&mut model.interfaces);
+    let kept = interfaces.into_iter().filter(|(face, _)| joins(*face));
+    let kept: Vec<_> = kept
+        .map(|(face, interface)| ((0..face).filter(|before| joins(*before)).count(), interface))
+        .collect();
+    model.interfaces = kept;
     model.faces.retain(|(carried, on, ..)| carried != on);
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLine};
-use mechanics::contact::{ContactFace, ContactPoint};
+use mechanics::contact::{ContactFace, ContactPoint, Interface};
 use mechanics::elements::Stop;
 use mechanics::frame::Frame;
 use mechanics::link::Marker;
@@ -109,16 +109,24 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> V
     for (on, face, x, pitch, gap, (friction, properties)) in faces {
         let lower = if face == "column" { -1.0 } else { 2.0 };
         let edges = [lower * length / 3.0, -length / 3.0];
-        let mut points = contact_points(wedge, properties, end, edges);
+        let mut points = contact_points(wedge, properties, end, edges, face == "column");
         for point in &mut points {
             point.position = Vector(in_axes_of(&model.bodies[at.body], point.position.0));
         }
+        let friction = properties.friction(friction);
         // The normal is the marker's x axis.
         let (sine, cosine) = libm::sincos(pitch);
         let surface = [x - gap * cosine, y, middle + gap * sine];
         let place = std::array::from_fn(|k| surface[k] + at.from[k]);
         let marker = marker_on(&model.bodies[on], place, [0.0, pitch, 0.0]);
-        let face = plane(format!("{name}_{face}"), points, friction);
+        // The marker's z axis points down where it is pitched beyond a right angle; a wedge that is turned by
+        // half a turn has its left on the right.
+        let reversed = [cosine < 0.0, end > 0.0];
+        let interface = properties.interface(&friction, reversed);
+        if interface != Interface::default() {
+            model.interfaces.push((model.faces.len(), interface));
+        }
+        let face = plane(format!("{name}_{face}"), points, &friction);
         model.faces.push((at.body, on, marker, face));
     }
     let seat = match at.damping {
@@ -212,18 +220,20 @@ fn thesis_coil(model: &mut Model, at: &WedgeMount<'_>, seat: usize, to_center: [
     model.coils.push((at.body, seat, marker, law));
 }
 
-/// The points of a wedge's face, with the lower and the upper edge's x from the center of gravity in the wedge's own
-/// axes.
+/// The points of a wedge's face, with the lower and the upper edge's x from the center of gravity in the
+/// wedge's own axes; `faces_backward` is that of the vertical face.
 fn contact_points(
     wedge: &Wedge,
     face: &FaceProperties,
     end: f64,
     [lower, upper]: [f64; 2],
+    faces_backward: bool,
 ) -> Vec<ContactPoint> {
     let rectangle = Rectangle {
         lower: [lower, -wedge.height / 3.0],
         upper: [upper, 2.0 * wedge.height / 3.0],
         width: wedge.width,
+        faces_backward,
     };
     let to_center = wedge.origin_to_center(end);
     let mut points = face.points(&rectangle, &wedge.contact);

@@ -96,7 +96,24 @@ impl Wedge {
 /// Returns how far column and pocket must move apart, each along the x axis of its body, until no corner
 /// penetrates at time zero, m.
 fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
-    let mut system = System::new(model(parameters, [0.0; 2]))?;
+    let faces = [&parameters.column_face, &parameters.slope_face];
+    let mut shifts = more_shifts(parameters, [0.0; 2])?;
+    // Over a plane a shift opens all gaps by as much; over a curved counterface the next one corrects it.
+    if faces.iter().any(|face| !face.counterface.profile.is_flat()) {
+        for _ in 0..CORRECTIONS {
+            let more = more_shifts(parameters, shifts)?;
+            shifts = [shifts[0] + more[0], shifts[1] + more[1]];
+        }
+    }
+    Ok(shifts)
+}
+
+/// Corrections of a touching start over curved counterfaces.
+const CORRECTIONS: usize = 4;
+
+/// Returns how much farther they must move apart.
+fn more_shifts(parameters: &Parameters, shifts: [f64; 2]) -> Result<[f64; 2], ModelError> {
+    let mut system = System::new(model(parameters, shifts))?;
     let start = system.initial_state();
     let observation = system.observe(0.0, &start);
     Ok([COLUMN, SLOPE].map(|face| {
@@ -121,6 +138,12 @@ fn held(parameters: &Parameters) -> Parameters {
             coefficient: 0.0,
             law: FrictionLaw::Tanh { reference_speed: 1.0 },
         };
+    }
+    for pad in [&mut held.column_face.pad, &mut held.slope_face.pad]
+        .into_iter()
+        .flatten()
+    {
+        (pad.friction, pad.shear) = (0.0, None);
     }
     held
 }
@@ -158,10 +181,20 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
         law: friction.law,
     };
     let [vertical, inclined] = parameters.rectangles();
-    let column = parameters.column_face.points(&vertical, &parameters.contact);
-    let column = face("column", column, &parameters.column_friction);
-    let slope = parameters.slope_face.points(&inclined, &parameters.contact);
-    let slope = face("slope", slope, &parameters.slope_friction);
+    let (on_column, on_slope) = (&parameters.column_face, &parameters.slope_face);
+    let frictions = [
+        on_column.friction(&parameters.column_friction),
+        on_slope.friction(&parameters.slope_friction),
+    ];
+    let column = on_column.points(&vertical, &parameters.contact);
+    let column = face("column", column, &frictions[0]);
+    let slope = on_slope.points(&inclined, &parameters.contact);
+    let slope = face("slope", slope, &frictions[1]);
+    // The slope's marker is pitched beyond a right angle: its z axis points down.
+    let interfaces = vec![
+        (COLUMN, on_column.interface(&frictions[0], [false, false])),
+        (SLOPE, on_slope.interface(&frictions[1], [true, false])),
+    ];
     let worn_column = along(parameters.wear.column, parameters.toe);
     let worn_slope = along(parameters.wear.slope, PI - wedge.angle);
     let column_marker = Marker::new(
@@ -203,6 +236,7 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
             (WEDGE, SIDE_FRAME, column_marker, column),
             (WEDGE, BOLSTER, slope_marker, slope),
         ],
+        interfaces,
         coils: vec![(
             WEDGE,
             seat_body,

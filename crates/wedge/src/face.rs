@@ -1,122 +1,98 @@
-//! The faces of a wedge: grids of weighted points.
+//! The faces of a wedge: grids of weighted points, crowns and worn profiles, friction over the face, pads.
 //!
-//! A grid of n × m points covers a face from edge to edge, n up the face and m across. The weights are those of
-//! the trapezoidal rule in both directions: a point stands for the part of the face that is nearest to it. So
-//! four corners of a quarter each are the 2 × 2 grid, the edges of the face are points of every grid, and sums
-//! over the points converge to integrals over the face with the square of the spacing. (A face of 2 × 2 points
-//! resists tilting three times as much as an evenly bedded one, 5 × 5 points 1.13 times as much.)
-//!
-//! The four corners come first, as in [`crate::outputs::CORNERS`]; the others follow row by row from the lowest
-//! one, each from right to left.
+//! A face of the wedge is where its points lie; a profile moves them into the wedge. What the counterface,
+//! friction and a pad are beyond a plain face is the [`Interface`] of the contact.
 
-use mechanics::contact::ContactPoint;
+mod grid;
+
+use mechanics::contact::{ContactPoint, Interface, Sliding};
+use mechanics::friction::FrictionLaw;
+use mechanics::surface::{Direction, Profile, Shape};
 use mechanics::vector::Vector;
 use serde::{Deserialize, Serialize};
 
-use crate::outputs::CORNERS;
-use crate::parameters::Contact;
+pub use self::grid::{Grid, GridPoint, LARGEST_GRID};
+use crate::parameters::{Contact, FaceFriction, ParameterError, check, not_negative, positive};
 
-/// The largest number of points in one direction of a grid.
-pub const LARGEST_GRID: usize = 100;
-
-/// How many points a face has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Grid {
-    /// Points up the face, from its lower to its upper edge: at least 2.
-    pub up: usize,
-    /// Points across the face, from its right to its left edge: at least 2.
-    pub across: usize,
-}
-
-impl Default for Grid {
-    fn default() -> Self {
-        Self { up: 2, across: 2 }
-    }
-}
-
-/// A point of a grid.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GridPoint {
-    /// Its row, counted from 0 at the lower edge.
-    pub row: usize,
-    /// Its place in the row, counted from 0 at the right edge (-y).
-    pub column: usize,
-    /// Its place up the face, from 0 at the lower to 1 at the upper edge.
-    pub up: f64,
-    /// Its place across, from -1 at the right to 1 at the left edge.
-    pub across: f64,
-    /// Its share of the face; the shares of a grid sum to 1.
-    pub weight: f64,
-}
-
-impl Grid {
-    /// Returns how many points it has.
-    #[must_use]
-    pub fn count(self) -> usize {
-        self.up * self.across
-    }
-
-    /// Returns its points: the corners first.
-    #[must_use]
-    pub fn points(self) -> Vec<GridPoint> {
-        let (top, left) = (self.up - 1, self.across - 1);
-        let is_corner =
-            |row: usize, column: usize| (row == 0 || row == top) && (column == 0 || column == left);
-        let corners = [(0, 0), (0, left), (top, 0), (top, left)];
-        let all = (0..self.up).flat_map(|row| (0..self.across).map(move |column| (row, column)));
-        let others = all.filter(|(row, column)| !is_corner(*row, *column));
-        corners
-            .into_iter()
-            .chain(others)
-            .map(|(row, column)| self.point(row, column))
-            .collect()
-    }
-
-    fn point(self, row: usize, column: usize) -> GridPoint {
-        let share = |place: usize, count: usize| {
-            let end = place == 0 || place == count - 1;
-            let own = if end { 0.5 } else { 1.0 };
-            own / (count - 1) as f64
-        };
-        let part = |place: usize, count: usize| place as f64 / (count - 1) as f64;
-        GridPoint {
-            row,
-            column,
-            up: part(row, self.up),
-            across: 2.0 * part(column, self.across) - 1.0,
-            weight: share(row, self.up) * share(column, self.across),
-        }
-    }
-
-    /// Returns the names of its points in results: those of the corners, `point_R_C` for the others, with row R
-    /// counted from 1 at the lower edge and place C counted from 1 at the right edge.
-    #[must_use]
-    pub fn names(self) -> Vec<String> {
-        let points = self.points();
-        points
-            .iter()
-            .enumerate()
-            .map(|(index, point)| match CORNERS.get(index) {
-                Some(corner) => (*corner).to_owned(),
-                None => point.number(),
-            })
-            .collect()
-    }
-}
-
-impl GridPoint {
-    /// Returns its name by row and place, both counted from 1: `point_3_2`.
-    #[must_use]
-    pub fn number(&self) -> String {
-        format!("point_{}_{}", self.row + 1, self.column + 1)
-    }
-}
-
-/// What a face is like.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// What a face is like, and what it touches.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct FaceProperties {
     /// Its points.
     pub grid: Grid,
+    /// How the wedge's face recedes from a flat one.
+    pub wedge_surface: FaceProfile,
+    /// How the surface recedes that it touches: of the column, or of the slope of the pocket.
+    pub counterface: FaceProfile,
+    /// Coefficient of sliding; without one it is that of rest.
+    pub sliding_friction: Option<f64>,
+    /// Slip speed at which half of the way from rest to sliding is gone, m/s.
+    pub stribeck_speed: f64,
+    /// Load of the face at which its coefficients are half of those without load, N; without one they do not
+    /// depend on the load.
+    pub friction_half_load: Option<f64>,
+    /// Factors of the coefficients over the face; empty: 1 everywhere.
+    pub friction_map: FrictionMap,
+    /// A resilient pad.
+    pub pad: Option<Pad>,
+}
+
+/// The Stribeck speed unless another is given, m/s: 0.1 in/s, a hundred times the thesis's reference speed of
+/// tanh.
+pub const STRIBECK_SPEED: f64 = 0.1 * 0.0254;
+
+impl Default for FaceProperties {
+    fn default() -> Self {
+        Self {
+            grid: Grid::default(),
+            wedge_surface: FaceProfile::default(),
+            counterface: FaceProfile::default(),
+            sliding_friction: None,
+            stribeck_speed: STRIBECK_SPEED,
+            friction_half_load: None,
+            friction_map: FrictionMap::new(),
+            pad: None,
+        }
+    }
+}
+
+/// Factors over a face: rows from the lower to the upper edge, each from the right to the left edge. Between
+/// them they are bilinear.
+pub type FrictionMap = Vec<Vec<f64>>;
+
+/// How a face or its counterface recedes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FaceProfile {
+    /// Depth over the distance from the middle of the face, up or to the left, m.
+    pub profile: Profile,
+    /// Which way the profile runs.
+    pub direction: FaceDirection,
+}
+
+/// A direction along a face.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FaceDirection {
+    /// From the lower to the upper edge.
+    #[default]
+    Up,
+    /// From the right to the left edge.
+    Across,
+}
+
+/// A resilient pad on a face, in place of the contact of steel on steel.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pad {
+    /// Normal stiffness of the whole pad at small compressions, N/m.
+    pub stiffness: f64,
+    /// Normal damping of the whole pad, N·s/m; it never pulls.
+    pub damping: f64,
+    /// Compression at which its force is twice that of a linear spring, m; without one it is linear.
+    pub hardening: Option<f64>,
+    /// Coefficient of friction of its surface (of rest, if there is one of sliding).
+    pub friction: f64,
+    /// Shear stiffness (N/m) and damping (N·s/m) of the whole pad: its friction is by bristles then.
+    pub shear: Option<[f64; 2]>,
 }
 
 /// A face of a wedge, seen along y: it leads from its lower to its upper edge. Lengths in m.
@@ -128,6 +104,8 @@ pub struct Rectangle {
     pub upper: [f64; 2],
     /// Width along y, which is zero in the middle.
     pub width: f64,
+    /// Whether the wedge lies on the side of +x.
+    pub faces_backward: bool,
 }
 
 impl Rectangle {
@@ -135,6 +113,16 @@ impl Rectangle {
     #[must_use]
     pub fn length(&self) -> f64 {
         libm::hypot(self.upper[0] - self.lower[0], self.upper[1] - self.lower[1])
+    }
+
+    /// Returns the unit vector (x, z) into the wedge.
+    fn inward(&self) -> [f64; 2] {
+        let sign = if self.faces_backward { 1.0 } else { -1.0 };
+        let length = self.length();
+        [
+            sign * (self.upper[1] - self.lower[1]) / length,
+            -sign * (self.upper[0] - self.lower[0]) / length,
+        ]
     }
 
     /// Returns the place of a point.
@@ -149,17 +137,39 @@ impl Rectangle {
 }
 
 impl FaceProperties {
-    /// Returns the contact points of a face. `contact` is that of each of four corners: each point has its share of
-    /// the stiffness and damping of all four. Positions as those of the rectangle.
+    /// Returns the contact points of a face. `contact` is that of each of four corners: each point has its
+    /// share of the stiffness and damping of all four. Positions as those of the rectangle.
     #[must_use]
     pub fn points(&self, face: &Rectangle, contact: &Contact) -> Vec<ContactPoint> {
+        let contact = match &self.pad {
+            None => *contact,
+            Some(pad) => Contact {
+                stiffness: 0.25 * pad.stiffness,
+                damping: 0.25 * pad.damping,
+            },
+        };
         let point = |own: &GridPoint| ContactPoint {
-            position: Vector(face.place(own)),
+            position: Vector(self.place(face, own)),
             stiffness: contact.stiffness * (4.0 * own.weight),
             damping: contact.damping * (4.0 * own.weight),
             share: own.weight,
         };
         self.grid.points().iter().map(point).collect()
+    }
+
+    /// Returns the place of a point of the wedge's surface.
+    fn place(&self, face: &Rectangle, point: &GridPoint) -> [f64; 3] {
+        let flat = face.place(point);
+        if self.wedge_surface.profile.is_flat() {
+            return flat;
+        }
+        let distance = match self.wedge_surface.direction {
+            FaceDirection::Up => face.length() * (point.up - 0.5),
+            FaceDirection::Across => 0.5 * face.width * point.across,
+        };
+        let [depth, ..] = self.wedge_surface.profile.depth(distance);
+        let inward = face.inward();
+        [flat[0] + depth * inward[0], flat[1], flat[2] + depth * inward[1]]
     }
 
     /// Returns what part of the face (m²) each of its points stands for.
@@ -172,52 +182,186 @@ impl FaceProperties {
             .map(|point| area * point.weight)
             .collect()
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn analytic_weights_are_those_of_the_trapezoidal_rule() {
-        let corners = Grid::default().points();
-        assert_eq!(corners.len(), 4);
-        assert!(corners.iter().all(|point| point.weight == 0.25));
-        let places: Vec<[f64; 2]> = corners.iter().map(|point| [point.up, point.across]).collect();
-        assert_eq!(places, [[0.0, -1.0], [0.0, 1.0], [1.0, -1.0], [1.0, 1.0]]);
-        for (up, across) in [(2, 3), (5, 5), (9, 2), (41, 4)] {
-            let grid = Grid { up, across };
-            let points = grid.points();
-            assert_eq!(points.len(), grid.count());
-            let sum = |f: &dyn Fn(&GridPoint) -> f64| points.iter().map(|p| p.weight * f(p)).sum::<f64>();
-            assert!((sum(&|_| 1.0) - 1.0).abs() < 1e-14);
-            assert!((sum(&|p| p.up) - 0.5).abs() < 1e-14);
-            assert!(sum(&|p| p.across).abs() < 1e-14);
-            // The mean of s² over -1..1 is 1/3; the rule is off by the square of the spacing over 6.
-            let h = 2.0 / (across - 1) as f64;
-            let square = sum(&|p| p.across * p.across);
-            assert!((square - 1.0 / 3.0 - h * h / 6.0).abs() < 1e-13);
+    /// Returns the friction at rest: that of the pad, if there is one.
+    #[must_use]
+    pub fn friction(&self, steel: &FaceFriction) -> FaceFriction {
+        let Some(pad) = &self.pad else {
+            return *steel;
+        };
+        FaceFriction {
+            coefficient: pad.friction,
+            law: match pad.shear {
+                Some([stiffness, damping]) => FrictionLaw::Bristle { stiffness, damping },
+                None => steel.law,
+            },
         }
     }
 
-    #[test]
-    fn limits_names_of_points_are_unique_and_corners_come_first() {
-        let grid = Grid { up: 4, across: 3 };
-        let names = grid.names();
-        assert_eq!(
-            names[..5],
-            [
-                "lower_right",
-                "lower_left",
-                "upper_right",
-                "upper_left",
-                "point_1_2"
-            ]
-        );
-        let unique: std::collections::BTreeSet<&String> = names.iter().collect();
-        assert_eq!(unique.len(), 12);
-        let numbers: std::collections::BTreeSet<String> =
-            grid.points().iter().map(GridPoint::number).collect();
-        assert_eq!(numbers.len(), 12);
+    /// Returns the refinements of the contact with this friction at rest. `reversed` says whether the
+    /// marker's axes z and y point down and to the right.
+    #[must_use]
+    pub fn interface(&self, friction: &FaceFriction, reversed: [bool; 2]) -> Interface {
+        let (direction, reversed) = match self.counterface.direction {
+            FaceDirection::Up => (Direction::Z, reversed[0]),
+            FaceDirection::Across => (Direction::Y, reversed[1]),
+        };
+        let profile = &self.counterface.profile;
+        let sliding = self.sliding_friction.filter(|_| friction.coefficient > 0.0);
+        let factors = match self.friction_map.is_empty() {
+            true => Vec::new(),
+            false => self
+                .grid
+                .points()
+                .iter()
+                .map(|point| self.factor(point))
+                .collect(),
+        };
+        Interface {
+            shape: Shape {
+                profile: if reversed {
+                    profile.mirrored()
+                } else {
+                    profile.clone()
+                },
+                direction,
+            },
+            sliding: Sliding {
+                ratio: sliding.map_or(1.0, |sliding| sliding / friction.coefficient),
+                stribeck_speed: match sliding {
+                    Some(_) => self.stribeck_speed,
+                    None => Sliding::default().stribeck_speed,
+                },
+                half_load: self.friction_half_load.unwrap_or(f64::INFINITY),
+            },
+            friction_factors: factors,
+            hardening: self.pad.and_then(|pad| pad.hardening),
+        }
+    }
+
+    /// Returns the factor of friction at a point.
+    fn factor(&self, point: &GridPoint) -> f64 {
+        let between = |share: f64, count: usize| {
+            let place = share * (count - 1) as f64;
+            let low = (place.floor() as usize).min(count.saturating_sub(2));
+            (low, (low + 1).min(count - 1), place - low as f64)
+        };
+        let (below, above, up) = between(point.up, self.friction_map.len());
+        let (right, left, across) = between(0.5 * (point.across + 1.0), self.friction_map[0].len());
+        let row = |row: usize| {
+            let row = &self.friction_map[row];
+            row[right] + (row[left] - row[right]) * across
+        };
+        row(below) + (row(above) - row(below)) * up
+    }
+
+    /// Checks every range; `face` is its place, `number` that of [`crate::outputs::FACES`].
+    ///
+    /// # Errors
+    /// The first value that is outside its range.
+    pub fn validate(&self, face: &Rectangle, number: usize) -> Result<(), ParameterError> {
+        let paths = &PATHS[number.min(1)];
+        for points in [self.grid.up, self.grid.across] {
+            let holds = (2..=LARGEST_GRID).contains(&points);
+            check(
+                paths.grid,
+                points as f64,
+                holds,
+                "from 2 to 100 points in each direction",
+            )?;
+        }
+        let extent = |profile: &FaceProfile| match profile.direction {
+            FaceDirection::Up => 0.5 * face.length(),
+            FaceDirection::Across => 0.5 * face.width,
+        };
+        for (path, own) in [
+            (paths.wedge_surface, &self.wedge_surface),
+            (paths.counterface, &self.counterface),
+        ] {
+            match &own.profile {
+                Profile::Flat => {}
+                Profile::Arc { curvature } => {
+                    let radius = 1.0 / curvature.abs();
+                    check(
+                        path,
+                        radius,
+                        radius > extent(own),
+                        "a radius of more than half of the face",
+                    )?;
+                }
+                Profile::Table(table) => {
+                    let (first, last) = table.range();
+                    let holds = first <= -extent(own) && last >= extent(own);
+                    let expected = "a table from edge to edge of the face, its places from the middle";
+                    check(path, last - first, holds, expected)?;
+                }
+            }
+        }
+        if let Some(sliding) = self.sliding_friction {
+            check(
+                paths.sliding_friction,
+                sliding,
+                sliding >= 0.0,
+                "zero or positive",
+            )?;
+            positive(paths.stribeck_speed, self.stribeck_speed)?;
+        }
+        if let Some(load) = self.friction_half_load {
+            positive(paths.friction_half_load, load)?;
+        }
+        let width = self.friction_map.first().map_or(0, Vec::len);
+        for row in &self.friction_map {
+            let even = row.len() == width && width > 0;
+            check(
+                paths.friction_map,
+                row.len() as f64,
+                even,
+                "rows of the same number of factors",
+            )?;
+            for factor in row {
+                let holds = *factor >= 0.0 && factor.is_finite();
+                check(paths.friction_map, *factor, holds, "factors of zero or more")?;
+            }
+        }
+        if let Some(pad) = &self.pad {
+            positive(paths.pad, pad.stiffness)?;
+            not_negative(paths.pad, pad.damping)?;
+            not_negative(paths.pad, pad.friction)?;
+            for value in pad.hardening.into_iter().chain(pad.shear.into_iter().flatten()) {
+                positive(paths.pad, value)?;
+            }
+        }
+        Ok(())
     }
 }
+
+/// The keys of a face in a case file.
+struct FacePaths {
+    grid: &'static str,
+    wedge_surface: &'static str,
+    counterface: &'static str,
+    sliding_friction: &'static str,
+    stribeck_speed: &'static str,
+    friction_half_load: &'static str,
+    friction_map: &'static str,
+    pad: &'static str,
+}
+
+/// Names the keys of a face.
+macro_rules! paths {
+    ($section:literal) => {
+        FacePaths {
+            grid: concat!($section, ".grid"),
+            wedge_surface: concat!($section, ".wedge_surface"),
+            counterface: concat!($section, ".counterface"),
+            sliding_friction: concat!($section, ".sliding_friction"),
+            stribeck_speed: concat!($section, ".stribeck_speed"),
+            friction_half_load: concat!($section, ".friction_half_load"),
+            friction_map: concat!($section, ".friction_map"),
+            pad: concat!($section, ".pad"),
+        }
+    };
+}
+
+/// The keys of both faces.
+const PATHS: [FacePaths; 2] = [paths!("column_face"), paths!("slope_face")];

@@ -10,7 +10,7 @@ use mechanics::motion::Motion;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::face::{FaceProperties, LARGEST_GRID, Rectangle};
+use crate::face::{FaceProperties, Rectangle};
 
 /// Standard gravity, m/s².
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
@@ -227,8 +227,10 @@ impl Parameters {
         not_negative("contact.damping", self.contact.damping)?;
         friction("friction.column", &self.column_friction)?;
         friction("friction.slope", &self.slope_friction)?;
-        grid("column_face.grid", &self.column_face)?;
-        grid("slope_face.grid", &self.slope_face)?;
+        let faces = [&self.column_face, &self.slope_face];
+        for (number, (face, rectangle)) in faces.into_iter().zip(&self.rectangles()).enumerate() {
+            face.validate(rectangle, number)?;
+        }
         check(
             "side_frame.toe",
             self.toe,
@@ -256,10 +258,11 @@ impl Parameters {
     pub fn rectangles(&self) -> [Rectangle; 2] {
         let (column, height) = (self.column_face_position(), self.wedge.height);
         let slope = column + self.bottom_length();
-        [column, slope].map(|lower| Rectangle {
+        [(column, true), (slope, false)].map(|(lower, faces_backward)| Rectangle {
             lower: [lower, 0.0],
             upper: [column, height],
             width: self.wedge.width,
+            faces_backward,
         })
     }
 
@@ -277,19 +280,6 @@ impl Parameters {
     }
 }
 
-fn grid(path: &'static str, face: &FaceProperties) -> Result<(), ParameterError> {
-    for points in [face.grid.up, face.grid.across] {
-        let holds = (2..=LARGEST_GRID).contains(&points);
-        check(
-            path,
-            points as f64,
-            holds,
-            "from 2 to 100 points in each direction",
-        )?;
-    }
-    Ok(())
-}
-
 fn friction(path: &'static str, face: &FaceFriction) -> Result<(), ParameterError> {
     not_negative(path, face.coefficient)?;
     match face.law {
@@ -301,7 +291,7 @@ fn friction(path: &'static str, face: &FaceFriction) -> Result<(), ParameterErro
     }
 }
 
-fn positive(path: &'static str, value: f64) -> Result<(), ParameterError> {
+pub(crate) fn positive(path: &'static str, value: f64) -> Result<(), ParameterError> {
     check(
         path,
         value,
@@ -310,7 +300,7 @@ fn positive(path: &'static str, value: f64) -> Result<(), ParameterError> {
     )
 }
 
-fn not_negative(path: &'static str, value: f64) -> Result<(), ParameterError> {
+pub(crate) fn not_negative(path: &'static str, value: f64) -> Result<(), ParameterError> {
     check(
         path,
         value,
@@ -319,7 +309,12 @@ fn not_negative(path: &'static str, value: f64) -> Result<(), ParameterError> {
     )
 }
 
-fn check(path: &'static str, got: f64, holds: bool, expected: &'static str) -> Result<(), ParameterError> {
+pub(crate) fn check(
+    path: &'static str,
+    got: f64,
+    holds: bool,
+    expected: &'static str,
+) -> Result<(), ParameterError> {
     if holds {
         Ok(())
     } else {

@@ -51,14 +51,14 @@ fn doubled(one: &Wedge) -> System {
     };
     let (mut faces, mut coils) = (Vec::new(), Vec::new());
     for mounted in system.faces() {
-        faces.push((WEDGE, mounted.on, mounted.marker, mounted.element.clone()));
+        faces.push((WEDGE, mounted.on, mounted.marker, mounted.element.plain()));
     }
     for mounted in system.faces() {
         faces.push((
             3,
             mounted.on,
             turned(mounted.on, &mounted.marker),
-            mounted.element.clone(),
+            mounted.element.plain(),
         ));
     }
     for mounted in system.coils() {

@@ -1,9 +1,9 @@
 //! The points of a face four at a time: forces in SIMD lanes, and derivatives of the law by the contact
 //! kinematics.
 //!
-//! The plane is evaluated in the axes of the body, in which the points rest: with the rows n, t1, t2 of the
-//! rotation Q from body to marker axes, d and c the position and velocity of its origin and ω the relative
-//! angular velocity (marker axes), a point r has
+//! A curved surface is evaluated point by point ([`super::curved`]), the plane in the axes of the body, in
+//! which the points rest: with the rows n, t1, t2 of the rotation Q from body to marker axes, d and c the
+//! position and velocity of its origin and ω the relative angular velocity (marker axes), a point r has
 //!
 //! ```text
 //! g = d·e_n + n·r,   v_i = c_i + (Qᵀ(e_i × ω))·r,   F = Qᵀ(N, T1, T2),   M = Σ r × F
@@ -17,15 +17,16 @@ use std::ops::Range;
 use numerics::lanes::{LANES, LaneDual, LaneMask, Lanes};
 use numerics::scalar::{Mask, Number};
 
-use super::{ContactFace, ContactPoint, PointForce, PointKinematics, PointProperties};
+use super::motion::{FaceMotion, PlaneMotion};
+use super::{ContactFace, ContactPoint, Interface, PointKinematics, PointProperties};
 use crate::body::Kinematics;
-use crate::link::{BodyWrench, RelativeFrame, RelativeMotion};
-use crate::surface::Plane;
-use crate::vector::{Matrix, Vector};
+use crate::link::{BodyWrench, RelativeFrame};
+use crate::surface::{Bend, Direction, compose};
+use crate::vector::Vector;
 
 /// Four points; missing ones are open.
 #[derive(Clone, Debug)]
-pub(super) struct PointBlock {
+pub(crate) struct PointBlock {
     pub position: Vector<Lanes>,
     pub properties: PointProperties<Lanes>,
     present: LaneMask,
@@ -57,7 +58,13 @@ pub(super) struct PointDerivatives {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Points {
     pub(super) blocks: Vec<PointBlock>,
-    kinematics: Vec<PointKinematics<Lanes>>,
+    pub(super) kinematics: Vec<PointKinematics<Lanes>>,
+    /// What a curved surface is like at the points; none for a plane.
+    pub(super) bends: Vec<Bend<Lanes>>,
+    /// The tangent along which the surface is curved, if it is.
+    curved: Option<Direction>,
+    /// Whether the laws of force are refined.
+    refined: bool,
     /// Whether all were open at the last evaluation of the forces; never with internal states.
     open: bool,
     pub(super) derivatives: Vec<PointDerivatives>,
@@ -65,8 +72,20 @@ pub(crate) struct Points {
 
 impl Points {
     /// Returns the points of a face.
-    pub fn new(points: &[ContactPoint]) -> Self {
-        let blocks: Vec<PointBlock> = points.chunks(LANES).map(PointBlock::new).collect();
+    pub fn new(face: &ContactFace<Interface>) -> Self {
+        let mut blocks: Vec<PointBlock> = face.points.chunks(LANES).map(PointBlock::new).collect();
+        let factors = &face.surface.friction_factors;
+        for (block, own) in blocks.iter_mut().zip(factors.chunks(LANES)) {
+            let lane = |i: usize| own.get(i).copied().unwrap_or(1.0);
+            block.properties.factor = Lanes::new(std::array::from_fn(lane));
+        }
+        let shape = &face.surface.shape;
+        let curved = (!shape.profile.is_flat()).then_some(shape.direction);
+        let flat = Bend {
+            gap: Lanes::ZERO,
+            normal: [Lanes::from(1.0), Lanes::ZERO],
+            curvature: Lanes::ZERO,
+        };
         let nowhere = PointKinematics {
             gap: Lanes::ZERO,
             gap_rate: Lanes::ZERO,
@@ -74,6 +93,9 @@ impl Points {
         };
         Self {
             kinematics: vec![nowhere; blocks.len()],
+            bends: vec![flat; if curved.is_some() { blocks.len() } else { 0 }],
+            curved,
+            refined: face.surface.is_refined(),
             open: false,
             derivatives: vec![PointDerivatives::NONE; blocks.len()],
             blocks,
@@ -82,7 +104,7 @@ impl Points {
 
     /// Updates the gaps if all points were open at the last evaluation of the forces. Returns whether all are
     /// still open; otherwise the contact kinematics are unknown. Velocities of open points without internal
-    /// states are not needed. Valid only if marker B does not rotate.
+    /// states are not needed. Valid only if marker B does not rotate and the surface is a plane.
     #[inline(always)]
     pub fn update_if_open(&mut self, relative_frame: &RelativeFrame<f64>, body: &Kinematics<f64>) -> bool {
         if !self.open {
@@ -97,10 +119,21 @@ impl Points {
 
     /// Updates the contact kinematics of the points.
     #[inline(always)]
-    pub fn update(&mut self, plane: &PlaneMotion) {
-        for (block, kinematics) in self.blocks.iter().zip(&mut self.kinematics) {
-            *kinematics = plane.kinematics(block.position, block.properties.damped);
+    pub fn update<M: FaceMotion>(&mut self, motion: &M) {
+        for (number, (block, kinematics)) in self.blocks.iter().zip(&mut self.kinematics).enumerate() {
+            let bend = if M::CURVED {
+                self.bends.get_mut(number)
+            } else {
+                None
+            };
+            *kinematics = motion.kinematics(block, bend);
         }
+    }
+
+    /// Returns the tangent along which the surface is curved, if it is.
+    #[inline(always)]
+    pub fn curved(&self) -> Option<Direction> {
+        self.curved
     }
 
     /// Returns whether the law has derivatives other than zero at any point; it has none if all are open.
@@ -136,6 +169,7 @@ impl PointBlock {
                 damping: lanes(&|point| point.damping),
                 damped: points.iter().any(|point| point.damping > 0.0),
                 share: lanes(&|point| point.share),
+                factor: Lanes::from(1.0),
             },
             present: LaneMask::new(std::array::from_fn(|i| i < points.len())),
             count: points.len(),
@@ -156,89 +190,6 @@ impl PointBlock {
     }
 }
 
-/// A plane and its motion in the axes of the body: gap, gap rate and slip are linear in the coordinates of
-/// points.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PlaneMotion {
-    distance: f64,
-    normal: Vector<f64>,
-    speeds: [f64; 3],
-    /// Gradients of the velocity components with the position.
-    growth: [Vector<f64>; 3],
-    /// From body axes to marker axes.
-    rotation: Matrix<f64>,
-}
-
-impl PlaneMotion {
-    /// Returns the plane's motion if marker B does not rotate: `v_i = c_i + (e_i × ω)·r` with ω in body axes.
-    #[inline(always)]
-    pub fn of(relative_frame: &RelativeFrame<f64>, body: &Kinematics<f64>) -> Self {
-        let rotation: Matrix<f64> = relative_frame.rotation.times(body.orientation.rotation);
-        let position: Vector<f64> = relative_frame.rotation.apply(body.position);
-        let velocity: Vector<f64> = relative_frame.rotation.apply(body.velocity);
-        let [n, t1, t2] = rotation.0.map(Vector);
-        Self {
-            distance: relative_frame.position.0[0] + position.0[0],
-            normal: n,
-            speeds: (relative_frame.velocity + velocity).0,
-            growth: [n.cross(body.spin), t1.cross(body.spin), t2.cross(body.spin)],
-            rotation,
-        }
-    }
-
-    /// Returns distance and normal alone, as in [`PlaneMotion::of`].
-    #[inline(always)]
-    fn distance_and_normal(
-        relative_frame: &RelativeFrame<f64>,
-        body: &Kinematics<f64>,
-    ) -> (f64, Vector<f64>) {
-        let normal = Vector(relative_frame.rotation.0[0]);
-        (
-            relative_frame.position.0[0] + normal.dot::<f64, f64>(body.position),
-            body.orientation.rotation.apply_transposed(normal),
-        )
-    }
-
-    #[inline(always)]
-    pub fn new(relative: &RelativeMotion<f64>) -> Self {
-        let Matrix([n, t1, t2]) = relative.rotation;
-        let [w0, w1, w2] = relative.angular_velocity.0;
-        let mix = |a: f64, x: [f64; 3], b: f64, y: [f64; 3]| {
-            Vector([a * x[0] - b * y[0], a * x[1] - b * y[1], a * x[2] - b * y[2]])
-        };
-        Self {
-            distance: relative.position.0[0],
-            normal: Vector(n),
-            speeds: relative.velocity.0,
-            growth: [mix(w1, t2, w2, t1), mix(w2, n, w0, t2), mix(w0, t1, w1, n)],
-            rotation: relative.rotation,
-        }
-    }
-
-    /// Returns the contact kinematics of four points; the gap rate only with contact damping.
-    #[inline(always)]
-    pub fn kinematics(&self, position: Vector<Lanes>, damped: bool) -> PointKinematics<Lanes> {
-        let speed = |i: usize| -> Lanes { self.growth[i].dot::<Lanes, Lanes>(position) + self.speeds[i] };
-        PointKinematics {
-            gap: self.normal.dot::<Lanes, Lanes>(position) + self.distance,
-            gap_rate: if damped { speed(0) } else { Lanes::ZERO },
-            slip: [speed(1), speed(2)],
-        }
-    }
-
-    /// Returns the wrench on the body: forces along the marker's axes, moments (body axes), losses in
-    /// friction and in contact damping.
-    #[inline(always)]
-    pub fn push(&self, position: Vector<Lanes>, forces: &PointForce<Lanes>) -> [Lanes; 8] {
-        let [t1, t2] = forces.friction.force;
-        let force = Vector([forces.normal, t1, t2]);
-        let own: Vector<Lanes> = self.rotation.transpose().apply(force);
-        let moment: Vector<Lanes> = position.cross(own);
-        let ([f1, f2, f3], [m1, m2, m3]) = (force.0, moment.0);
-        [f1, f2, f3, m1, m2, m3, forces.friction.loss, forces.damping_loss]
-    }
-}
-
 /// Returns whether four points are open, each of them, and not just touching. (Missing ones are copies of the
 /// first.)
 #[inline(always)]
@@ -251,17 +202,31 @@ fn closed(block: &PointBlock, at: &PointKinematics<Lanes>) -> LaneMask {
     at.gap.below(Lanes::zero()).and(block.present)
 }
 
-impl ContactFace<Plane> {
+impl ContactFace<Interface> {
     /// Returns the wrench of all points on their body; `rates` receives the rates of the internal states.
     #[inline(always)]
-    pub(crate) fn wrench_on_body(
+    pub(crate) fn wrench_on_body<M: FaceMotion>(
         &self,
         points: &mut Points,
-        plane: &PlaneMotion,
+        motion: &M,
         deflections: &[f64],
         rates: &mut [f64],
     ) -> BodyWrench {
-        points.update(plane);
+        if points.refined {
+            return self.wrench_of::<M, true>(points, motion, deflections, rates);
+        }
+        self.wrench_of::<M, false>(points, motion, deflections, rates)
+    }
+
+    #[inline(always)]
+    fn wrench_of<M: FaceMotion, const REFINED: bool>(
+        &self,
+        points: &mut Points,
+        motion: &M,
+        deflections: &[f64],
+        rates: &mut [f64],
+    ) -> BodyWrench {
+        points.update(motion);
         let mut sums = [Lanes::zero(); 8];
         points.open = true;
         for (number, (block, at)) in points.blocks.iter().zip(&points.kinematics).enumerate() {
@@ -271,13 +236,14 @@ impl ContactFace<Plane> {
             }
             points.open = false;
             let first = LANES * number;
-            let forces = self.point_force(
+            let forces = self.point_force::<Lanes, REFINED>(
                 &block.properties,
                 closed,
                 at,
                 block.deflection(deflections, first),
             );
-            for (sum, term) in sums.iter_mut().zip(plane.push(block.position, &forces)) {
+            let bend = if M::CURVED { points.bends.get(number) } else { None };
+            for (sum, term) in sums.iter_mut().zip(motion.push(block, bend, &forces)) {
                 *sum += term;
             }
             if !deflections.is_empty() {
@@ -313,7 +279,12 @@ impl ContactFace<Plane> {
                 Lanes::zero()
             } else {
                 let deflection = block.deflection(deflections, first);
-                self.load(&block.properties, closed(block, at), at, deflection)
+                let closed = closed(block, at);
+                if points.refined {
+                    self.load::<Lanes, true>(&block.properties, closed, at, deflection)
+                } else {
+                    self.load::<Lanes, false>(&block.properties, closed, at, deflection)
+                }
             };
             each(first..first + block.count, at.gap, load);
         }
@@ -321,6 +292,14 @@ impl ContactFace<Plane> {
 
     /// Differentiates the law at every point.
     pub(crate) fn linearize(&self, points: &mut Points, deflections: &[f64]) {
+        if points.refined {
+            self.linearize_of::<true>(points, deflections);
+        } else {
+            self.linearize_of::<false>(points, deflections);
+        }
+    }
+
+    fn linearize_of<const REFINED: bool>(&self, points: &mut Points, deflections: &[f64]) {
         let blocks = points.blocks.iter().zip(&points.kinematics);
         for (number, ((block, at), derivatives)) in blocks.zip(&mut points.derivatives).enumerate() {
             let closed = closed(block, at);
@@ -330,16 +309,16 @@ impl ContactFace<Plane> {
             }
             let deflection = block.deflection(deflections, LANES * number);
             match (block.properties.damped, deflections.is_empty()) {
-                (false, true) => self.differentiate::<3>(block, closed, at, deflection, derivatives),
-                (true, true) => self.differentiate::<4>(block, closed, at, deflection, derivatives),
-                _ => self.differentiate::<6>(block, closed, at, deflection, derivatives),
+                (false, true) => self.differentiate::<3, REFINED>(block, closed, at, deflection, derivatives),
+                (true, true) => self.differentiate::<4, REFINED>(block, closed, at, deflection, derivatives),
+                _ => self.differentiate::<6, REFINED>(block, closed, at, deflection, derivatives),
             }
         }
     }
 
     /// The law's derivatives by the first `N` of gap, slip (2), gap rate, deflection (2).
     #[inline(always)]
-    fn differentiate<const N: usize>(
+    fn differentiate<const N: usize, const REFINED: bool>(
         &self,
         block: &PointBlock,
         closed: LaneMask,
@@ -360,7 +339,7 @@ impl ContactFace<Plane> {
             gap_rate: seed(at.gap_rate, 3),
         };
         let deflection = [seed(deflection[0], 4), seed(deflection[1], 5)];
-        let forces = self.point_force(&block.properties, closed, &seeded, deflection);
+        let forces = self.point_force::<LaneDual<N>, REFINED>(&block.properties, closed, &seeded, deflection);
         let ([t1, t2], [r1, r2]) = (forces.friction.force, forces.friction.rate);
         let outputs = [
             forces.normal,
@@ -415,12 +394,19 @@ impl Points {
         for (number, (block, derivatives)) in self.blocks.iter().zip(&self.derivatives).enumerate() {
             let by = derivatives.by_deflection.map(|row| row.map(Lanes::to_array));
             let position = block.position.0.map(Lanes::to_array);
+            let along = |components: [Lanes; 3]| match (self.curved, self.bends.get(number)) {
+                (Some(direction), Some(bend)) => compose(direction, bend.normal, components).0,
+                _ => components,
+            };
+            let forces = derivatives
+                .by_deflection
+                .map(|by| along([by[0], by[1], by[2]]).map(Lanes::to_array));
             for i in 0..block.count {
                 each(
                     LANES * number + i,
                     &InternalDerivatives {
                         rate: [by[0][5][i], by[1][5][i], by[0][6][i], by[1][6][i]],
-                        force: [0, 1].map(|e| Vector([0, 1, 2].map(|c| by[e][c][i]))),
+                        force: [0, 1].map(|e| Vector([0, 1, 2].map(|c| forces[e][c][i]))),
                         position: Vector(position.map(|lanes| lanes[i])),
                         loss: [by[0][3][i], by[1][3][i]],
                     },

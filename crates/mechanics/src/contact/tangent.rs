@@ -42,6 +42,9 @@ impl Points {
     /// second; it is empty where there are none.
     #[inline(always)]
     pub fn tangent(&self, relative: &RelativeMotion<f64>, rates: &mut [TangentColumns]) -> Tangent {
+        if let Some(direction) = self.curved() {
+            return self.curved_tangent(direction, relative, rates);
+        }
         let mut tangent = Tangent::NONE;
         let spin = relative.angular_velocity;
         let mut sums = [Lanes::ZERO; 8];

@@ -13,7 +13,7 @@ use numerics::lanes::{LANES, LaneMask, Lanes};
 use numerics::scalar::{Blend, Number};
 
 use super::System;
-use crate::contact::PlaneMotion;
+use crate::contact::{CurvedMotion, PlaneMotion};
 use crate::friction::FrictionLaw;
 use crate::link::RelativeMotion;
 
@@ -160,6 +160,17 @@ impl System {
     fn update_face_points(&mut self, number: usize) {
         let face = &mut self.faces[number];
         let kinematics = &self.kinematics[face.body];
+        if face.points.curved().is_some() {
+            let (shape, relative) = (
+                &face.element.surface.shape,
+                face.relative_frame.relative(kinematics),
+            );
+            face.points.update(&CurvedMotion {
+                shape,
+                relative: &relative,
+            });
+            return;
+        }
         if face.plain && face.points.update_if_open(&face.relative_frame, kinematics) {
             return;
         }

@@ -3,9 +3,8 @@
 use numerics::partitioned::Layout;
 
 use super::{FrameState, FreeBody, Mounted, scales};
-use crate::contact::ContactFace;
+use crate::contact::{ContactFace, Interface};
 use crate::friction::FrictionLaw;
-use crate::surface::Plane;
 
 /// A normal whose part along a coordinate is smaller than this is taken as perpendicular to it: the part is
 /// due to rounding.
@@ -14,14 +13,15 @@ const ALONG: f64 = 1e-12;
 /// Returns for each coordinate of a free body whether gaps change with it.
 pub(super) fn presses<'f>(
     free: &'f FreeBody,
-    faces: &'f [Mounted<ContactFace<Plane>>],
+    faces: &'f [Mounted<ContactFace<Interface>>],
     frames: &'f [FrameState],
 ) -> impl Iterator<Item = bool> + 'f {
     let turns = free.free.len() > free.translations;
-    let may = move |coordinate: usize, face: &Mounted<ContactFace<Plane>>| {
+    let may = move |coordinate: usize, face: &Mounted<ContactFace<Interface>>| {
         let ends = [face.body, face.on];
         let straight = !face.on_free && ends.iter().all(|&end| frames[end].keeps_orientation);
-        turns || !straight || face.relative_frame.rotation.0[0][coordinate].abs() > ALONG
+        let curved = face.points.curved().is_some();
+        turns || !straight || curved || face.relative_frame.rotation.0[0][coordinate].abs() > ALONG
     };
     let own = free.faces.iter().map(|&face| &faces[face]);
     free.free
@@ -34,7 +34,7 @@ pub(super) fn presses<'f>(
 pub(super) fn error_bounds(
     error_scales: &[f64],
     layout: Layout,
-    faces: &[Mounted<ContactFace<Plane>>],
+    faces: &[Mounted<ContactFace<Interface>>],
     presses: &[bool],
 ) -> (Vec<f64>, Vec<f64>) {
     let mut reference = f64::INFINITY;

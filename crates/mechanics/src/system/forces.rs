@@ -10,11 +10,10 @@ use super::jacobian::differentiate_internal;
 use super::{FreeBody, Mounted, System};
 use crate::body::{Kinematics, Rigid};
 use crate::coil::{Coil, CoilForce};
-use crate::contact::{ContactFace, FaceResultant, PlaneMotion, Points};
+use crate::contact::{ContactFace, CurvedMotion, FaceResultant, Interface, PlaneMotion, Points};
 use crate::element::{Element, Marked, Wrench};
 use crate::frame::FrameMotion;
 use crate::link::{BodyWrench, Marker, RelativeFrame, RelativeMotion};
-use crate::surface::Plane;
 use crate::tangent::{Tangent, TangentColumns};
 use crate::vector::Vector;
 
@@ -66,7 +65,7 @@ pub(super) trait Mountable: Sized {
 /// The quadrature of the work of all prescribed motions: the first one.
 pub(super) const WORK: usize = 0;
 
-impl Mountable for ContactFace<Plane> {
+impl Mountable for ContactFace<Interface> {
     #[inline(always)]
     fn body_wrench(
         &self,
@@ -75,6 +74,10 @@ impl Mountable for ContactFace<Plane> {
         internal: &[f64],
         rates: &mut [f64],
     ) -> BodyWrench {
+        if points.curved().is_some() {
+            let shape = &self.surface.shape;
+            return self.wrench_on_body(points, &CurvedMotion { shape, relative }, internal, rates);
+        }
         self.wrench_on_body(points, &PlaneMotion::new(relative), internal, rates)
     }
 
@@ -86,6 +89,9 @@ impl Mountable for ContactFace<Plane> {
         internal: &[f64],
         rates: &mut [f64],
     ) -> Option<BodyWrench> {
+        if points.curved().is_some() {
+            return Some(self.body_wrench(points, &relative_frame.relative(body), internal, rates));
+        }
         if points.update_if_open(relative_frame, body) {
             return None;
         }

@@ -14,9 +14,8 @@ use super::forces::{Mountable, WORK};
 use super::{FreeBody, Mounted, System};
 use crate::body::Kinematics;
 use crate::connection;
-use crate::contact::ContactFace;
+use crate::contact::{ContactFace, Interface};
 use crate::link::{RelativeMotion, RotationAxes};
-use crate::surface::Plane;
 use crate::tangent::{Change, TangentColumns};
 use crate::vector::Vector;
 
@@ -329,7 +328,7 @@ fn keep_rates<E>(
 
 /// The derivatives by the internal states of a face: of their own rates, of the forces, of the powers.
 pub(super) fn differentiate_internal(
-    face: &Mounted<ContactFace<Plane>>,
+    face: &Mounted<ContactFace<Interface>>,
     chain: &Chain<'_>,
     relative: &RelativeMotion<f64>,
     ends: &[Option<&FreeBody>; 2],

@@ -6,6 +6,8 @@
 use super::forces::Mountable;
 use super::observe::{BodyState, CoilState, FaceState};
 use super::{Mounted, System};
+use crate::body::Kinematics;
+use crate::contact::{ContactFace, Interface};
 use crate::link::{BodyWrench, RelativeMotion};
 use crate::vector::Vector;
 
@@ -109,10 +111,17 @@ impl System {
                     .element
                     .body_wrench(&mut mounted.points, &relative, internal, &mut out.rates)
             };
-            let mounted = &self.faces[number];
+            let (mounted, kinematics) = (&self.faces[number], &self.kinematics[self.faces[number].body]);
             let [normal, first, second] = wrench.force.0;
-            let normal = self.along_fixed_axes(mounted, Vector([normal, 0.0, 0.0]));
-            let friction = self.along_fixed_axes(mounted, Vector([0.0, first, second]));
+            let (normal, friction) = match mounted.points.curved() {
+                None => (Vector([normal, 0.0, 0.0]), Vector([0.0, first, second])),
+                Some(_) => {
+                    let normal = normal_force(mounted, kinematics, internal);
+                    (normal, wrench.force - normal)
+                }
+            };
+            let normal = self.along_fixed_axes(mounted, normal);
+            let friction = self.along_fixed_axes(mounted, friction);
             let body = &out.bodies[mounted.body];
             let lever: Vector<f64> = body.center_of_gravity - body.origin;
             let moment: Vector<f64> = body.rotation.apply(wrench.moment);
@@ -144,4 +153,22 @@ impl System {
         let own: Vector<f64> = mounted.relative_frame.rotation.apply_transposed(vector);
         self.frames[mounted.body].motion.rotation.apply(own)
     }
+}
+
+/// Returns the sum of the normal forces of a face whose normals differ from point to point, marker axes.
+fn normal_force(
+    mounted: &Mounted<ContactFace<Interface>>,
+    kinematics: &Kinematics<f64>,
+    deflections: &[f64],
+) -> Vector<f64> {
+    let face = &mounted.element;
+    let relative: RelativeMotion<f64> = mounted.relative_frame.relative(kinematics);
+    let mut sum = Vector::zero();
+    face.evaluate(&relative, deflections, |_, contact| {
+        sum += face
+            .surface
+            .shape
+            .compose(contact.position, [contact.normal, 0.0, 0.0]);
+    });
+    sum
 }

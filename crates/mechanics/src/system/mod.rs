@@ -38,13 +38,12 @@ use self::jacobian::Gathered;
 use crate::body::{Body, Kinematics, Rigid};
 use crate::coil::Coil;
 use crate::connection::{Connection, Connections, FRICTION_VARIABLES, FrictionVariables};
-use crate::contact::ContactFace;
+use crate::contact::{ContactFace, Interface};
 use crate::element::Marked;
 use crate::frame::FrameMotion;
 use crate::friction::FrictionLaw;
 use crate::link::Marker;
 use crate::motion::Motion;
-use crate::surface::Plane;
 use crate::vector::Vector;
 
 pub use applied_load::AppliedLoad;
@@ -170,7 +169,7 @@ struct Move {
 pub struct System {
     bodies: Vec<Body>,
     gravity: Vector<f64>,
-    faces: Vec<Mounted<ContactFace<Plane>>>,
+    faces: Vec<Mounted<ContactFace<Interface>>>,
     coils: Vec<Mounted<Coil>>,
     elements: Vec<Mounted<Marked>>,
     /// The number of each face's first point among all points.
@@ -247,7 +246,7 @@ impl System {
     }
     /// Returns the contact faces.
     #[must_use]
-    pub fn faces(&self) -> &[Mounted<ContactFace<Plane>>] {
+    pub fn faces(&self) -> &[Mounted<ContactFace<Interface>>] {
         &self.faces
     }
     /// Returns the coils.

@@ -15,7 +15,7 @@ use super::{
 use crate::body::{Body, COORDINATES, Kinematics};
 use crate::coil::Coil;
 use crate::connection::{self, Connection, ConnectionError, Options};
-use crate::contact::{ContactFace, Points};
+use crate::contact::{ContactFace, Interface, Points};
 use crate::element::{Element, Placement};
 use crate::frame::Frame;
 use crate::link::{Marker, RelativeFrame, Translation};
@@ -34,6 +34,9 @@ pub struct Model {
     /// Contact faces: number of the body that carries the points (free), number of the body that carries the
     /// surface, marker of the surface.
     pub faces: Vec<(usize, usize, Marker, ContactFace<Plane>)>,
+    /// Refinements of faces, by the number of the face: curved surfaces, friction by speed, load and place,
+    /// pads.
+    pub interfaces: Vec<(usize, Interface)>,
     /// Coils: number of the carried body (free), number of the body with the seat, marker of the seat.
     pub coils: Vec<(usize, usize, Marker, Coil)>,
     /// Other force elements.
@@ -106,6 +109,20 @@ pub enum ModelError {
     Itself {
         /// The body's name.
         body: String,
+    },
+    /// An interface does not fit its face.
+    #[error(
+        "an interface is for face {face} of {faces} (counted from 0); it has {factors} factors of friction for {points} points"
+    )]
+    Interface {
+        /// The number of the face that it names.
+        face: usize,
+        /// How many faces there are.
+        faces: usize,
+        /// How many factors it has; none stand for 1 at all points.
+        factors: usize,
+        /// How many points the face has.
+        points: usize,
     },
     /// No coordinate at all is free.
     #[error("no body has a free coordinate: nothing can move")]
@@ -224,6 +241,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         bodies,
         gravity,
         faces,
+        interfaces,
         coils,
         elements,
         connections,
@@ -232,6 +250,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         carriers,
     } = model;
     options.check()?;
+    let interfaces = by_face(interfaces, &faces)?;
     if bodies.iter().all(Body::is_prescribed) {
         return Err(ModelError::NothingFree);
     }
@@ -335,7 +354,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         parts: &mut parts,
     };
     let mut mounted_faces = Vec::new();
-    for (body, on, marker, face) in faces {
+    for ((body, on, marker, face), interface) in faces.into_iter().zip(interfaces) {
         let damped = face.points.iter().any(|point| point.damping > 0.0);
         let kinds = [
             Some(EnergyTermKind::FrictionLoss),
@@ -347,7 +366,8 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             0
         };
         let name = face.name.clone();
-        let points = Points::new(&face.points);
+        let face = face.refined(interface);
+        let points = Points::new(&face);
         let mounted = assembler.attach(face, &name, body, on, marker, kinds, pairs)?;
         mounted_faces.push(Mounted { points, ..mounted });
     }
@@ -457,7 +477,9 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     let none = connections.is_empty() && mounted_elements.is_empty();
     let plain = none && mounted_faces.iter().all(|m| m.plain) && mounted_coils.iter().all(|m| m.plain);
     let discontinuities_complete = none && mounted_faces.iter().all(|face| face.internal_count == 0);
-    let bounded = plain && free.iter().all(|free| frames[free.body].fixed) && discontinuities_complete;
+    let refined = mounted_faces.iter().any(|face| face.element.surface.is_refined());
+    let bounded =
+        plain && !refined && free.iter().all(|free| frames[free.body].fixed) && discontinuities_complete;
     for face in &mut mounted_faces {
         let body = &bodies[face.body];
         face.mobilities = face
@@ -534,6 +556,32 @@ fn gathered_at(free_number: &[Option<usize>], carriers: &[[usize; 2]], free: usi
         places[*carrier] = free + i;
     }
     places
+}
+
+/// Returns the interface of each face.
+fn by_face(
+    interfaces: Vec<(usize, Interface)>,
+    faces: &[(usize, usize, Marker, ContactFace<Plane>)],
+) -> Result<Vec<Interface>, ModelError> {
+    let mut all = vec![Interface::default(); faces.len()];
+    for (face, interface) in interfaces {
+        let (factors, points) = (
+            interface.friction_factors.len(),
+            faces.get(face).map(|own| own.3.points.len()),
+        );
+        match (points, all.get_mut(face)) {
+            (Some(points), Some(place)) if factors == 0 || factors == points => *place = interface,
+            _ => {
+                return Err(ModelError::Interface {
+                    face,
+                    faces: faces.len(),
+                    factors,
+                    points: points.unwrap_or_default(),
+                });
+            }
+        }
+    }
+    Ok(all)
 }
 
 /// Returns the inertia and weight of a body with linearized kinematics.

@@ -392,9 +392,11 @@ impl System {
         };
         for (i, (contact, point)) in state.points.iter().zip(&face.points).enumerate() {
             let [t1, t2] = contact.friction.force;
-            // For every surface the normal is the first component of `compose`.
-            let normal = compose(face, contact, [contact.normal, 0.0, 0.0]);
-            let friction = compose(face, contact, [0.0, t1, t2]);
+            let normal = face
+                .surface
+                .shape
+                .compose(contact.position, [contact.normal, 0.0, 0.0]);
+            let friction = face.surface.shape.compose(contact.position, [0.0, t1, t2]);
             state.normal_forces.push(axes.apply(normal));
             state.friction_forces.push(axes.apply(friction));
             state.friction_power += t1 * contact.slip[0] + t2 * contact.slip[1];
@@ -427,12 +429,4 @@ impl System {
         let lever: Vector<f64> = from - point;
         (-force, -(moment + lever.cross::<f64, f64>(force)))
     }
-}
-
-fn compose<F: crate::surface::Surface>(
-    face: &crate::contact::ContactFace<F>,
-    contact: &PointContact<f64>,
-    components: [f64; 3],
-) -> Vector<f64> {
-    face.surface.compose(contact.position, components)
 }

@@ -29,7 +29,11 @@ fn normal_force_of_a_contact() {
             let velocity: [f64; 3] = random.vector(2.0);
             let relative = seen_from_origin([gap, 0.3, -0.2], velocity, [0.0; 3]);
             let mut contacts = Vec::new();
-            let sum = one.evaluate::<f64, f64>(&relative, &[], |_, contact| contacts.push(*contact));
+            let sum = one.clone().refined(Interface::default()).evaluate::<f64, f64>(
+                &relative,
+                &[],
+                |_, contact| contacts.push(*contact),
+            );
             if gap >= 0.0 {
                 open += 1;
                 assert!(contacts.is_empty());
@@ -77,21 +81,24 @@ fn moment_of_a_contact_about_the_body() {
     for _ in 0..50 {
         let relative = seen_from_origin([-0.5, 0.1, 0.2], random.vector(1.0), random.vector(1.0));
         let (mut force, mut moment) = ([0.0; 3], [0.0; 3]);
-        let sum = one.evaluate::<f64, f64>(&relative, &[], |i, contact| {
-            let f = [
-                contact.normal,
-                contact.friction.force[0],
-                contact.friction.force[1],
-            ];
-            force = add(force, f);
-            moment = add(moment, cross(points[i], f));
-            // Velocity of a point of the body: v + ω × r.
-            let v = add(relative.velocity.0, cross(relative.angular_velocity.0, points[i]));
-            close(contact.gap_rate, v[0], 1e-14);
-            close(contact.slip[0], v[1], 1e-14);
-            close(contact.slip[1], v[2], 1e-14);
-            close(contact.gap, -0.5 + points[i][0], 1e-15);
-        });
+        let sum =
+            one.clone()
+                .refined(Interface::default())
+                .evaluate::<f64, f64>(&relative, &[], |i, contact| {
+                    let f = [
+                        contact.normal,
+                        contact.friction.force[0],
+                        contact.friction.force[1],
+                    ];
+                    force = add(force, f);
+                    moment = add(moment, cross(points[i], f));
+                    // Velocity of a point of the body: v + ω × r.
+                    let v = add(relative.velocity.0, cross(relative.angular_velocity.0, points[i]));
+                    close(contact.gap_rate, v[0], 1e-14);
+                    close(contact.slip[0], v[1], 1e-14);
+                    close(contact.slip[1], v[2], 1e-14);
+                    close(contact.gap, -0.5 + points[i][0], 1e-15);
+                });
         assert!(norm(&force) > 1.0);
         for k in 0..3 {
             close(sum.force.0[k], force[k], 1e-10);

@@ -18,6 +18,7 @@ use integrate::Problem;
 use mechanics::body::Body;
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::{Coil, CoilLaw};
+use mechanics::contact::Interface;
 use mechanics::frame::Frame;
 use mechanics::friction::{FrictionLaw, bristle, tanh};
 use mechanics::link::{Marker, RelativeMotion};

@@ -24,6 +24,7 @@ use ::study::case::Case;
 use ::study::result::RunResult;
 use ::study::summary::RunSummary;
 use mechanics::motion::Motion;
+pub use pressure::figure as pressure_figure;
 use quantity::{Kind, System as Units};
 
 use crate::csv::converted;

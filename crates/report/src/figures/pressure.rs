@@ -1,6 +1,7 @@
 //! The pressure over the faces of a wedge whose contact points are a grid.
 
 use quantity::Kind;
+use study::case::Case;
 use study::result::RunResult;
 use wedge::face::{FaceProperties, Rectangle};
 use wedge::outputs::FACES;
@@ -16,6 +17,16 @@ const LEVELS: usize = 6;
 
 /// The map of each face with a grid; `None` if there is none.
 pub(super) fn exhibit((case, result): &Outcome) -> Option<Exhibit> {
+    Some(Exhibit {
+        name: format!("{}_pressure", case.name),
+        thesis: String::new(),
+        figure: figure(case, result)?,
+    })
+}
+
+/// The same as a figure.
+#[must_use]
+pub fn figure(case: &Case, result: &RunResult) -> Option<Figure> {
     let parameters = &case.parameters;
     let own = [&parameters.column_face, &parameters.slope_face];
     let faces = own.into_iter().zip(parameters.rectangles()).zip(FACES);
@@ -25,10 +36,7 @@ pub(super) fn exhibit((case, result): &Outcome) -> Option<Exhibit> {
     if maps.is_empty() {
         return None;
     }
-    Some(Exhibit {
-        name: format!("{}_pressure", case.name),
-        thesis: String::new(),
-        figure: Figure {
+    Some(Figure {
             title: format!("{}: pressure over the faces", case.name),
             caption: "Lines of equal pressure over the faces of the wedge, seen from the counterface: on the left at the time of the \
                       greatest pressure after the first tenth of the run, on the right on average over the same time. The pressure of a \
@@ -38,7 +46,6 @@ pub(super) fn exhibit((case, result): &Outcome) -> Option<Exhibit> {
             panels: maps.into_iter().flatten().collect(),
             columns: 2,
             ..Figure::default()
-        },
     })
 }
 

@@ -175,7 +175,7 @@ fn contact_states(run: &TruckRun, contacts: &ContactTable) -> Figure {
     }
     Figure {
         title: "Contact states".to_owned(),
-        caption: "Of the four corners of each wedge at column and slope, the share that is open, sticks, and slips. With bristles a corner \
+        caption: "Of the corners (or points of a grid) of each wedge at column and slope, the share that is open, sticks, and slips. With bristles a corner \
                   slips where its friction has reached its limit."
             .to_owned(),
         panels,

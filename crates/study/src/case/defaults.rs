@@ -37,8 +37,12 @@ bristle_stiffness = "1e6 lbf/in"
 bristle_damping = "1e3 lbf s/in"
 [column_face]
 grid = [2, 2]
+wedge_surface = "flat"
+counterface = "flat"
 [slope_face]
 grid = [2, 2]
+wedge_surface = "flat"
+counterface = "flat"
 [side_frame]
 toe = "0 deg"
 longitudinal = "0 in"

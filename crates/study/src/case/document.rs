@@ -4,6 +4,7 @@
 //! and making a [`Case`](super::Case) of one, checks it.
 
 use super::face::FaceSection;
+use super::face_values::Surface;
 use super::motion::{Motion, Profile};
 use super::section::{Names, name_of};
 use super::table::QuantityTable;
@@ -64,7 +65,12 @@ impl CaseDocument {
         let tables = neighbours
             .flat_map(|neighbour| &neighbour.coordinates)
             .flat_map(Motion::tables);
-        coil + tables.map(|table| table.rows.len()).sum::<usize>()
+        let surfaces = self
+            .faces
+            .iter()
+            .flat_map(|face| [&face.wedge_surface, &face.counterface]);
+        coil + surfaces.map(Surface::rows).sum::<usize>()
+            + tables.map(|table| table.rows.len()).sum::<usize>()
     }
 }
 

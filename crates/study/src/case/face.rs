@@ -1,17 +1,25 @@
-//! The sections of the wedge's faces, `[column_face]` and `[slope_face]`, the same in cases of a wedge and of a
-//! truck: read over values that hold where a key is left out, written line by line.
+//! The sections of the wedge's faces, `[column_face]` and `[slope_face]`, the same in cases of a wedge and of
+//! a truck: read over values that hold where a key is left out, written line by line.
 
-use super::field::Written;
-use super::problem::{Problem, Problems};
-use super::section::Section;
-use super::tree::{Node, Value};
-use wedge::face::{FaceProperties, Grid, LARGEST_GRID};
+use super::face_values::{self as values, PadSection, Surface};
+use super::field::{Reach, Written};
+use super::problem::Problems;
+use super::read::COEFFICIENT;
+use super::section::{self, Range, Section};
+use super::tables::Tables;
+use super::write::FRICTION;
+use mechanics::spline::SplineError;
+use quantity::{Kind, Quantity};
+use wedge::face::{FaceProperties, FrictionMap, Grid, STRIBECK_SPEED};
 
 /// The names of the sections, in the order of [`wedge::outputs::FACES`].
 pub(crate) const SECTIONS: [&str; 2] = ["column_face", "slope_face"];
 /// What the sections are about.
 pub(crate) const ABOUT: [&str; 2] = [
-    "The wedge's vertical face at the column.",
+    "The wedge's vertical face at the column. A surface is \"flat\", or one of\n\
+     # { shape = \"crown\", radius = \"60 in\", direction = \"up\" }       direction \"up\" the face or \"across\" it; or shape \"hollow\"\n\
+     # { shape = \"table\", direction = \"up\", points = [[place, depth], ...] }   from edge to edge, places from the middle, up or to\n\
+     #                                                the left; or file = \"profile.csv\"",
     "The wedge's slope face at the slope of the bolster's pocket.",
 ];
 
@@ -20,67 +28,167 @@ pub(crate) const ABOUT: [&str; 2] = [
 pub struct FaceSection {
     /// Points up the face and across it.
     pub grid: Grid,
+    /// The wedge's surface.
+    pub wedge_surface: Surface,
+    /// The surface that it touches.
+    pub counterface: Surface,
+    /// Coefficient of sliding; left out, that of rest.
+    pub sliding_friction: Option<f64>,
+    /// Slip speed of half of the way from rest to sliding.
+    pub stribeck_speed: Option<Quantity>,
+    /// Load of the face at which its coefficients are half of those without load.
+    pub friction_half_load: Option<Quantity>,
+    /// Factors of the coefficients over the face.
+    pub friction_map: FrictionMap,
+    /// A resilient pad.
+    pub pad: Option<PadSection>,
 }
 
 /// A line of a section.
 pub(crate) struct FaceLine {
     pub key: &'static str,
-    pub value: Written,
+    /// What stands there; nothing if the key is left out.
+    pub value: Option<Written>,
+    /// What could stand there.
+    pub example: &'static str,
     pub comment: &'static str,
 }
 
 impl FaceSection {
-    /// The keys of the section.
-    pub(crate) const KEYS: &[&str] = &["grid"];
+    /// The keys of the section, in the order of its lines.
+    pub(crate) const KEYS: &[&str] = &[
+        "grid",
+        "wedge_surface",
+        "counterface",
+        "sliding_friction",
+        "stribeck_speed",
+        "friction_half_load",
+        "friction_map",
+        "pad",
+    ];
 
     /// Reads what a section says over these values.
-    pub(crate) fn read_over(&self, s: &Section<'_>, problems: &mut Problems) -> Option<Self> {
-        let grid = match s.table.get("grid") {
-            Some(node) => read_grid(node, &s.path_of("grid"), problems),
+    pub(crate) fn read_over(
+        &self,
+        s: &Section<'_>,
+        tables: Tables<'_>,
+        problems: &mut Problems,
+    ) -> Option<Self> {
+        let node = |key: &str| s.table.get(key).map(|node| (node, s.path_of(key)));
+        let grid = match node("grid") {
+            Some((node, path)) => values::grid(node, &path, problems),
             None => Some(self.grid),
         };
-        Some(Self { grid: grid? })
+        let mut surface = |key: &str, own: &Surface| match node(key) {
+            Some((node, path)) => Surface::read(node, &path, tables, problems),
+            None => Some(own.clone()),
+        };
+        let wedge_surface = surface("wedge_surface", &self.wedge_surface);
+        let counterface = surface("counterface", &self.counterface);
+        let sliding_friction = match node("sliding_friction") {
+            Some(_) => s
+                .number("sliding_friction", COEFFICIENT, "0.3", problems)
+                .map(Some),
+            None => Some(self.sliding_friction),
+        };
+        let mut optional = |key: &str, kind: Kind, own: &Option<Quantity>| match node(key) {
+            Some((node, path)) => section::quantity(node, &path, kind, Range::Positive, problems).map(Some),
+            None => Some(own.clone()),
+        };
+        let stribeck_speed = optional("stribeck_speed", Kind::Speed, &self.stribeck_speed);
+        let friction_half_load = optional("friction_half_load", Kind::Force, &self.friction_half_load);
+        let friction_map = match node("friction_map") {
+            Some((node, path)) => values::map(node, &path, problems),
+            None => Some(self.friction_map.clone()),
+        };
+        let pad = match node("pad") {
+            Some((node, path)) => PadSection::read(node, &path, problems).map(Some),
+            None => Some(self.pad.clone()),
+        };
+        Some(Self {
+            grid: grid?,
+            wedge_surface: wedge_surface?,
+            counterface: counterface?,
+            sliding_friction: sliding_friction?,
+            stribeck_speed: stribeck_speed?,
+            friction_half_load: friction_half_load?,
+            friction_map: friction_map?,
+            pad: pad?,
+        })
     }
 
-    /// Returns its lines.
+    /// Returns its lines, in the order of [`FaceSection::KEYS`].
     pub(crate) fn lines(&self) -> Vec<FaceLine> {
-        let grid = format!("[{}, {}]", self.grid.up, self.grid.across);
-        vec![FaceLine {
-            key: "grid",
-            value: Written::toml(grid),
-            comment: "points up the face and across it, edges included; [2, 2]: the corners. More points spread the pressure",
-        }]
+        let quantity = |value: &Option<Quantity>, kind: Kind| {
+            let value = value.as_ref();
+            value.map(|value| Written::quantity(value, kind, Reach::Wide))
+        };
+        let values = [
+            (
+                Some(Written::toml(format!("[{}, {}]", self.grid.up, self.grid.across))),
+                "",
+            ),
+            (Some(self.wedge_surface.written()), ""),
+            (Some(self.counterface.written()), ""),
+            (
+                self.sliding_friction
+                    .map(|value| Written::number(value, FRICTION)),
+                "0.3",
+            ),
+            (quantity(&self.stribeck_speed, Kind::Speed), "\"0.1 in/s\""),
+            (quantity(&self.friction_half_load, Kind::Force), "\"20000 lbf\""),
+            (
+                values::map_written(&self.friction_map),
+                "[[1.0, 1.0], [0.5, 0.5]]",
+            ),
+            (self.pad.as_ref().map(PadSection::written), PadSection::EXAMPLE),
+        ];
+        const COMMENTS: [&str; 8] = [
+            "points up the face and across it, edges included; [2, 2]: the corners. More points spread the pressure",
+            "the wedge's surface: \"flat\", or { shape = \"crown\", radius = \"60 in\", direction = \"up\" }, ...",
+            "the surface that it touches, in the same words",
+            "coefficient of sliding; left out, that of rest, which is friction.column or friction.slope",
+            "slip speed at which half of the way from rest to sliding is gone; left out, 0.1 in/s",
+            "load of the face at which its coefficients are half of those without load; left out, no dependence",
+            "factors of the coefficients, rows from the lower edge, each from the right to the left edge; left out, 1",
+            "a resilient pad in place of contact.stiffness and .damping, with friction of its own; left out, steel on steel",
+        ];
+        let lines = Self::KEYS.iter().zip(values).zip(COMMENTS);
+        lines
+            .map(|((key, (value, example)), comment)| FaceLine {
+                key,
+                value,
+                example,
+                comment,
+            })
+            .collect()
     }
 
-    /// Returns the face, SI.
-    pub(crate) fn resolve(&self) -> FaceProperties {
-        FaceProperties { grid: self.grid }
+    /// Returns the face, SI, or the key and the reason why there is none.
+    pub(crate) fn resolve(&self) -> Result<FaceProperties, (&'static str, SplineError)> {
+        let si = |quantity: &Option<Quantity>| quantity.as_ref().map(Quantity::to_si);
+        Ok(FaceProperties {
+            grid: self.grid,
+            wedge_surface: self
+                .wedge_surface
+                .resolve()
+                .map_err(|error| ("wedge_surface", error))?,
+            counterface: self
+                .counterface
+                .resolve()
+                .map_err(|error| ("counterface", error))?,
+            sliding_friction: self.sliding_friction,
+            stribeck_speed: si(&self.stribeck_speed).unwrap_or(STRIBECK_SPEED),
+            friction_half_load: si(&self.friction_half_load),
+            friction_map: self.friction_map.clone(),
+            pad: self.pad.as_ref().map(PadSection::resolve),
+        })
     }
-}
 
-fn read_grid(node: &Node, path: &str, problems: &mut Problems) -> Option<Grid> {
-    let count = |node: &Node| match node.value {
-        Value::Number(value) if value.fract() == 0.0 && (2.0..=LARGEST_GRID as f64).contains(&value) => {
-            Some(value as usize)
-        }
-        _ => None,
-    };
-    if let Value::List(items) = &node.value
-        && let [up, across] = items.as_slice()
-        && let (Some(up), Some(across)) = (count(up), count(across))
-    {
-        return Some(Grid { up, across });
+    /// The tables of its surfaces.
+    pub(crate) fn tables_mut(&mut self) -> impl Iterator<Item = &mut super::QuantityTable> {
+        [&mut self.wedge_surface, &mut self.counterface]
+            .into_iter()
+            .filter_map(Surface::table_mut)
     }
-    let found = match &node.value {
-        Value::List(_) => node.place.text().to_owned(),
-        other => other.describe().to_owned(),
-    };
-    let message = format!("`{path}` is {found}; two whole numbers from 2 to {LARGEST_GRID} are expected");
-    problems.push(
-        Problem::new(message)
-            .at(&node.place)
-            .label("points up the face and across it")
-            .help(format!("write for example {path} = [5, 5]")),
-    );
-    None
 }

@@ -12,6 +12,7 @@ pub mod builtin;
 pub(crate) mod defaults;
 pub(crate) mod document;
 pub(crate) mod face;
+mod face_values;
 pub(crate) mod field;
 pub(crate) mod motion;
 pub(crate) mod name;
@@ -33,6 +34,7 @@ pub use document::{
     WedgeSection,
 };
 pub use face::FaceSection;
+pub use face_values::{PadSection, Surface};
 pub use field::{Field, FieldSection, Input, Measured};
 pub use motion::{Motion, Profile};
 pub use problem::{CaseError, Problem};

@@ -152,7 +152,7 @@ pub(super) fn document(
         })
     });
     let friction = friction.and_then(|s| read_friction(&s, problems));
-    let [column_face, slope_face] = faces.map(|s| FaceSection::default().read_over(&s?, problems));
+    let [column_face, slope_face] = faces.map(|s| FaceSection::default().read_over(&s?, tables, problems));
     let toe = side_frame.as_ref().and_then(|s| read_toe(s, problems));
     let side_frame = side_frame.and_then(|s| read_neighbour(&s, tables, problems));
     let bolster = bolster.and_then(|s| read_neighbour(&s, tables, problems));

@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use super::document as typed;
+use super::face::SECTIONS;
 use super::motion::{Motion as TypedMotion, Profile};
 use super::table::QuantityTable;
 use mechanics::characteristic::Characteristic;
@@ -10,6 +11,7 @@ use mechanics::friction::FrictionLaw;
 use mechanics::motion::{Motion, Piece, RampProfile};
 use mechanics::spline::Spline;
 use quantity::{Quantity, STANDARD_GRAVITY};
+use wedge::face::FaceProperties;
 use wedge::parameters::{
     Contact, ControlCoil, Damping, FaceFriction, NeighbourMotion, Parameters, Start, Wear, WedgeBody,
 };
@@ -47,8 +49,8 @@ pub(super) fn parameters(document: &typed::CaseDocument) -> Result<Parameters, U
             document.friction.slope_law,
             document.friction.slope,
         ),
-        column_face: document.faces[0].resolve(),
-        slope_face: document.faces[1].resolve(),
+        column_face: face_properties(document, 0)?,
+        slope_face: face_properties(document, 1)?,
         toe: document.toe.to_si(),
         side_frame: neighbour("side_frame", &document.side_frame)?,
         bolster: neighbour("bolster", &document.bolster)?,
@@ -141,6 +143,15 @@ fn face(section: &typed::FrictionSection, law: typed::FrictionLaw, coefficient: 
         },
     };
     FaceFriction { coefficient, law }
+}
+
+fn face_properties(document: &typed::CaseDocument, number: usize) -> Result<FaceProperties, Unresolved> {
+    document.faces[number]
+        .resolve()
+        .map_err(|(key, error)| Unresolved {
+            path: format!("{}.{key}", SECTIONS[number]),
+            reason: error.to_string(),
+        })
 }
 
 fn neighbour(path: &str, section: &typed::NeighbourSection) -> Result<NeighbourMotion, Unresolved> {

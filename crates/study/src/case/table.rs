@@ -101,6 +101,16 @@ impl Form {
         }
     }
 
+    /// Place against depth, for a cubic spline.
+    pub fn profile() -> Self {
+        Form {
+            names: ["place", "depth"],
+            kinds: [Kind::Length; 2],
+            least: 4,
+            may_fall: true,
+        }
+    }
+
     /// Compression against force.
     pub fn coil() -> Self {
         let names = ["compression", "force"];

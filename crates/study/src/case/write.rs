@@ -4,7 +4,7 @@ use super::document::{
     ActsAt, CaseDocument, CoilForce, Coordinate, Damping, FrictionLaw, METHODS, NeighbourSection, PROFILES,
     SYSTEMS, Start, Toe, ToeDirection,
 };
-use super::face;
+use super::face::{self, FaceSection};
 use super::field::{Field, FieldSection, Input, Measured, Reach, Written, quoted};
 use super::motion::Motion;
 use super::table::QuantityTable;
@@ -37,7 +37,10 @@ impl CaseDocument {
         for ((name, about), face) in face::SECTIONS.into_iter().zip(face::ABOUT).zip(&self.faces) {
             page.section(name, about);
             for line in face.lines() {
-                page.line(line.key, line.value, line.comment);
+                match line.value {
+                    Some(value) => page.line(line.key, value, line.comment),
+                    None => page.absent(line.key, line.example, line.comment),
+                }
             }
         }
         self.write_neighbours(&mut page);
@@ -55,6 +58,9 @@ impl CaseDocument {
             .iter_mut()
             .chain(&mut self.bolster.coordinates);
         for table in motions.flat_map(|motion| motion.tables_mut()) {
+            table.file = None;
+        }
+        for table in self.faces.iter_mut().flat_map(FaceSection::tables_mut) {
             table.file = None;
         }
         if let CoilForce::Table(table) = &mut self.control_coil.force {

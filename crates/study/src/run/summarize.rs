@@ -210,9 +210,10 @@ fn events(run: &Run<Case>) -> Events {
 
 fn friction(run: &Run<Case>) -> BTreeMap<String, FrictionSummary> {
     let units = run.case.simulation.output_units;
+    let parameters = &run.case.parameters;
     let faces = [
-        &run.case.parameters.column_friction,
-        &run.case.parameters.slope_friction,
+        parameters.column_face.friction(&parameters.column_friction),
+        parameters.slope_face.friction(&parameters.slope_friction),
     ];
     FACES
         .iter()

@@ -4,6 +4,7 @@ use truck::{Adapter, WEDGE_NAMES, WedgeKind};
 use wedge::parameters::{Damping, Start};
 
 use super::TruckCase;
+use crate::assumptions::of_face;
 
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
@@ -27,6 +28,14 @@ pub(super) fn of(case: &TruckCase) -> Vec<String> {
          empty cars are decided, not measured."
             .to_owned(),
     ];
+    for (name, wedge) in WEDGE_NAMES.iter().zip(&p.wedges) {
+        for (face, own) in [("column", &wedge.column_face), ("slope", &wedge.slope_face)] {
+            list.extend(of_face(
+                &format!("{} wedge's {face}", name.replace('_', " ")),
+                own,
+            ));
+        }
+    }
     let massless = WEDGE_NAMES.iter().zip(&p.wedges);
     let massless: Vec<String> = massless
         .filter(|(_, wedge)| wedge.kind == WedgeKind::Massless)

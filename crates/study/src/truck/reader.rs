@@ -488,12 +488,21 @@ impl<'r> Reader<'r> {
             self.node(key);
         }
         if let Some(section) = self.given()
-            && let Some(read) = face.read_over(&section, self.problems)
+            && let Some(read) = face.read_over(&section, self.tables, self.problems)
         {
             *face = read;
         }
-        for (line, given) in face.lines().into_iter().zip(given) {
-            self.line(line.key, given, line.value, line.comment);
+        let mut embedded = face.clone();
+        embedded.tables_mut().for_each(|table| table.file = None);
+        let overlay = self.overlay;
+        for (page, face) in self.pages.iter_mut().zip([&*face, &embedded]) {
+            for (line, given) in face.lines().into_iter().zip(&given) {
+                match line.value {
+                    Some(value) if *given || !overlay => page.line(line.key, value, line.comment),
+                    None if !overlay => page.absent(line.key, line.example, line.comment),
+                    _ => {}
+                }
+            }
         }
     }
 

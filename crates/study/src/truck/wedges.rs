@@ -4,6 +4,7 @@ use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
 use quantity::Kind;
 use truck::{ControlCoil, Parameters, Spring, WEDGE_NAMES, Wedge, WedgeKind};
+use wedge::face::Rectangle;
 use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 
 use super::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
@@ -124,14 +125,53 @@ impl Draft {
         let mut wedge = self.wedge;
         wedge.column_friction.law = law(self.laws[0]);
         wedge.slope_friction.law = law(self.laws[1]);
-        let [column, slope] = &self.faces;
-        (wedge.column_face, wedge.slope_face) = (column.resolve(), slope.resolve());
+        // What cannot be resolved was noted where it was read.
+        let [column, slope] = self
+            .faces
+            .each_ref()
+            .map(|face| face.resolve().unwrap_or_default());
+        (wedge.column_face, wedge.slope_face) = (column, slope);
         wedge.control_coil = match self.kind {
             CoilKind::Shear => ControlCoil::Shear(self.spring),
             CoilKind::Thesis => ControlCoil::Thesis(self.thesis, self.to_center),
             CoilKind::Nothing => ControlCoil::Nothing,
         };
         wedge
+    }
+
+    /// Checks the faces, whose sections stand below this path.
+    fn check_faces(&self, r: &mut Reader<'_>, path: &str) {
+        let wedge = &self.wedge;
+        let bottom = wedge.height * libm::tan(wedge.angle);
+        for (number, (face, name)) in self.faces.iter().zip(face::SECTIONS).enumerate() {
+            let rectangle = Rectangle {
+                lower: [if number == 0 { 0.0 } else { bottom }, 0.0],
+                upper: [0.0, wedge.height],
+                width: wedge.width,
+                faces_backward: number == 0,
+            };
+            let wrong = match face.resolve() {
+                Err((key, error)) => Some((format!("{name}.{key}"), error.to_string())),
+                Ok(own) => own
+                    .validate(&rectangle, number)
+                    .err()
+                    .map(|error| (error.path.to_owned(), error.to_string())),
+            };
+            if let Some((key, reason)) = wrong {
+                r.problem(
+                    &format!("{path}{key}"),
+                    Problem::new(reason).label("out of range"),
+                );
+            }
+            if wedge.kind == WedgeKind::Massless && *face != FaceSection::default() {
+                let message = format!("`{path}{name}` is of no effect: a massless wedge has no faces");
+                let help = "leave it out, or write wedge.kind = \"body\"";
+                r.problem(
+                    &format!("{path}{name}"),
+                    Problem::new(message).label("no effect").help(help),
+                );
+            }
+        }
     }
 
     fn toe(&mut self, r: &mut Reader<'_>) {
@@ -348,6 +388,7 @@ pub(crate) fn all(r: &mut Reader<'_>, parameters: &Parameters, friction: f64) ->
         r.section(name, about);
         r.face(&mut draft.faces[number]);
     }
+    draft.check_faces(r, "");
     draft
 }
 
@@ -378,6 +419,9 @@ pub(crate) fn single(r: &mut Reader<'_>, parameters: &mut Parameters, base: &Dra
                     _ => draft.coil(r, &path),
                 }
             }
+        }
+        if draft.faces != base.faces {
+            draft.check_faces(r, &format!("wedge.{name}."));
         }
         *wedge = draft.finished();
     }

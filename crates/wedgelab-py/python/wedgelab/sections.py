@@ -285,8 +285,25 @@ class FaceSection(Section):
 
     grid: Sequence[int] | None = None
     """Points up the face and across it, edges included; (2, 2): the corners."""
+    wedge_surface: str | Mapping[str, Any] | None = None
+    """The wedge's surface: ``"flat"``, or a mapping as in a case file, such as
+    ``{"shape": "crown", "radius": "60 in", "direction": "up"}``."""
+    counterface: str | Mapping[str, Any] | None = None
+    """The surface that it touches, in the same words."""
+    sliding_friction: float | None = None
+    """Coefficient of sliding; left out, that of rest."""
+    stribeck_speed: QuantityLike | None = None
+    """Slip speed at which half of the way from rest to sliding is gone."""
+    friction_half_load: QuantityLike | None = None
+    """Force: load of the face at which its coefficients are half of those without load."""
+    friction_map: Sequence[Sequence[float]] | None = None
+    """Factors of the coefficients: rows from the lower edge, each from the right to the left edge."""
+    pad: Mapping[str, Any] | None = None
+    """A resilient pad, as in a case file: stiffness, damping, hardening, friction, shear_stiffness, shear_damping."""
 
-    _words = frozenset({"grid"})
+    _words = frozenset(
+        {"grid", "wedge_surface", "counterface", "sliding_friction", "friction_map", "pad"}
+    )
 
 
 @dataclass(frozen=True)

@@ -85,7 +85,7 @@ fn run<C: RunFiles>(
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from(case.name()));
-    let folder = folders::check(path, C::FILES, arguments.force)?;
+    let folder = folders::check(path, &case.names(), arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
     let done =
@@ -99,7 +99,7 @@ fn run<C: RunFiles>(
         out,
         "\n{note}\n\nWritten into {}: {}.",
         folder.path().display(),
-        C::FILES.join(", ")
+        case.names().join(", ")
     )?;
     match unsound::<C>(&done.result.summary, folder.path()) {
         Some(failure) => Err(failure),

@@ -1,0 +1,111 @@
+//! What a face can have beyond a plane, linear springs and one coefficient of friction: the shape of the
+//! surface that its points touch, friction that depends on slip speed, load and place, a pad that hardens.
+//!
+//! Friction limit of a point with normal force N, slip speed |v|, share w of the face, and factor f of the
+//! map (Hess and Soom 1990 for the dependence on speed; both dependences are 1 at rest and without load):
+//!
+//! ```text
+//! μN f (r + (1 - r) / (1 + |v|²/v_s²)) / (1 + N / (w N_h))
+//! ```
+//!
+//! with the ratio r of the coefficients of sliding and of rest, the Stribeck speed v_s, at which half of the
+//! difference is gone, and the load N_h of the whole face at which the coefficient is half. A hardening pad
+//! has the normal force `k δ (1 + δ²/δ_h²)` at the compression δ.
+//!
+//! Units: N, m, s. Defects: the limit follows the speed at once (no memory, no lag); with bristles |v| is the
+//! speed of the point, of which a part deflects the bristle. With tanh a peak at rest is seen only if v_s is
+//! well above the law's reference speed.
+
+use numerics::scalar::Number;
+use serde::{Deserialize, Serialize};
+
+use super::PointProperties;
+use crate::friction::dot;
+use crate::surface::Shape;
+
+/// How friction depends on slip speed and load.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sliding {
+    /// Coefficient of sliding over that of rest.
+    pub ratio: f64,
+    /// Stribeck speed, m/s.
+    pub stribeck_speed: f64,
+    /// Load of the whole face at which the coefficient is half of that without load, N; infinite: it does not
+    /// depend on the load.
+    pub half_load: f64,
+}
+
+impl Default for Sliding {
+    fn default() -> Self {
+        Self {
+            ratio: 1.0,
+            stribeck_speed: 1.0,
+            half_load: f64::INFINITY,
+        }
+    }
+}
+
+/// The refinements of a face; by default there are none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Interface {
+    /// The shape of the surface that the points touch.
+    pub shape: Shape,
+    /// How friction depends on slip speed and load; the coefficient of the face is that of rest.
+    pub sliding: Sliding,
+    /// A factor of the coefficient for each point; empty: 1 for all.
+    pub friction_factors: Vec<f64>,
+    /// Compression at which a pad's normal force is twice that of a linear spring, m.
+    pub hardening: Option<f64>,
+}
+
+impl Interface {
+    /// Returns whether the laws of force differ from those of a plain face.
+    #[must_use]
+    pub fn is_refined(&self) -> bool {
+        self.sliding != Sliding::default() || !self.friction_factors.is_empty() || self.hardening.is_some()
+    }
+
+    /// Returns the elastic normal force at a gap below zero, N.
+    #[inline(always)]
+    pub(super) fn elastic<S: Number>(&self, linear: S, gap: S) -> S {
+        match self.hardening {
+            Some(at) => linear * (gap * gap * (1.0 / (at * at)) + 1.0),
+            None => linear,
+        }
+    }
+
+    /// Returns the energy stored in the normal spring of a point, J.
+    pub(super) fn pressed(&self, stiffness: f64, gap: f64) -> f64 {
+        let linear = 0.5 * stiffness * gap * gap;
+        match self.hardening {
+            Some(at) => linear * (1.0 + 0.5 * gap * gap / (at * at)),
+            None => linear,
+        }
+    }
+
+    /// Returns the friction limit of a point from that of a plain face, N.
+    #[inline(always)]
+    pub(super) fn limit<S: Number>(
+        &self,
+        plain: S,
+        properties: &PointProperties<S::Plain>,
+        normal: S,
+        slip: [S; 2],
+    ) -> S {
+        let Sliding {
+            ratio,
+            stribeck_speed,
+            half_load,
+        } = self.sliding;
+        let mut limit = plain.by(properties.factor);
+        if ratio != 1.0 {
+            let speeds = dot(slip, slip) * (1.0 / (stribeck_speed * stribeck_speed));
+            limit = limit * (S::from(1.0 - ratio) / (speeds + 1.0) + ratio);
+        }
+        if half_load < f64::INFINITY {
+            let own = S::Plain::from(1.0 / half_load) / properties.share;
+            limit = limit / (normal.by(own) + 1.0);
+        }
+        limit
+    }
+}

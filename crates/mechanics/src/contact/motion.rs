@@ -1,0 +1,109 @@
+//! The motion of a body with the points of a face relative to the surface that they touch, for four points at
+//! a time.
+
+use numerics::lanes::Lanes;
+
+use super::blocks::PointBlock;
+use super::{PointForce, PointKinematics};
+use crate::body::Kinematics;
+use crate::link::{RelativeFrame, RelativeMotion};
+use crate::surface::Bend;
+use crate::vector::{Matrix, Vector};
+
+/// What gives four points their contact kinematics, and the body the wrench of their forces.
+pub(crate) trait FaceMotion {
+    /// Whether the surface is curved: then it has a normal for each point, in a [`Bend`].
+    const CURVED: bool;
+    /// Returns the contact kinematics of four points, and writes what the surface is like there.
+    fn kinematics(&self, block: &PointBlock, bend: Option<&mut Bend<Lanes>>) -> PointKinematics<Lanes>;
+    /// Returns the wrench on the body: forces along the marker's axes, moments (body axes), losses in
+    /// friction and in contact damping.
+    fn push(&self, block: &PointBlock, bend: Option<&Bend<Lanes>>, forces: &PointForce<Lanes>) -> [Lanes; 8];
+}
+
+/// A plane and its motion in the axes of the body: gap, gap rate and slip are linear in the coordinates of
+/// points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlaneMotion {
+    distance: f64,
+    normal: Vector<f64>,
+    speeds: [f64; 3],
+    /// Gradients of the velocity components with the position.
+    growth: [Vector<f64>; 3],
+    /// From body axes to marker axes.
+    rotation: Matrix<f64>,
+}
+
+impl PlaneMotion {
+    /// Returns the plane's motion if marker B does not rotate: `v_i = c_i + (e_i × ω)·r` with ω in body axes.
+    #[inline(always)]
+    pub fn of(relative_frame: &RelativeFrame<f64>, body: &Kinematics<f64>) -> Self {
+        let rotation: Matrix<f64> = relative_frame.rotation.times(body.orientation.rotation);
+        let position: Vector<f64> = relative_frame.rotation.apply(body.position);
+        let velocity: Vector<f64> = relative_frame.rotation.apply(body.velocity);
+        let [n, t1, t2] = rotation.0.map(Vector);
+        Self {
+            distance: relative_frame.position.0[0] + position.0[0],
+            normal: n,
+            speeds: (relative_frame.velocity + velocity).0,
+            growth: [n.cross(body.spin), t1.cross(body.spin), t2.cross(body.spin)],
+            rotation,
+        }
+    }
+
+    /// Returns distance and normal alone, as in [`PlaneMotion::of`].
+    #[inline(always)]
+    pub fn distance_and_normal(
+        relative_frame: &RelativeFrame<f64>,
+        body: &Kinematics<f64>,
+    ) -> (f64, Vector<f64>) {
+        let normal = Vector(relative_frame.rotation.0[0]);
+        (
+            relative_frame.position.0[0] + normal.dot::<f64, f64>(body.position),
+            body.orientation.rotation.apply_transposed(normal),
+        )
+    }
+
+    #[inline(always)]
+    pub fn new(relative: &RelativeMotion<f64>) -> Self {
+        let Matrix([n, t1, t2]) = relative.rotation;
+        let [w0, w1, w2] = relative.angular_velocity.0;
+        let mix = |a: f64, x: [f64; 3], b: f64, y: [f64; 3]| {
+            Vector([a * x[0] - b * y[0], a * x[1] - b * y[1], a * x[2] - b * y[2]])
+        };
+        Self {
+            distance: relative.position.0[0],
+            normal: Vector(n),
+            speeds: relative.velocity.0,
+            growth: [mix(w1, t2, w2, t1), mix(w2, n, w0, t2), mix(w0, t1, w1, n)],
+            rotation: relative.rotation,
+        }
+    }
+}
+
+impl FaceMotion for PlaneMotion {
+    const CURVED: bool = false;
+
+    /// The gap rate only with contact damping.
+    #[inline(always)]
+    fn kinematics(&self, block: &PointBlock, _: Option<&mut Bend<Lanes>>) -> PointKinematics<Lanes> {
+        let (position, damped) = (block.position, block.properties.damped);
+        let speed = |i: usize| -> Lanes { self.growth[i].dot::<Lanes, Lanes>(position) + self.speeds[i] };
+        PointKinematics {
+            gap: self.normal.dot::<Lanes, Lanes>(position) + self.distance,
+            gap_rate: if damped { speed(0) } else { Lanes::ZERO },
+            slip: [speed(1), speed(2)],
+        }
+    }
+
+    #[inline(always)]
+    fn push(&self, block: &PointBlock, _: Option<&Bend<Lanes>>, forces: &PointForce<Lanes>) -> [Lanes; 8] {
+        let position = block.position;
+        let [t1, t2] = forces.friction.force;
+        let force = Vector([forces.normal, t1, t2]);
+        let own: Vector<Lanes> = self.rotation.transpose().apply(force);
+        let moment: Vector<Lanes> = position.cross(own);
+        let ([f1, f2, f3], [m1, m2, m3]) = (force.0, moment.0);
+        [f1, f2, f3, m1, m2, m3, forces.friction.loss, forces.damping_loss]
+    }
+}

@@ -1,0 +1,547 @@
+//! Curved surfaces, grids of points on them, and friction by speed, load and place.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+mod common;
+
+use common::{
+    Ledger, Random, UP, body, coil, difference, face, ground, integrate, model, norm, options, rates,
+};
+use integrate::Method;
+use mechanics::body::Body;
+use mechanics::contact::{Interface, Sliding};
+use mechanics::frame::Frame;
+use mechanics::friction::FrictionLaw;
+use mechanics::link::Marker;
+use mechanics::motion::Motion;
+use mechanics::spline::Spline;
+use mechanics::surface::{Direction, Profile, Shape};
+use mechanics::system::{EnergyTermKind, Model, ModelError, System};
+use mechanics::vector::Vector;
+
+const TANH: FrictionLaw = FrictionLaw::Tanh {
+    reference_speed: 1e-3,
+};
+const BRISTLE: FrictionLaw = FrictionLaw::Bristle {
+    stiffness: 1e6,
+    damping: 3e3,
+};
+
+fn arc(radius: f64, direction: Direction) -> Interface {
+    shaped(
+        Profile::Arc {
+            curvature: 1.0 / radius,
+        },
+        direction,
+    )
+}
+
+fn shaped(profile: Profile, direction: Direction) -> Interface {
+    Interface {
+        shape: Shape { profile, direction },
+        ..Interface::default()
+    }
+}
+
+/// A free body with points (body axes) over a surface whose normal points up at the origin.
+fn over(points: &[[f64; 3]], interface: Interface, law: FrictionLaw, initial: [f64; 6]) -> Model {
+    let block = body("block", 2.0, [0.3, 0.4, 0.5], [0.0; 3], common::ALL, initial);
+    let mut model = model(vec![ground(), block], [0.0, 0.0, -10.0]);
+    let points = face("face", points, 1e6, 0.0, 0.4, law);
+    model.faces.push((1, 0, Marker::new([0.0; 3], UP), points));
+    model.interfaces.push((0, interface));
+    model
+}
+
+/// A profile along z of the marker runs along -x of the ground, along y along y: see [`UP`].
+#[test]
+fn analytic_a_point_on_a_cylinder_has_its_distance_and_normal() {
+    let mut random = Random(1);
+    for direction in [Direction::Y, Direction::Z] {
+        for radius in [0.5, 3.0, -2.0] {
+            for _ in 0..50 {
+                let angle = random.between(-0.7, 0.7);
+                let gap = random.between(-0.05, 0.1);
+                // The center of the cylinder lies below the origin by the radius.
+                let out = radius + gap;
+                let (sine, cosine) = libm::sincos(angle);
+                let (s, z) = (out * sine, out * cosine - radius);
+                let place = match direction {
+                    Direction::Y => [random.between(-1.0, 1.0), s, z],
+                    Direction::Z => [-s, random.between(-1.0, 1.0), z],
+                };
+                let mut initial = [0.0; 6];
+                initial[..3].copy_from_slice(&place);
+                let built = over(&[[0.0; 3]], arc(radius, direction), TANH, initial);
+                let mut system = System::new(built).unwrap();
+                let mut x = system.initial_state();
+                let speeds = system.layout().speeds;
+                for value in &mut x[speeds..speeds + 3] {
+                    *value = random.between(-1.0, 1.0);
+                }
+                let velocity = Vector([x[speeds], x[speeds + 1], x[speeds + 2]]);
+                let seen = system.observe(0.0, &x);
+                let point = &seen.faces[0].points[0];
+                assert!(
+                    (point.gap - gap).abs() < 1e-14,
+                    "{radius} {angle}: {} {gap}",
+                    point.gap
+                );
+                let normal = match direction {
+                    Direction::Y => [0.0, sine, cosine],
+                    Direction::Z => [-sine, 0.0, cosine],
+                };
+                let rate = velocity.dot::<f64, f64>(Vector(normal));
+                assert!((point.gap_rate - rate).abs() < 1e-14);
+                let slip = velocity - Vector(normal).scale::<f64, f64>(rate);
+                assert!((norm(&point.slip) - norm(&slip.0)).abs() < 1e-14);
+                if gap < 0.0 {
+                    let force = seen.faces[0].normal_forces[0];
+                    for k in 0..3 {
+                        assert!((force.0[k] - 1e6 * -gap * normal[k]).abs() < 1e-8);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A table of a circle's depths is the circle as far as a spline is.
+#[test]
+fn convergence_a_table_of_a_circle_is_the_circle() {
+    let radius = 2.0;
+    let error = |points: i32| {
+        let s: Vec<f64> = (0..points)
+            .map(|i| 1.6 * f64::from(i) / f64::from(points - 1) - 0.8)
+            .collect();
+        let circle = Profile::Arc {
+            curvature: 1.0 / radius,
+        };
+        let depths = s.iter().map(|s| circle.depth(*s)[0]).collect();
+        let table = Profile::Table(Spline::new(s, depths).unwrap());
+        let mut worst: f64 = 0.0;
+        let mut random = Random(2);
+        for _ in 0..200 {
+            let mut initial = [0.0; 6];
+            (initial[0], initial[2]) = (random.between(-0.7, 0.7), random.between(-0.2, 0.1));
+            let of = |profile: &Profile| {
+                let built = over(&[[0.0; 3]], shaped(profile.clone(), Direction::Z), TANH, initial);
+                let mut system = System::new(built).unwrap();
+                let x = system.initial_state();
+                system.observe(0.0, &x).faces[0].points[0].gap
+            };
+            worst = worst.max((of(&circle) - of(&table)).abs());
+        }
+        worst
+    };
+    let [coarse, fine] = [9, 17].map(error);
+    assert!(coarse < 4e-5 && fine < coarse / 10.0, "{coarse} {fine}");
+}
+
+#[test]
+fn limits_an_arc_of_no_curvature_is_the_plane() {
+    let points = [
+        [0.3, 0.4, -0.2],
+        [0.3, -0.4, -0.2],
+        [-0.3, 0.4, -0.2],
+        [-0.3, -0.4, -0.2],
+        [0.0, 0.1, -0.2],
+    ];
+    let mut random = Random(3);
+    for law in [TANH, BRISTLE] {
+        let initial = [0.1, -0.2, 0.1995, 0.0, 0.0, 0.0];
+        let flat = over(&points, Interface::default(), law, initial);
+        let straight = over(
+            &points,
+            shaped(Profile::Arc { curvature: 0.0 }, Direction::Y),
+            law,
+            initial,
+        );
+        let far = over(&points, arc(1e13, Direction::Z), law, initial);
+        let mut systems = [flat, straight, far].map(|model| System::new(model).unwrap());
+        for _ in 0..50 {
+            let mut x = systems[0].initial_state();
+            let (speeds, quadratures) = (systems[0].layout().speeds, systems[0].layout().quadratures);
+            let count = x.len() - quadratures;
+            for value in &mut x[..speeds] {
+                *value += random.between(-1e-3, 1e-3);
+            }
+            for value in &mut x[speeds..2 * speeds] {
+                *value = random.between(-1e-2, 1e-2);
+            }
+            for value in &mut x[2 * speeds..count] {
+                *value = random.between(-1e-5, 1e-5);
+            }
+            let [plain, straight, far] = systems.each_mut().map(|system| rates(system, 0.0, &x));
+            let size = norm(&plain);
+            for (i, plain) in plain.iter().enumerate() {
+                assert!(
+                    (straight[i] - plain).abs() <= 1e-12 * size,
+                    "{i}: {} {plain}",
+                    straight[i]
+                );
+                assert!((far[i] - plain).abs() <= 1e-9 * size, "{i}: {} {plain}", far[i]);
+            }
+        }
+    }
+}
+
+const RADIUS: f64 = 1.0;
+/// Stiffness of the strip, N/m, and its half width, m.
+const STRIP: (f64, f64) = (1e7, 0.3);
+
+/// The force of a flat strip with so many points of the trapezoidal rule on a cylinder, pressed in by
+/// `depth`, its middle shifted and turned as a body that rolls: vertical force, and its place across the
+/// strip.
+fn pressed(count: usize, depth: f64, shift: f64) -> [f64; 2] {
+    let (stiffness, half) = STRIP;
+    let place = |i: usize| 2.0 * half * i as f64 / (count - 1) as f64 - half;
+    let points: Vec<[f64; 3]> = (0..count).map(|i| [0.0, place(i), 0.0]).collect();
+    let mut built = over(
+        &points,
+        arc(RADIUS, Direction::Y),
+        TANH,
+        [0.0, shift, -depth, 0.0, 0.0, 0.0],
+    );
+    for (i, point) in built.faces[0].3.points.iter_mut().enumerate() {
+        let end = i == 0 || i == count - 1;
+        point.stiffness = stiffness * if end { 0.5 } else { 1.0 } / (count - 1) as f64;
+    }
+    let mut system = System::new(built).unwrap();
+    let x = system.initial_state();
+    let seen = system.observe(0.0, &x);
+    let (mut force, mut moment) = (0.0, 0.0);
+    for (position, normal) in seen.faces[0]
+        .point_positions
+        .iter()
+        .zip(&seen.faces[0].normal_forces)
+    {
+        force += normal.0[2];
+        moment += position.0[1] * normal.0[2] - position.0[2] * normal.0[1];
+    }
+    [force, moment / force]
+}
+
+/// The closed form: k ∫ (R - ρ)(R - d)/ρ dy with ρ² = (R - d)² + y² over the pressed part of the strip.
+fn closed_form(depth: f64) -> f64 {
+    let (stiffness, half) = STRIP;
+    let low = RADIUS - depth;
+    let end = (RADIUS * RADIUS - low * low).sqrt().min(half);
+    let density = stiffness / (2.0 * half);
+    2.0 * density * low * (RADIUS * libm::asinh(end / low) - end)
+}
+
+/// With L spacings on the pressed part the force is off by at most 1/L², its stiffness by 1/L.
+#[test]
+fn convergence_a_cylinder_on_a_strip_meets_the_closed_form_of_distributed_springs() {
+    // Nine points, all of them pressed.
+    let deep = 0.075;
+    let found = pressed(9, deep, 0.0)[0];
+    assert!(
+        (found / closed_form(deep) - 1.0).abs() < 0.01,
+        "{found} {}",
+        closed_form(deep)
+    );
+    let mut random = Random(5);
+    for _ in 0..200 {
+        let depth = random.between(0.002, 0.03);
+        let count = 9 + (random.between(0.0, 80.0)) as usize;
+        let half = (2.0 * RADIUS * depth).sqrt();
+        let spacings = half / STRIP.1 * (count - 1) as f64;
+        // Rolling and sliding: the strip lies elsewhere over the cylinder, by parts of a spacing.
+        if spacings < 8.0 {
+            continue;
+        }
+        let [force, _] = pressed(count, depth, 0.0);
+        let bound = 1.1 / (spacings * spacings);
+        assert!(
+            (force / closed_form(depth) - 1.0).abs() < bound,
+            "{count} {depth}"
+        );
+        let step = 1e-7;
+        let slope = |f: &dyn Fn(f64) -> f64| (f(depth + step) - f(depth - step)) / (2.0 * step);
+        let [own, exact] = [slope(&|d| pressed(count, d, 0.0)[0]), slope(&closed_form)];
+        assert!(
+            (own / exact - 1.0).abs() < 1.1 / spacings,
+            "{count} {depth}: {own} {exact}"
+        );
+    }
+    // 9, 17, 33, ... points: order 2.
+    let errors: Vec<f64> = [9, 17, 33, 65, 129]
+        .map(|count| (pressed(count, deep, 0.0)[0] / closed_form(deep) - 1.0).abs())
+        .to_vec();
+    for pair in errors.windows(2) {
+        assert!((pair[0] / pair[1] - 4.0).abs() < 0.1, "{errors:?}");
+    }
+}
+
+/// Wherever the strip slides to, the force stays over the top of the cylinder, where the two touch.
+#[test]
+fn convergence_the_place_of_contact_stays_while_the_strip_slides() {
+    let depth = 0.005;
+    let half = (2.0 * RADIUS * depth).sqrt();
+    for count in [17, 33, 65, 129] {
+        let spacings = half / STRIP.1 * (count - 1) as f64;
+        for i in 0..20 {
+            let [force, place] = pressed(count, depth, 0.13 * f64::from(i) / 20.0);
+            assert!(
+                place.abs() < 0.75 * half / spacings / spacings + 1e-12,
+                "{count}: {place}"
+            );
+            assert!((force / closed_form(depth) - 1.0).abs() < 1.1 / (spacings * spacings));
+        }
+    }
+}
+
+/// A block slides and rocks over a crown, pressed on by a coil.
+fn rocking(interface: Interface, law: FrictionLaw) -> Model {
+    let points: Vec<[f64; 3]> = (0..15)
+        .map(|i| [0.1 * f64::from(i % 5) - 0.2, 0.1 * f64::from(i / 5) - 0.1, -0.1])
+        .collect();
+    let mut model = over(&points, interface, law, [0.02, 0.01, 0.0999, 0.0, 0.0, 0.0]);
+    model.faces[0]
+        .3
+        .points
+        .iter_mut()
+        .for_each(|point| point.damping = 30.0);
+    let mut platform = ground();
+    platform.frame.motions[1] = Motion::Sine {
+        amplitude: 0.05,
+        angular_frequency: 9.0,
+        phase: 0.0,
+    };
+    platform.frame.motions[3] = Motion::Sine {
+        amplitude: 0.02,
+        angular_frequency: 7.0,
+        phase: 0.3,
+    };
+    model.bodies.push(platform);
+    model.faces[0].1 = 2;
+    for x in [-0.1, 0.1] {
+        model.coils.push((
+            1,
+            0,
+            Marker::new([x, 0.02, 1.0], [0.0; 3]),
+            coil([x, 0.0, 0.1], [x, 0.0, 0.1], 2000.0, 1.2),
+        ));
+    }
+    model
+}
+
+#[test]
+fn energy_closes_on_crowns_with_refined_friction() {
+    let refined = |shape: Shape| Interface {
+        shape,
+        sliding: Sliding {
+            ratio: 0.5,
+            stribeck_speed: 0.1,
+            half_load: 3000.0,
+        },
+        friction_factors: (0..15).map(|i| 0.7 + 0.05 * f64::from(i)).collect(),
+        hardening: Some(2e-4),
+    };
+    let table = Spline::new(vec![-0.5, -0.2, 0.1, 0.5], vec![0.03, 0.004, 0.002, 0.04]).unwrap();
+    for (interface, law) in [
+        (arc(2.0, Direction::Y), TANH),
+        (refined(arc(1.5, Direction::Z).shape), TANH),
+        (
+            refined(shaped(Profile::Table(table), Direction::Y).shape),
+            BRISTLE,
+        ),
+    ] {
+        let model = rocking(interface, law);
+        let mut system = System::new(model).unwrap();
+        let x = system.initial_state();
+        let start = Ledger::at(&mut system, 0.0, &x);
+        let end = integrate(system.clone(), options(Method::Rodas5P, 1e-8), &x, 1.0, |_| {});
+        let last = Ledger::at(&mut system, 1.0, end.x());
+        let lost: f64 = last.losses.iter().map(|(_, value)| value).sum();
+        assert!(lost > 0.2, "{lost}");
+        let residual = last.residual(&start, |_| true);
+        assert!(residual.abs() < 1e-5 * lost, "{residual} of {lost}");
+        // A loss of the face that is left out is noticed.
+        for kind in [EnergyTermKind::FrictionLoss, EnergyTermKind::ContactDampingLoss] {
+            let without = last.residual(&start, |own| own != kind);
+            assert!(without.abs() > 1e-3 * lost, "{kind:?}: {without} of {lost}");
+        }
+    }
+}
+
+#[test]
+fn analytic_friction_limit_by_speed_load_and_place() {
+    let sliding = Sliding {
+        ratio: 0.6,
+        stribeck_speed: 0.2,
+        half_load: 500.0,
+    };
+    let interface = Interface {
+        sliding,
+        friction_factors: vec![1.0, 0.5],
+        ..Interface::default()
+    };
+    let points = [[0.1, 0.0, 0.0], [-0.1, 0.0, 0.0]];
+    let built = over(&points, interface, TANH, [0.0, 0.0, -2e-4, 0.0, 0.0, 0.0]);
+    let mut system = System::new(built).unwrap();
+    let mut x = system.initial_state();
+    let speeds = system.layout().speeds;
+    for speed in [0.05, 0.2, 1.0, 30.0] {
+        x[speeds + 1] = speed;
+        let seen = system.observe(0.0, &x);
+        let normal = 1e6 * 2e-4;
+        let by_speed = 0.6 + 0.4 / (1.0 + (speed / 0.2).powi(2));
+        // The face carries twice the load of a point with half of it.
+        let by_load = 1.0 / (1.0 + 2.0 * normal / 500.0);
+        for (point, factor) in seen.faces[0].points.iter().zip([1.0, 0.5]) {
+            let expected = 0.4 * normal * factor * by_speed * by_load;
+            assert!((norm(&point.friction.force) / expected - 1.0).abs() < 1e-12);
+        }
+        let slope = difference(1e-3, |d| {
+            let mut moved = x.clone();
+            moved[speeds + 1] += d;
+            rates(&mut system, 0.0, &moved)
+        });
+        assert!(slope[speeds + 1].is_finite());
+    }
+}
+
+const MASS: f64 = 1.0;
+const GRAVITY: f64 = 10.0;
+const SPRING: f64 = 100.0;
+const BELT: f64 = 0.1;
+const REST: f64 = 0.5;
+const RATIO: f64 = 0.6;
+
+/// The periods of a mass on a belt that a spring holds, from one beginning of a slip to the next.
+fn periods(law: FrictionLaw, stribeck_speed: f64) -> Vec<f64> {
+    let mut belt = ground();
+    belt.frame.motions[0] = Motion::line(0.0, [0.0, BELT]);
+    let block = Body {
+        name: "block".into(),
+        mass: MASS,
+        free: [true, false, true, false, false, false],
+        ..Body::prescribed("block", Frame::fixed([0.0; 3], [0.0; 3]))
+    };
+    let mut built = model(vec![ground(), belt, block], [0.0, 0.0, -GRAVITY]);
+    let points = face("belt", &[[0.0; 3]], 1e6, 200.0, REST, law);
+    built.faces.push((2, 1, Marker::new([0.0; 3], UP), points));
+    built.interfaces.push((
+        0,
+        Interface {
+            sliding: Sliding {
+                ratio: RATIO,
+                stribeck_speed,
+                ..Sliding::default()
+            },
+            ..Interface::default()
+        },
+    ));
+    built.coils.push((
+        2,
+        0,
+        Marker::new([-1.0, 0.0, 0.0], [0.0; 3]),
+        coil([0.0; 3], [0.0; 3], SPRING, 1.0),
+    ));
+    let system = System::new(built).unwrap();
+    let mut x = system.initial_state();
+    x[1] = -MASS * GRAVITY / 1e6;
+    x[2] = BELT;
+    let (mut tops, mut before): (Vec<f64>, [f64; 2]) = (Vec::new(), [0.0, BELT]);
+    integrate(system, options(Method::Rodas5P, 1e-7), &x, 6.0, |own| {
+        let now = [own.time(), own.x()[2]];
+        // The mass comes to rest against the ground once a period, at its farthest.
+        if before[1] > 0.0 && now[1] <= 0.0 {
+            tops.push(before[0] + (now[0] - before[0]) * before[1] / (before[1] - now[1]));
+        }
+        before = now;
+    });
+    tops.windows(2).map(|pair| pair[1] - pair[0]).collect()
+}
+
+/// Stick: carried by the belt through twice the drop of friction over the spring. Slip: half an oscillation
+/// about the force of sliding that meets the belt's speed again.
+#[test]
+fn analytic_stick_slip_period_of_a_drop_of_friction() {
+    let omega = (SPRING / MASS).sqrt();
+    let drop = REST * (1.0 - RATIO) * MASS * GRAVITY / SPRING;
+    let pi = std::f64::consts::PI;
+    let period = 2.0 * drop / BELT + 2.0 / omega * (pi - libm::atan(drop * omega / BELT));
+    let tanh = FrictionLaw::Tanh {
+        reference_speed: 5e-7,
+    };
+    let bristle = FrictionLaw::Bristle {
+        stiffness: 1e7,
+        damping: 1e3,
+    };
+    for law in [tanh, bristle] {
+        let found = periods(law, 5e-5);
+        assert!(found.len() > 4, "{found:?}");
+        for own in &found[1..] {
+            assert!((own / period - 1.0).abs() < 5e-3, "{law:?}: {own} {period}");
+        }
+    }
+}
+
+/// With a wide Stribeck curve: the same with ideal stick, the slip by Runge and Kutta's method in small
+/// steps.
+#[test]
+fn analytic_stick_slip_period_of_a_stribeck_curve() {
+    let stribeck = 0.15;
+    let normal = MASS * GRAVITY;
+    // The mass at rest against the belt breaks away at x = μ N / k.
+    let acceleration = |x: f64, v: f64| {
+        let slip = v - BELT;
+        let limit = REST * normal * (RATIO + (1.0 - RATIO) / (1.0 + (slip / stribeck).powi(2)));
+        (-SPRING * x + limit) / MASS
+    };
+    let (mut x, mut v, mut time, h) = (REST * normal / SPRING, BELT, 0.0, 1e-5);
+    // A little over the top, from where it slides.
+    v -= 1e-9;
+    loop {
+        let k1 = (v, acceleration(x, v));
+        let k2 = (
+            v + 0.5 * h * k1.1,
+            acceleration(x + 0.5 * h * k1.0, v + 0.5 * h * k1.1),
+        );
+        let k3 = (
+            v + 0.5 * h * k2.1,
+            acceleration(x + 0.5 * h * k2.0, v + 0.5 * h * k2.1),
+        );
+        let k4 = (v + h * k3.1, acceleration(x + h * k3.0, v + h * k3.1));
+        x += h / 6.0 * (k1.0 + 2.0 * k2.0 + 2.0 * k3.0 + k4.0);
+        v += h / 6.0 * (k1.1 + 2.0 * k2.1 + 2.0 * k3.1 + k4.1);
+        time += h;
+        if time > 0.05 && v >= BELT {
+            break;
+        }
+        assert!(time < 3.0);
+    }
+    let period = time + (REST * normal / SPRING - x) / BELT;
+    let bristle = FrictionLaw::Bristle {
+        stiffness: 1e6,
+        damping: 1e3,
+    };
+    for own in &periods(bristle, stribeck)[1..] {
+        assert!((own / period - 1.0).abs() < 5e-3, "{own} {period}");
+    }
+}
+
+#[test]
+fn input_an_interface_that_does_not_fit_its_face_is_refused() {
+    let mut built = over(&[[0.0; 3]], Interface::default(), TANH, [0.0; 6]);
+    built.interfaces[0].1.friction_factors = vec![1.0, 2.0];
+    let error = System::new(built.clone()).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            ModelError::Interface {
+                face: 0,
+                points: 1,
+                factors: 2,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    built.interfaces[0] = (3, Interface::default());
+    let error = System::new(built).unwrap_err().to_string();
+    assert!(error.contains("face 3 of 1"), "{error}");
+}

@@ -1,0 +1,291 @@
+//! Crowned and worn faces, friction over a face, pads.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+mod common;
+
+use common::{INCH, LBF, LBF_PER_IN};
+use integrate::Problem;
+use mechanics::spline::Spline;
+use mechanics::surface::Profile;
+use wedge::face::{FaceDirection, FaceProfile, FaceProperties, Grid, Pad};
+use wedge::parameters::Damping;
+use wedge::{Parameters, Start, Wedge, thesis};
+
+fn arc(radius: f64, direction: FaceDirection) -> FaceProfile {
+    FaceProfile {
+        profile: Profile::Arc {
+            curvature: 1.0 / radius,
+        },
+        direction,
+    }
+}
+
+fn table(direction: FaceDirection) -> FaceProfile {
+    let places = [-6.0, -3.0, -1.0, 2.0, 6.0].map(|place| place * INCH);
+    let depths = [0.04, 0.008, 0.0, 0.003, 0.03].map(|depth| depth * INCH);
+    FaceProfile {
+        profile: Profile::Table(Spline::new(places.to_vec(), depths.to_vec()).unwrap()),
+        direction,
+    }
+}
+
+fn base(start: Start) -> Parameters {
+    let mut parameters = thesis::parameters(Damping::Constant, 0.0, 0.0);
+    parameters.start = start;
+    parameters
+}
+
+#[test]
+fn limits_crowns_of_infinite_radius_are_flat() {
+    for up in [2, 5] {
+        let grid = Grid { up, across: up };
+        let built = |radius: Option<f64>| {
+            let mut parameters = thesis::parameters(Damping::Variable, 0.003, 0.012);
+            for face in [&mut parameters.column_face, &mut parameters.slope_face] {
+                face.grid = grid;
+                if let Some(radius) = radius {
+                    face.wedge_surface = arc(radius, FaceDirection::Up);
+                    face.counterface = arc(radius, FaceDirection::Across);
+                }
+            }
+            Wedge::new(parameters).unwrap()
+        };
+        let rates = |wedge: &mut Wedge| {
+            let x = wedge.initial_state.clone();
+            let mut dx = vec![0.0; x.len()];
+            wedge.system.derivative(0.0, &x, &mut dx);
+            dx
+        };
+        let flat = rates(&mut built(None));
+        let far = rates(&mut built(Some(1e13)));
+        let size = flat.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+        for (flat, far) in flat.iter().zip(&far) {
+            assert!((flat - far).abs() < 1e-11 * size, "{flat} {far}");
+        }
+    }
+}
+
+#[test]
+fn analytic_points_of_a_crown_lie_on_its_arc() {
+    let radius = 60.0 * INCH;
+    for (number, direction) in [
+        (0, FaceDirection::Up),
+        (1, FaceDirection::Up),
+        (1, FaceDirection::Across),
+    ] {
+        let parameters = base(Start::Rest);
+        let rectangle = parameters.rectangles()[number];
+        let mut face = FaceProperties {
+            grid: Grid { up: 5, across: 5 },
+            ..FaceProperties::default()
+        };
+        let flat = face.points(&rectangle, &parameters.contact);
+        face.wedge_surface = arc(radius, direction);
+        let crowned = face.points(&rectangle, &parameters.contact);
+        // Into the wedge, from the counterface.
+        let angle = parameters.wedge.angle;
+        let inward = match number {
+            0 => [1.0, 0.0, 0.0],
+            _ => [-libm::cos(angle), 0.0, -libm::sin(angle)],
+        };
+        let middle = flat.iter().fold([0.0; 3], |sum: [f64; 3], point| {
+            std::array::from_fn(|k| sum[k] + point.position.0[k] / flat.len() as f64)
+        });
+        let mut most: f64 = 0.0;
+        for (flat, crowned) in flat.iter().zip(&crowned) {
+            let moved: [f64; 3] = std::array::from_fn(|k| crowned.position.0[k] - flat.position.0[k]);
+            let depth: f64 = (0..3).map(|k| moved[k] * inward[k]).sum();
+            let rest: f64 = (0..3).map(|k| (moved[k] - depth * inward[k]).abs()).sum();
+            assert!(rest < 1e-15);
+            most = most.max(depth);
+            let along = match direction {
+                FaceDirection::Across => flat.position.0[1],
+                FaceDirection::Up => {
+                    libm::hypot(flat.position.0[0] - middle[0], flat.position.0[2] - middle[2])
+                }
+            };
+            // The center of the arc lies inward by the radius.
+            assert!((libm::hypot(along, radius - depth) - radius).abs() < 1e-13);
+        }
+        assert!(most > 0.05 * INCH);
+    }
+}
+
+/// How far the wedge sinks in depends on the sum of both curvatures, whichever partner has them.
+#[test]
+fn analytic_a_crown_on_either_partner_sinks_in_alike() {
+    let settle = |wedge_surface: FaceProfile, counterface: FaceProfile| {
+        let mut parameters = base(Start::Equilibrium);
+        parameters.slope_face = FaceProperties {
+            grid: Grid { up: 81, across: 2 },
+            wedge_surface,
+            counterface,
+            ..FaceProperties::default()
+        };
+        let mut wedge = Wedge::new(parameters).unwrap();
+        let observation = wedge.system.observe(0.0, &wedge.initial_state);
+        let deepest = observation.faces[1]
+            .points
+            .iter()
+            .map(|point| point.gap)
+            .fold(0.0, f64::min);
+        let force: f64 = observation.faces[1].points.iter().map(|point| point.normal).sum();
+        (deepest, force)
+    };
+    let radius = 300.0 * INCH;
+    let flat = FaceProfile::default();
+    let up = FaceDirection::Up;
+    let (on_wedge, force) = settle(arc(radius, up), flat.clone());
+    let (on_pocket, other) = settle(flat, arc(radius, up));
+    let (on_both, _) = settle(arc(2.0 * radius, up), arc(2.0 * radius, up));
+    assert!(on_wedge < -1e-3 * INCH);
+    assert!((force / other - 1.0).abs() < 2e-3, "{force} {other}");
+    assert!(
+        (on_wedge / on_pocket - 1.0).abs() < 1e-2,
+        "{on_wedge} {on_pocket}"
+    );
+    assert!((on_wedge / on_both - 1.0).abs() < 1e-2, "{on_wedge} {on_both}");
+    // Distributed springs of k a length over 2a: N = k δ a 4/3, a² = 2Rδ.
+    let parameters = base(Start::Equilibrium);
+    let density = 4.0 * parameters.contact.stiffness / parameters.rectangles()[1].length();
+    let depth = -on_wedge;
+    let closed = density * depth * (2.0 * radius * depth).sqrt() * 4.0 / 3.0;
+    assert!((force / closed - 1.0).abs() < 1e-2, "{force} {closed}");
+}
+
+#[test]
+fn limits_a_touching_start_over_crowns_touches() {
+    let mut parameters = thesis::parameters(Damping::Constant, 0.0035, 0.012);
+    parameters.start = Start::Touching;
+    for face in [&mut parameters.column_face, &mut parameters.slope_face] {
+        face.grid = Grid { up: 5, across: 5 };
+        face.wedge_surface = arc(80.0 * INCH, FaceDirection::Across);
+        face.counterface = arc(60.0 * INCH, FaceDirection::Up);
+    }
+    let mut wedge = Wedge::new(parameters).unwrap();
+    let observation = wedge.system.observe(0.0, &wedge.initial_state);
+    for face in &observation.faces {
+        let least = face
+            .points
+            .iter()
+            .map(|point| point.gap)
+            .fold(f64::INFINITY, f64::min);
+        assert!((-1e-12..1e-9).contains(&least), "{least}");
+    }
+}
+
+#[test]
+fn analytic_a_pad_has_a_force_and_friction_of_its_own() {
+    let mut parameters = base(Start::Equilibrium);
+    let at = 0.05 * INCH;
+    parameters.slope_face.pad = Some(Pad {
+        stiffness: 1e5 * LBF_PER_IN,
+        damping: 0.0,
+        hardening: Some(at),
+        friction: 0.7,
+        shear: Some([2e4 * LBF_PER_IN, 50.0 * LBF_PER_IN]),
+    });
+    let mut wedge = Wedge::new(parameters.clone()).unwrap();
+    let face = &wedge.system.faces()[1].element;
+    assert_eq!((face.coefficient, face.state_count()), (0.7, 8));
+    assert_eq!(wedge.system.faces()[0].element.state_count(), 0);
+    let observation = wedge.system.observe(0.0, &wedge.initial_state);
+    let mut total = 0.0;
+    for point in &observation.faces[1].points {
+        let compression = -point.gap;
+        let linear = 0.25 * 1e5 * LBF_PER_IN * compression;
+        let expected = linear * (1.0 + (compression / at).powi(2));
+        assert!((point.normal / expected - 1.0).abs() < 1e-12);
+        total += point.normal;
+    }
+    assert!(total > 2000.0 * LBF);
+}
+
+#[test]
+fn analytic_a_map_of_friction_is_bilinear() {
+    let face = FaceProperties {
+        grid: Grid { up: 3, across: 5 },
+        friction_map: vec![vec![1.0, 0.5], vec![0.2, 0.8]],
+        ..FaceProperties::default()
+    };
+    let friction = base(Start::Rest).slope_friction;
+    let interface = face.interface(&friction, [true, false]);
+    for (point, factor) in face.grid.points().iter().zip(&interface.friction_factors) {
+        let (u, v) = (point.up, 0.5 * (point.across + 1.0));
+        let expected = (1.0 - u) * ((1.0 - v) + 0.5 * v) + u * (0.2 * (1.0 - v) + 0.8 * v);
+        assert!((factor - expected).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn energy_closes_with_crowns_maps_and_pads() {
+    let sliding = |face: &mut FaceProperties| {
+        face.sliding_friction = Some(0.25);
+        face.stribeck_speed = 0.2 * INCH;
+        face.friction_half_load = Some(20_000.0 * LBF);
+        face.friction_map = vec![vec![1.0, 0.9], vec![1.2, 0.8]];
+    };
+    for damping in [Damping::Constant, Damping::Variable] {
+        let mut parameters = thesis::parameters(damping, 0.0, 0.006);
+        parameters.start = Start::Equilibrium;
+        for face in [&mut parameters.column_face, &mut parameters.slope_face] {
+            face.grid = Grid { up: 9, across: 3 };
+            sliding(face);
+        }
+        parameters.column_face.counterface = table(FaceDirection::Up);
+        parameters.slope_face.wedge_surface = arc(100.0 * INCH, FaceDirection::Up);
+        parameters.slope_face.pad = Some(Pad {
+            stiffness: 4e5 * LBF_PER_IN,
+            damping: 20.0 * LBF_PER_IN,
+            hardening: Some(0.02 * INCH),
+            friction: 0.5,
+            shear: Some([1e5 * LBF_PER_IN, 100.0 * LBF_PER_IN]),
+        });
+        let wedge = Wedge::new(parameters.clone()).unwrap();
+        let end = common::run(&wedge, 1e-6, (2.0, 0.1), |_, _| {});
+        let ledger = end.ledger;
+        let losses = ledger.side_frame_friction_loss + ledger.bolster_friction_loss;
+        assert!(losses > 10.0, "{losses}");
+        assert!(
+            ledger.residual.abs() < 1e-5 * ledger.motion_work.abs().max(losses),
+            "{ledger:?}"
+        );
+        // Each loss of each face is noticed where it is left out.
+        for loss in [
+            ledger.side_frame_friction_loss,
+            ledger.bolster_friction_loss,
+            ledger.contact_damping_loss,
+        ] {
+            assert!((ledger.residual + loss).abs() > 1e-4 * losses, "{ledger:?}");
+        }
+    }
+}
+
+#[test]
+fn input_faces_out_of_range_are_refused() {
+    type Change = fn(&mut Parameters);
+    let changes: [(&str, Change); 6] = [
+        ("column_face.grid", |p| p.column_face.grid.up = 1),
+        ("slope_face.wedge_surface", |p| {
+            p.slope_face.wedge_surface = arc(3.0 * INCH, FaceDirection::Across);
+        }),
+        ("column_face.counterface", |p| {
+            p.column_face.counterface = table(FaceDirection::Up);
+            p.wedge.height = 13.0 * INCH;
+        }),
+        ("slope_face.friction_map", |p| {
+            p.slope_face.friction_map = vec![vec![1.0], vec![1.0, 2.0]]
+        }),
+        ("column_face.sliding_friction", |p| {
+            p.column_face.sliding_friction = Some(-0.1)
+        }),
+        ("slope_face.friction_half_load", |p| {
+            p.slope_face.friction_half_load = Some(0.0)
+        }),
+    ];
+    for (path, change) in changes {
+        let mut parameters = base(Start::Rest);
+        change(&mut parameters);
+        assert_eq!(parameters.validate().unwrap_err().path, path);
+    }
+}
