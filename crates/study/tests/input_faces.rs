@@ -111,7 +111,7 @@ fn input_mistakes_in_faces_are_told() {
             "rows of equally many factors",
         ),
         (
-            "[slope_face]\npad = { stiffness = \"1e5 lbf/in\" }",
+            "[slope_face]\npad = { stiffness = \"1e5 lbf/in\", friction = 0.5 }",
             "`slope_face.pad.damping` is missing",
         ),
         (
