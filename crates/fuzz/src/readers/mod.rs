@@ -33,7 +33,7 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 25] = [
+pub const ALL: [Reader; 26] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,
