@@ -67,16 +67,10 @@ pub(super) fn masses(r: &mut Reader<'_>, kind: LadingKind) -> Vec<Mass> {
     }
     let comment = "rigid masses: weight; place forward, to the left, above the top of rail; inertia about x, y, z; \
                    off the middle allowed";
-    let read = r.other(
-        "masses",
-        comment,
-        Vec::new(),
-        |section, problems| list(section, problems),
-        |list: &Vec<Typed>| {
-            let lines: Vec<String> = list.iter().map(|own| format!("\n    {},", own.toml)).collect();
-            Written::toml(format!("[{}\n]", lines.concat()))
-        },
-    );
+    let read = r.other("masses", comment, Vec::new(), list, |list: &Vec<Typed>| {
+        let lines: Vec<String> = list.iter().map(|own| format!("\n    {},", own.toml)).collect();
+        Written::toml(format!("[{}\n]", lines.concat()))
+    });
     if read.is_empty() && !r.has("lading.masses") {
         let problem = Problem::new("`lading.kind` is \"masses\", but there are none").label("which masses?");
         let help = "write lading.masses = [{ name = \"coil\", weight = \"40 kip\", place = [\"0 in\", \"10 in\", \"70 in\"], \

@@ -4,4 +4,5 @@
 mod case;
 mod input;
 mod run;
+mod stability;
 mod statistics;

@@ -1,0 +1,25 @@
+//! Linear stability of whole cars.
+
+use std::ops::ControlFlow;
+
+use study::car::builtin;
+use study::car::stability::stability;
+
+/// The empty car on its new wheels: with stuck friction it does not hunt at 30 mph; vibrations are sorted and within the
+/// range told; a user who stops it gets what was computed.
+#[test]
+fn limits_modes_of_the_empty_car() {
+    let case = builtin::case_with("car_hunting_empty", &[]).unwrap();
+    let speed = 30.0 * 0.447_04;
+    let found = stability(&case, &[speed], |_| ControlFlow::Continue(())).unwrap();
+    assert!(found.complete && found.branches.len() == 2);
+    for branch in &found.branches {
+        let modes = &branch.modes[0];
+        assert!(modes.len() > 5);
+        assert!(modes.windows(2).all(|pair| pair[0].growth >= pair[1].growth));
+        assert!(modes.iter().all(|mode| (0.05..=30.0).contains(&mode.frequency)));
+    }
+    assert!(found.branches[0].modes[0][0].growth < 0.0);
+    let stopped = stability(&case, &[speed], |_| ControlFlow::Break(())).unwrap();
+    assert!(!stopped.complete && stopped.branches.len() == 1);
+}
