@@ -38,7 +38,7 @@ Begin with:
   wedgelab case NAME > my.toml       a complete case file to change ...
   wedgelab run my.toml               ... and to run
   wedgelab warp                      warp of a whole truck with four wedges
-  wedgelab stability                 hunting of a whole car on track
+  wedgelab stability CAR             vibrations of a whole car over speed
   wedgelab explore my.toml           a page to change it and see its loop move
   wedgelab study STUDY.toml          many variants of a case, into one table
   wedgelab compare RESULT RESULT     differences and overlay figures

@@ -93,9 +93,12 @@ fn input_commands_say_what_they_take() {
             &["stability", "truck_drop_variable"][..],
             &["is no car", "car_hunting_empty"][..],
         ),
-        (&["stability", "--speeds", "30 mph"], &["\"30 mph\"..\"80 mph\""]),
         (
-            &["stability", "--speeds", "60 mph..30 mph"],
+            &["stability", "car_hunting_empty", "--speeds", "30 mph"],
+            &["\"30 mph\"..\"80 mph\""],
+        ),
+        (
+            &["stability", "car_hunting_empty", "--speeds", "60 mph..30 mph"],
             &["must be the higher one"],
         ),
         (&["warp", "car_tangent_empty"], &["is no truck"]),

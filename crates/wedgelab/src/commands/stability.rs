@@ -9,7 +9,7 @@ use clap::Args;
 use quantity::{Kind, Quantity, System as Units};
 use report::stability_files::{self, NAMES};
 use study::any_case::AnyCase;
-use study::car::stability::{FRICTION, Stability, stability};
+use study::car::stability::{FRICTION, LinearizeError, Stability, stability};
 
 use super::run::read_any;
 use super::warp::draw;
@@ -27,12 +27,11 @@ use crate::table::Table;
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
-  wedgelab stability car_hunting_empty
+  wedgelab stability car_hunting_empty --set wheels.geometry=linear --set track.support.kind=rigid
   wedgelab stability my_car.toml --speeds \"30 mph\"..\"80 mph\" --steps 6
-  wedgelab stability car_hunting_empty --set wheels.profile=cone_1:10 --out cone")]
+The car must have linear wheels (wheels.geometry = \"linear\") on rigid rails: with profiles eigenvalues are not found.")]
 pub struct Arguments {
     /// Case file, or the name of a built-in case
-    #[arg(default_value = "car_hunting_empty")]
     case: PathBuf,
     /// The lowest and the highest speed
     #[arg(long, value_name = "FROM..TO", default_value = "30 mph..80 mph", value_parser = range)]
@@ -107,10 +106,14 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     progress.finish();
     let found = found.map_err(|error| {
         let message = format!("{} cannot be linearized: {error}", case.name);
-        Message::new(
-            message,
-            "look at its speeds, lading and side bearings; `wedgelab run` shows how it runs",
-        )
+        let advice = match error {
+            LinearizeError::Eigenvalues(_) => {
+                "with profiles of wheels and rails they are not found: take linear wheels, --set wheels.geometry=linear \
+                 --set track.support.kind=rigid, whose conicity and creep coefficients are keys of [wheels]"
+            }
+            _ => "look at its speeds, lading and side bearings; `wedgelab run` shows how it runs",
+        };
+        Message::new(message, advice)
     })?;
     let units = case.simulation.output_units;
     let figure = stability_files::figure(&case.name, &found, units);
