@@ -22,7 +22,7 @@ const HEAD: &str = "\
 # Validation: wheelsets on track
 
 Each number of the crate `rolling`, through its elements on the multibody core, beside its source's. This page is written
-by `cargo run --release -p rolling --example validation`, and a test computes it anew and compares; the tests of the crate
+by `cargo run --release -p rolling --example wheelset_validation`, and a test computes it anew and compares; the tests of the crate
 hold the same numbers to the limits that are stated here. Contact and creep alone: [wheel and
 rail](validation-wheelrail.md).
 ";

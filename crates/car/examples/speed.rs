@@ -1,6 +1,6 @@
 //! A car on track: how it stands, how long steps are, what they cost.
 //!
-//! `cargo run --release -p car --example trial -- loaded|empty track method tolerance seconds`
+//! `cargo run --release -p car --example speed -- loaded|empty track method tolerance seconds`
 
 use std::time::Instant;
 
